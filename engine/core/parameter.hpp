@@ -1,0 +1,81 @@
+// One declaration a parameter. A row says where it is (dotted path), what it may be (kind, unit, range, names), what it
+// starts as and what it means, and can read and write it. Scene file, --set, script, GUI, sweep and reference use rows only.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "engine/core/types.hpp"
+
+namespace impinge {
+
+enum class ParameterKind { boolean, integer, real, text, choice, vector3, text_list };
+
+using ParameterValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<std::string>>;
+
+/// Closed interval of what a number (or each component of a vector) may be. `logarithmic` is how a slider should move.
+struct Range {
+  double low = -1e15, high = 1e15;
+  bool logarithmic = false;
+};
+
+struct Parameter {
+  std::string path;
+  ParameterKind kind = ParameterKind::real;
+  std::string unit;                ///< "m", "s", "m/s²", "" for a number without one
+  Range range;
+  std::vector<std::string> names;  ///< of a choice
+  std::string doc;                 ///< one sentence
+  ParameterValue initial;
+  std::function<ParameterValue()> get;
+  std::function<void(const ParameterValue&)> set;
+  bool live = true;                ///< may change between frames; else only before the first
+};
+
+class ParameterSet {
+ public:
+  // Rows bound to a variable, whose present value is the default. `names` of a choice are the allowed words.
+  void add(std::string path, bool& variable, std::string doc);
+  void add(std::string path, int& variable, Range range, std::string unit, std::string doc);
+  void add(std::string path, double& variable, Range range, std::string unit, std::string doc);
+  void add(std::string path, Vec3& variable, Range range, std::string unit, std::string doc);
+  void add(std::string path, std::string& variable, std::string doc);
+  void add(std::string path, std::string& variable, std::vector<std::string> names, std::string doc);
+  void add(std::string path, std::vector<std::string>& variable, std::string doc);
+  Parameter& add(Parameter parameter);  ///< with its own get and set; throws InternalError on a path that exists
+
+  const Parameter* find(std::string_view path) const;
+  const std::vector<Parameter>& all() const { return rows_; }  ///< in order of declaration
+  /// The known path nearest to `path` (edit distance), or "" when none is near.
+  std::string nearest(std::string_view path) const;
+  /// "unknown parameter 'x'; did you mean 'y'?" and the like: what to say for a path that is not there.
+  std::string unknown_message(std::string_view path) const;
+
+ private:
+  std::vector<Parameter> rows_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+};
+
+/// The value a text stands for: `0.5`, `true`, `[0, -9.81, 0]` (or `0 -9.81 0`), a word, `[a, b]`. Throws InputError
+/// (without a place: the caller knows it) naming what was found and what is allowed.
+ParameterValue parse_value(const Parameter& row, std::string_view text);
+
+/// Throws InputError if the value has another type or lies out of range; integers are taken for reals.
+ParameterValue checked_value(const Parameter& row, ParameterValue value);
+
+/// Shortest text that parse_value reads back exactly; vectors as `[x, y, z]`.
+std::string format_value(const ParameterValue& value);
+
+/// What is allowed, in words: "a real number in [0, 1e9] m/s", "one of a, b".
+std::string describe_allowed(const Parameter& row);
+
+/// The candidate nearest to `word` by edit distance, or "" when none is within a third of its length (at least 2).
+std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
+
+/// Shortest decimal text that reads back to the same double.
+std::string shortest(double value);
+
+}  // namespace impinge

@@ -1,0 +1,35 @@
+// A registry is an ordered, explicit list: one line in a folder's all.cpp adds an algorithm everywhere. (Objects that
+// register themselves are dropped by the linker when they live in a static library and nobody names their file.)
+#pragma once
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace impinge {
+
+/// One registered algorithm: the name users write, one line of what it is, and how to make one.
+template <class Interface>
+struct Entry {
+  std::string_view name;
+  std::string_view doc;
+  std::unique_ptr<Interface> (*make)();
+};
+
+template <class Interface>
+using Registry = std::vector<Entry<Interface>>;
+
+template <class Interface, class Concrete>
+Entry<Interface> entry(std::string_view name, std::string_view doc) {
+  return {name, doc, [] { return std::unique_ptr<Interface>(std::make_unique<Concrete>()); }};
+}
+
+/// The entry of that name, or nullptr.
+template <class Interface>
+const Entry<Interface>* find_entry(const Registry<Interface>& registry, std::string_view name) {
+  for (const Entry<Interface>& e : registry)
+    if (e.name == name) return &e;
+  return nullptr;
+}
+
+}  // namespace impinge

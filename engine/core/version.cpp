@@ -1,0 +1,3 @@
+namespace impinge {
+const char* version() { return IMPINGE_VERSION; }
+}  // namespace impinge

@@ -1,0 +1,76 @@
+// What the model publishes after each frame, read-only: everything the view draws, the files report, the tests check.
+// Everything in it belongs to one instant, the end of the frame.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "engine/bodies/shape.hpp"
+#include "engine/contact/collision.hpp"
+#include "engine/core/profile.hpp"
+
+namespace impinge {
+
+enum class BodyKind { fixed, scripted, dynamic };  // "static" is a word of the language
+const char* kind_name(BodyKind kind);              // static | scripted | dynamic
+
+struct BodyRecord {
+  std::string_view name;
+  BodyKind kind = BodyKind::dynamic;
+  const Shape* shape = nullptr;
+  Pose pose;                       ///< of the body's frame (centre of mass)
+  Pose file_pose;                  ///< of the file's (or the shape's) own origin, without scale
+  std::span<const Vec3> vertices;  ///< world vertices of a mesh; empty for an exact shape
+  Aabb bounds;
+  Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+  double mass = 0.0;               ///< kg; 0 for static and scripted
+  bool asleep = false;
+  int group = -1;                  ///< collision group of the last sub-step, -1: none
+};
+
+enum class ContactState : std::uint8_t { open, stick, slip };
+const char* state_name(ContactState state);
+
+/// A contact of the last sub-step, its points carried with their bodies to the end of the frame.
+struct ContactRecord {
+  int body_a = -1, body_b = -1, triangle_a = -1, triangle_b = -1;
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero(), normal = Vec3::UnitY();
+  double gap = 0.0;                  ///< at the end of the frame, metres
+  double gap0 = 0.0;                 ///< what the solver saw, metres
+  Vec3 lambda = Vec3::Zero();        ///< impulse (n, t1, t2) of the last sub-step, N·s
+  double friction = 0.0;             ///< coefficient of the pair
+  ContactState state = ContactState::open;
+  int group = -1;
+  std::uint64_t pair_id = 0;         ///< stable identity from step to step
+};
+
+/// t1 = normalised e x n with e the first world axis of smallest |n·e|; t2 = n x t1.
+Vec3 tangent1(const Vec3& normal);
+
+struct FrameStats {
+  int frame = 0;
+  double time = 0.0;
+  int substeps = 0, bodies = 0, dofs = 0, asleep = 0;
+  std::int64_t broad_pairs = 0, triangle_pairs = 0, contacts = 0, groups = 0;  ///< last sub-step
+  double max_penetration = 0.0;  ///< metres, over contacts at the end of the frame
+  double residual = 0.0;         ///< m/s, maximum over sub-steps and groups, by the judge
+  std::int64_t lcp_iterations = 0, outer_iterations = 0;
+  std::int64_t unconverged = 0;  ///< group solves of the frame that ended at the iteration cap
+  double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
+  Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+  StageTimes times;
+  std::uint64_t state_hash = 0;
+};
+
+struct StepRecord {
+  FrameStats stats;
+  std::vector<BodyRecord> bodies;         ///< scene order
+  std::vector<BodyPair> broad_pairs;      ///< what the broad phase let through
+  std::vector<TrianglePair> triangle_pairs;
+  std::vector<ContactRecord> contacts;
+  std::vector<std::vector<int>> groups;   ///< body indices of each collision group, ascending
+  Vec3 gravity = Vec3::Zero();
+  double frame_time = 0.0;
+};
+
+}  // namespace impinge

@@ -1,0 +1,10 @@
+# Writes one C++ file with every GLSL text as a raw string: viewer/gl/program.cpp looks them up by file name.
+set(body "#include <map>\n#include <string>\nnamespace impinge {\nconst std::map<std::string, std::string>& shader_sources() {\n  static const std::map<std::string, std::string> sources = {\n")
+file(GLOB FILES ${DIRECTORY}/*.vert ${DIRECTORY}/*.frag ${DIRECTORY}/*.glsl)
+foreach(file ${FILES})
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} text)
+  string(APPEND body "{\"${name}\", R\"GLSL(${text})GLSL\"},\n")
+endforeach()
+string(APPEND body "};\n  return sources;\n}\n}\n")
+file(WRITE ${OUTPUT} "${body}")
