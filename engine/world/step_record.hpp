@@ -5,14 +5,12 @@
 #include <span>
 #include <string_view>
 
+#include "engine/bodies/body_kind.hpp"
 #include "engine/bodies/shape.hpp"
 #include "engine/contact/collision.hpp"
 #include "engine/core/profile.hpp"
 
 namespace impinge {
-
-enum class BodyKind { fixed, scripted, dynamic };  // "static" is a word of the language
-const char* kind_name(BodyKind kind);              // static | scripted | dynamic
 
 struct BodyRecord {
   std::string_view name;

@@ -1,0 +1,45 @@
+// Every parameter of the model, declared once: member, path, unit, range, default, meaning (parameters.cpp).
+#pragma once
+
+#include "engine/core/parameter.hpp"
+
+namespace impinge {
+
+struct Parameters {
+  struct Simulation {
+    double frame_time = 1.0 / 60.0;
+    int substeps = 4;
+    Vec3 gravity{0.0, -9.81, 0.0};
+    std::string integrator = "linearly_implicit_euler";
+    bool sleeping = true;
+    double sleep_speed = 1e-4;
+    double sleep_time = 0.5;
+    double time_step() const { return frame_time / substeps; }  ///< Δt of every formula
+  } simulation;
+  struct Contact {
+    std::string points = "proximity";
+    double activation_distance = 1e-3;
+    double friction = 0.3;
+    double restitution = 0.0;
+    double restitution_threshold = 0.1;
+    double max_push_out = 1.0;
+    std::string push_out = "split";
+    bool warm_start = true;
+  } contact;
+  struct Named {
+    std::string method;
+  };
+  Named broad_phase{"sweep_and_prune"};
+  Named narrow_phase{"spatial_hash"};
+  Named response{"constraint_anticipation"};
+  struct Lcp {
+    std::string method = "projected_gauss_seidel";
+    double tolerance = 1e-8;
+    int max_iterations = 1000;
+  } lcp;
+
+  /// Declares the rows `simulation.*`, `contact.*`, `broad_phase.method`, … The set refers to this object.
+  void bind(ParameterSet& set);
+};
+
+}  // namespace impinge

@@ -1,0 +1,64 @@
+// The model: bodies, parameters and the step that turns one frame into the next. Knows no view and no files.
+#pragma once
+
+#include <memory>
+
+#include "engine/bodies/rigid_body.hpp"
+#include "engine/world/parameters.hpp"
+#include "engine/world/step_record.hpp"
+
+namespace impinge {
+
+class ByteReader;
+class ByteWriter;
+
+class World {
+ public:
+  World();
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  Parameters parameters;
+
+  /// Adds a body before start(). Throws InputError (without a place) where the body can't be made.
+  RigidBody& add_body(const BodyDescription& description);
+  std::vector<RigidBody>& bodies() { return bodies_; }
+  const std::vector<RigidBody>& bodies() const { return bodies_; }
+
+  /// Declares the rows `body.NAME.*` of the bodies there are. The set refers to this object.
+  void bind_bodies(ParameterSet& set);
+
+  /// Checks that every pair of shapes that can meet is supported and that every named algorithm exists (InputError), then
+  /// publishes frame 0: detection only, no solve.
+  void start();
+  /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body.
+  void step();
+  /// To be called after parameters were changed between frames: sleeping bodies must feel the change.
+  void parameters_changed();
+
+  int frame() const { return frame_; }
+  double time() const { return time_; }
+  const StepRecord& record() const { return record_; }
+  /// 64 bits over poses, velocities, warm-start and sleep data and time.
+  std::uint64_t state_hash() const;
+
+  /// The full state, bit for bit; not the parameters.
+  void save(ByteWriter& out) const;
+  /// Restores what save() wrote for a world with the same bodies and publishes its record. Throws InputError otherwise.
+  void restore(ByteReader& in);
+
+ private:
+  struct Stages;  // the algorithms in use and their working memory
+  void substep(double time_step);
+  void detect(double time_step);
+  void publish(bool solved);
+
+  std::vector<RigidBody> bodies_;
+  std::unique_ptr<Stages> stages_;
+  StepRecord record_;
+  int frame_ = 0;
+  double time_ = 0.0;
+};
+
+}  // namespace impinge
