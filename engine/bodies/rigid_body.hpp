@@ -5,7 +5,7 @@
 
 #include "engine/bodies/motion.hpp"
 #include "engine/bodies/shape.hpp"
-#include "engine/geometry/mass_properties.hpp"
+#include "engine/geometry/rotation.hpp"
 #include "engine/bodies/body_kind.hpp"
 
 namespace impinge {
@@ -68,10 +68,5 @@ struct RigidBody {
 /// Mass, centre and inertia by exact volume integrals; throws InputError (without a place) naming the remedy if a mesh
 /// encloses no volume or a dynamic body is a plane.
 RigidBody make_rigid_body(const BodyDescription& description);
-
-/// Rotation by degrees about the fixed axes x, then y, then z.
-Mat3 rotation_from_degrees(const Vec3& degrees);
-/// The inverse; of the two solutions the one with |y| <= 90°.
-Vec3 degrees_from_rotation(const Mat3& rotation);
 
 }  // namespace impinge

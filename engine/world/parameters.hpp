@@ -21,7 +21,7 @@ struct Parameters {
     double activation_distance = 1e-3;
     double friction = 0.3;
     double restitution = 0.0;
-    double restitution_threshold = 0.1;
+    double restitution_threshold = 0.01;
     double max_push_out = 1.0;
     std::string push_out = "split";
     bool warm_start = true;

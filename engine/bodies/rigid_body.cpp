@@ -1,0 +1,92 @@
+#include "engine/bodies/rigid_body.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "engine/core/error.hpp"
+#include "engine/geometry/mass_properties.hpp"
+
+namespace impinge {
+namespace {
+
+/// A mesh whose vertices are relative to `center`: the body's frame sits in the centre of mass.
+MeshPointer recentered(const SurfaceMesh& source, const Vec3& center) {
+  auto moved = std::make_shared<SurfaceMesh>(source);
+  for (Vec3& v : moved->mesh.vertices) v -= center;
+  return moved;
+}
+
+double farthest_point(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
+  if (const auto* b = std::get_if<Box>(&shape)) return b->half.norm();
+  if (const auto* c = std::get_if<Capsule>(&shape)) return c->half_length + c->radius;
+  double reach = 0.0;
+  if (const auto* m = std::get_if<MeshPointer>(&shape))
+    for (const Vec3& v : (*m)->mesh.vertices) reach = std::max(reach, v.norm());
+  return reach;
+}
+
+}  // namespace
+
+void RigidBody::update_world_vertices() {
+  const auto* mesh = std::get_if<MeshPointer>(&shape);
+  if (mesh == nullptr) return;
+  const std::vector<Vec3>& local = (*mesh)->mesh.vertices;
+  world_vertices.resize(local.size());
+  for (std::size_t i = 0; i < local.size(); ++i) world_vertices[i] = pose.apply(local[i]);
+}
+
+Aabb RigidBody::bounds() const {
+  if (!is_mesh(shape)) return shape_bounds(shape, pose);
+  Aabb box;
+  for (const Vec3& v : world_vertices) box.include(v);
+  return box;
+}
+
+RigidBody make_rigid_body(const BodyDescription& description) {
+  RigidBody body;
+  body.name = description.name;
+  body.kind = description.kind;
+  body.shape = description.shape;
+  body.surface_file = description.surface_file;
+  body.friction = description.friction.value_or(-1.0);
+  body.restitution = description.restitution.value_or(-1.0);
+  body.self_collision = description.self_collision;
+
+  const bool is_plane = std::holds_alternative<Plane>(body.shape);
+  if (is_plane && body.is_dynamic())
+    throw InputError("a dynamic body is a plane, which has no mass; a plane is static or scripted; use a box");
+  if (!is_plane) {
+    MassProperties properties = shape_mass(body.shape, description.density);
+    if (!(properties.mass > 0.0))
+      throw InputError("the surface encloses no positive volume; a body needs a closed surface whose triangles are counter-clockwise seen "
+                       "from outside; flip its triangles");
+    body.center = properties.center;
+    if (const auto* mesh = std::get_if<MeshPointer>(&body.shape)) {
+      body.mean_edge = mean_edge_length((*mesh)->mesh);
+      body.shape = recentered(**mesh, body.center);
+    }
+    if (body.is_dynamic()) {
+      const double ratio = description.mass ? *description.mass / properties.mass : 1.0;
+      body.mass = properties.mass * ratio;
+      body.inertia = properties.inertia * ratio;
+      body.inertia_inverse = body.inertia.inverse();
+    }
+    body.radius = farthest_point(body.shape);
+  }
+
+  Pose file{rotation_from_degrees(description.rotation), description.position};
+  if (body.kind == BodyKind::scripted && !description.motion.empty()) {
+    body.motion = Motion(description.motion);
+    file = body.motion.at(0.0);
+  }
+  body.pose = {file.rotation, file.apply(body.center)};
+  if (body.is_dynamic()) {
+    body.velocity = description.velocity;
+    body.angular_momentum = body.world_inertia() * description.angular_velocity;
+  }
+  body.update_world_vertices();
+  return body;
+}
+
+}  // namespace impinge
