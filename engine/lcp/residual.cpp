@@ -1,0 +1,37 @@
+#include "engine/lcp/residual.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/friction_cone.hpp"
+
+namespace impinge {
+
+double natural_map(const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu) {
+  if (mu == 0.0) {
+    const double rho = 1.0 / w_ii(0, 0);
+    return std::abs(lambda.x() - std::max(0.0, lambda.x() - rho * u.x())) / rho;
+  }
+  const double rho = 3.0 / w_ii.trace();
+  return (lambda - project_to_cone(lambda - rho * de_saxce(u, mu), mu)).norm() / rho;
+}
+
+Residual judge(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
+  Residual result;
+  problem.w->begin(lambda);
+  for (std::size_t i = 0; i < problem.q.size(); ++i) {
+    const double mu = problem.mu[i];
+    const Vec3 u = problem.w->row(i, mu == 0.0) + problem.q[i];
+    const double r = natural_map(problem.w->diagonal(i), u, lambda[i], mu);
+    if (!(r <= result.natural_map)) {
+      result.natural_map = r;
+      result.worst = static_cast<int>(i);
+    }
+    const Vec3 u_hat = mu == 0.0 ? Vec3(u.x(), 0.0, 0.0) : de_saxce(u, mu);
+    result.complementarity = std::max(result.complementarity, std::abs(lambda[i].dot(u_hat)));
+    result.cone_violation = std::max(result.cone_violation, std::hypot(lambda[i].y(), lambda[i].z()) - mu * lambda[i].x());
+  }
+  return result;
+}
+
+}  // namespace impinge
