@@ -46,7 +46,8 @@ struct RigidBody {
   Vec3 angular_momentum = Vec3::Zero();
   Vec3 scripted_angular_velocity = Vec3::Zero();
   bool asleep = false;
-  int rest_steps = 0;                 ///< sub-steps in a row below the sleeping speed
+  double rest_time = 0.0;             ///< seconds in a row below the sleeping speed
+  int island = -1;                    ///< of a sleeping body: the group it fell asleep with, named by its lowest body
 
   double friction = -1.0;             ///< -1: the scene's contact.friction
   double restitution = -1.0;          ///< -1: the scene's contact.restitution

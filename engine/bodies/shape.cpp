@@ -20,9 +20,17 @@ MeshPointer make_box_mesh(const Vec3& half) {
 Aabb shape_bounds(const Shape& shape, const Pose& pose) {
   struct Bounds {
     const Pose& pose;
-    Aabb operator()(const Plane&) const {
+    Aabb operator()(const Plane& p) const {
       const double inf = std::numeric_limits<double>::infinity();
-      return {Vec3::Constant(-inf), Vec3::Constant(inf)};
+      Aabb box{Vec3::Constant(-inf), Vec3::Constant(inf)};
+      // the half-space behind an axis-aligned plane has a bound on that side
+      const Vec3 n = pose.rotation * p.normal;
+      const double offset = p.offset + n.dot(pose.position);
+      for (int k = 0; k < 3; ++k) {
+        if (n[k] == 1.0) box.max[k] = offset;
+        if (n[k] == -1.0) box.min[k] = -offset;
+      }
+      return box;
     }
     Aabb operator()(const Sphere& s) const {
       return {pose.position - Vec3::Constant(s.radius), pose.position + Vec3::Constant(s.radius)};

@@ -10,7 +10,7 @@
 
 namespace impinge {
 
-/// The half-space n·x <= offset is solid. World coordinates; static or scripted bodies only.
+/// The half-space n·x <= offset is solid, in the body's frame; static or scripted bodies only.
 struct Plane {
   Vec3 normal = Vec3::UnitY();  ///< unit
   double offset = 0.0;          ///< metres
@@ -43,7 +43,7 @@ const char* shape_name(const Shape& shape);
 /// The twelve triangles of a box (exact: a box is a polyhedron), outward, with their topology.
 MeshPointer make_box_mesh(const Vec3& half);
 
-/// World bounds of a shape at a pose. A plane's are infinite. For meshes pass the world vertices to bounds_of instead.
+/// World bounds of a shape at a pose. A plane bounds its half-space where it is axis-aligned, else nothing. For meshes pass the world vertices to bounds_of instead.
 Aabb shape_bounds(const Shape& shape, const Pose& pose);
 
 }  // namespace impinge

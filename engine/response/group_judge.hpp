@@ -1,0 +1,17 @@
+// The judge of a solved group, independent of response and solver: it sees A, J, the bounds, λ and Δv, nothing else.
+#pragma once
+
+#include "engine/contact/group_system.hpp"
+
+namespace impinge {
+
+struct GroupVerdict {
+  double natural_map = 0.0;  ///< m/s, as in lcp/residual.hpp, with u = J (v* + Δv) - bound
+  double momentum = 0.0;     ///< max |Δv - A⁻¹ J^T λ| over bodies, m/s
+  int worst = -1;            ///< contact of the largest natural map
+  double residual() const { return natural_map > momentum ? natural_map : momentum; }
+};
+
+GroupVerdict judge_group(const GroupSystem& group);
+
+}  // namespace impinge
