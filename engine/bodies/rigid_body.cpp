@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/core/error.hpp"
-#include "engine/geometry/mass_properties.hpp"
+#include "engine/bodies/shape_mass.hpp"
 
 namespace impinge {
 namespace {

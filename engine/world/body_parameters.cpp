@@ -1,0 +1,48 @@
+// The rows `body.NAME.*`: what of a body may change between frames.
+#include "engine/world/world_stages.hpp"
+
+namespace impinge {
+namespace {
+constexpr double kFar = 1e9;
+}
+
+void World::bind_bodies(ParameterSet& set) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    // by index: the vector may grow; a change of state wakes everyone, since a sleeper's neighbours can't know of it
+    const auto body = [this, i]() -> RigidBody& { return bodies_[i]; };
+    const auto state = [this, body](auto change) {
+      stages_->sleeping.wake_all(bodies_);
+      change(body());
+      body().update_world_vertices();
+    };
+    const std::string path = "body." + bodies_[i].name + ".";
+    const auto real = [&](const char* name, Range range, const char* unit, const char* doc, double RigidBody::*member) {
+      set.add({path + name, ParameterKind::real, unit, range, {}, doc, body().*member, [body, member] { return ParameterValue(body().*member); },
+               [body, member](const ParameterValue& v) { body().*member = std::get<double>(v); }});
+    };
+    real("friction", {-1.0, 100.0}, "", "Coulomb coefficient; -1: the scene's contact.friction.", &RigidBody::friction);
+    real("restitution", {-1.0, 1.0}, "", "Restitution; -1: the scene's contact.restitution.", &RigidBody::restitution);
+    if (!bodies_[i].is_dynamic()) continue;
+    const auto vector = [&](const char* name, const char* unit, double limit, const char* doc, auto get, auto put) {
+      set.add({path + name, ParameterKind::vector3, unit, {-limit, limit}, {}, doc, ParameterValue(Vec3(get(body()))),
+               [body, get] { return ParameterValue(Vec3(get(body()))); },
+               [state, put](const ParameterValue& v) { state([&](RigidBody& b) { put(b, std::get<Vec3>(v)); }); }});
+    };
+    vector("position", "m", kFar, "Where the origin of the body's file (or shape) is.", [](const RigidBody& b) { return b.file_pose().position; },
+           [](RigidBody& b, const Vec3& x) { b.pose.position = x + b.pose.rotation * b.center; });
+    vector("rotation", "deg", 1e6, "About x, then y, then z (fixed axes), round the file's origin; the angular velocity stays.",
+           [](const RigidBody& b) { return degrees_from_rotation(b.pose.rotation); },
+           [](RigidBody& b, const Vec3& degrees) {
+             const Vec3 origin = b.file_pose().position, w = b.angular_velocity();
+             b.pose.rotation = rotation_from_degrees(degrees);
+             b.pose.position = origin + b.pose.rotation * b.center;
+             b.angular_momentum = b.world_inertia() * w;
+           });
+    vector("velocity", "m/s", 1e6, "Of the centre of mass.", [](const RigidBody& b) { return b.velocity; },
+           [](RigidBody& b, const Vec3& v) { b.velocity = v; });
+    vector("angular_velocity", "rad/s", 1e6, "Angular velocity, world axes.", [](const RigidBody& b) { return b.angular_velocity(); },
+           [](RigidBody& b, const Vec3& w) { b.angular_momentum = b.world_inertia() * w; });
+  }
+}
+
+}  // namespace impinge

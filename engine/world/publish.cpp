@@ -1,0 +1,109 @@
+// Stage 12: the step record, with every quantity at the end of the frame.
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+#include "engine/world/ledger.hpp"
+#include "engine/world/world_stages.hpp"
+
+namespace impinge {
+namespace {
+
+/// Detection alone (frame 0): its collisions as contacts that nothing has solved.
+SolvedContact unsolved(const Collision& c, const std::vector<RigidBody>& bodies, const Parameters& parameters) {
+  SolvedContact contact;
+  contact.collision = c;
+  contact.local_a = bodies[c.body_a].pose.apply_inverse(c.point_a);
+  contact.local_b = bodies[c.body_b].pose.apply_inverse(c.point_b);
+  contact.local_normal = c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation.transpose() * c.normal) : c.normal;
+  contact.friction = pair_friction(bodies[c.body_a], bodies[c.body_b], parameters);
+  return contact;
+}
+
+ContactRecord carried(const SolvedContact& contact, const std::vector<RigidBody>& bodies) {
+  const Collision& c = contact.collision;
+  ContactRecord record;
+  record.body_a = c.body_a, record.body_b = c.body_b;
+  record.triangle_a = c.triangle_a, record.triangle_b = c.triangle_b;
+  record.point_a = bodies[c.body_a].pose.apply(contact.local_a);
+  record.point_b = bodies[c.body_b].pose.apply(contact.local_b);
+  record.normal = c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation * contact.local_normal) : c.normal;
+  record.gap = record.normal.dot(record.point_a - record.point_b);
+  record.gap0 = c.gap;
+  record.lambda = contact.lambda;
+  record.friction = contact.friction;
+  record.state = contact.state;
+  record.group = contact.group;
+  record.pair_id = c.feature;
+  return record;
+}
+
+}  // namespace
+
+void World::publish(bool solved) {
+  Stages& s = *stages_;
+  if (!solved) {
+    s.contacts.clear();
+    for (const Collision& c : s.detection.collisions) s.contacts.push_back(unsolved(c, bodies_, parameters));
+    std::vector<std::pair<int, int>> ends;
+    for (const Collision& c : s.detection.collisions) ends.emplace_back(c.body_a, c.body_b);
+    std::vector<char> joins;
+    for (const RigidBody& body : bodies_) joins.push_back(body.is_dynamic());
+    s.groups = make_groups(ends, joins);
+    for (std::size_t g = 0; g < s.groups.size(); ++g)
+      for (int c : s.groups[g].contacts) s.contacts[c].group = static_cast<int>(g);
+  }
+
+  record_.bodies.clear();
+  for (const RigidBody& body : bodies_) {
+    BodyRecord r;
+    r.name = body.name;
+    r.kind = body.kind;
+    r.shape = &body.shape;
+    r.pose = body.pose;
+    r.file_pose = body.file_pose();
+    r.vertices = body.world_vertices;
+    r.bounds = body.bounds();
+    r.velocity = body.velocity;
+    r.angular_velocity = body.angular_velocity();
+    r.mass = body.mass;
+    r.asleep = body.asleep;
+    record_.bodies.push_back(r);
+  }
+  record_.groups.clear();
+  for (std::size_t g = 0; g < s.groups.size(); ++g) {
+    record_.groups.push_back(s.groups[g].bodies);
+    for (int b : s.groups[g].bodies) record_.bodies[b].group = static_cast<int>(g);
+  }
+  record_.broad_pairs = s.detection.pairs;
+  record_.triangle_pairs = s.detection.triangle_pairs;
+  record_.contacts.clear();
+  for (const SolvedContact& contact : s.contacts) record_.contacts.push_back(carried(contact, bodies_));
+  record_.gravity = parameters.simulation.gravity;
+  record_.frame_time = parameters.simulation.frame_time;
+
+  FrameStats& stats = s.frame_stats;
+  stats.frame = frame_;
+  stats.time = time_;
+  stats.substeps = parameters.simulation.substeps;
+  stats.bodies = static_cast<int>(bodies_.size());
+  stats.dofs = stats.asleep = 0;
+  for (const RigidBody& body : bodies_) {
+    stats.dofs += body.is_dynamic() ? 6 : 0;
+    stats.asleep += body.asleep ? 1 : 0;
+  }
+  stats.broad_pairs = static_cast<std::int64_t>(record_.broad_pairs.size());
+  stats.triangle_pairs = static_cast<std::int64_t>(record_.triangle_pairs.size());
+  stats.contacts = static_cast<std::int64_t>(record_.contacts.size());
+  stats.groups = static_cast<std::int64_t>(record_.groups.size());
+  stats.max_penetration = 0.0;
+  for (const ContactRecord& c : record_.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
+  const Ledger ledger = make_ledger(bodies_, parameters.simulation.gravity);
+  stats.kinetic = ledger.kinetic;
+  stats.potential = ledger.potential;
+  stats.momentum = ledger.momentum;
+  stats.angular_momentum = ledger.angular_momentum;
+  stats.state_hash = state_hash();
+  record_.stats = stats;
+}
+
+}  // namespace impinge

@@ -1,0 +1,44 @@
+// The full state as bytes: what makes the next frame, and nothing that can be derived from it.
+#include "engine/core/archive.hpp"
+#include "engine/world/world_stages.hpp"
+
+namespace impinge {
+
+void World::save(ByteWriter& out) const {
+  out.put(frame_);
+  out.put(time_);
+  out.put<std::uint64_t>(bodies_.size());
+  for (const RigidBody& body : bodies_) {
+    out.put(body.pose.position), out.put(body.pose.rotation);
+    out.put(body.velocity), out.put(body.angular_momentum), out.put(body.scripted_angular_velocity);
+    out.put(body.asleep), out.put(body.rest_time), out.put(body.island);
+  }
+  stages_->cache.save(out);
+  stages_->sleeping.save(out);
+}
+
+void World::restore(ByteReader& in) {
+  frame_ = in.get<int>();
+  time_ = in.get<double>();
+  if (in.get<std::uint64_t>() != bodies_.size()) throw InputError("snapshot: it belongs to a scene with another number of bodies");
+  for (RigidBody& body : bodies_) {
+    body.pose.position = in.get_vec3(), body.pose.rotation = in.get_mat3();
+    body.velocity = in.get_vec3(), body.angular_momentum = in.get_vec3(), body.scripted_angular_velocity = in.get_vec3();
+    body.asleep = in.get<bool>(), body.rest_time = in.get<double>(), body.island = in.get<int>();
+    body.update_world_vertices();
+  }
+  stages_->cache.restore(in);
+  stages_->sleeping.restore(in);
+  stages_->select(parameters);
+  stages_->frame_stats = {};
+  detect(parameters.simulation.time_step());
+  publish(false);
+}
+
+std::uint64_t World::state_hash() const {
+  ByteWriter state;
+  save(state);
+  return hash_bytes(state.bytes());
+}
+
+}  // namespace impinge

@@ -1,0 +1,41 @@
+// The world's working memory: the algorithms in use and what passes between the stages of a sub-step. Private to world/.
+#pragma once
+
+#include "engine/contact/contact_cache.hpp"
+#include "engine/integrators/integrator.hpp"
+#include "engine/response/response.hpp"
+#include "engine/world/detection.hpp"
+#include "engine/world/group_assembly.hpp"
+#include "engine/world/sleeping.hpp"
+#include "engine/world/world.hpp"
+
+namespace impinge {
+
+/// A contact of the last sub-step in the coordinates of its bodies, so that its points can be carried to any later pose.
+struct SolvedContact {
+  Collision collision;
+  Vec3 local_a = Vec3::Zero(), local_b = Vec3::Zero(), local_normal = Vec3::Zero();
+  Vec3 lambda = Vec3::Zero();
+  double friction = 0.0;
+  ContactState state = ContactState::open;
+  int group = -1;
+};
+
+struct World::Stages {
+  Detection detection;
+  ContactCache cache;
+  Sleeping sleeping;
+  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<Response> response;
+  std::unique_ptr<LcpSolver> lcp;
+  std::string integrator_name, response_name, lcp_name;
+  std::vector<Twist> before;              // velocities at the start of the sub-step
+  std::vector<CollisionGroup> groups;
+  std::vector<SolvedContact> contacts;
+  std::uint64_t settings_seen = 0;        // hash of what parameters_changed compares with
+  FrameStats frame_stats;                 // sums and maxima over the frame's sub-steps
+
+  void select(const Parameters& parameters);
+};
+
+}  // namespace impinge
