@@ -1,0 +1,258 @@
+// Contact against formulas: rest, stacks, inclines, bounces, momentum.
+#include <catch2/catch.hpp>
+#include <iostream>
+
+#include "tests/support/random.hpp"
+#include "tests/support/worlds.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+/// What matters of a resting scene at its end, for messages.
+double fastest(const World& world) {
+  double speed = 0.0;
+  for (const RigidBody& b : world.bodies()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+  return speed;
+}
+
+void add_stack(World& world, int boxes, double size) {
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+  for (int i = 0; i < boxes; ++i) world.add_body(cube("box" + std::to_string(i), size, Vec3(0, size * (i + 0.5), 0)));
+}
+
+}  // namespace
+
+TEST_CASE("a box rests on a floor for 10 s") {
+  World world;
+  world.parameters.simulation.sleeping = false;
+  add_stack(world, 1, 1.0);
+  world.start();
+  double deepest = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    deepest = std::max(deepest, world.record().stats.max_penetration);
+  }
+  CHECK(world.record().stats.contacts == 4);
+  CHECK(deepest < 1e-6);
+  CHECK(fastest(world) < 1e-6);
+  CHECK(std::abs(world.bodies()[1].pose.position.y() - 0.5) < 1e-6);
+  // total impulse of a sub-step carries the weight (AT-16)
+  double sum = 0.0;
+  for (const ContactRecord& c : world.record().contacts) sum += c.lambda.x() * c.normal.y() * (c.body_a == 1 ? 1.0 : -1.0);
+  const double weight = world.bodies()[1].mass * 9.81 * world.parameters.simulation.time_step();
+  CHECK(std::abs(sum) == Approx(weight).epsilon(1e-6));
+}
+
+TEST_CASE("a stack of ten boxes stands for 10 s") {
+  World world;
+  world.parameters.simulation.sleeping = false;
+  add_stack(world, 10, 1.0);
+  world.start();
+  run(world, 600);
+  const RigidBody& top = world.bodies().back();
+  const Vec3 drift = top.pose.position - Vec3(0, 9.5, 0);
+  CAPTURE(drift.transpose(), fastest(world), world.record().stats.residual, world.record().stats.max_penetration);
+  CHECK(drift.norm() < 1e-3);
+  CHECK(tilt_degrees(top) < 0.1);
+  CHECK(world.record().stats.max_penetration < 1e-5);
+}
+
+TEST_CASE("intersection contacts chatter by about g h², proximity contacts do not") {
+  double range[2];
+  for (int proximity = 0; proximity < 2; ++proximity) {
+    World world;
+    world.parameters.simulation.sleeping = false;
+    world.parameters.contact.points = proximity ? "proximity" : "intersection";
+    world.parameters.simulation.substeps = 1;
+    add_stack(world, 1, 1.0);
+    world.start();
+    run(world, 120);
+    double low = 1e9, high = -1e9;
+    for (int i = 0; i < 120; ++i) {
+      world.step();
+      low = std::min(low, world.bodies()[1].pose.position.y());
+      high = std::max(high, world.bodies()[1].pose.position.y());
+    }
+    range[proximity] = high - low;
+  }
+  const double g_h2 = 9.81 / 3600.0;
+  WARN("height range at rest: intersection " << range[0] << " m (g h² = " << g_h2 << "), proximity " << range[1] << " m");
+  CHECK(range[0] < 2.0 * g_h2);
+  CHECK(range[1] < 1e-9);
+}
+
+TEST_CASE("sleeping moves no resting pose") {
+  std::vector<Vec3> end[2];
+  int asleep = 0;
+  for (int sleeping = 0; sleeping < 2; ++sleeping) {
+    World world;
+    world.parameters.simulation.sleeping = sleeping == 1;
+    add_stack(world, 3, 0.5);
+    world.add_body(dynamic_body("ball", Sphere{0.3}, Vec3(2, 0.3, 0)));
+    world.start();
+    run(world, 300);
+    for (const RigidBody& b : world.bodies()) end[sleeping].push_back(b.pose.position);
+    asleep = world.record().stats.asleep;
+  }
+  CHECK(asleep == 4);
+  for (std::size_t i = 0; i < end[0].size(); ++i) CHECK((end[0][i] - end[1][i]).norm() < 1e-9);
+}
+
+TEST_CASE("a sleeper wakes when it is hit, when its support moves and when a parameter changes") {
+  World world;
+  add_stack(world, 2, 0.5);
+  BodyDescription lift = dynamic_body("lift", Box{Vec3(0.5, 0.1, 0.5)}, Vec3::Zero());
+  lift.kind = BodyKind::scripted;
+  lift.motion = {{0.0, Vec3(3, 0.1, 0), Vec3::Zero()}, {3.0, Vec3(3, 0.1, 0), Vec3::Zero()}, {4.0, Vec3(3, 1.1, 0), Vec3::Zero()}};
+  world.add_body(lift);
+  world.add_body(cube("rider", 0.4, Vec3(3, 0.4, 0)));
+  BodyDescription shot = dynamic_body("shot", Sphere{0.1}, Vec3(-40.0, 0.6, 0));
+  shot.velocity = Vec3(20, 9.81, 0);
+  world.add_body(shot);
+  world.start();
+  run(world, 110);
+  CHECK(world.bodies()[1].asleep);
+  CHECK(world.bodies()[4].asleep);
+  run(world, 25);  // the shot arrives after 2 s
+  CHECK_FALSE(world.bodies()[1].asleep);
+  run(world, 135);  // 4.5 s: the lift is up
+  CHECK(world.bodies()[4].pose.position.y() == Approx(1.4).margin(1e-4));
+  run(world, 120);
+  REQUIRE(world.bodies()[4].asleep);
+  world.parameters_changed();
+  CHECK(world.bodies()[4].asleep);
+  world.parameters.simulation.gravity = Vec3(0, 0, 5);
+  world.parameters_changed();
+  CHECK_FALSE(world.bodies()[4].asleep);
+}
+
+TEST_CASE("a block on an incline sticks below the friction angle and slides above it") {
+  const double angle = 25.0 * M_PI / 180.0, g = 9.81;
+  const Vec3 normal(-std::sin(angle), std::cos(angle), 0.0), down(-std::cos(angle), -std::sin(angle), 0.0);
+  for (double mu : {std::tan(angle) * 1.02, std::tan(angle) * 0.98, std::tan(angle) * 0.5, 0.0}) {
+    CAPTURE(mu);
+    World world;
+    world.parameters.simulation.sleeping = false;
+    world.parameters.contact.friction = mu;
+    world.add_body(fixed_plane("slope", normal, 0.0));
+    BodyDescription block = dynamic_body("block", Box{Vec3(0.5, 0.25, 0.5)}, Vec3::Zero());
+    block.position = 0.25 * normal;
+    block.rotation = Vec3(0, 0, 25.0);
+    world.add_body(block);
+    world.start();
+    const Vec3 start = world.bodies()[1].pose.position;
+    const int frames = 300;
+    run(world, frames);
+    const Vec3 moved = world.bodies()[1].pose.position - start;
+    if (mu > std::tan(angle)) {
+      CHECK(moved.norm() < 1e-6);
+    } else {
+      const double a = g * (std::sin(angle) - mu * std::cos(angle)), t = frames / 60.0, h = world.parameters.simulation.time_step();
+      CHECK(moved.dot(down) == Approx(0.5 * a * t * (t + h)).epsilon(1e-3));  // discrete sum of the constant acceleration
+      CHECK(world.bodies()[1].velocity.dot(down) == Approx(a * t).epsilon(1e-3));
+      CHECK(std::abs(moved.dot(normal)) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("a sliding block stops after v²/2µg, whatever the direction (AT-03, AT-04)") {
+  const double v = 3.0, mu = 0.5, g = 9.81, exact = v * v / (2 * mu * g);
+  double shortest = 1e9, longest = 0.0;
+  for (int degrees = 0; degrees <= 45; degrees += 15) {
+    World world;
+    world.parameters.simulation.sleeping = false;
+    world.parameters.contact.friction = mu;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    const double a = degrees * M_PI / 180.0;
+    const Vec3 direction(std::cos(a), 0, std::sin(a));
+    BodyDescription block = dynamic_body("block", Box{Vec3(0.5, 0.05, 0.5)}, Vec3(0, 0.05, 0));
+    block.velocity = v * direction;
+    world.add_body(block);
+    world.start();
+    run(world, 60);
+    const Vec3 moved = world.bodies()[1].pose.position - Vec3(0, 0.05, 0);
+    CHECK(world.bodies()[1].velocity.norm() < 1e-9);
+    CHECK((moved - moved.dot(direction) * direction).norm() < 1e-3 * exact);  // straight
+    // backward Euler brakes a step early: d_h = d - v h/2 + O(h²)
+    CHECK(moved.dot(direction) == Approx(exact - 0.5 * v * world.parameters.simulation.time_step()).epsilon(5e-4));
+    shortest = std::min(shortest, moved.norm());
+    longest = std::max(longest, moved.norm());
+  }
+  CHECK(longest / shortest - 1.0 < 1e-2);
+}
+
+TEST_CASE("a ball bounces as its restitution says") {
+  for (double e : {0.0, 0.5, 0.8, 1.0}) {
+    CAPTURE(e);
+    World world;
+    world.parameters.simulation.frame_time = 1e-3;
+    world.parameters.simulation.substeps = 1;
+    world.parameters.contact.restitution = e;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    world.add_body(dynamic_body("ball", Sphere{0.5}, Vec3(0, 2, 0)));
+    world.start();
+    double apex = 0.0;
+    bool hit = false;
+    for (int i = 0; i < 1600; ++i) {
+      world.step();
+      hit = hit || world.record().stats.contacts > 0;
+      if (hit) apex = std::max(apex, world.bodies()[1].pose.position.y());
+      if (hit && e > 0.0 && world.bodies()[1].velocity.y() < -0.5) break;
+    }
+    CHECK(apex == Approx(0.5 + 1.5 * e * e).margin(0.01));
+  }
+}
+
+TEST_CASE("collisions between free bodies keep linear and angular momentum") {
+  Random random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    CAPTURE(trial);
+    World world;
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.contact.friction = trial % 3 == 0 ? 0.0 : 0.5;
+    world.parameters.contact.restitution = trial % 2 ? 0.7 : 0.0;
+    const Shape shapes[] = {Sphere{0.3}, Box{Vec3(0.2, 0.3, 0.4)}, Capsule{0.2, 0.3}};
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 place = 1.2 * random.direction() * (1.0 + 0.8 * i);
+      BodyDescription d = dynamic_body("body" + std::to_string(i), shapes[i % 3], place);
+      d.velocity = -1.5 * place / (1.0 + 0.8 * i) + 0.3 * random.vector();
+      d.angular_velocity = 3.0 * random.vector();
+      d.rotation = 180.0 * random.vector();
+      world.add_body(d);
+    }
+    world.start();
+    double p_scale = 0.0, l_scale = 0.0;
+    for (const RigidBody& b : world.bodies()) {
+      p_scale += b.mass * b.velocity.norm();
+      l_scale += (b.pose.position.cross(b.mass * b.velocity) + b.angular_momentum).norm();
+    }
+    const Vec3 p0 = world.record().stats.momentum, l0 = world.record().stats.angular_momentum;
+    std::int64_t contacts = 0;
+    for (int i = 0; i < 180; ++i) {
+      world.step();
+      contacts += world.record().stats.contacts;
+    }
+    CHECK(contacts > 0);
+    CHECK((world.record().stats.momentum - p0).norm() < 1e-10 * p_scale);
+    CHECK((world.record().stats.angular_momentum - l0).norm() < 1e-10 * l_scale);
+  }
+}
+
+TEST_CASE("a rolling ball: from sliding to rolling, and down an incline (AT-05, AT-06)") {
+  World world;
+  world.parameters.simulation.sleeping = false;
+  world.parameters.contact.friction = 0.2;
+  world.parameters.simulation.frame_time = 1e-3;
+  world.parameters.simulation.substeps = 1;
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+  BodyDescription ball = dynamic_body("ball", Sphere{0.25}, Vec3(0, 0.25, 0));
+  ball.velocity = Vec3(7, 0, 0);
+  world.add_body(ball);
+  world.start();
+  run(world, 1500);
+  CHECK(world.bodies()[1].velocity.x() == Approx(5.0).epsilon(1e-3));
+  const double t = 2.0 * 7.0 / (7.0 * 0.2 * 9.81), x = 12.0 * 49.0 / (49.0 * 0.2 * 9.81);
+  CHECK(world.bodies()[1].pose.position.x() == Approx(x + 5.0 * (1.5 - t)).epsilon(2e-3));
+}

@@ -1,0 +1,43 @@
+// Small scenes for tests, built without files.
+#pragma once
+
+#include "engine/core/archive.hpp"
+#include "engine/world/world.hpp"
+
+namespace impinge::test {
+
+inline BodyDescription fixed_plane(const char* name, const Vec3& normal, double offset) {
+  BodyDescription d;
+  d.name = name;
+  d.kind = BodyKind::fixed;
+  d.shape = Plane{normal.normalized(), offset};
+  return d;
+}
+
+inline BodyDescription dynamic_body(const std::string& name, const Shape& shape, const Vec3& position) {
+  BodyDescription d;
+  d.name = name;
+  d.shape = shape;
+  d.position = position;
+  return d;
+}
+
+inline BodyDescription cube(const std::string& name, double size, const Vec3& position) {
+  return dynamic_body(name, Box{Vec3::Constant(0.5 * size)}, position);
+}
+
+inline void run(World& world, int frames) {
+  for (int i = 0; i < frames; ++i) world.step();
+}
+
+/// Height of a body's frame over the plane y = 0 and how far its y axis is from upright, degrees.
+inline double tilt_degrees(const RigidBody& body) {
+  double best = 180.0;
+  for (int k = 0; k < 3; ++k) {
+    const double c = std::abs(body.pose.rotation.col(k).y());
+    best = std::min(best, std::atan2(std::sqrt(std::max(0.0, 1.0 - c * c)), c) * 180.0 / M_PI);
+  }
+  return best;
+}
+
+}  // namespace impinge::test
