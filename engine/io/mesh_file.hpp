@@ -1,0 +1,27 @@
+// Triangle surfaces from files, and to PLY.
+//
+// PLY, OFF, OBJ and STL have readers of our own: strict, in double precision, and true to the file's vertex order. assimp
+// stores single precision, reorders and splits vertices, and crashes on some damaged files of these formats; it reads the
+// other formats here, in a process of its own, so that a crash in it becomes an error message.
+//
+// Every problem is one InputError: `file:line:column: found; allowed; remedy` for text, `file: byte N: ...` for binary.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace impinge {
+
+/// The mesh in a file, by its ending: vertices in source order, polygons fanned from their first corner. Indices are in
+/// range and coordinates finite; whether the surface is closed is for others to check.
+TriangleMesh read_mesh(const std::filesystem::path& path);
+
+/// The same from bytes; `name` is used in messages and its ending chooses among ply, off, obj and stl.
+TriangleMesh parse_mesh(const std::string& name, std::string_view bytes);
+
+/// Binary little-endian PLY: property double x, y, z; list uchar uint vertex_indices. Positions in metres, order kept.
+void write_ply(const std::filesystem::path& path, std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace impinge

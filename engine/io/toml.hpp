@@ -1,0 +1,50 @@
+// A TOML document as a plain tree in which every value and key knows its place. toml11, which parses it, is slow to
+// compile and easy to crash with odd input: it stays in toml.cpp, behind checks of size, line length and depth.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace impinge {
+
+struct TomlEntry;
+
+struct TomlNode {
+  enum Kind { boolean, integer, real, text, array, table, other };  // other: dates and times
+  Kind kind = table;
+  bool flag = false;
+  std::int64_t whole = 0;
+  double number = 0.0;
+  std::string string;                ///< of a text, and the source of `other`
+  std::vector<TomlNode> items;       ///< of an array
+  std::vector<TomlEntry> entries;    ///< of a table, in the order of the file
+  std::string place;                 ///< "file:line:column", or "--set PATH=VALUE"
+
+  bool is_number() const { return kind == integer || kind == real; }
+  double as_number() const { return kind == integer ? static_cast<double>(whole) : number; }
+  TomlEntry* find(std::string_view key);
+  const TomlEntry* find(std::string_view key) const;
+};
+
+struct TomlEntry {
+  std::string key;
+  std::string place;  ///< of the key
+  TomlNode value;
+};
+
+/// "a text", "an array", ...: for messages.
+const char* toml_kind_name(const TomlNode& node);
+
+/// The tree of `text`; `name` is the file's name in messages. Throws InputError `name:line:column: ...`.
+TomlNode parse_toml(const std::string& name, const std::string& text);
+
+/// One value as it stands right of an equals sign; text that is no TOML value is taken as a bare string.
+TomlNode parse_toml_value(const std::string& text, const std::string& place);
+
+/// The value as TOML on one line; parse_toml reads it back exactly.
+std::string format_toml(const TomlNode& node);
+std::string toml_string(std::string_view text);
+
+}  // namespace impinge
