@@ -36,7 +36,7 @@ TEST_CASE("a free tumbling bunny keeps its angular momentum") {
   world.parameters.simulation.gravity.setZero();
   world.parameters.simulation.substeps = 1;
   auto surface = std::make_shared<SurfaceMesh>();
-  surface->mesh = read_mesh(IMPINGE_SOURCE_DIR "/scenes/meshes/bunny/bunny.off").mesh;
+  surface->mesh = read_mesh(IMPINGE_SOURCE_DIR "/scenes/meshes/bunny/bunny.off");
   surface->topology = make_topology(surface->mesh);
   BodyDescription d = dynamic_body("bunny", MeshPointer(surface), Vec3(1, 2, 3));
   d.angular_velocity = Vec3(5.0, -3.0, 8.0);
