@@ -1,0 +1,131 @@
+#include "engine/geometry/triangle_intersection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace impinge {
+namespace {
+
+// relative width of the bands; rounding in the triple products below is about 1e-15 of the same products
+constexpr double kBand = 1e-10;
+
+double l1(const Vec3& v) { return std::abs(v.x()) + std::abs(v.y()) + std::abs(v.z()); }
+
+enum class Verdict { miss, hit, unsure };
+
+// a triangle as Möller and Trumbore use it
+struct Face {
+  Vec3 origin, e1, e2, normal;
+  double l1, l2;  // at least the lengths of e1 and e2
+  explicit Face(const TriangleCorners& c)
+      : origin(c[0]), e1(c[1] - c[0]), e2(c[2] - c[0]), normal(e1.cross(e2)), l1(impinge::l1(e1)), l2(impinge::l1(e2)) {}
+};
+
+// heights of three corners over a face's plane, times twice its area
+struct Heights {
+  double value[3];
+  double band;
+  Heights(const TriangleCorners& corners, const Face& face, double touch) {
+    double reach = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 r = corners[k] - face.origin;
+      value[k] = face.normal.dot(r);
+      reach = std::max(reach, l1(r));
+    }
+    band = (kBand * reach + 4.0 * touch) * face.l1 * face.l2;
+  }
+  bool clearly_above(int k) const { return value[k] > band; }
+  bool clearly_below(int k) const { return value[k] < -band; }
+  bool all_on_one_side() const {
+    return (clearly_above(0) && clearly_above(1) && clearly_above(2)) || (clearly_below(0) && clearly_below(1) && clearly_below(2));
+  }
+};
+
+// the segment from corner k to the next against the face; u and v first, then the ends' sides
+Verdict edge_against(const TriangleCorners& corners, int k, const Heights& heights, const Face& face, double touch) {
+  const int next = (k + 1) % 3;
+  if ((heights.clearly_above(k) && heights.clearly_above(next)) || (heights.clearly_below(k) && heights.clearly_below(next)))
+    return Verdict::miss;
+  const Vec3 direction = corners[next] - corners[k], s = corners[k] - face.origin;
+  const double det = heights.value[k] - heights.value[next];  // e1·(direction × e2)
+  if (std::abs(det) <= 2.0 * heights.band) return Verdict::unsure;
+  const double sign = det > 0.0 ? 1.0 : -1.0, length = l1(direction);
+  const double width = (kBand * (l1(s) + length) + 4.0 * touch) * length;
+  const double u = sign * s.dot(direction.cross(face.e2));
+  if (u < -width * face.l2) return Verdict::miss;
+  const double v = sign * direction.dot(s.cross(face.e1));
+  if (v < -width * face.l1) return Verdict::miss;
+  const double w = sign * det - u - v, width_w = width * (face.l1 + face.l2);
+  if (w < -width_w) return Verdict::miss;
+  const bool crosses = (heights.clearly_above(k) && heights.clearly_below(next)) || (heights.clearly_below(k) && heights.clearly_above(next));
+  return crosses && u > width * face.l2 && v > width * face.l1 && w > width_w ? Verdict::hit : Verdict::unsure;
+}
+
+// the same without bands
+bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& c) {
+  const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], normal = e1.cross(e2), direction = q - p, s = p - c[0];
+  const double at_p = normal.dot(s), at_q = normal.dot(q - c[0]);
+  if (!((at_p > 0.0 && at_q < 0.0) || (at_p < 0.0 && at_q > 0.0))) return false;
+  const double sign = at_p > 0.0 ? 1.0 : -1.0;
+  const double u = sign * s.dot(direction.cross(e2)), v = sign * direction.dot(s.cross(e1));
+  return u >= 0.0 && v >= 0.0 && sign * (at_p - at_q) - u - v >= 0.0;
+}
+
+bool is_before(const Vec3& l, const Vec3& r) {
+  return std::lexicographical_compare(l.data(), l.data() + 3, r.data(), r.data() + 3);
+}
+
+TriangleCorners sorted(TriangleCorners c) {
+  std::sort(c.begin(), c.end(), is_before);
+  return c;
+}
+
+bool decide_by_distance(const TriangleCorners& first, const TriangleCorners& second, double touch) {
+  TriangleCorners a = sorted(first), b = sorted(second);
+  if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end(), is_before)) std::swap(a, b);
+  for (int k = 0; k < 3; ++k)
+    if (pierces(a[k], a[(k + 1) % 3], b) || pierces(b[k], b[(k + 1) % 3], a)) return true;
+  return features_within(a, b, touch);
+}
+
+}  // namespace
+
+double touch_distance(const TriangleCorners& a) {
+  return kTouchTolerance *
+         a[0].cwiseAbs().cwiseMax(a[1].cwiseAbs()).cwiseMax(a[2].cwiseAbs()).maxCoeff();
+}
+
+bool triangles_intersect(const TriangleCorners& a, const TriangleCorners& b) {
+  const double touch = std::max(touch_distance(a), touch_distance(b));
+  const Face face_a(a);
+  const Heights b_over_a(b, face_a, touch);
+  if (b_over_a.all_on_one_side()) return false;
+  const Face face_b(b);
+  const Heights a_over_b(a, face_b, touch);
+  if (a_over_b.all_on_one_side()) return false;
+  bool is_unsure = false;
+  for (int k = 0; k < 3; ++k) {
+    Verdict verdict = edge_against(a, k, a_over_b, face_b, touch);
+    if (verdict == Verdict::hit) return true;
+    is_unsure |= verdict == Verdict::unsure;
+    verdict = edge_against(b, k, b_over_a, face_a, touch);
+    if (verdict == Verdict::hit) return true;
+    is_unsure |= verdict == Verdict::unsure;
+  }
+  return is_unsure && decide_by_distance(a, b, touch);
+}
+
+std::optional<RayHit> intersect_line(const Vec3& origin, const Vec3& direction, const TriangleCorners& c, double slack) {
+  const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], h = direction.cross(e2), s = origin - c[0];
+  const double det = e1.dot(h);
+  const double size = e1.norm() * e2.norm() * direction.norm();
+  if (!(std::abs(det) > 1e-14 * size)) return std::nullopt;
+  const double u = s.dot(h) / det;
+  if (u < -slack || u > 1.0 + slack) return std::nullopt;
+  const Vec3 q = s.cross(e1);
+  const double v = direction.dot(q) / det;
+  if (v < -slack || u + v > 1.0 + slack) return std::nullopt;
+  return RayHit{e2.dot(q) / det, u, v};
+}
+
+}  // namespace impinge
