@@ -1,0 +1,41 @@
+// The surface files of a scene: found, kept inside the scene's folder, checked, read once for each scale.
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "engine/bodies/shape.hpp"
+#include "engine/io/toml.hpp"
+
+namespace impinge {
+
+/// One surface file as the scene names it.
+struct SurfaceFile {
+  std::string name;                ///< relative to the scene's folder
+  std::uint64_t hash = 0;          ///< of the file's bytes
+  std::size_t vertices = 0, triangles = 0;
+  std::size_t welded = 0;          ///< vertices that coincided with an earlier one and were made one with it
+};
+
+class SurfaceFiles {
+ public:
+  SurfaceFiles(std::filesystem::path folder, bool allow_outside) : folder_(std::move(folder)), allow_outside_(allow_outside) {}
+
+  /// The closed, outward surface of the file that `node` names, its vertices times `scale`. Throws InputError located at
+  /// the node, or in the file where its text is at fault.
+  MeshPointer load(const TomlNode& node, const std::string& what, double scale);
+
+  const std::vector<SurfaceFile>& files() const { return files_; }  ///< in order of first use
+
+ private:
+  std::filesystem::path find(const TomlNode& node, const std::string& what) const;
+  MeshPointer read(const std::filesystem::path& path, const TomlNode& node);
+
+  std::filesystem::path folder_;
+  bool allow_outside_ = false;
+  std::vector<SurfaceFile> files_;
+  std::map<std::string, MeshPointer> unscaled_;                    // by name
+  std::map<std::pair<std::string, double>, MeshPointer> scaled_;   // by name and scale
+};
+
+}  // namespace impinge
