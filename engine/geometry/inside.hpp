@@ -1,0 +1,17 @@
+// Whether a point lies inside a closed surface, and how deep: slow, exact in what it decides, and used by nobody but judges.
+#pragma once
+
+#include <span>
+
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace impinge {
+
+/// Winding number of a closed surface round x: the sum of the triangles' solid angles over 4π [VanOosterom83]. 1 inside,
+/// 0 outside, 1/2 on the surface; a surface that intersects itself has larger numbers where it overlaps.
+double winding_number(const Vec3& x, std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+/// Distance from x to the nearest triangle, metres.
+double distance_to_surface(const Vec3& x, std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+}  // namespace impinge
