@@ -1,0 +1,269 @@
+// Capsule against box and capsule: the segment between the cap centres against the other shape, less the radii.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/closest.hpp"
+#include "engine/narrowphase/primitive_pairs.hpp"
+
+namespace impinge {
+namespace {
+
+/// Capsules closer to parallel than this sine (about 3 degrees) are held at both ends of their common length.
+constexpr double kNearlyParallel = 0.05;
+/// As for two boxes: normals within about 14 degrees of a face's get the points above that face too.
+constexpr double kNearlyFace = 0.97;
+
+/// Features of a capsule: cap 0, cap 1, and (kind edge) places on the cylinder.
+void set_feature(Feature& kind, int& index, double t, int place) {
+  kind = t <= 0.0 || t >= 1.0 ? Feature::vertex : Feature::edge;
+  index = t <= 0.0 ? 0 : t >= 1.0 ? 1 : place;
+}
+
+// ---- box and capsule ----
+
+struct BoxSegment {
+  ContactSink& sink;
+  OrientedBox box;      ///< the first shape
+  double radius;        ///< of the second shape
+  Vec3 p0, d;           ///< the segment p0 + t d, 0 <= t <= 1, in the box's axes
+  double size;          ///< a length to compare rounding with
+
+  Vec3 at(double t) const { return p0 + t * d; }
+
+  /// Adds the contact of the capsule's point x with box point q (both in the box's axes), x by the segment's point at t;
+  /// n: unit, from the box to the segment.
+  void add(double t, const Vec3& x, const Vec3& q, const Vec3& n, Feature kind, int index, int place) const {
+    Candidate c;
+    c.normal = -(box.axes * n);
+    c.point_first = box.to_world(q);
+    c.point_second = box.to_world(x);
+    c.owner = kind == Feature::face ? NormalOwner::first : NormalOwner::neither;
+    c.kind_first = kind;
+    c.index_first = index;
+    set_feature(c.kind_second, c.index_second, t, place);
+    sink.add_new(c);
+  }
+
+  /// The two ends of the part of the segment that lies above a face. Places between the cap centres count only when
+  /// the capsule lies nearly flat (`all`: always); else it touches with a cap.
+  void add_face(int axis, int side, bool all) const {
+    double lo = 0.0, hi = 1.0;
+    int place_lo = 0, place_hi = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (k == axis || d[k] == 0.0) continue;
+      double t0 = (-box.half[k] - p0[k]) / d[k], t1 = (box.half[k] - p0[k]) / d[k];
+      int place0 = 2 * k, place1 = 2 * k + 1;
+      if (t0 > t1) {
+        std::swap(t0, t1);
+        std::swap(place0, place1);
+      }
+      if (t0 > lo) lo = t0, place_lo = place0;
+      if (t1 < hi) hi = t1, place_hi = place1;
+    }
+    if (lo > hi) return;
+    Vec3 n = Vec3::Zero();
+    n[axis] = side;
+    for (int end = 0; end < 2; ++end) {
+      const double t = end == 0 ? lo : hi;
+      if (end == 1 && (hi - lo) * d.norm() <= 1e-6 * size) break;
+      const bool cap = t <= 0.0 || t >= 1.0;
+      if (!cap && !all && std::abs(d[axis]) > kNearlyParallel * d.norm()) continue;
+      // on the cylinder the surface lies across the axis
+      const Vec3 x = at(t) - radius * (cap ? n : Vec3((n - d * (n.dot(d) / d.squaredNorm())).normalized()));
+      Vec3 q = x.cwiseMax(-box.half).cwiseMin(box.half);
+      q[axis] = side * box.half[axis];
+      add(t, x, q, n, Feature::face, 2 * axis + (side > 0 ? 1 : 0), 1 + (end == 0 ? place_lo : place_hi));
+    }
+  }
+
+  /// What lies beyond the box at the segment's point t; zero inside.
+  Vec3 excess(double t) const {
+    const Vec3 x = at(t);
+    return x - x.cwiseMax(-box.half).cwiseMin(box.half);
+  }
+
+  /// Parameter nearest to the box; the middle when an interval is. The squared distance is convex and piecewise
+  /// quadratic in t, its half derivative excess·d piecewise linear between the six planes of the box's sides.
+  double nearest_parameter() const {
+    std::array<double, 8> breaks;
+    int count = 0;
+    breaks[count++] = 0.0;
+    breaks[count++] = 1.0;
+    for (int k = 0; k < 3; ++k)
+      for (double h : {-box.half[k], box.half[k]}) {
+        if (d[k] == 0.0) continue;
+        const double t = (h - p0[k]) / d[k];
+        if (t > 0.0 && t < 1.0) breaks[count++] = t;
+      }
+    for (int i = 1; i < count; ++i)
+      for (int j = i; j > 0 && breaks[j] < breaks[j - 1]; --j) std::swap(breaks[j], breaks[j - 1]);
+    const auto slope = [&](double t) { return excess(t).dot(d); };
+    // left: where the slope stops being negative; right: where it starts being positive
+    const double zero = 1e-14 * size * size;
+    double left = 1.0, right = 0.0;
+    const auto root = [&](double t0, double s0, double t1, double s1) { return t0 + (t1 - t0) * (s0 / (s0 - s1)); };
+    double previous = slope(breaks[0]);
+    if (previous >= -zero) left = 0.0;
+    for (int i = 1; i < count && left == 1.0; ++i) {
+      const double s = slope(breaks[i]);
+      if (s >= -zero) left = s > zero ? root(breaks[i - 1], previous, breaks[i], s) : breaks[i];
+      previous = s;
+    }
+    previous = slope(breaks[count - 1]);
+    if (previous <= zero) right = 1.0;
+    for (int i = count - 2; i >= 0 && right == 0.0; --i) {
+      const double s = slope(breaks[i]);
+      if (s <= zero) right = s < -zero ? root(breaks[i], s, breaks[i + 1], previous) : breaks[i];
+      previous = s;
+    }
+    return std::clamp(0.5 * (left + right), 0.0, 1.0);
+  }
+
+  void add_end(int end) const {
+    const double t = end;
+    const Vec3 offset = excess(t);
+    const double length = offset.norm();
+    if (length <= 1e-12 * size) return;
+    const int beyond = static_cast<int>((offset.array() != 0.0).count());
+    add(t, at(t) - radius / length * offset, at(t) - offset, offset / length, beyond == 1 ? Feature::face : beyond == 2 ? Feature::edge : Feature::vertex, region(offset), 0);
+  }
+
+  /// A number for the face, edge or corner that an excess belongs to.
+  static int region(const Vec3& offset) {
+    int number = 0;
+    for (int k = 2; k >= 0; --k) number = 3 * number + (offset[k] > 0.0 ? 2 : offset[k] < 0.0 ? 0 : 1);
+    return number;
+  }
+
+  void apart(double t, const Vec3& offset, double distance) const {
+    if (distance - radius > sink.reach()) return;
+    const Vec3 n = offset / distance;
+    int axis = 0;
+    n.cwiseAbs().maxCoeff(&axis);
+    const int side = n[axis] > 0.0 ? 1 : -1;
+    const int beyond = static_cast<int>((offset.array() != 0.0).count());
+    if (beyond == 1) {
+      add_face(axis, side, false);
+      return;
+    }
+    if (t <= 0.0 || t >= 1.0)
+      add_end(t >= 1.0 ? 1 : 0);
+    else
+      add(t, at(t) - radius * n, at(t) - offset, n, beyond == 2 ? Feature::edge : Feature::vertex, region(offset), 0);
+    for (int end = 0; end < 2; ++end) {
+      const Vec3 other = excess(end);
+      if (other.norm() > 0.0 && other.normalized().dot(n) > kNearlyFace) add_end(end);
+    }
+    if (std::abs(n[axis]) > kNearlyFace) add_face(axis, side, false);
+  }
+
+  /// The segment meets the box: the direction that separates them with the least motion.
+  void through() const {
+    double best = -1e300;
+    int axis = 0, side = 1;
+    const Vec3 low = p0.cwiseMin(p0 + d), high = p0.cwiseMax(p0 + d);
+    for (int k = 0; k < 3; ++k)
+      for (int s : {1, -1}) {
+        const double separation = (s > 0 ? low[k] : -high[k]) - box.half[k];
+        if (separation > best + 1e-10 * size) {
+          best = separation;
+          axis = k;
+          side = s;
+        }
+      }
+    int edge_axis = -1;
+    Vec3 edge_normal = Vec3::Zero();
+    double best_edge = -1e300;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 cross = d.cross(Vec3::Unit(k));
+      const double length = cross.norm();
+      if (length <= 1e-5 * d.norm()) continue;
+      const Vec3 n = cross / length;
+      const double along = n.dot(p0), separation = std::abs(along) - n.cwiseAbs().dot(box.half);
+      if (separation > best_edge + 1e-10 * size) {
+        best_edge = separation;
+        edge_axis = k;
+        edge_normal = along < 0.0 ? Vec3(-n) : n;
+      }
+    }
+    if (edge_axis < 0 || best_edge <= best + 1e-10 * size + 0.02 * std::abs(best)) {
+      add_face(axis, side, true);
+      return;
+    }
+    Vec3 middle = box.half.cwiseProduct(Vec3(edge_normal.array().sign().matrix()));
+    middle[edge_axis] = 0.0;
+    const Vec3 reach = box.half[edge_axis] * Vec3::Unit(edge_axis);
+    const ClosestOnSegments closest = closest_on_segments(p0, p0 + d, middle - reach, middle + reach);
+    add(closest.s, closest.p - radius * edge_normal, closest.q, edge_normal, Feature::edge, region(middle), 0);
+  }
+};
+
+}  // namespace
+
+void box_capsule(ContactSink& sink) {
+  const OrientedBox box = world_box(sink.first());
+  const WorldSegment axis = world_axis(sink.second());
+  const Vec3 p0 = box.to_local(axis.p0);
+  const BoxSegment test{sink, box, std::get<Capsule>(*sink.second().shape).radius, p0, box.to_local(axis.p1) - p0,
+                        box.half.sum() + (axis.p1 - axis.p0).norm()};
+  const double t = test.nearest_parameter();
+  const Vec3 offset = test.excess(t);
+  const double distance = offset.norm();
+  if (distance > 1e-12 * test.size)
+    test.apart(t, offset, distance);
+  else
+    test.through();
+}
+
+void capsule_capsule(ContactSink& sink) {
+  const WorldSegment a = world_axis(sink.first()), b = world_axis(sink.second());
+  const double radius_a = std::get<Capsule>(*sink.first().shape).radius, radius_b = std::get<Capsule>(*sink.second().shape).radius;
+  const Vec3 u = a.p1 - a.p0, v = b.p1 - b.p0;
+  const ClosestOnSegments closest = closest_on_segments(a.p0, a.p1, b.p0, b.p1);
+  const double size = u.norm() + v.norm() + radius_a + radius_b;
+
+  // where the axes meet, the normal is across both and points from the middle of b to that of a
+  const Vec3 offset = closest.p - closest.q;
+  Vec3 normal = offset.stableNormalized();
+  if (offset.norm() <= 1e-12 * size) {
+    const Vec3 cross = u.cross(v);
+    normal = cross.norm() > 1e-9 * u.norm() * v.norm() ? Vec3(cross.normalized()) : Vec3(sink.first().pose.rotation.col(0));
+    if (normal.dot(sink.first().pose.position - sink.second().pose.position) < 0.0) normal = -normal;
+  }
+  const auto add = [&](double s, double t, const Vec3& p, const Vec3& q, const Vec3& n, int place) {
+    Candidate c;
+    c.normal = n;
+    c.point_first = p - radius_a * n;
+    c.point_second = q + radius_b * n;
+    set_feature(c.kind_first, c.index_first, s, place);
+    set_feature(c.kind_second, c.index_second, t, place);
+    sink.add_new(c);
+  };
+
+  const double sine_scale = u.norm() * v.norm();
+  bool held_at_ends = false;
+  if (sine_scale > 0.0 && u.cross(v).norm() < kNearlyParallel * sine_scale) {
+    // the common length, on a's axis
+    double lo = u.dot(b.p0 - a.p0) / u.squaredNorm(), hi = u.dot(b.p1 - a.p0) / u.squaredNorm();
+    if (lo > hi) std::swap(lo, hi);
+    lo = std::max(lo, 0.0);
+    hi = std::min(hi, 1.0);
+    if ((hi - lo) * u.norm() > 1e-6 * size) {
+      double nearest_end = 1e300;
+      for (int end = 0; end < 2; ++end) {
+        const double s = end == 0 ? lo : hi;
+        const Vec3 p = s <= 0.0 ? a.p0 : s >= 1.0 ? a.p1 : Vec3(a.p0 + s * u);
+        const double t = closest_on_segment(p, b.p0, b.p1);
+        const Vec3 q = t <= 0.0 ? b.p0 : t >= 1.0 ? b.p1 : Vec3(b.p0 + t * v);
+        const Vec3 between = p - q;
+        const Vec3 n = between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal;
+        add(s, t, p, q, n, 1 + end);
+        nearest_end = std::min(nearest_end, between.norm());
+      }
+      held_at_ends = nearest_end <= offset.norm() + 1e-9 * size;
+    }
+  }
+  if (!held_at_ends) add(closest.s, closest.t, closest.p, closest.q, normal, 0);
+}
+
+}  // namespace impinge

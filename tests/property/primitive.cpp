@@ -1,0 +1,242 @@
+// What every exact test must do, over random poses of every pair: contracts, symmetry, invariance, and distances against
+// an independent solver.
+#include <catch2/catch.hpp>
+
+#include <set>
+
+#include "tests/support/shapes.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+Shape random_shape(Random& r, int kind) {
+  switch (kind) {
+    case 0: return Plane{r.direction(), 0.3 * r.sym()};
+    case 1: return Sphere{r.in(0.2, 0.8)};
+    case 2: return Box{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
+    case 3: return Capsule{r.in(0.1, 0.4), r.in(0.1, 0.8)};
+    default: return make_surface(r.below(2) ? icosphere(1, r.in(0.4, 0.8)) : gridded_box({r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8)}, 2));
+  }
+}
+
+/// A convex set by its projection: the point of the set nearest to x.
+struct Projection {
+  Pose pose;
+  Shape shape;
+  Vec3 operator()(const Vec3& x) const {
+    const Vec3 l = pose.apply_inverse(x);
+    if (const Box* box = std::get_if<Box>(&shape)) return pose.apply(l.cwiseMax(-box->half).cwiseMin(box->half));
+    if (const Capsule* c = std::get_if<Capsule>(&shape)) return pose.apply({0.0, std::clamp(l.y(), -c->half_length, c->half_length), 0.0});
+    return pose.position;
+  }
+  double radius() const {
+    if (const Sphere* s = std::get_if<Sphere>(&shape)) return s->radius;
+    if (const Capsule* c = std::get_if<Capsule>(&shape)) return c->radius;
+    return 0.0;
+  }
+};
+
+/// Distance of the two cores (box, segment, point): accelerated projected gradient with restart on |x - y|²/2 over the
+/// product of the two convex sets.
+double core_distance(const Projection& a, const Projection& b) {
+  Vec3 x = a.pose.position, y = b.pose.position, xm = x, ym = y;
+  double momentum = 1.0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 g = xm - ym;
+    const Vec3 xn = a(xm - 0.5 * g), yn = b(ym + 0.5 * g);
+    if ((xm - xn).dot(xn - x) + (ym - yn).dot(yn - y) > 0.0) momentum = 1.0;
+    const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * momentum * momentum));
+    const double beta = (momentum - 1.0) / next;
+    momentum = next;
+    xm = xn + beta * (xn - x);
+    ym = yn + beta * (yn - y);
+    x = xn;
+    y = yn;
+  }
+  return (x - y).norm();
+}
+
+void check_contract(const std::vector<Collision>& contacts, const Bodies& bodies, int a, int b, const ContactQuery& query) {
+  std::set<std::uint64_t> keys;
+  for (const Collision& c : contacts) {
+    REQUIRE(c.body_a == a);
+    REQUIRE(c.body_b == b);
+    REQUIRE(c.point_a.allFinite());
+    REQUIRE(c.point_b.allFinite());
+    REQUIRE(c.normal.allFinite());
+    REQUIRE(c.normal.norm() == Approx(1.0).epsilon(1e-12));
+    REQUIRE(c.gap == Approx(c.normal.dot(c.point_a - c.point_b)).margin(1e-13));
+    REQUIRE((c.triangle_a >= 0) == is_mesh(*bodies.colliders()[a].shape));
+    REQUIRE((c.triangle_b >= 0) == is_mesh(*bodies.colliders()[b].shape));
+    REQUIRE((c.normal_owner == -1 || c.normal_owner == a || c.normal_owner == b));
+    REQUIRE(c.gap <= (query.proximity ? query.activation : 0.0));
+    REQUIRE(keys.insert(c.feature).second);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("exact contacts keep their contract in every pair and pose") {
+  Random r(7);
+  int found = 0;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) {
+      if (i == 4 || j == 4) continue;
+      int pairs = 0;
+      for (int k = 0; k < 150; ++k) {
+        Bodies bodies;
+        const Shape sa = random_shape(r, i), sb = random_shape(r, j);
+        REQUIRE(is_pair_supported(sa, sb));
+        const Pose pa = i == 0 ? Pose{} : random_pose(r, 0.7), pb = j == 0 ? Pose{} : random_pose(r, 0.7);
+        bodies.add(sa, pa);
+        bodies.add(sb, pb);
+        bodies.add(sa, pa);  // body 2 repeats body 0, so that pair (1, 2) is the pair swapped
+        const ContactQuery query{k % 3 != 0, 0.05, 0.0};
+        const auto contacts = bodies.contacts(0, 1, query);
+        INFO(shape_name(sa) << " " << shape_name(sb) << " case " << k);
+        check_contract(contacts, bodies, 0, 1, query);
+        pairs += contacts.empty() ? 0 : 1;
+
+        const auto swapped = bodies.contacts(1, 2, query);
+        REQUIRE(swapped.size() == contacts.size());
+        // the pair swapped: the same gaps, opposite normals
+        for (const Collision& c : contacts) {
+          bool same = false;
+          for (const Collision& s : swapped)
+            same = same || (std::abs(s.gap - c.gap) < 1e-12 && (s.normal + c.normal).norm() < 1e-9 &&
+                            (s.point_b - c.point_a).norm() < 1e-9 && (s.point_a - c.point_b).norm() < 1e-9);
+          REQUIRE(same);
+        }
+
+        // the scene moved as a whole: the same contacts
+        const Pose move = random_pose(r, 2.0);
+        Bodies moved;
+        moved.add(sa, then(move, pa));
+        moved.add(sb, then(move, pb));
+        const auto there = moved.contacts(0, 1, query);
+        REQUIRE(there.size() == contacts.size());
+        for (std::size_t n = 0; n < contacts.size(); ++n) {
+          REQUIRE(std::abs(there[n].gap - contacts[n].gap) < 1e-12);
+          REQUIRE((there[n].normal - move.rotation * contacts[n].normal).norm() < 1e-9);
+          REQUIRE(there[n].feature == contacts[n].feature);
+          REQUIRE((there[n].point_a - move.apply(contacts[n].point_a)).norm() < 1e-9);
+        }
+      }
+      found += pairs;
+      INFO("pair " << i << " " << j);
+      REQUIRE((pairs > 15 || (i == 0 && j == 0)));
+    }
+  REQUIRE(found > 1000);
+}
+
+TEST_CASE("gaps of separated exact shapes are their distances") {
+  Random r(11);
+  int apart[5][5] = {};
+  for (int i = 1; i < 4; ++i)
+    for (int j = 1; j < 4; ++j)
+      for (int k = 0; k < 250; ++k) {
+        Bodies bodies;
+        const Projection a{random_pose(r, 1.0), random_shape(r, i)}, b{random_pose(r, 1.0), random_shape(r, j)};
+        bodies.add(a.shape, a.pose);
+        bodies.add(b.shape, b.pose);
+        const double distance = core_distance(a, b);
+        if (distance < 1e-6) continue;
+        const double gap = distance - a.radius() - b.radius();
+        INFO(shape_name(a.shape) << " " << shape_name(b.shape) << " case " << k << " distance " << distance);
+        const auto contacts = bodies.contacts(0, 1, {true, 10.0, 0.0});
+        REQUIRE(!contacts.empty());
+        REQUIRE(std::abs(smallest_gap(contacts) - gap) < 1e-8);
+        if (gap > 0.0) {
+          ++apart[i][j];
+          // the nearest points lie on the surfaces, all others on or (the far cap of a tilted capsule) below them
+          for (const Collision& c : contacts) {
+            const double off_a = (a(c.point_a) - c.point_a).norm() - a.radius(), off_b = (b(c.point_b) - c.point_b).norm() - b.radius();
+            REQUIRE(off_a < 1e-9);
+            REQUIRE(off_b < 1e-9);
+            if (c.gap < gap + 1e-12) {
+              REQUIRE(off_a > -1e-9);
+              REQUIRE(off_b > -1e-9);
+            }
+          }
+          REQUIRE(bodies.contacts(0, 1, {true, 0.999 * gap, 0.0}).empty());
+          REQUIRE(bodies.contacts(0, 1, {false, 10.0, 0.0}).empty());
+        }
+      }
+  for (int i = 1; i < 4; ++i)
+    for (int j = 1; j < 4; ++j) REQUIRE(apart[i][j] > 20);
+}
+
+TEST_CASE("overlapping boxes are as deep as the shortest way out") {
+  // the depth of convex bodies is the minimum over directions of their overlap along it; sampled densely and refined
+  Random r(13);
+  int overlapping = 0, crossings = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Box a{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))}, b{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
+    const Pose pa = random_pose(r, 0.6), pb = random_pose(r, 0.6);
+    const auto overlap = [&](const Vec3& n) {
+      return (pa.rotation.transpose() * n).cwiseAbs().dot(a.half) + (pb.rotation.transpose() * n).cwiseAbs().dot(b.half) -
+             n.dot(pa.position - pb.position);
+    };
+    double depth = 1e300;
+    Vec3 way = Vec3::UnitX();
+    for (int i = 0; i < 4000; ++i) {
+      const Vec3 n = r.direction();
+      if (overlap(n) < depth) depth = overlap(way = n);
+    }
+    for (double step = 0.05; step > 1e-10; step *= 0.7)
+      for (int i = 0; i < 40; ++i) {
+        const Vec3 n = (way + step * r.vector()).normalized();
+        if (overlap(n) < depth) depth = overlap(way = n);
+      }
+    if (depth < 1e-3) continue;
+    ++overlapping;
+    Bodies bodies;
+    bodies.add(a, pa);
+    bodies.add(b, pb);
+    const auto contacts = bodies.contacts(0, 1, {false, 0.0, 0.0});
+    INFO("case " << k << " depth " << depth);
+    REQUIRE(!contacts.empty());
+    // a face is preferred to a crossing that is less deep by up to 2 %, and clipped away corners may be the deepest
+    REQUIRE(-smallest_gap(contacts) < 1.021 * depth + 1e-6);
+    REQUIRE(-smallest_gap(contacts) > 0.0);
+    for (const Collision& c : contacts) {
+      REQUIRE(overlap(c.normal) < 1.08 * depth + 1e-6);
+      if (c.normal_owner == -1) ++crossings;
+    }
+  }
+  REQUIRE(overlapping > 100);
+  REQUIRE(crossings > 5);
+}
+
+TEST_CASE("the smallest gap changes continuously as shapes move into each other") {
+  Random r(17);
+  for (int i = 1; i < 4; ++i)
+    for (int j = 1; j < 4; ++j)
+      for (int k = 0; k < 40; ++k) {
+        const Shape sa = random_shape(r, i), sb = random_shape(r, j);
+        Pose pa = random_pose(r, 0.0), pb = random_pose(r, 0.0);
+        const Vec3 way = r.direction();
+        Bodies bodies;
+        bodies.add(sa, pa);
+        bodies.add(sb, pb);
+        double before = 0.0, touched = 0.0;
+        bool first = true;
+        const double step = 2e-4;
+        // from afar until 5 mm deep: deeper the nearest way out may jump to another face
+        for (double s = 3.0; s > 0.0; s -= step) {
+          pa.position = s * way;
+          bodies.place(0, pa);
+          const double gap = smallest_gap(bodies.contacts(0, 1, {true, 0.02, 0.0}));
+          if (!std::isfinite(gap)) continue;
+          INFO(shape_name(sa) << " " << shape_name(sb) << " case " << k << " at " << s);
+          if (!first) REQUIRE(std::abs(gap - before) < 1.5 * step);
+          first = false;
+          before = gap;
+          touched = std::min(touched, gap);
+          if (gap < -0.005) break;
+        }
+        REQUIRE(touched < -0.004);
+      }
+}
