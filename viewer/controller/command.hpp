@@ -1,0 +1,40 @@
+// The commands that change something between frames; one grammar for script files, logs and consoles.
+//
+//   set PATH VALUE...                           any parameter that may change while running
+//   layer +NAME -NAME ...                       debug layers on and off
+//   camera eye X Y Z | target X Y Z | orbit YAW PITCH | pan X Y | zoom FACTOR | fov DEGREES | fit
+#pragma once
+
+#include <span>
+#include <variant>
+
+#include "engine/core/parameter.hpp"
+#include "viewer/controller/text_place.hpp"
+
+namespace impinge {
+
+struct SetCommand {
+  std::string path;
+  ParameterValue value;
+};
+struct LayerCommand {
+  std::vector<std::pair<std::string, bool>> changes;  ///< name, on
+};
+struct CameraCommand {
+  enum Verb { eye, target, orbit, pan, zoom, fov, fit };
+  Verb verb = eye;
+  Vec3 value = Vec3::Zero();  ///< as many numbers as the verb has, the rest 0; angles in degrees
+};
+using Command = std::variant<SetCommand, LayerCommand, CameraCommand>;
+
+/// Reads a command from the words of a line and checks every name and value against the rows. Throws InputError at the
+/// word that is wrong. `first_frame`: the command takes effect with frame 0, when every parameter may still be set.
+Command parse_command(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame);
+
+/// The command as a line that parse_command reads back exactly.
+std::string format_command(const Command& command);
+
+/// The row of a parameter that a script names, or an error at the word with the nearest name.
+const Parameter& find_row(const PlacedText& word, const ParameterSet& rows, bool first_frame);
+
+}  // namespace impinge

@@ -1,0 +1,39 @@
+// Conditions over named figures: `max_penetration_m > 1e-3 && contacts >= 2 * groups`.
+//
+//   or      = and { "||" and }          compare = sum [ ( < <= > >= == != ) sum ]
+//   and     = not { "&&" not }          sum     = product { ( + - ) product }
+//   not     = "!" not | compare         product = unary { ( * / ) unary }
+//                                       unary   = "-" unary | number | name | "(" or ")"
+#pragma once
+
+#include <span>
+
+#include "viewer/controller/text_place.hpp"
+
+namespace impinge {
+
+class Expression {
+ public:
+  /// `names` are the figures there are, by position in `values` below. Throws InputError at the first word that is wrong.
+  Expression(const PlacedText& text, const std::vector<std::string>& names);
+
+  /// Truth is 1, falsehood 0. Comparisons with NaN are false.
+  double evaluate(std::span<const double> values) const;
+  bool holds(std::span<const double> values) const { return evaluate(values) != 0.0; }
+  const std::string& text() const { return text_; }
+  /// The named figures with their values, "contacts = 12, groups = 3": for messages.
+  std::string describe(std::span<const double> values, const std::vector<std::string>& names) const;
+
+  enum class Operation { number, name, negate, logical_not, add, subtract, multiply, divide, less, less_equal, greater, greater_equal, equal, unequal, logical_and, logical_or };
+  struct Step {
+    Operation operation;
+    double number = 0.0;  ///< of a number
+    int name = -1;        ///< position of a name
+  };
+
+ private:
+  std::string text_;
+  std::vector<Step> steps_;  // postfix order
+};
+
+}  // namespace impinge

@@ -1,0 +1,71 @@
+// A script: commands with the frames at which they take effect, and what is expected. Everything in it, names and values
+// included, is checked when it is read, before frame 0.
+//
+//   at K COMMAND
+//   from A to B ramp PATH VALUE VALUE            linear, A and B inclusive
+//   expect CONDITION at K
+//   expect image FILE [tolerance N] at K
+//   break when CONDITION
+//   # comment
+#pragma once
+
+#include <filesystem>
+
+#include "viewer/controller/command.hpp"
+#include "viewer/controller/expression.hpp"
+
+namespace impinge {
+
+class Script {
+ public:
+  struct Expectation {
+    int frame = 0;
+    Expression condition;
+    std::string place;
+  };
+  struct ImageExpectation {
+    int frame = 0;
+    std::filesystem::path file;
+    int tolerance = 3;     ///< of 255, largest difference of a channel that counts as equal
+    std::string place;
+  };
+  struct Break {
+    Expression condition;
+    std::string place;
+  };
+
+  Script() = default;
+  /// `name` is the file's in messages, `folder` what image paths are relative to. Throws InputError `file:line:column`.
+  Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines, const ParameterSet& rows, const std::vector<std::string>& figures);
+
+  /// What takes effect with the frame, in the order of the lines; ramps as `set`.
+  std::vector<Command> commands_at(int frame) const;
+  int last_frame() const { return last_frame_; }  ///< the largest frame named, -1 for none
+
+  const std::vector<Expectation>& expectations() const { return expectations_; }
+  const std::vector<ImageExpectation>& images() const { return images_; }
+  const std::vector<Break>& breaks() const { return breaks_; }
+
+ private:
+  struct Timed {
+    int first = 0, last = 0;
+    Command command;                  // of `at`; the ramp's end otherwise
+    bool ramp = false;
+    ParameterValue from, to;
+  };
+  void read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows, const std::vector<std::string>& figures);
+  void read_ramp(std::span<const PlacedText> words, const ParameterSet& rows);
+  void read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder, const std::vector<std::string>& figures);
+  int read_frame(const PlacedText& word);
+
+  std::vector<Timed> timed_;
+  std::vector<Expectation> expectations_;
+  std::vector<ImageExpectation> images_;
+  std::vector<Break> breaks_;
+  int last_frame_ = -1;
+};
+
+/// The lines of a script file. Throws InputError.
+std::vector<std::string> read_lines(const std::filesystem::path& path);
+
+}  // namespace impinge
