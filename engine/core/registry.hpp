@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/error.hpp"
+
 namespace impinge {
 
 /// One registered algorithm: the name users write, one line of what it is, and how to make one.
@@ -30,6 +32,14 @@ const Entry<Interface>* find_entry(const Registry<Interface>& registry, std::str
   for (const Entry<Interface>& e : registry)
     if (e.name == name) return &e;
   return nullptr;
+}
+
+/// A new object of that name. Rows offer registered names only, so another one is a bug.
+template <class Interface>
+std::unique_ptr<Interface> make_named(const Registry<Interface>& registry, std::string_view name) {
+  const Entry<Interface>* found = find_entry(registry, name);
+  if (found == nullptr) throw InternalError("no registered algorithm is named '" + std::string(name) + "'");
+  return found->make();
 }
 
 }  // namespace impinge

@@ -43,11 +43,11 @@ void Detection::run(std::span<const RigidBody> bodies, const Parameters& paramet
 void Detection::select(const Parameters& parameters) {
   if (broad_name_ != parameters.broad_phase.method) {
     broad_name_ = parameters.broad_phase.method;
-    broad_ = find_entry(broad_phases(), broad_name_)->make();
+    broad_ = make_named(broad_phases(), broad_name_);
   }
   if (narrow_name_ != parameters.narrow_phase.method) {
     narrow_name_ = parameters.narrow_phase.method;
-    narrow_ = find_entry(narrow_phases(), narrow_name_)->make();
+    narrow_ = make_named(narrow_phases(), narrow_name_);
   }
 }
 

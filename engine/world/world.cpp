@@ -61,9 +61,9 @@ RigidBody& World::add_body(const BodyDescription& description) {
 }
 
 void World::Stages::select(const Parameters& p) {
-  if (integrator_name != p.simulation.integrator) integrator = find_entry(integrators(), integrator_name = p.simulation.integrator)->make();
-  if (response_name != p.response.method) response = find_entry(responses(), response_name = p.response.method)->make();
-  if (lcp_name != p.lcp.method) lcp = find_entry(lcp_solvers(), lcp_name = p.lcp.method)->make();
+  if (integrator_name != p.simulation.integrator) integrator = make_named(integrators(), integrator_name = p.simulation.integrator);
+  if (response_name != p.response.method) response = make_named(responses(), response_name = p.response.method);
+  if (lcp_name != p.lcp.method) lcp = make_named(lcp_solvers(), lcp_name = p.lcp.method);
 }
 
 void World::start() {
