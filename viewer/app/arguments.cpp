@@ -1,0 +1,172 @@
+#include "viewer/app/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "engine/core/error.hpp"
+#include "engine/core/parameter.hpp"
+
+namespace impinge {
+
+namespace {
+
+const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list"};
+const std::vector<std::string> kReserved = {"debug", "step", "sweep", "test", "compare", "verify"};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--judge", "--freeze", "--ids"}}, {"diff", {"--update"}}};
+
+[[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
+  throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
+}
+
+int whole(std::string_view text, const char* what, int low, int high) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
+    refuse(fmt::format("{} is '{}'", what, text), fmt::format("a whole number from {} to {} is wanted", low, high), "change it");
+  return value;
+}
+
+// before the parser sees them: words that are promised for later get a message of their own
+void refuse_reserved(const std::vector<std::string>& words) {
+  if (words.empty()) return;
+  const std::string& command = words[0];
+  if (std::find(kReserved.begin(), kReserved.end(), command) != kReserved.end())
+    refuse(fmt::format("'{}' is not part of this version", command), fmt::format("allowed: {}", fmt::join(kBuilt, ", ")), "use one of them");
+  if (command[0] != '-' && std::find(kBuilt.begin(), kBuilt.end(), command) == kBuilt.end()) {
+    std::vector<std::string> all = kBuilt;
+    all.insert(all.end(), kReserved.begin(), kReserved.end());
+    const std::string near = nearest_word(command, all);
+    refuse(fmt::format("unknown sub-command '{}'", command), fmt::format("allowed: {}", fmt::join(kBuilt, ", ")),
+           near.empty() ? "see impinge --help" : fmt::format("did you mean '{}'?", near));
+  }
+  const auto it = kReservedOptions.find(command);
+  if (it == kReservedOptions.end()) return;
+  for (const std::string& word : words)
+    for (const std::string& option : it->second)
+      if (word == option || word.rfind(option + "=", 0) == 0)
+        refuse(fmt::format("'{}' is not part of this version", option), fmt::format("see impinge {} --help", command), "leave it out");
+}
+
+// the parser's complaint on one line; for an option that isn't there, the nearest that is
+std::string complaint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const CLI::App* command = &app;
+  for (const CLI::App* sub : app.get_subcommands()) command = sub;
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (word.rfind("--", 0) != 0 || std::find(options.begin(), options.end(), name) != options.end()) continue;
+    if (const std::string near = nearest_word(name, options); !near.empty())
+      return fmt::format("command line: unknown option '{}'; options of this command are wanted; did you mean '{}'?", name, near);
+  }
+  return fmt::format("command line: {}; see impinge{} --help for what is allowed; mend the line", text, command == &app ? "" : " " + command->get_name());
+}
+
+struct Raw {
+  std::string size, frames, threads, tolerance, export_format;
+  std::string scene, script, out;
+  bool no_images = false;
+};
+
+void take_raw(const Raw& raw, Arguments& arguments) {
+  RunOptions& options = arguments.run_options;
+  options.scene = raw.scene;
+  options.script = raw.script;
+  options.out = raw.out;
+  options.images = !raw.no_images;
+  if (!raw.frames.empty()) options.frames = whole(raw.frames, "--frames", 0, 100'000'000);
+  if (!raw.threads.empty()) arguments.threads = whole(raw.threads, "--threads", 1, 4096);
+  if (!raw.tolerance.empty()) arguments.tolerance = whole(raw.tolerance, "--tolerance", 0, 255);
+  if (!raw.export_format.empty()) {
+    if (raw.export_format != "ply") refuse(fmt::format("--export is '{}'", raw.export_format), "ply is wanted", "write --export ply");
+    options.export_ply = true;
+  }
+  if (!raw.size.empty()) {
+    const std::size_t x = raw.size.find('x');
+    if (x == std::string::npos) refuse(fmt::format("--size is '{}'", raw.size), "WIDTHxHEIGHT is wanted", "write --size 1280x720");
+    options.width = whole(std::string_view(raw.size).substr(0, x), "the width in --size", 16, 8192);
+    options.height = whole(std::string_view(raw.size).substr(x + 1), "the height in --size", 16, 8192);
+  }
+  if (!arguments.video.empty() && !options.images) refuse("--video in a run without pictures", "pictures are wanted", "leave out --no-images");
+}
+
+}  // namespace
+
+Arguments parse_arguments(int count, const char* const* words) {
+  const std::vector<std::string> list(words + std::min(count, 1), words + count);
+  refuse_reserved(list);
+  Arguments arguments;
+  Raw raw;
+  CLI::App app("impinge: collisions of bodies, simulated and shown");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("impinge ") + IMPINGE_VERSION);
+
+  const auto scene_of = [&](CLI::App* command) {
+    command->add_option("SCENE", raw.scene, "scene file (TOML), or the run.toml of a run")->required();
+    command->add_option("--set", arguments.run_options.overrides, "PATH=VALUE: a parameter or a body's key, instead of the scene's")->take_all()->allow_extra_args(false);
+  };
+  const auto threads_of = [&](CLI::App* command) { command->add_option("--threads", raw.threads, "threads to use (default: all cores); changes no result"); };
+
+  CLI::App* run = app.add_subcommand("run", "simulate a scene and write its frames and figures into a folder");
+  scene_of(run);
+  run->add_option("--script", raw.script, "script file: commands by frame, and expectations");
+  run->add_option("--out", raw.out, "folder to write to (default: out/SCENE)");
+  run->add_option("--frames", raw.frames, "the last frame's number (default: 240, or the script's last if that is later)");
+  run->add_option("--size", raw.size, "WIDTHxHEIGHT of the pictures (default: 1280x720)");
+  run->add_flag("--no-images", raw.no_images, "no pictures, figures only");
+  run->add_option("--export", raw.export_format, "ply: the bodies' surfaces of each frame");
+  run->add_flag("--contacts", arguments.run_options.contacts, "write contacts.csv");
+  threads_of(run);
+  run->add_flag("--resume", arguments.run_options.resume, "continue an interrupted run in the folder");
+  run->add_option("--video", arguments.video, "video file to make of the pictures (needs ffmpeg)");
+  run->add_flag("--quiet", arguments.quiet, "say nothing but errors");
+
+  CLI::App* replay = app.add_subcommand("replay", "repeat a recorded run and check every state hash");
+  replay->add_option("DIR", arguments.a, "folder of the run")->required();
+  threads_of(replay);
+
+  CLI::App* diff = app.add_subcommand("diff", "compare two pictures or two folders of pictures");
+  diff->add_option("A", arguments.a, "PNG file or folder")->required();
+  diff->add_option("B", arguments.b, "PNG file or folder")->required();
+  diff->add_option("--out", arguments.out, "folder for three-panel pictures of the differences");
+  diff->add_option("--tolerance", raw.tolerance, "largest difference of a channel, of 255, that counts as equal (default: 3)");
+  diff->add_option("--mask", arguments.mask, "PNG: black pixels are not compared");
+
+  CLI::App* check = app.add_subcommand("check", "check a scene (and a script) and do nothing else");
+  scene_of(check);
+  check->add_option("--script", raw.script, "script file");
+
+  CLI::App* info = app.add_subcommand("info", "what of a scene is modelled and what is left out");
+  scene_of(info);
+
+  CLI::App* names = app.add_subcommand("list", "parameters, layers and algorithms there are");
+  names->add_option("TOPIC", arguments.a, "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|cases")->required();
+
+  try {
+    app.parse(count, words);
+  } catch (const CLI::CallForHelp&) {
+    const CLI::App* command = &app;
+    for (const CLI::App* sub : app.get_subcommands()) command = sub;
+    arguments.text = command->help();
+    return arguments;
+  } catch (const CLI::CallForVersion& version) {
+    arguments.text = std::string(version.what()) + "\n";
+    return arguments;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(complaint(app, error, list));
+  }
+  const std::string command = app.get_subcommands().front()->get_name();
+  arguments.kind = static_cast<Arguments::Kind>(std::find(kBuilt.begin(), kBuilt.end(), command) - kBuilt.begin());
+  if (command == "run" && raw.out.empty()) raw.out = "out/" + std::filesystem::path(raw.scene).stem().string();
+  take_raw(raw, arguments);
+  return arguments;
+}
+
+}  // namespace impinge

@@ -1,0 +1,27 @@
+// The command line as data. One place knows the parser; sub-commands get their own struct.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viewer/controller/run.hpp"
+
+namespace impinge {
+
+struct Arguments {
+  enum Kind { run, replay, diff, check, info, list, print };
+  Kind kind = print;
+  std::string text;             ///< of print: help or version
+  RunOptions run_options;       ///< run; check and info use scene and overrides
+  std::string video;            ///< run: file, "" for none
+  int threads = 0;              ///< 0: as many as the machine has cores
+  bool quiet = false;
+  std::string a, b;             ///< diff: the two sides; replay: a is the folder; list: a is the topic
+  std::string out, mask;        ///< diff
+  int tolerance = 3;            ///< diff, of 255
+};
+
+/// Throws InputError with one message about the first thing that is wrong.
+Arguments parse_arguments(int count, const char* const* words);
+
+}  // namespace impinge

@@ -1,0 +1,15 @@
+// impinge check
+#include <fmt/format.h>
+
+#include "viewer/app/commands.hpp"
+
+namespace impinge {
+
+int check_command(const Arguments& arguments) {
+  const RunOptions& options = arguments.run_options;
+  const Session session(options.scene, options.overrides, options.script);
+  fmt::print("{}: {} bodies, {} surface files, no problems found\n", options.scene.string(), session.world().bodies().size(), session.scene().surfaces.size());
+  return 0;
+}
+
+}  // namespace impinge

@@ -1,0 +1,104 @@
+// impinge list
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/broadphase/broad_phase.hpp"
+#include "engine/core/error.hpp"
+#include "engine/integrators/integrator.hpp"
+#include "engine/lcp/lcp_solver.hpp"
+#include "engine/narrowphase/narrow_phase.hpp"
+#include "engine/response/response.hpp"
+#include "viewer/app/commands.hpp"
+
+namespace impinge {
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+// characters, not bytes: units hold some beyond ASCII
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+void print_table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width(row[i]));
+  }
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line += row[i];
+      if (i + 1 < row.size()) line += std::string(widths[i] - width(row[i]) + 2, ' ');
+    }
+    fmt::print("{}\n", line);
+  }
+}
+
+template <class Interface>
+void print_registry(const Registry<Interface>& registry) {
+  std::vector<Row> rows;
+  for (const Entry<Interface>& e : registry) rows.push_back({std::string(e.name), std::string(e.doc)});
+  print_table(rows);
+}
+
+std::string range_of(const Parameter& row) {
+  const bool number = row.kind == ParameterKind::integer || row.kind == ParameterKind::real || row.kind == ParameterKind::vector3;
+  if (number) return fmt::format("[{}, {}]", shortest(row.range.low), shortest(row.range.high));
+  return row.names.empty() ? "" : fmt::format("{}", fmt::join(row.names, " | "));
+}
+
+void print_parameters() {
+  constexpr const char* kKinds[] = {"boolean", "integer", "real", "text", "choice", "vector", "list"};
+  // a world with one body, so that the rows of bodies are shown as well
+  World world;
+  FrameView view;
+  ParameterSet rows;
+  world.parameters.bind(rows);
+  view.bind(rows);
+  BodyDescription body;
+  body.name = "NAME";
+  body.shape = Sphere{1.0};
+  world.add_body(body);
+  world.bind_bodies(rows);
+  std::vector<Row> table = {{"path", "kind", "unit", "range", "default", "meaning"}};
+  for (const Parameter& row : rows.all()) {
+    const bool of_body = row.path.rfind("body.", 0) == 0;
+    table.push_back({row.path, kKinds[static_cast<int>(row.kind)], row.unit, range_of(row), of_body ? "" : format_value(row.initial), row.doc});
+  }
+  print_table(table);
+}
+
+void print_layers() {
+  FrameView view;
+  ParameterSet rows;
+  view.bind(rows);
+  for (const std::string& name : rows.find("view.layers")->names) fmt::print("{}\n", name);
+}
+
+const std::vector<std::string> kTopics = {"parameters", "layers", "responses", "lcp_solvers", "broad_phases", "narrow_phases", "materials", "integrators", "cases"};
+
+}  // namespace
+
+int list_command(const Arguments& arguments) {
+  const std::string& topic = arguments.a;
+  if (topic == "parameters") print_parameters();
+  else if (topic == "layers") print_layers();
+  else if (topic == "responses") print_registry(responses());
+  else if (topic == "lcp_solvers") print_registry(lcp_solvers());
+  else if (topic == "broad_phases") print_registry(broad_phases());
+  else if (topic == "narrow_phases") print_registry(narrow_phases());
+  else if (topic == "integrators") print_registry(integrators());
+  else if (topic == "materials") fmt::print("none in this version: bodies are rigid\n");
+  else if (topic == "cases") fmt::print("none in this version\n");
+  else {
+    const std::string near = nearest_word(topic, kTopics);
+    throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", topic, fmt::join(kTopics, ", "), near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
+  }
+  return 0;
+}
+
+}  // namespace impinge

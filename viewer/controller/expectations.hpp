@@ -1,0 +1,30 @@
+// `expect` and `break` lines of a script, judged frame by frame.
+#pragma once
+
+#include <functional>
+
+#include "viewer/controller/script.hpp"
+
+namespace impinge {
+
+class Expectations {
+ public:
+  /// `report` gets one line for each failure. The script must outlive this.
+  Expectations(const Script& script, std::function<void(const std::string&)> report) : script_(script), report_(std::move(report)) {}
+
+  /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is compared.
+  void check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture);
+  bool needs_picture(int frame) const;
+  /// Whether a `break` holds; says which.
+  bool breaks(int frame, std::span<const double> figures) const;
+  /// Says how many `expect` lines lie after the last frame.
+  void note_unchecked(int last_frame) const;
+  int failures() const { return failures_; }
+
+ private:
+  const Script& script_;
+  std::function<void(const std::string&)> report_;
+  int failures_ = 0;
+};
+
+}  // namespace impinge

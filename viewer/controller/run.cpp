@@ -1,0 +1,91 @@
+#include "viewer/controller/run.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/core/error.hpp"
+#include "viewer/controller/expectations.hpp"
+#include "viewer/controller/run_folder.hpp"
+#include "viewer/controller/snapshot_file.hpp"
+
+namespace impinge {
+
+namespace {
+
+constexpr int kSnapshotEvery = 10;  // frames: a resumed run repeats fewer than this
+
+RunRecord record_of(const RunOptions& options, const Session& session, int last_frame) {
+  RunRecord record = session.run_record();
+  record.frames = last_frame;
+  record.images = options.images;
+  record.contacts = options.contacts;
+  record.export_ply = options.export_ply;
+  record.width = options.width;
+  record.height = options.height;
+  return record;
+}
+
+}  // namespace
+
+int RunResult::exit_code() const {
+  if (!diverged.empty()) return 3;
+  if (interrupted) return 130;
+  return failures > 0 || stopped_by_break ? 1 : 0;
+}
+
+RunResult run(const RunOptions& options, const RunWatcher& watcher) {
+  Session session(options.scene, options.overrides, options.script);
+  const int last_frame = options.frames.value_or(session.default_last_frame());
+  if (!options.images && !session.script().images().empty())
+    throw InputError(session.script().images().front().place + ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
+  const RunRecord record = record_of(options, session, last_frame);
+  FrameView& view = session.view();
+  if (options.images) view.open(options.width, options.height, session.scene().path.filename().string());
+  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume);
+
+  RunResult result;
+  Expectations expectations(session.script(), watcher.message);
+  const auto judge = [&](int frame, std::span<const double> figures) {
+    expectations.check(frame, figures, [&] { return folder.picture(frame); });
+    if (!expectations.breaks(frame, figures)) return false;
+    result.stopped_by_break = true;
+    return true;
+  };
+
+  bool stop = false;
+  if (folder.resume_frame() >= 0) {
+    result.resumed_from = folder.resume_frame();
+    restore_snapshot(folder.snapshot(result.resumed_from), session);
+    for (int frame = 0; frame <= result.resumed_from && !stop; ++frame) stop = judge(frame, folder.kept()[frame].figures);
+  }
+  const auto interrupted = [&] { return watcher.interrupted != nullptr && watcher.interrupted->load(); };
+  while (!stop && session.frame() < last_frame && !interrupted()) {
+    std::vector<Command> commands;
+    try {
+      commands = session.advance();
+    } catch (const DivergenceError& error) {
+      result.diverged = error.what();
+      break;
+    }
+    const int frame = session.frame();
+    const double render_ms = options.images ? view.draw(session.record(), commands, folder.picture(frame)) : 0.0;
+    folder.add_frame(session.record(), commands, render_ms);
+    if (watcher.frame) watcher.frame(session.record().stats, last_frame);
+    if (options.images && expectations.needs_picture(frame)) view.finish();
+    stop = judge(frame, figure_values(session.record().stats, render_ms));
+    if (frame % kSnapshotEvery == 0 || frame == last_frame || stop || interrupted()) {
+      view.finish();
+      folder.add_snapshot(session);
+    }
+  }
+  view.finish();
+  result.last_frame = session.frame();
+  result.interrupted = session.frame() < last_frame && !stop && result.diverged.empty();
+  result.failures = expectations.failures();
+  if (result.diverged.empty() && !result.interrupted) {
+    expectations.note_unchecked(result.last_frame);
+    folder.finish();
+  }
+  return result;
+}
+
+}  // namespace impinge

@@ -1,0 +1,41 @@
+// A run from its first frame to its last, into a run folder.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "viewer/controller/session.hpp"
+
+namespace impinge {
+
+struct RunOptions {
+  std::filesystem::path scene, script;   ///< script may be empty
+  std::filesystem::path out;
+  std::optional<int> frames;             ///< the last frame's number
+  std::vector<std::string> overrides;    ///< PATH=VALUE
+  int width = 1280, height = 720;        ///< pixels
+  bool images = true, contacts = false, export_ply = false, resume = false;
+};
+
+/// Whoever watches a run. Called in the thread of run().
+struct RunWatcher {
+  std::function<void(const FrameStats& stats, int last_frame)> frame;
+  std::function<void(const std::string& line)> message;   ///< a failed expectation, a break, a note
+  const std::atomic<bool>* interrupted = nullptr;         ///< asks to stop after the frame in work
+};
+
+struct RunResult {
+  int last_frame = -1;       ///< made
+  int resumed_from = -1;     ///< the frame of the snapshot that was continued, -1: none
+  int failures = 0;          ///< expectations not met
+  bool stopped_by_break = false;
+  bool interrupted = false;
+  std::string diverged;      ///< why, if the simulation left the finite numbers
+  int exit_code() const;
+};
+
+/// Loads and checks everything before it writes anything. Throws InputError.
+RunResult run(const RunOptions& options, const RunWatcher& watcher);
+
+}  // namespace impinge

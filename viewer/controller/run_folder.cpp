@@ -1,0 +1,181 @@
+#include "viewer/controller/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/mesh_file.hpp"
+#include "viewer/controller/contacts_table.hpp"
+#include "viewer/controller/snapshot_file.hpp"
+#include "viewer/controller/surface_export.hpp"
+
+namespace impinge {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 30;
+
+std::string six_digits(int frame) { return fmt::format("{:06}", frame); }
+
+// run.toml without its number of frames, and that number
+std::pair<std::string, int> split_frames(const std::string& run_toml) {
+  const std::size_t begin = run_toml.find("\nframes = ");
+  if (begin == std::string::npos) return {run_toml, 0};
+  const std::size_t end = std::min(run_toml.find('\n', begin + 1), run_toml.size());
+  int frames = 0;
+  std::from_chars(run_toml.data() + begin + 10, run_toml.data() + end, frames);
+  return {run_toml.substr(0, begin) + run_toml.substr(end), frames};
+}
+
+std::string read_if_there(const fs::path& path) { return fs::is_regular_file(path) ? read_file(path, kMostBytes) : ""; }
+
+// leading lines that are whole and belong to frames 0, 1, 2, ...
+std::vector<StatsLine> whole_rows(const std::string& text) {
+  std::vector<StatsLine> rows;
+  std::size_t begin = text.find('\n');
+  if (begin == std::string::npos || text.substr(0, begin) != stats_header()) return rows;
+  for (++begin; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    try {
+      StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin));
+      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16) break;
+      rows.push_back(std::move(row));
+    } catch (const InputError&) {
+      break;
+    }
+    begin = end + 1;
+  }
+  return rows;
+}
+
+// how many bytes to keep so that no line of a frame after `frame` stays; `number` finds a line's frame
+template <class Number>
+std::uint64_t bytes_up_to(const std::string& text, int frame, bool header, Number number) {
+  std::size_t begin = 0;
+  bool first = header;
+  while (begin < text.size()) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos || (!first && number(std::string_view(text).substr(begin, end - begin)) > frame)) break;
+    first = false;
+    begin = end + 1;
+  }
+  return begin;
+}
+
+int leading_number(std::string_view text) {
+  int value = std::numeric_limits<int>::max();
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+int frame_of_command(std::string_view line) { return line.substr(0, 3) == "at " ? leading_number(line.substr(3)) : std::numeric_limits<int>::max(); }
+
+AppendFile open_table(const fs::path& path, int frame, const std::string& header) {
+  const std::string text = read_if_there(path);
+  const std::uint64_t keep = frame < 0 ? 0 : bytes_up_to(text, frame, true, leading_number);
+  AppendFile file(path, keep);
+  if (keep == 0) file.append(header + "\n");
+  return file;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error.message()));
+}
+
+bool is_our_number(const fs::path& path, const char* ending) {
+  const std::string stem = path.stem().string();
+  return path.extension() == ending && stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume) : folder_(folder), run_(run) {
+  check_new(resume, run_toml);
+  if (resume) {
+    kept_ = whole_rows(read_if_there(folder_ / "stats.csv"));
+    kept_.resize(static_cast<std::size_t>(last_resumable(kept_) + 1));
+  }
+  make_folder(folder_);
+  write_file(folder_ / "run.toml", run_toml);
+  clear_markers();
+  make_folder(folder_ / "snapshots");
+  if (run_.images) make_folder(folder_ / "frames");
+  if (run_.export_ply) make_folder(folder_ / "surfaces");
+  const std::string log = read_if_there(folder_ / "commands.log");
+  commands_ = AppendFile(folder_ / "commands.log", resume_frame() < 0 ? 0 : bytes_up_to(log, resume_frame(), false, frame_of_command));
+  if (run_.contacts) contacts_ = open_table(folder_ / "contacts.csv", resume_frame(), contacts_header());
+  stats_ = open_table(folder_ / "stats.csv", resume_frame(), stats_header());
+}
+
+void RunFolder::check_new(bool resume, const std::string& run_toml) const {
+  const std::string name = folder_.string();
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status)) throw InputError(name + ": is a file; a folder is wanted; choose another --out");
+  const fs::path recorded = folder_ / "run.toml";
+  if (!fs::exists(recorded)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
+      if (entry.path().filename() != "run.toml.tmp")
+        throw InputError(fmt::format("{}: holds {} and is no run's folder; a new or empty folder is wanted; choose another --out", name, entry.path().filename().string()));
+    if (error) throw InputError(fmt::format("{}: can't be read ({}); choose another --out", name, error.message()));
+    return;
+  }
+  const auto [before, frames_before] = split_frames(read_file(recorded, kMostBytes));
+  const auto [now, frames_now] = split_frames(run_toml);
+  if (before != now) throw InputError(name + ": holds another run (its run.toml differs); a new folder or the same scene, script and settings are wanted; choose another --out");
+  if (resume && frames_now < frames_before)
+    throw InputError(fmt::format("{}: holds a run of {} frames; it can't be resumed with {}; choose another --out", name, frames_before, frames_now));
+  if (!resume && frames_now != frames_before)
+    throw InputError(fmt::format("{}: holds this run with --frames {}; it can be continued to more frames; add --resume or choose another --out", name, frames_before));
+}
+
+int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
+  int pictures = static_cast<int>(rows.size());
+  if (run_.images) {
+    int there = 0;
+    while (there < pictures && fs::exists(picture(there))) ++there;
+    pictures = there;
+  }
+  for (int frame = pictures - 1; frame >= 0; --frame)
+    if (is_valid_snapshot(snapshot(frame))) return frame;
+  return -1;
+}
+
+void RunFolder::clear_markers() const {
+  std::error_code error;
+  fs::remove(folder_ / "done", error);
+  // snapshots after the point of return belong to frames that are about to be made again
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "snapshots", error))
+    if (is_our_number(entry.path(), ".bin") && leading_number(entry.path().stem().string()) > resume_frame()) fs::remove(entry.path(), error);
+}
+
+fs::path RunFolder::snapshot(int frame) const { return folder_ / "snapshots" / (six_digits(frame) + ".bin"); }
+fs::path RunFolder::picture(int frame) const { return folder_ / "frames" / (six_digits(frame) + ".png"); }
+
+void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, double render_ms) {
+  const int frame = record.stats.frame;
+  if (run_.export_ply) {
+    const fs::path surfaces = folder_ / "surfaces" / six_digits(frame);
+    make_folder(surfaces);
+    export_surfaces(surfaces, record);
+  }
+  std::string log;
+  for (const Command& command : commands) log += fmt::format("at {} {}\n", frame, format_command(command));
+  commands_.append(log);
+  if (run_.contacts) contacts_.append(contacts_rows(record));
+  stats_.append(stats_row(record.stats, render_ms) + "\n");
+}
+
+void RunFolder::add_snapshot(const Session& session) { write_snapshot(snapshot(session.frame()), session); }
+
+void RunFolder::finish() { write_file(folder_ / "done", "done\n"); }
+
+}  // namespace impinge

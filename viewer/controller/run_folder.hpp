@@ -1,0 +1,47 @@
+// The folder of a run, DESIGN §5: what is in it, when it may be written to, and where an interrupted run goes on.
+//
+// A folder may be new or empty, or hold a run with the same run.toml, which is then made again in place. Any other folder
+// is refused. With `resume` a run that differs at most in a larger number of frames is continued. Foreign files stay.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "engine/io/append_file.hpp"
+#include "viewer/controller/command.hpp"
+#include "viewer/controller/session.hpp"
+#include "viewer/controller/stats_table.hpp"
+
+namespace impinge {
+
+class RunFolder {
+ public:
+  /// Throws InputError, with nothing written, if the folder can't be taken; otherwise it holds run.toml and the files that
+  /// grow, cut back to the last frame from which the run can go on.
+  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume);
+
+  /// Rows of the frames that are kept, 0 to resume_frame(); empty for a new run.
+  const std::vector<StatsLine>& kept() const { return kept_; }
+  int resume_frame() const { return static_cast<int>(kept_.size()) - 1; }
+  std::filesystem::path snapshot(int frame) const;
+  std::filesystem::path picture(int frame) const;
+  const std::filesystem::path& path() const { return folder_; }
+
+  /// Everything of a frame but its picture; the row of stats.csv comes last.
+  void add_frame(const StepRecord& record, std::span<const Command> commands, double render_ms);
+  /// To be called when all pictures up to the frame are on the disk.
+  void add_snapshot(const Session& session);
+  void finish();
+
+ private:
+  void check_new(bool resume, const std::string& run_toml) const;
+  int last_resumable(const std::vector<StatsLine>& rows) const;
+  void clear_markers() const;
+
+  std::filesystem::path folder_;
+  RunRecord run_;
+  std::vector<StatsLine> kept_;
+  AppendFile stats_, contacts_, commands_;
+};
+
+}  // namespace impinge

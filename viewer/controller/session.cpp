@@ -1,0 +1,154 @@
+#include "viewer/controller/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+#include "viewer/controller/stats_table.hpp"
+
+namespace impinge {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kDefaultLastFrame = 240;
+
+void put_text(ByteWriter& out, const std::string& text) {
+  out.put<std::uint64_t>(text.size());
+  for (const char c : text) out.put(c);
+}
+
+std::string get_text(ByteReader& in) {
+  std::string text;
+  for (auto n = in.get<std::uint64_t>(); n > 0; --n) text += in.get<char>();
+  return text;
+}
+
+void put_value(ByteWriter& out, const ParameterValue& value) {
+  struct Writer {
+    ByteWriter& out;
+    void operator()(bool v) const { out.put(v); }
+    void operator()(std::int64_t v) const { out.put(v); }
+    void operator()(double v) const { out.put(v); }
+    void operator()(const std::string& v) const { put_text(out, v); }
+    void operator()(const Vec3& v) const { out.put(v); }
+    void operator()(const std::vector<std::string>& v) const {
+      out.put<std::uint64_t>(v.size());
+      for (const std::string& text : v) put_text(out, text);
+    }
+  };
+  std::visit(Writer{out}, value);
+}
+
+// of the kind that `like` has
+ParameterValue get_value(ByteReader& in, const ParameterValue& like) {
+  struct Reader {
+    ByteReader& in;
+    ParameterValue operator()(bool) const { return in.get<bool>(); }
+    ParameterValue operator()(std::int64_t) const { return in.get<std::int64_t>(); }
+    ParameterValue operator()(double) const { return in.get<double>(); }
+    ParameterValue operator()(const std::string&) const { return get_text(in); }
+    ParameterValue operator()(const Vec3&) const { return in.get_vec3(); }
+    ParameterValue operator()(const std::vector<std::string>&) const {
+      std::vector<std::string> texts;
+      for (auto n = in.get<std::uint64_t>(); n > 0; --n) texts.push_back(get_text(in));
+      return texts;
+    }
+  };
+  return std::visit(Reader{in}, like);
+}
+
+}  // namespace
+
+Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file) {
+  world_.parameters.bind(rows_);
+  view_.bind(rows_);
+  scene_ = load_scene(scene_file, overrides, world_, rows_);
+  fs::path folder = script_file.parent_path();
+  if (!script_file.empty()) {
+    script_name_ = script_file.string();
+    script_lines_ = read_lines(script_file);
+  } else if (scene_.run) {
+    script_name_ = scene_.run->script_file;
+    script_lines_ = scene_.run->script;
+    folder = fs::path(script_name_).parent_path();
+  }
+  script_ = Script(script_name_, folder, script_lines_, rows_, figure_names());
+  start();
+}
+
+void Session::start() {
+  try {
+    world_.start();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", scene_.path.string(), error.what()));
+  }
+}
+
+std::vector<Command> Session::advance() {
+  const std::vector<Command> commands = script_.commands_at(frame_ + 1);
+  for (const Command& command : commands) apply(command);
+  if (frame_ < 0) {
+    if (!commands.empty()) start();  // the constructor started the world without them
+  } else {
+    if (!commands.empty()) world_.parameters_changed();
+    world_.step();
+  }
+  ++frame_;
+  return commands;
+}
+
+void Session::apply(const Command& command) {
+  if (const auto* set = std::get_if<SetCommand>(&command)) {
+    rows_.find(set->path)->set(set->value);
+  } else if (const auto* layer = std::get_if<LayerCommand>(&command)) {
+    const Parameter& row = *rows_.find("view.layers");
+    auto names = std::get<std::vector<std::string>>(row.get());
+    for (const auto& [name, on] : layer->changes) {
+      std::erase(names, name);
+      if (on) names.push_back(name);
+    }
+    row.set(names);
+  } else {
+    view_.move_camera(std::get<CameraCommand>(command), world_);
+  }
+}
+
+int Session::default_last_frame() const { return scene_.run ? scene_.run->frames : std::max(kDefaultLastFrame, script_.last_frame()); }
+
+RunRecord Session::run_record() const {
+  RunRecord run;
+  if (scene_.run) run = *scene_.run;
+  run.version = IMPINGE_VERSION;
+  run.scene = scene_.run ? scene_.run->scene : fs::absolute(scene_.path).lexically_normal().string();
+  run.folder = scene_.run ? scene_.run->folder : fs::absolute(scene_.folder).lexically_normal().string();
+  run.script_file = script_name_.empty() ? "" : fs::absolute(script_name_).lexically_normal().string();
+  run.script = script_lines_;
+  return run;
+}
+
+void Session::save(ByteWriter& out) const {
+  out.put(frame_);
+  out.put<std::uint64_t>(rows_.all().size());
+  for (const Parameter& row : rows_.all()) {
+    put_text(out, row.path);
+    put_value(out, row.get());
+  }
+  world_.save(out);
+}
+
+void Session::restore(ByteReader& in) {
+  const int frame = in.get<int>();
+  if (in.get<std::uint64_t>() != rows_.all().size()) throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
+  for (const Parameter& row : rows_.all()) {
+    if (get_text(in) != row.path) throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
+    row.set(get_value(in, row.initial));
+  }
+  world_.parameters_changed();
+  // after the rows: setting a body's row derives state from it, and the snapshot's bits must stand
+  world_.restore(in);
+  frame_ = frame;
+}
+
+}  // namespace impinge

@@ -1,0 +1,58 @@
+// A scene with its script, made frame by frame: the one place where commands meet the world and the view.
+#pragma once
+
+#include <memory>
+
+#include "engine/io/scene.hpp"
+#include "viewer/controller/script.hpp"
+#include "viewer/controller/frame_view.hpp"
+
+namespace impinge {
+
+class ByteReader;
+class ByteWriter;
+
+class Session {
+ public:
+  /// Loads and checks everything. `script_file` may be empty: then a run.toml's own script is used, if the scene is one.
+  /// Throws InputError.
+  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides, const std::filesystem::path& script_file);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Applies the next frame's commands, then makes that frame: the first call gives frame 0. Returns what was applied.
+  /// Throws DivergenceError.
+  std::vector<Command> advance();
+
+  /// The last frame to make when nobody says otherwise: a run.toml's, or the larger of 240 and the script's last.
+  int default_last_frame() const;
+
+  /// World, parameters and view, so that a session with the same scene and script continues bit for bit.
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
+
+  int frame() const { return frame_; }  ///< the last one made, -1 before the first
+  const World& world() const { return world_; }
+  const StepRecord& record() const { return world_.record(); }
+  const ParameterSet& rows() const { return rows_; }
+  const Scene& scene() const { return scene_; }
+  const Script& script() const { return script_; }
+  FrameView& view() { return view_; }
+  /// The scene's, script's and program's part of run.toml.
+  RunRecord run_record() const;
+
+ private:
+  void apply(const Command& command);
+  void start();
+
+  World world_;
+  FrameView view_;
+  ParameterSet rows_;
+  Scene scene_;
+  Script script_;
+  std::vector<std::string> script_lines_;
+  std::string script_name_;
+  int frame_ = -1;
+};
+
+}  // namespace impinge

@@ -1,0 +1,45 @@
+#include "viewer/controller/snapshot_file.hpp"
+
+#include "engine/core/archive.hpp"
+#include "engine/io/file.hpp"
+
+namespace impinge {
+
+namespace {
+
+constexpr std::string_view kHead = "impinge snapshot 1\n";
+constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
+
+// the state between head and checksum; empty if the file is damaged
+std::string_view body_of(std::string_view bytes) {
+  if (bytes.size() < kHead.size() + 8 || bytes.substr(0, kHead.size()) != kHead) return {};
+  const std::string_view body = bytes.substr(kHead.size(), bytes.size() - kHead.size() - 8);
+  ByteReader checksum(bytes.substr(bytes.size() - 8));
+  return checksum.get<std::uint64_t>() == hash_bytes(body) ? body : std::string_view();
+}
+
+}  // namespace
+
+void write_snapshot(const std::filesystem::path& path, const Session& session) {
+  ByteWriter state, checksum;
+  session.save(state);
+  checksum.put(hash_bytes(state.bytes()));
+  write_file(path, std::string(kHead) + state.bytes() + checksum.bytes());
+}
+
+bool is_valid_snapshot(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  return !body_of(read_file(path, kMostBytes)).empty();
+}
+
+void restore_snapshot(const std::filesystem::path& path, Session& session) {
+  const std::string bytes = read_file(path, kMostBytes);
+  const std::string_view body = body_of(bytes);
+  if (body.empty()) throw InputError(path.string() + ": is damaged; a whole snapshot is wanted; remove it and run again with --resume");
+  ByteReader in(body);
+  session.restore(in);
+  if (!in.at_end()) throw InputError(path.string() + ": belongs to another scene; remove it and run again with --resume");
+}
+
+}  // namespace impinge

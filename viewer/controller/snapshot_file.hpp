@@ -1,0 +1,18 @@
+// A session's state in a file, with a checksum: snapshots/NNNNNN.bin.
+#pragma once
+
+#include <filesystem>
+
+#include "viewer/controller/session.hpp"
+
+namespace impinge {
+
+void write_snapshot(const std::filesystem::path& path, const Session& session);
+
+/// Whether the file is whole: right head, right checksum.
+bool is_valid_snapshot(const std::filesystem::path& path);
+
+/// Throws InputError if the file is damaged or belongs to another scene.
+void restore_snapshot(const std::filesystem::path& path, Session& session);
+
+}  // namespace impinge
