@@ -85,10 +85,12 @@ void World::start() {
 void World::step() {
   FrameStats& stats = stages_->frame_stats;
   stats = {};
-  const StageTimer timer(stats.times.step_ms);
   ++frame_;
-  const double h = parameters.simulation.time_step();
-  for (int s = 0; s < parameters.simulation.substeps; ++s) substep(h);
+  {
+    const StageTimer timer(stats.times.step_ms);
+    const double h = parameters.simulation.time_step();
+    for (int s = 0; s < parameters.simulation.substeps; ++s) substep(h);
+  }
   publish(true);
 }
 
