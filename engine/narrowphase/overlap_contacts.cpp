@@ -143,15 +143,20 @@ void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>
     // triangles that merely touch need no push; sliding along each other they must not catch
     if (separation.is_found() && separation.contact().gap < -query.touch) found.emplace_back(separation.contact(), pair);
   }
-  // the shallowest first: where it pushes a triangle, the deeper ways to separate the same triangle are not taken
+  if (found.empty()) return;
+  // the shallowest first: where it pushes a triangle, the much deeper ways to separate the same triangle are not taken
   std::stable_sort(found.begin(), found.end(), [](const auto& l, const auto& r) {
     return std::pair(-l.first.gap, l.first.feature) < std::pair(-r.first.gap, r.first.feature);
   });
+  const double shallow = 2.0 * found.front().first.gap;
+  std::vector<Collision> kept;
   for (const auto& [contact, pair] : found) {
-    if (pushed.covers(query, pair)) continue;
+    if (contact.gap < shallow && pushed.covers(query, pair)) continue;
     pushed.add(contact);
-    contacts.push_back(contact);
+    kept.push_back(contact);
   }
+  keep_one_a_side(kept);
+  contacts.insert(contacts.end(), kept.begin(), kept.end());
 }
 
 }  // namespace impinge

@@ -1,0 +1,376 @@
+// Optimized spatial hashing [Haapaoja16 §3.2.2, after Teschner et al. 2003]: triangles are entered in the cells of a uniform
+// grid that their boxes cover; cells are found through a hash table; triangles that meet in a cell are tested.
+//
+// What this adds to the seed's description:
+// - Triangles are clipped to where their body's box meets a partner's; what lies outside costs one box test.
+// - Two rounds. The first only marks which bodies come to which table entry; the second enters a triangle in those of its
+//   cells that another body comes to as well. Two surfaces that cross along a curve share few cells, so the lists stay
+//   short, and the round over all triangles writes one word of a table that fits the cache.
+// - A pair is tested in one cell only: the one with the smallest coordinates that both boxes cover. The list keeps the cell
+//   of each item, so that different cells in one entry neither lose pairs nor report them twice.
+// - A triangle over more than kMostCells cells is not entered but tested against its partners' boxes directly. Only a
+//   triangle much larger than the mean gets there.
+// - Boxes are widened by half the margin, and cells by the margin, so that a large margin does not multiply the cells.
+//   Cells count from the corner of all regions, which keeps their numbers small far from the origin.
+// Marks and counts carry the number of the step that wrote them, so that nothing is cleared between steps.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "engine/core/parallel.hpp"
+#include "engine/narrowphase/narrow_phase.hpp"
+#include "engine/narrowphase/triangle_pair_test.hpp"
+
+namespace impinge {
+namespace {
+
+using Cell = std::array<std::int32_t, 3>;
+
+constexpr std::size_t kBlock = 2048;      // triangles in a task
+constexpr std::size_t kEntriesATask = 64;
+constexpr std::int64_t kMostCells = 1024;
+
+struct Item {
+  Aabb box;            // widened by half of the body's largest margin
+  Cell low, high;      // cells of the clipped box
+  int body, triangle;
+  bool is_large;
+};
+// an item in one cell
+struct Node {
+  std::uint32_t entry;
+  Cell cell;
+  std::uint32_t item;
+};
+struct Partner {
+  int body;
+  double margin;
+};
+
+std::uint32_t hash_of(const Cell& c) {
+  return static_cast<std::uint32_t>(c[0]) * 73856093u ^ static_cast<std::uint32_t>(c[1]) * 19349663u ^ static_cast<std::uint32_t>(c[2]) * 83492791u;
+}
+
+// x mod n for 32-bit numbers by two multiplications [Lemire19]: the division would be the dearest part of a look-up
+struct Modulo {
+  std::uint64_t factor = 0;
+  std::uint32_t n = 1;
+  explicit Modulo(std::uint32_t divisor) : factor(~std::uint64_t{0} / divisor + 1), n(divisor) {}
+  std::uint32_t operator()(std::uint32_t x) const {
+    const std::uint64_t low = factor * x;
+    return static_cast<std::uint32_t>((static_cast<unsigned __int128>(low) * n) >> 64);
+  }
+};
+
+// grows and never shrinks: after the first steps nothing is allocated
+template <class T>
+void grow(std::vector<T>& v, std::size_t size) {
+  if (v.size() < size) v.resize(size);
+}
+
+template <class Visit>
+void for_each_cell(const Item& item, Visit&& visit) {
+  for (std::int32_t i = item.low[0]; i <= item.high[0]; ++i)
+    for (std::int32_t j = item.low[1]; j <= item.high[1]; ++j)
+      for (std::int32_t k = item.low[2]; k <= item.high[2]; ++k) visit(Cell{i, j, k});
+}
+
+class SpatialHash final : public NarrowPhase {
+ public:
+  void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs, std::vector<TrianglePair>& found) override {
+    found.clear();
+    if (pairs.empty()) return;
+    colliders_ = colliders;
+    prepare(pairs);
+    collect_items();
+    mark_entries();
+    make_lists();
+    query(found);
+    test_large(found);
+    std::sort(found.begin(), found.end());
+  }
+
+ private:
+  // partners and regions of each body, the grid and the table
+  void prepare(std::span<const BodyPair> pairs) {
+    const std::size_t bodies = colliders_.size();
+    grow(partners_, bodies);
+    grow(regions_, bodies);
+    grow(half_margins_, bodies);
+    grow(is_self_, bodies);
+    grow(mark_bits_, bodies);
+    active_.clear();
+    for (std::size_t b = 0; b < bodies; ++b) {
+      partners_[b].clear();
+      regions_[b] = {};
+      half_margins_[b] = 0.0;
+      is_self_[b] = 0;
+    }
+    Aabb all;
+    double largest_margin = 0.0;
+    for (const BodyPair& pair : pairs) {
+      largest_margin = std::max(largest_margin, pair.margin);
+      for (int side = 0; side < 2; ++side) {
+        const int own = side == 0 ? pair.a : pair.b, other = side == 0 ? pair.b : pair.a;
+        const Aabb own_box = widened(own, pair.margin), other_box = widened(other, pair.margin);
+        if (!overlap(own_box, other_box)) break;
+        if (partners_[own].empty()) active_.push_back(own);
+        partners_[own].push_back({other, pair.margin});
+        half_margins_[own] = std::max(half_margins_[own], pair.margin);
+        const Aabb region{own_box.min.cwiseMax(other_box.min), own_box.max.cwiseMin(other_box.max)};
+        regions_[own].include(region);
+        all.include(region);
+        if (own == other) {
+          is_self_[own] = 1;
+          break;
+        }
+      }
+    }
+    std::sort(active_.begin(), active_.end());
+    std::size_t vertices = 0, triangles = 0;
+    double edges = 0.0;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+      const int b = active_[i];
+      std::sort(partners_[b].begin(), partners_[b].end(), [](const Partner& l, const Partner& r) { return l.body < r.body; });
+      mark_bits_[b] = std::uint32_t{1} << (i % 32);
+      const std::size_t count = colliders_[b].mesh().mesh.triangles.size();
+      vertices += colliders_[b].vertices.size();
+      triangles += count;
+      edges += colliders_[b].mean_edge * static_cast<double>(count);
+    }
+    const double mean_edge = triangles > 0 ? edges / static_cast<double>(triangles) : 0.0;
+    const double extent = all.is_empty() ? 0.0 : all.extent().maxCoeff();
+    // the cell is the mean edge; never so small that cell numbers leave 32 bits, and not zero
+    const double cell = std::max({mean_edge + largest_margin, extent * 1e-9, 1e-300});
+    origin_ = all.is_empty() ? Vec3(Vec3::Zero()) : all.min;
+    per_cell_ = 1.0 / cell;
+    // 1.2 times the vertices, rounded up to the next hundred, minus one
+    const std::size_t size = (vertices * 12 + 999) / 1000 * 100 - 1;
+    size_ = static_cast<std::uint32_t>(std::min<std::size_t>(std::max<std::size_t>(size, 99), 0xfffffff0u));
+    if (marks_.size() < size_) {
+      marks_ = std::vector<std::atomic<std::uint64_t>>(size_);
+      counts_.assign(size_, {});
+      step_ = 0;
+    }
+    if (++step_ == 0) {  // after 2^32 steps old marks could look new
+      for (std::atomic<std::uint64_t>& m : marks_) m.store(0, std::memory_order_relaxed);
+      counts_.assign(counts_.size(), {});
+      step_ = 1;
+    }
+  }
+
+  // a body's box, widened so that it contains the search boxes of all its triangles
+  Aabb widened(int body, double margin) const {
+    const Aabb& box = colliders_[body].bounds;
+    if (box.is_empty()) return box;
+    return box.inflated(0.5 * margin * (1.0 + 1e-9) + 2.0 * kTouchTolerance * box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
+  }
+
+  // the triangles that reach into their body's region, block by block
+  void collect_items() {
+    blocks_.clear();
+    for (int b : active_) {
+      const std::size_t count = colliders_[b].mesh().mesh.triangles.size();
+      for (std::size_t first = 0; first < count; first += kBlock) blocks_.push_back({b, first, std::min(count, first + kBlock)});
+    }
+    grow(block_items_, blocks_.size());
+    parallel_for(blocks_.size(), 1, [&](std::size_t block) {
+      const auto [body, first, last] = blocks_[block];
+      const Collider& collider = colliders_[body];
+      const Aabb region = regions_[body];
+      const double margin = half_margins_[body];
+      std::vector<Item>& items = block_items_[block];
+      items.clear();
+      for (std::size_t t = first; t < last; ++t) {
+        Item item;
+        item.box = search_box(corners_of(collider, static_cast<int>(t)), margin);
+        if (!overlap(item.box, region)) continue;
+        item.body = body;
+        item.triangle = static_cast<int>(t);
+        std::int64_t cells = 1;
+        for (int d = 0; d < 3; ++d) {
+          item.low[d] = cell_of(std::max(item.box.min[d], region.min[d]), d);
+          item.high[d] = cell_of(std::min(item.box.max[d], region.max[d]), d);
+          cells = std::min(cells * (item.high[d] - item.low[d] + 1), kMostCells + 1);
+        }
+        item.is_large = cells > kMostCells;
+        items.push_back(item);
+      }
+    });
+    block_begin_.assign(blocks_.size() + 1, 0);
+    for (std::size_t block = 0; block < blocks_.size(); ++block) block_begin_[block + 1] = block_begin_[block] + block_items_[block].size();
+    grow(items_, block_begin_.back());
+    parallel_for(blocks_.size(), 8, [&](std::size_t block) {
+      std::copy(block_items_[block].begin(), block_items_[block].end(), items_.begin() + static_cast<std::ptrdiff_t>(block_begin_[block]));
+    });
+    large_.clear();
+    for (std::size_t i = 0; i < block_begin_.back(); ++i)
+      if (items_[i].is_large) large_.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  std::int32_t cell_of(double x, int axis) const { return static_cast<std::int32_t>(std::floor((x - origin_[axis]) * per_cell_)); }
+
+  // which bodies come to which entry. The order of the threads does not show: marks are or-ed
+  void mark_entries() {
+    const Modulo modulo(size_);
+    const std::uint64_t stamp = static_cast<std::uint64_t>(step_) << 32;
+    parallel_for(blocks_.size(), 1, [&](std::size_t block) {
+      const std::uint64_t bit = stamp | mark_bits_[blocks_[block].body];
+      for (std::size_t i = block_begin_[block]; i < block_begin_[block + 1]; ++i) {
+        if (items_[i].is_large) continue;
+        for_each_cell(items_[i], [&](const Cell& cell) {
+          std::atomic<std::uint64_t>& mark = marks_[modulo(hash_of(cell))];
+          std::uint64_t old = mark.load(std::memory_order_relaxed);
+          while (true) {
+            const std::uint64_t next = (old >> 32) == step_ ? old | bit : bit;
+            if (next == old || mark.compare_exchange_weak(old, next, std::memory_order_relaxed)) break;
+          }
+        });
+      }
+    });
+  }
+
+  // the lists of the entries that two bodies come to, one after another in lists_
+  void make_lists() {
+    const Modulo modulo(size_);
+    grow(block_nodes_, blocks_.size());
+    parallel_for(blocks_.size(), 1, [&](std::size_t block) {
+      std::vector<Node>& nodes = block_nodes_[block];
+      nodes.clear();
+      const int body = blocks_[block].body;
+      const std::uint32_t others = is_self_[body] != 0 ? ~std::uint32_t{0} : ~mark_bits_[body];
+      // bodies that share a mark bit cannot be told apart by it
+      const bool is_crowded = active_.size() > 32;
+      for (std::size_t i = block_begin_[block]; i < block_begin_[block + 1]; ++i) {
+        if (items_[i].is_large) continue;
+        for_each_cell(items_[i], [&](const Cell& cell) {
+          const std::uint32_t entry = modulo(hash_of(cell));
+          const std::uint64_t mark = marks_[entry].load(std::memory_order_relaxed);
+          if (is_crowded || (static_cast<std::uint32_t>(mark) & others) != 0) nodes.push_back({entry, cell, static_cast<std::uint32_t>(i)});
+        });
+      }
+    });
+    used_.clear();
+    std::size_t total = 0;
+    for (std::size_t block = 0; block < blocks_.size(); ++block) {
+      total += block_nodes_[block].size();
+      for (const Node& node : block_nodes_[block]) {
+        Count& count = counts_[node.entry];
+        if (count.step != step_) {
+          count = {step_, 0, 0};
+          used_.push_back(node.entry);
+        }
+        ++count.size;
+      }
+    }
+    grow(lists_, total);
+    std::uint32_t begin = 0;
+    for (std::uint32_t entry : used_) {
+      Count& count = counts_[entry];
+      count.end = begin;
+      begin += count.size;
+    }
+    for (std::size_t block = 0; block < blocks_.size(); ++block)
+      for (const Node& node : block_nodes_[block]) lists_[counts_[node.entry].end++] = node;
+  }
+
+  // every entry with two or more triangles
+  void query(std::vector<TrianglePair>& found) {
+    const std::size_t tasks = (used_.size() + kEntriesATask - 1) / kEntriesATask;
+    grow(task_found_, tasks);
+    parallel_for(tasks, 1, [&](std::size_t task) {
+      std::vector<TrianglePair>& out = task_found_[task];
+      out.clear();
+      for (std::size_t u = task * kEntriesATask; u < std::min(used_.size(), (task + 1) * kEntriesATask); ++u) {
+        const Count& count = counts_[used_[u]];
+        for (std::uint32_t i = count.end - count.size; i < count.end; ++i)
+          for (std::uint32_t j = i + 1; j < count.end; ++j) visit(lists_[i], lists_[j], out);
+      }
+    });
+    for (std::size_t task = 0; task < tasks; ++task) found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
+  }
+
+  void visit(const Node& l, const Node& r, std::vector<TrianglePair>& out) const {
+    if (l.cell != r.cell) return;
+    const Item &a = items_[l.item], &b = items_[r.item];
+    if (a.body == b.body && is_self_[a.body] == 0) return;
+    for (int d = 0; d < 3; ++d)
+      if (l.cell[d] != std::max(a.low[d], b.low[d])) return;  // another cell's pair
+    test(a, b, out);
+  }
+
+  // items of one body come in ascending order, bodies too: l is before r
+  void test(const Item& l, const Item& r, std::vector<TrianglePair>& out) const {
+    if (!overlap(l.box, r.box)) return;
+    const auto before = [](const Partner& p, int body) { return p.body < body; };
+    const std::vector<Partner>& partners = partners_[l.body];
+    const auto partner = std::lower_bound(partners.begin(), partners.end(), r.body, before);
+    if (partner == partners.end() || partner->body != r.body) return;
+    const Collider &a = colliders_[l.body], &b = colliders_[r.body];
+    if (l.body == r.body && share_a_vertex(a.mesh().mesh.triangles[l.triangle], a.mesh().mesh.triangles[r.triangle])) return;
+    const PairState state = test_triangles(corners_of(a, l.triangle), corners_of(b, r.triangle), partner->margin);
+    if (state != PairState::apart) out.push_back({l.body, r.body, l.triangle, r.triangle, state == PairState::intersecting});
+  }
+
+  // triangles that are in no list against all items of their partners
+  void test_large(std::vector<TrianglePair>& found) {
+    if (large_.empty()) return;
+    body_begin_.assign(colliders_.size() + 1, 0);
+    for (std::size_t i = 0; i < block_begin_.back(); ++i) ++body_begin_[items_[i].body + 1];
+    for (std::size_t b = 0; b < colliders_.size(); ++b) body_begin_[b + 1] += body_begin_[b];
+    grow(task_found_, large_.size());
+    parallel_for(large_.size(), 1, [&](std::size_t task) {
+      std::vector<TrianglePair>& out = task_found_[task];
+      out.clear();
+      const std::uint32_t own = large_[task];
+      const Item& item = items_[own];
+      for (const Partner& partner : partners_[item.body])
+        for (std::uint32_t i = body_begin_[partner.body]; i < body_begin_[partner.body + 1]; ++i) {
+          if (i == own || (items_[i].is_large && i < own)) continue;  // two large ones meet once
+          test(items_[std::min(own, i)], items_[std::max(own, i)], out);
+        }
+    });
+    for (std::size_t task = 0; task < large_.size(); ++task) found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
+  }
+
+  struct Block {
+    int body;
+    std::size_t first, last;
+  };
+  struct Count {
+    std::uint32_t step = 0, size = 0, end = 0;
+  };
+
+  std::span<const Collider> colliders_;
+  // by body
+  std::vector<std::vector<Partner>> partners_;
+  std::vector<Aabb> regions_;
+  std::vector<double> half_margins_;
+  std::vector<char> is_self_;
+  std::vector<std::uint32_t> mark_bits_, body_begin_;
+  std::vector<int> active_;
+  // grid and table
+  Vec3 origin_ = Vec3::Zero();
+  double per_cell_ = 1.0;
+  std::uint32_t size_ = 0, step_ = 0;
+  std::vector<std::atomic<std::uint64_t>> marks_;  // step in the high half, bodies in the low
+  std::vector<Count> counts_;
+  std::vector<std::uint32_t> used_;
+  std::vector<Node> lists_;
+  // by block of triangles
+  std::vector<Block> blocks_;
+  std::vector<std::vector<Item>> block_items_;
+  std::vector<std::vector<Node>> block_nodes_;
+  std::vector<std::size_t> block_begin_;
+  std::vector<Item> items_;
+  std::vector<std::uint32_t> large_;
+  std::vector<std::vector<TrianglePair>> task_found_;
+};
+
+}  // namespace
+
+Entry<NarrowPhase> spatial_hash_narrow_phase() {
+  return entry<NarrowPhase, SpatialHash>("spatial_hash", "Triangles hashed by the grid cells they cover, tested where they meet.");
+}
+
+}  // namespace impinge
