@@ -1,0 +1,121 @@
+// Damaged files: every reader either gives a mesh whose indices are in range and whose coordinates are finite, or throws
+// InputError. Anything else (a crash, another exception, a hang) fails. Seeds are fixed, so a failure repeats.
+#include <catch2/catch.hpp>
+
+#include "engine/core/error.hpp"
+#include "engine/io/mesh_file.hpp"
+#include "engine/io/toml.hpp"
+#include "tests/support/mesh_text.hpp"
+#include "tests/support/random.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+struct Sample {
+  const char* name;
+  std::string bytes;
+};
+
+std::vector<Sample> samples() {
+  const TriangleMesh mesh = tetrahedron();
+  return {{"a.off", off_text(mesh)},           {"a.obj", obj_text(mesh)},  {"a.ply", ply_ascii(mesh)},  {"b.ply", ply_binary(mesh, false)},
+          {"c.ply", ply_binary(mesh, true)}, {"a.stl", stl_ascii(mesh)}, {"b.stl", stl_binary(mesh)}};
+}
+
+// true if the mesh was taken
+bool try_mesh(const std::string& name, const std::string& bytes) {
+  try {
+    const TriangleMesh mesh = parse_mesh(name, bytes);
+    for (const Vec3& v : mesh.vertices) REQUIRE(v.allFinite());
+    for (const Triangle& t : mesh.triangles)
+      for (const int v : t) REQUIRE((v >= 0 && v < static_cast<int>(mesh.vertices.size())));
+    return true;
+  } catch (const InputError& error) {
+    REQUIRE(std::string(error.what()).rfind(name + ":", 0) == 0);
+    return false;
+  }
+}
+
+std::string damaged(const std::string& bytes, Random& random) {
+  std::string out = bytes;
+  for (int n = 1 + random.below(4); n > 0; --n) {
+    const std::size_t at = static_cast<std::size_t>(random.below(static_cast<int>(out.size())));
+    switch (random.below(5)) {
+      case 0: out[at] = static_cast<char>(random.below(256)); break;
+      case 1: out[at] = static_cast<char>(out[at] ^ (1 << random.below(8))); break;
+      case 2: out.erase(at, static_cast<std::size_t>(1 + random.below(8))); break;
+      case 3: out.insert(at, out.substr(static_cast<std::size_t>(random.below(static_cast<int>(out.size()))), static_cast<std::size_t>(1 + random.below(16)))); break;
+      default: out[at] = "0123456789-+.e[]{}=#\"\n"[random.below(22)]; break;
+    }
+    if (out.empty()) return out;
+  }
+  return out;
+}
+
+constexpr const char* kScene = R"([simulation]
+frame_time = 0.0166
+gravity = [0, -9.81, 0]   # m/s²
+[[body]]
+name = "floor"
+shape = { plane = { normal = [0, 1, 0], offset = 0 } }
+text = """several
+lines""" 
+[view]
+camera = { eye = [3, 2, 4], target = [0, 0.5, 0] }
+)";
+
+}  // namespace
+
+TEST_CASE("mesh files cut anywhere are refused or read, never more") {
+  int refused = 0;
+  for (const Sample& sample : samples())
+    for (std::size_t n = 0; n < sample.bytes.size(); ++n) refused += !try_mesh(sample.name, sample.bytes.substr(0, n));
+  CHECK(refused > 1000);
+}
+
+TEST_CASE("mesh files with damaged bytes are refused or read, never more") {
+  int refused = 0, taken = 0;
+  for (const Sample& sample : samples()) {
+    Random random(20240 + sample.bytes.size());
+    for (int i = 0; i < 4000; ++i) (try_mesh(sample.name, damaged(sample.bytes, random)) ? taken : refused)++;
+  }
+  CHECK(refused > 1000);
+  CHECK(taken > 1000);
+}
+
+TEST_CASE("a damaged scene text is refused or read, never more") {
+  const std::string scene = kScene;
+  int refused = 0;
+  const auto attempt = [&](const std::string& text) {
+    try {
+      parse_toml("scene.toml", text);
+    } catch (const InputError& error) {
+      REQUIRE(std::string(error.what()).rfind("scene.toml:", 0) == 0);
+      ++refused;
+    }
+  };
+  for (std::size_t n = 0; n < scene.size(); ++n) attempt(scene.substr(0, n));
+  Random random(77);
+  for (int i = 0; i < 3000; ++i) attempt(damaged(scene, random));
+  CHECK(refused > 500);
+}
+
+TEST_CASE("what would exhaust the TOML parser is stopped before it") {
+  const auto refused = [](const std::string& text) {
+    try {
+      parse_toml("s.toml", text);
+      return false;
+    } catch (const InputError&) {
+      return true;
+    }
+  };
+  CHECK(refused("a = " + std::string(100'000, '[')));
+  CHECK(refused("a = " + std::string(100'000, '{')));
+  CHECK(refused("a = [" + std::string(200'000, '1') + "]"));
+  CHECK(refused("# " + std::string(200'000, 'x')));
+  CHECK(refused("a = \"" + std::string(200'000, 'x') + "\""));
+  CHECK(refused(std::string(40u << 20, '\n')));
+  CHECK_FALSE(refused("a = \"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\" # [[[[[\n"));
+}
