@@ -9,11 +9,12 @@ namespace impinge {
 namespace {
 
 /// Boxes that a column should hold: below this a sweep along x is cheaper than sorting into more columns (measured).
-constexpr int kColumn = 96;
+constexpr int kColumn = 256;
 /// Entries a box after a cut that are worth it, on average; wide boxes would be entered in too many strips.
-constexpr double kMaxCopies = 2.5;
+constexpr double kMaxCopies = 2.0;
 /// Lower ends from which the quantiles are taken.
-constexpr std::size_t kSample = 512;
+constexpr std::size_t kSample = 128;
+
 
 float below(double x) {
   const float f = static_cast<float>(x);
@@ -66,7 +67,7 @@ void PrunedSweep::sort_by_x(std::span<const Aabb> boxes) {
   for (std::size_t i = 0; i < count; ++i) sorted_[i] = scratch_[static_cast<std::uint32_t>(found_[i])];
 }
 
-void PrunedSweep::sweep(std::span<const Aabb> boxes, std::span<const Entry> entries) {
+void PrunedSweep::sweep(std::span<const Entry> entries) {
   for (std::size_t i = 0; i + 1 < entries.size(); ++i) {
     const Entry a = entries[i];
     for (std::size_t j = i + 1; j < entries.size() && entries[j].min[0] <= a.max[0]; ++j) {
@@ -74,8 +75,7 @@ void PrunedSweep::sweep(std::span<const Aabb> boxes, std::span<const Entry> entr
       // of the columns that two boxes share, the one where the later of them starts, in y and z, reports the pair
       const bool hit = (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]) &
                        ((a.starts | b.starts) == 3u);
-      if (hit && overlap(boxes[a.id], boxes[b.id]))
-        found_.push_back(static_cast<std::uint64_t>(std::min(a.id, b.id)) << 32 | std::max(a.id, b.id));
+      if (hit) found_.push_back(static_cast<std::uint64_t>(std::min(a.id, b.id)) << 32 | std::max(a.id, b.id));
     }
   }
 }
@@ -96,8 +96,21 @@ bool PrunedSweep::cut(std::span<const Entry> entries, int axis, int strips, Cut&
       if (cut.bounds.empty() || bound > cut.bounds.back()) cut.bounds.push_back(bound);
     }
     if (cut.bounds.empty()) return false;
+    // where to start looking for a strip: a table over equal steps, since a binary search mispredicts at every level
+    const float low = cut.bounds.front(), high = cut.bounds.back();
+    const float scale = high > low ? static_cast<float>(kGuesses) / (high - low) : 0.0f;
+    const int bounds = static_cast<int>(cut.bounds.size());
+    for (int step = 0, s = 0; step < kGuesses; ++step) {
+      while (s < bounds && (cut.bounds[s] - low) * scale < static_cast<float>(step)) ++s;
+      guess_[step] = s;
+    }
     const auto strip_of = [&](float x) {
-      return static_cast<int>(std::upper_bound(cut.bounds.begin(), cut.bounds.end(), x) - cut.bounds.begin());
+      if (x < low) return 0;
+      if (x >= high) return bounds;
+      int s = guess_[std::min(static_cast<int>((x - low) * scale), kGuesses - 1)];
+      while (s > 0 && x < cut.bounds[s - 1]) --s;  // rounding of the step
+      while (s < bounds && x >= cut.bounds[s]) ++s;
+      return s;
     };
     cut.begin.assign(cut.bounds.size() + 2, 0);
     std::size_t total = 0;
@@ -126,9 +139,9 @@ bool PrunedSweep::cut(std::span<const Entry> entries, int axis, int strips, Cut&
   }
 }
 
-void PrunedSweep::divide(std::span<const Aabb> boxes, std::span<const Entry> entries, int axis, int depth, int failures) {
+void PrunedSweep::divide(std::span<const Entry> entries, int axis, int depth, int failures) {
   if (entries.size() < 2 * kColumn || depth == kMaxDepth || failures == 2) {
-    sweep(boxes, entries);
+    sweep(entries);
     return;
   }
   // the first cut leaves half of the work to the other axis, so that columns are square
@@ -136,24 +149,31 @@ void PrunedSweep::divide(std::span<const Aabb> boxes, std::span<const Entry> ent
   const int strips = std::max(2, static_cast<int>(depth == 0 ? std::sqrt(columns) : columns));
   Cut& strips_of = cuts_[depth];
   if (!cut(entries, axis, strips, strips_of)) {
-    divide(boxes, entries, 3 - axis, depth, failures + 1);
+    divide(entries, 3 - axis, depth, failures + 1);
     return;
   }
   for (std::size_t s = 0; s + 1 < strips_of.begin.size(); ++s) {
     const std::size_t begin = static_cast<std::size_t>(strips_of.begin[s]), end = static_cast<std::size_t>(strips_of.begin[s + 1]);
-    divide(boxes, std::span<const Entry>(strips_of.entries).subspan(begin, end - begin), 3 - axis, depth + 1, 0);
+    divide(std::span<const Entry>(strips_of.entries).subspan(begin, end - begin), 3 - axis, depth + 1, 0);
   }
 }
 
-void PrunedSweep::output(std::size_t boxes, std::vector<BoxPair>& pairs) {
+void PrunedSweep::output(std::span<const Aabb> boxes, std::vector<BoxPair>& pairs) {
+  // exact test of what single precision found, in a loop of its own: the cache misses of its loads overlap
+  std::size_t kept = 0;
+  for (std::uint64_t v : found_) {
+    found_[kept] = v;
+    kept += overlap(boxes[v >> 32], boxes[v & 0xffffffffu]) ? 1 : 0;
+  }
+  found_.resize(kept);
   // counting sort by the first index; the few partners of a box by insertion
-  row_.assign(boxes + 1, 0);
+  row_.assign(boxes.size() + 1, 0);
   for (std::uint64_t v : found_) ++row_[(v >> 32) + 1];
-  for (std::size_t i = 0; i < boxes; ++i) row_[i + 1] += row_[i];
+  for (std::size_t i = 0; i < boxes.size(); ++i) row_[i + 1] += row_[i];
   pairs.resize(found_.size());
   for (std::uint64_t v : found_) pairs[row_[v >> 32]++] = {static_cast<int>(v >> 32), static_cast<int>(v & 0xffffffffu)};
   std::uint32_t begin = 0;
-  for (std::size_t i = 0; i < boxes; ++i) {  // row_[i] is now the end of row i
+  for (std::size_t i = 0; i < boxes.size(); ++i) {  // row_[i] is now the end of row i
     const std::uint32_t end = row_[i];
     if (end - begin > 32) {
       std::sort(pairs.begin() + begin, pairs.begin() + end);
@@ -168,8 +188,8 @@ void PrunedSweep::output(std::size_t boxes, std::vector<BoxPair>& pairs) {
 void PrunedSweep::find(std::span<const Aabb> boxes, std::vector<BoxPair>& pairs) {
   sort_by_x(boxes);
   found_.clear();
-  divide(boxes, sorted_, 1, 0, 0);
-  output(boxes.size(), pairs);
+  divide(sorted_, 1, 0, 0);
+  output(boxes, pairs);
 }
 
 }  // namespace impinge

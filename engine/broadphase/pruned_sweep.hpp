@@ -34,14 +34,16 @@ class PrunedSweep {
 
   void sort_by_x(std::span<const Aabb> boxes);
   /// Finds the pairs among the entries, which are sorted by x; `failures`: how many axes in a row couldn't be cut.
-  void divide(std::span<const Aabb> boxes, std::span<const Entry> entries, int axis, int depth, int failures);
+  void divide(std::span<const Entry> entries, int axis, int depth, int failures);
   bool cut(std::span<const Entry> entries, int axis, int strips, Cut& cut);
-  void sweep(std::span<const Aabb> boxes, std::span<const Entry> entries);
-  void output(std::size_t boxes, std::vector<BoxPair>& pairs);
+  void sweep(std::span<const Entry> entries);
+  void output(std::span<const Aabb> boxes, std::vector<BoxPair>& pairs);
 
   std::vector<Entry> sorted_, scratch_;
   std::array<Cut, kMaxDepth> cuts_;
   std::vector<float> sample_;
+  static constexpr int kGuesses = 1024;
+  std::array<int, kGuesses> guess_;
   std::vector<std::uint64_t> found_, ordered_;
   std::vector<std::uint32_t> row_;
 };
