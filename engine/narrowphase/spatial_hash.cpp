@@ -5,7 +5,9 @@
 // - Triangles are clipped to where their body's box meets a partner's; what lies outside costs one box test.
 // - Two rounds. The first only marks which bodies come to which table entry; the second enters a triangle in those of its
 //   cells that another body comes to as well. Two surfaces that cross along a curve share few cells, so the lists stay
-//   short, and the round over all triangles writes one word of a table that fits the cache.
+//   short, and the round over all triangles writes one word of a table that fits the cache. A mark has a bit for each
+//   colour of body (partners differ in colour) and, where few colours are needed, for several classes of cells: with the
+//   seed's table size two cells in five share an entry with a cell of the other body, and only one in forty a class too.
 // - A pair is tested in one cell only: the one with the smallest coordinates that both boxes cover. The list keeps the cell
 //   of each item, so that different cells in one entry neither lose pairs nor report them twice.
 // - A triangle over more than kMostCells cells is not entered but tested against its partners' boxes directly. Only a
@@ -15,6 +17,7 @@
 // Marks and counts carry the number of the step that wrote them, so that nothing is cleared between steps.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 
 #include "engine/core/parallel.hpp"
@@ -24,11 +27,15 @@
 namespace impinge {
 namespace {
 
-using Cell = std::array<std::int32_t, 3>;
+struct Cell {
+  std::int32_t i, j, k;
+  friend bool operator==(const Cell& l, const Cell& r) { return l.i == r.i && l.j == r.j && l.k == r.k; }
+};
 
 constexpr std::size_t kBlock = 2048;      // triangles in a task
 constexpr std::size_t kEntriesATask = 64;
 constexpr std::int64_t kMostCells = 1024;
+constexpr int kColours = 32;              // bits of a mark
 
 struct Item {
   Aabb box;            // widened by half of the body's largest margin
@@ -38,9 +45,9 @@ struct Item {
 };
 // an item in one cell
 struct Node {
-  std::uint32_t entry;
   Cell cell;
-  std::uint32_t item;
+  std::uint32_t entry, item;
+  std::uint32_t body : 29, first : 3;  // first: on which axes the cell is the lowest that the item covers
 };
 struct Partner {
   int body;
@@ -48,7 +55,7 @@ struct Partner {
 };
 
 std::uint32_t hash_of(const Cell& c) {
-  return static_cast<std::uint32_t>(c[0]) * 73856093u ^ static_cast<std::uint32_t>(c[1]) * 19349663u ^ static_cast<std::uint32_t>(c[2]) * 83492791u;
+  return static_cast<std::uint32_t>(c.i) * 73856093u ^ static_cast<std::uint32_t>(c.j) * 19349663u ^ static_cast<std::uint32_t>(c.k) * 83492791u;
 }
 
 // x mod n for 32-bit numbers by two multiplications [Lemire19]: the division would be the dearest part of a look-up
@@ -70,9 +77,9 @@ void grow(std::vector<T>& v, std::size_t size) {
 
 template <class Visit>
 void for_each_cell(const Item& item, Visit&& visit) {
-  for (std::int32_t i = item.low[0]; i <= item.high[0]; ++i)
-    for (std::int32_t j = item.low[1]; j <= item.high[1]; ++j)
-      for (std::int32_t k = item.low[2]; k <= item.high[2]; ++k) visit(Cell{i, j, k});
+  for (std::int32_t i = item.low.i; i <= item.high.i; ++i)
+    for (std::int32_t j = item.low.j; j <= item.high.j; ++j)
+      for (std::int32_t k = item.low.k; k <= item.high.k; ++k) visit(Cell{i, j, k});
 }
 
 class SpatialHash final : public NarrowPhase {
@@ -82,8 +89,7 @@ class SpatialHash final : public NarrowPhase {
     if (pairs.empty()) return;
     colliders_ = colliders;
     prepare(pairs);
-    collect_items();
-    mark_entries();
+    collect_and_mark();
     make_lists();
     query(found);
     test_large(found);
@@ -98,7 +104,7 @@ class SpatialHash final : public NarrowPhase {
     grow(regions_, bodies);
     grow(half_margins_, bodies);
     grow(is_self_, bodies);
-    grow(mark_bits_, bodies);
+    grow(colours_, bodies);
     active_.clear();
     for (std::size_t b = 0; b < bodies; ++b) {
       partners_[b].clear();
@@ -127,12 +133,11 @@ class SpatialHash final : public NarrowPhase {
       }
     }
     std::sort(active_.begin(), active_.end());
+    colour_bodies();
     std::size_t vertices = 0, triangles = 0;
     double edges = 0.0;
-    for (std::size_t i = 0; i < active_.size(); ++i) {
-      const int b = active_[i];
+    for (int b : active_) {
       std::sort(partners_[b].begin(), partners_[b].end(), [](const Partner& l, const Partner& r) { return l.body < r.body; });
-      mark_bits_[b] = std::uint32_t{1} << (i % 32);
       const std::size_t count = colliders_[b].mesh().mesh.triangles.size();
       vertices += colliders_[b].vertices.size();
       triangles += count;
@@ -159,6 +164,27 @@ class SpatialHash final : public NarrowPhase {
     }
   }
 
+  // partners get different colours, so that a mark of another colour is a mark of another body
+  void colour_bodies() {
+    int most = 0;
+    for (int b : active_) colours_[b] = -1;
+    for (int b : active_) {
+      std::uint64_t taken = 0;
+      for (const Partner& p : partners_[b])
+        if (p.body != b && colours_[p.body] >= 0) taken |= std::uint64_t{1} << colours_[p.body];
+      colours_[b] = std::min(std::countr_one(taken), kColours);
+      most = std::max(most, colours_[b]);
+    }
+    // kColours itself stands for bodies with too many partners: whatever shares an entry with them is listed
+    bits_a_class_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(most + 1)));
+    if (bits_a_class_ > kColours) bits_a_class_ = kColours;
+    class_mask_ = static_cast<std::uint32_t>(kColours / bits_a_class_ - 1);
+    is_crowded_ = most >= kColours;
+  }
+
+  // the place of a cell's class within a mark
+  int class_shift(std::uint32_t hash) const { return static_cast<int>((hash * 0x9E3779B1u >> 27) & class_mask_) * bits_a_class_; }
+
   // a body's box, widened so that it contains the search boxes of all its triangles
   Aabb widened(int body, double margin) const {
     const Aabb& box = colliders_[body].bounds;
@@ -166,87 +192,79 @@ class SpatialHash final : public NarrowPhase {
     return box.inflated(0.5 * margin * (1.0 + 1e-9) + 2.0 * kTouchTolerance * box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
   }
 
-  // the triangles that reach into their body's region, block by block
-  void collect_items() {
+  // the triangles that reach into their body's region, block by block, and which bodies come to which entry. The order of
+  // the threads does not show: every block has its own part of items_, and marks are or-ed
+  void collect_and_mark() {
     blocks_.clear();
     for (int b : active_) {
       const std::size_t count = colliders_[b].mesh().mesh.triangles.size();
-      for (std::size_t first = 0; first < count; first += kBlock) blocks_.push_back({b, first, std::min(count, first + kBlock)});
+      for (std::size_t first = 0; first < count; first += kBlock) blocks_.push_back({b, first, std::min(count, first + kBlock), 0});
     }
-    grow(block_items_, blocks_.size());
-    parallel_for(blocks_.size(), 1, [&](std::size_t block) {
-      const auto [body, first, last] = blocks_[block];
-      const Collider& collider = colliders_[body];
-      const Aabb region = regions_[body];
-      const double margin = half_margins_[body];
-      std::vector<Item>& items = block_items_[block];
-      items.clear();
-      for (std::size_t t = first; t < last; ++t) {
-        Item item;
-        item.box = search_box(corners_of(collider, static_cast<int>(t)), margin);
-        if (!overlap(item.box, region)) continue;
-        item.body = body;
-        item.triangle = static_cast<int>(t);
-        std::int64_t cells = 1;
-        for (int d = 0; d < 3; ++d) {
-          item.low[d] = cell_of(std::max(item.box.min[d], region.min[d]), d);
-          item.high[d] = cell_of(std::min(item.box.max[d], region.max[d]), d);
-          cells = std::min(cells * (item.high[d] - item.low[d] + 1), kMostCells + 1);
-        }
-        item.is_large = cells > kMostCells;
-        items.push_back(item);
-      }
-    });
-    block_begin_.assign(blocks_.size() + 1, 0);
-    for (std::size_t block = 0; block < blocks_.size(); ++block) block_begin_[block + 1] = block_begin_[block] + block_items_[block].size();
-    grow(items_, block_begin_.back());
-    parallel_for(blocks_.size(), 8, [&](std::size_t block) {
-      std::copy(block_items_[block].begin(), block_items_[block].end(), items_.begin() + static_cast<std::ptrdiff_t>(block_begin_[block]));
-    });
-    large_.clear();
-    for (std::size_t i = 0; i < block_begin_.back(); ++i)
-      if (items_[i].is_large) large_.push_back(static_cast<std::uint32_t>(i));
-  }
-
-  std::int32_t cell_of(double x, int axis) const { return static_cast<std::int32_t>(std::floor((x - origin_[axis]) * per_cell_)); }
-
-  // which bodies come to which entry. The order of the threads does not show: marks are or-ed
-  void mark_entries() {
+    grow(items_, blocks_.size() * kBlock);
     const Modulo modulo(size_);
     const std::uint64_t stamp = static_cast<std::uint64_t>(step_) << 32;
-    parallel_for(blocks_.size(), 1, [&](std::size_t block) {
-      const std::uint64_t bit = stamp | mark_bits_[blocks_[block].body];
-      for (std::size_t i = block_begin_[block]; i < block_begin_[block + 1]; ++i) {
-        if (items_[i].is_large) continue;
-        for_each_cell(items_[i], [&](const Cell& cell) {
-          std::atomic<std::uint64_t>& mark = marks_[modulo(hash_of(cell))];
-          std::uint64_t old = mark.load(std::memory_order_relaxed);
-          while (true) {
-            const std::uint64_t next = (old >> 32) == step_ ? old | bit : bit;
-            if (next == old || mark.compare_exchange_weak(old, next, std::memory_order_relaxed)) break;
-          }
-        });
+    parallel_for(blocks_.size(), 1, [&](std::size_t b) {
+      Block& block = blocks_[b];
+      const Collider& collider = colliders_[block.body];
+      const Aabb region = regions_[block.body];
+      const double margin = half_margins_[block.body];
+      const std::uint64_t colour = std::uint64_t{1} << (colours_[block.body] % kColours);
+      Item* item = &items_[b * kBlock];
+      for (std::size_t t = block.first; t < block.last; ++t) {
+        item->box = search_box(corners_of(collider, static_cast<int>(t)), margin);
+        if (!overlap(item->box, region)) continue;
+        item->body = block.body;
+        item->triangle = static_cast<int>(t);
+        item->low = cell_of(item->box.min.cwiseMax(region.min));
+        item->high = cell_of(item->box.max.cwiseMin(region.max));
+        item->is_large = cells_of(*item) > kMostCells;
+        if (!item->is_large)
+          for_each_cell(*item, [&](const Cell& cell) {
+            const std::uint32_t hash = hash_of(cell);
+            std::atomic<std::uint64_t>& mark = marks_[modulo(hash)];
+            const std::uint64_t bit = stamp | colour << class_shift(hash);
+            std::uint64_t old = mark.load(std::memory_order_relaxed);
+            while (true) {
+              const std::uint64_t next = (old >> 32) == step_ ? old | bit : bit;
+              if (next == old || mark.compare_exchange_weak(old, next, std::memory_order_relaxed)) break;
+            }
+          });
+        ++item;
       }
+      block.items = static_cast<std::size_t>(item - &items_[b * kBlock]);
     });
+    large_.clear();
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      for (std::size_t i = b * kBlock; i < b * kBlock + blocks_[b].items; ++i)
+        if (items_[i].is_large) large_.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  Cell cell_of(const Vec3& x) const {
+    const Vec3 c = (x - origin_) * per_cell_;
+    return {static_cast<std::int32_t>(std::floor(c.x())), static_cast<std::int32_t>(std::floor(c.y())), static_cast<std::int32_t>(std::floor(c.z()))};
+  }
+
+  static std::int64_t cells_of(const Item& item) {
+    const std::int64_t x = item.high.i - item.low.i + 1, y = item.high.j - item.low.j + 1, z = item.high.k - item.low.k + 1;
+    return std::min(x * y, kMostCells + 1) * z;  // each is below 2^31: no overflow
   }
 
   // the lists of the entries that two bodies come to, one after another in lists_
   void make_lists() {
     const Modulo modulo(size_);
     grow(block_nodes_, blocks_.size());
-    parallel_for(blocks_.size(), 1, [&](std::size_t block) {
-      std::vector<Node>& nodes = block_nodes_[block];
+    parallel_for(blocks_.size(), 1, [&](std::size_t b) {
+      std::vector<Node>& nodes = block_nodes_[b];
       nodes.clear();
-      const int body = blocks_[block].body;
-      const std::uint32_t others = is_self_[body] != 0 ? ~std::uint32_t{0} : ~mark_bits_[body];
-      // bodies that share a mark bit cannot be told apart by it
-      const bool is_crowded = active_.size() > 32;
-      for (std::size_t i = block_begin_[block]; i < block_begin_[block + 1]; ++i) {
+      const int body = blocks_[b].body;
+      const std::uint32_t one_class = static_cast<std::uint32_t>((std::uint64_t{1} << bits_a_class_) - 1);
+      const std::uint32_t others = is_self_[body] != 0 || is_crowded_ ? one_class : one_class & ~(std::uint32_t{1} << colours_[body]);
+      for (std::size_t i = b * kBlock; i < b * kBlock + blocks_[b].items; ++i) {
         if (items_[i].is_large) continue;
         for_each_cell(items_[i], [&](const Cell& cell) {
-          const std::uint32_t entry = modulo(hash_of(cell));
-          const std::uint64_t mark = marks_[entry].load(std::memory_order_relaxed);
-          if (is_crowded || (static_cast<std::uint32_t>(mark) & others) != 0) nodes.push_back({entry, cell, static_cast<std::uint32_t>(i)});
+          const std::uint32_t hash = hash_of(cell), entry = modulo(hash);
+          const std::uint32_t mark = static_cast<std::uint32_t>(marks_[entry].load(std::memory_order_relaxed));
+          if ((mark >> class_shift(hash) & others) != 0) nodes.push_back({cell, entry, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(body), first_axes(items_[i].low, cell)});
         });
       }
     });
@@ -283,20 +301,24 @@ class SpatialHash final : public NarrowPhase {
       out.clear();
       for (std::size_t u = task * kEntriesATask; u < std::min(used_.size(), (task + 1) * kEntriesATask); ++u) {
         const Count& count = counts_[used_[u]];
-        for (std::uint32_t i = count.end - count.size; i < count.end; ++i)
-          for (std::uint32_t j = i + 1; j < count.end; ++j) visit(lists_[i], lists_[j], out);
+        // bodies stand in the list in ascending order: what a triangle can meet begins behind its own body
+        std::uint32_t next = count.end - count.size;
+        for (std::uint32_t i = next; i < count.end; ++i) {
+          const Node& l = lists_[i];
+          while (next < count.end && lists_[next].body == l.body) ++next;
+          for (std::uint32_t j = is_self_[l.body] != 0 ? i + 1 : next; j < count.end; ++j) {
+            const Node& r = lists_[j];
+            // the smallest cell that both cover is the lowest of one of them on each axis; elsewhere the pair is not tested
+            if ((l.first | r.first) == 7u && l.cell == r.cell) test(items_[l.item], items_[r.item], out);
+          }
+        }
       }
     });
     for (std::size_t task = 0; task < tasks; ++task) found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
   }
 
-  void visit(const Node& l, const Node& r, std::vector<TrianglePair>& out) const {
-    if (l.cell != r.cell) return;
-    const Item &a = items_[l.item], &b = items_[r.item];
-    if (a.body == b.body && is_self_[a.body] == 0) return;
-    for (int d = 0; d < 3; ++d)
-      if (l.cell[d] != std::max(a.low[d], b.low[d])) return;  // another cell's pair
-    test(a, b, out);
+  static std::uint32_t first_axes(const Cell& low, const Cell& cell) {
+    return (low.i == cell.i ? 1u : 0u) | (low.j == cell.j ? 2u : 0u) | (low.k == cell.k ? 4u : 0u);
   }
 
   // items of one body come in ascending order, bodies too: l is before r
@@ -315,27 +337,29 @@ class SpatialHash final : public NarrowPhase {
   // triangles that are in no list against all items of their partners
   void test_large(std::vector<TrianglePair>& found) {
     if (large_.empty()) return;
-    body_begin_.assign(colliders_.size() + 1, 0);
-    for (std::size_t i = 0; i < block_begin_.back(); ++i) ++body_begin_[items_[i].body + 1];
-    for (std::size_t b = 0; b < colliders_.size(); ++b) body_begin_[b + 1] += body_begin_[b];
     grow(task_found_, large_.size());
     parallel_for(large_.size(), 1, [&](std::size_t task) {
       std::vector<TrianglePair>& out = task_found_[task];
       out.clear();
       const std::uint32_t own = large_[task];
       const Item& item = items_[own];
-      for (const Partner& partner : partners_[item.body])
-        for (std::uint32_t i = body_begin_[partner.body]; i < body_begin_[partner.body + 1]; ++i) {
+      for (std::size_t b = 0; b < blocks_.size(); ++b) {
+        const auto is_block_body = [&](const Partner& p) { return p.body == blocks_[b].body; };
+        const std::vector<Partner>& partners = partners_[item.body];
+        if (std::none_of(partners.begin(), partners.end(), is_block_body)) continue;
+        for (std::size_t i = b * kBlock; i < b * kBlock + blocks_[b].items; ++i) {
           if (i == own || (items_[i].is_large && i < own)) continue;  // two large ones meet once
-          test(items_[std::min(own, i)], items_[std::max(own, i)], out);
+          test(items_[std::min<std::size_t>(own, i)], items_[std::max<std::size_t>(own, i)], out);
         }
+      }
     });
     for (std::size_t task = 0; task < large_.size(); ++task) found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
   }
 
   struct Block {
     int body;
-    std::size_t first, last;
+    std::size_t first, last;  // triangles
+    std::size_t items;        // how many of them reach into the region; they stand in items_ from kBlock times the block's number
   };
   struct Count {
     std::uint32_t step = 0, size = 0, end = 0;
@@ -347,21 +371,22 @@ class SpatialHash final : public NarrowPhase {
   std::vector<Aabb> regions_;
   std::vector<double> half_margins_;
   std::vector<char> is_self_;
-  std::vector<std::uint32_t> mark_bits_, body_begin_;
+  std::vector<int> colours_;
   std::vector<int> active_;
+  int bits_a_class_ = 1;
+  std::uint32_t class_mask_ = 0;
+  bool is_crowded_ = false;
   // grid and table
   Vec3 origin_ = Vec3::Zero();
   double per_cell_ = 1.0;
   std::uint32_t size_ = 0, step_ = 0;
-  std::vector<std::atomic<std::uint64_t>> marks_;  // step in the high half, bodies in the low
+  std::vector<std::atomic<std::uint64_t>> marks_;  // step in the high half, colours by class of cells in the low
   std::vector<Count> counts_;
   std::vector<std::uint32_t> used_;
   std::vector<Node> lists_;
   // by block of triangles
   std::vector<Block> blocks_;
-  std::vector<std::vector<Item>> block_items_;
   std::vector<std::vector<Node>> block_nodes_;
-  std::vector<std::size_t> block_begin_;
   std::vector<Item> items_;
   std::vector<std::uint32_t> large_;
   std::vector<std::vector<TrianglePair>> task_found_;
