@@ -21,7 +21,8 @@ std::filesystem::path made(std::filesystem::path folder) {
 
 }  // namespace
 
-PngSequence::PngSequence(std::filesystem::path folder) : folder_(made(std::move(folder))), thread_([this] { work(); }) {}
+PngSequence::PngSequence(std::filesystem::path folder)
+    : folder_(made(std::move(folder))), thread_([this] { work(); }) {}
 
 PngSequence::~PngSequence() { end_thread(); }
 

@@ -24,9 +24,9 @@ class PngSequence {
   PngSequence(const PngSequence&) = delete;
   PngSequence& operator=(const PngSequence&) = delete;
 
-  /// Hands `image` over, to be written as folder/000000.png (six digits of `frame`, in the order of the calls). Waits while
-  /// kMaxWaiting images are unwritten. Throws what writing an earlier one threw (InputError on a full disk), every time
-  /// from then on: nothing is written after a failure.
+  /// Hands `image` over, to be written as folder/000000.png (six digits of `frame`, in the order of the calls). Waits
+  /// while kMaxWaiting images are unwritten. Throws what writing an earlier one threw (InputError on a full disk),
+  /// every time from then on: nothing is written after a failure.
   void add(int frame, Image&& image, PngText text);
   /// Returns once all are written. Throws as add() does. May be called again; add() may not be called after it.
   void finish();

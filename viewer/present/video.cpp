@@ -36,7 +36,8 @@ Outcome run_program(const std::vector<std::string>& words, const fs::path& folde
   arguments.push_back(nullptr);
 
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw InputError(fmt::format("{}: can't be run ({})", words[0], std::strerror(errno)));
+  if (pipe2(ends, O_CLOEXEC) != 0)
+    throw InputError(fmt::format("{}: can't be run ({})", words[0], std::strerror(errno)));
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -62,8 +63,10 @@ Outcome run_program(const std::vector<std::string>& words, const fs::path& folde
     outcome.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
   close(ends[0]);
-  if (error == ENOENT) outcome.installed = false;
-  else if (error != 0) outcome.complaint = std::strerror(error);
+  if (error == ENOENT)
+    outcome.installed = false;
+  else if (error != 0)
+    outcome.complaint = std::strerror(error);
   return outcome;
 }
 
@@ -83,7 +86,8 @@ void require_frames(const fs::path& folder) {
 /// Without the part that ffmpeg puts before it, which holds an address in memory: "[png @ 0x55d0]".
 std::string first_line(const std::string& text) {
   std::string line = text.substr(0, text.find('\n'));
-  if (line.starts_with('[') && line.find(" @ ") != std::string::npos) line.erase(0, std::min(line.find("] "), line.size() - 2) + 2);
+  const std::size_t end = line.find("] ");
+  if (line.starts_with('[') && end != std::string::npos) line.erase(0, end + 2);
   return line.empty() ? "it gave no reason" : line;
 }
 
@@ -91,7 +95,8 @@ std::string first_line(const std::string& text) {
 
 bool make_video(const fs::path& frames, const fs::path& output, double frames_per_second) {
   if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))
-    throw InputError(fmt::format("{}: {} frames a second; a positive number is wanted; try 30", output.string(), frames_per_second));
+    throw InputError(
+        fmt::format("{}: {} frames a second; a positive number is wanted; try 30", output.string(), frames_per_second));
   require_frames(frames);
   // ffmpeg runs in the frames' folder, as its patterns have no way to quote a folder's name; so its output is absolute
   const fs::path target = fs::absolute(output);
@@ -100,12 +105,26 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
   std::string complaint;
   for (const std::vector<std::string>& codec :
        {std::vector<std::string>{"libx264", "-preset", "medium", "-crf", "18"}, {"mpeg4", "-q:v", "2"}}) {
-    std::vector<std::string> words = {"ffmpeg", "-nostdin", "-loglevel", "error", "-xerror", "-y", "-f", "image2", "-framerate",
-                                      fmt::format("{}", frames_per_second), "-pattern_type", "glob", "-i",
-                                      "[0-9][0-9][0-9][0-9][0-9][0-9].png", "-vf",
-                                      "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-c:v"};
+    std::vector<std::string> words = {"ffmpeg",
+                                      "-nostdin",
+                                      "-loglevel",
+                                      "error",
+                                      "-xerror",
+                                      "-y",
+                                      "-f",
+                                      "image2",
+                                      "-framerate",
+                                      fmt::format("{}", frames_per_second),
+                                      "-pattern_type",
+                                      "glob",
+                                      "-i",
+                                      "[0-9][0-9][0-9][0-9][0-9][0-9].png",
+                                      "-vf",
+                                      "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709",
+                                      "-c:v"};
     words.insert(words.end(), codec.begin(), codec.end());
-    for (const char* word : {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"})
+    for (const char* word :
+         {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"})
       words.emplace_back(word);
     words.push_back(temporary.string());
     const Outcome outcome = run_program(words, frames);
@@ -120,8 +139,10 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
     fs::remove(temporary, ignored);
     if (complaint.empty()) complaint = first_line(outcome.complaint);
   }
-  throw InputError(fmt::format("{}: ffmpeg made no film ({}); whole frames of one size and a name such as film.mp4 are wanted; "
-                               "check them", output.string(), complaint));
+  throw InputError(
+      fmt::format("{}: ffmpeg made no film ({}); whole frames of one size and a name such as film.mp4 are wanted; "
+                  "check them",
+                  output.string(), complaint));
 }
 
 }  // namespace impinge
