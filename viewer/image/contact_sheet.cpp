@@ -32,7 +32,8 @@ std::vector<Span> spans(int from, int to) {
     const std::int64_t begin = k * from, end = begin + from;
     spans[k].first = static_cast<int>(begin / to);
     for (std::int64_t pixel = begin / to; pixel * to < end; ++pixel)
-      spans[k].weights.push_back(static_cast<std::uint32_t>(std::min(end, (pixel + 1) * to) - std::max(begin, pixel * to)));
+      spans[k].weights.push_back(
+          static_cast<std::uint32_t>(std::min(end, (pixel + 1) * to) - std::max(begin, pixel * to)));
   }
   return spans;
 }
@@ -73,9 +74,11 @@ Image reduce(const Image& image, int width, int height) {
   return out;
 }
 
-Image make_contact_sheet(std::span<const std::filesystem::path> frames, int columns, int max_frames, int thumbnail_width) {
+Image make_contact_sheet(std::span<const std::filesystem::path> frames, int columns, int max_frames,
+                         int thumbnail_width) {
   IMPINGE_ASSERT(columns > 0 && max_frames > 0 && thumbnail_width > 0);
-  if (frames.empty()) throw InputError("contact sheet: there are no frames; at least one is wanted; run the scene first");
+  if (frames.empty())
+    throw InputError("contact sheet: there are no frames; at least one is wanted; run the scene first");
   const std::vector<std::size_t> choice = choose(frames.size(), static_cast<std::size_t>(max_frames));
   const int shown = static_cast<int>(choice.size());
   columns = std::min(columns, shown);
@@ -83,7 +86,8 @@ Image make_contact_sheet(std::span<const std::filesystem::path> frames, int colu
 
   Image frame = read_png(frames[choice[0]]);
   const int frame_width = frame.width, frame_height = frame.height, width = std::min(thumbnail_width, frame_width);
-  const int height = std::max(1, static_cast<int>((std::int64_t{width} * frame_height + frame_width / 2) / frame_width));
+  const int height =
+      std::max(1, static_cast<int>((std::int64_t{width} * frame_height + frame_width / 2) / frame_width));
   const int label_scale = width >= 160 ? 2 : 1, cell_height = height + 4 + text_height(label_scale) + kMargin;
   Image sheet(kMargin + columns * (width + kMargin), kMargin + rows * cell_height);
   fill_rectangle(sheet, 0, 0, sheet.width, sheet.height, kPaper);
@@ -92,8 +96,9 @@ Image make_contact_sheet(std::span<const std::filesystem::path> frames, int colu
     const std::filesystem::path& path = frames[choice[k]];
     if (k > 0) frame = read_png(path);
     if (frame.width != frame_width || frame.height != frame_height)
-      throw InputError(fmt::format("{}: has {} x {} pixels; {} x {} as in {} are wanted; make one sheet a size", path.string(),
-                                   frame.width, frame.height, frame_width, frame_height, frames[0].string()));
+      throw InputError(fmt::format("{}: has {} x {} pixels; {} x {} as in {} are wanted; make one sheet a size",
+                                   path.string(), frame.width, frame.height, frame_width, frame_height,
+                                   frames[0].string()));
     const Image small = reduce(frame, width, height);
     const int x = kMargin + k % columns * (width + kMargin), y = kMargin + k / columns * cell_height;
     for (int row = 0; row < height; ++row) std::copy_n(small.pixel(0, row), 3 * width, sheet.pixel(x, y + row));

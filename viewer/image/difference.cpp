@@ -44,7 +44,8 @@ void find_worst_window(const Flags& differs, int width, int height, Difference& 
   const int w = std::min(difference.settings.window, width), h = std::min(difference.settings.window, height);
   for (int y = 0; y + h <= height; ++y)
     for (int x = 0; x + w <= width; ++x) {
-      const int count = sum[(y + h) * stride + x + w] - sum[y * stride + x + w] - sum[(y + h) * stride + x] + sum[y * stride + x];
+      const int count =
+          sum[(y + h) * stride + x + w] - sum[y * stride + x + w] - sum[(y + h) * stride + x] + sum[y * stride + x];
       if (count > difference.worst_window) {
         difference.worst_window = count;
         difference.worst_at = {x, y};
@@ -80,8 +81,8 @@ Flags find_differing(const Image& a, const Image& b, const Image* mask, Differen
 std::string describe(const Difference& d) {
   if (d.identical) return fmt::format("identical: {} pixels", d.compared);
   const auto& s = d.settings;
-  std::string text = fmt::format("{} of {} pixels differ by more than {} levels (at most {} may), the most by {}", d.differing,
-                                 d.compared, s.tolerance, d.allowed, d.max_level);
+  std::string text = fmt::format("{} of {} pixels differ by more than {} levels (at most {} may), the most by {}",
+                                 d.differing, d.compared, s.tolerance, d.allowed, d.max_level);
   if (d.differing > 0) {
     text += fmt::format("; {:.2g} % of the {} drawn ones", 100 * d.share_of_drawn, d.drawn);
     text += fmt::format("; {} in the {} x {} window at ({}, {}) (at most {} may)", d.worst_window, s.window, s.window,
@@ -102,10 +103,12 @@ Difference compare(const Image& a, const Image& b, const DifferenceSettings& set
   Difference difference;
   difference.settings = settings;
   if (mask != nullptr && (mask->width != a.width || mask->height != a.height))
-    throw InputError(fmt::format("the mask has {} x {} pixels; the picture's {} x {} are wanted; draw it over that picture",
-                                 mask->width, mask->height, a.width, a.height));
+    throw InputError(
+        fmt::format("the mask has {} x {} pixels; the picture's {} x {} are wanted; draw it over that picture",
+                    mask->width, mask->height, a.width, a.height));
   if (a.width != b.width || a.height != b.height) {
-    difference.reason = fmt::format("different: the sizes are {} x {} and {} x {} pixels", a.width, a.height, b.width, b.height);
+    difference.reason =
+        fmt::format("different: the sizes are {} x {} and {} x {} pixels", a.width, a.height, b.width, b.height);
     return difference;
   }
   if (a.rgb.empty()) {
@@ -120,8 +123,9 @@ Difference compare(const Image& a, const Image& b, const DifferenceSettings& set
     if (difference.drawn > 0) difference.share_of_drawn = static_cast<double>(difference.differing) / difference.drawn;
     find_worst_window(differs, a.width, a.height, difference);
   }
-  difference.allowed = static_cast<std::int64_t>(std::min(std::ceil(settings.allowed_per_megapixel * difference.compared / 1e6),
-                                                          std::floor(settings.allowed_of_drawn * difference.drawn)));
+  difference.allowed =
+      static_cast<std::int64_t>(std::min(std::ceil(settings.allowed_per_megapixel * difference.compared / 1e6),
+                                         std::floor(settings.allowed_of_drawn * difference.drawn)));
   difference.same = difference.differing <= difference.allowed && difference.worst_window <= settings.allowed_in_window;
   difference.reason = describe(difference);
   return difference;

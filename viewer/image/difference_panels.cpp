@@ -48,7 +48,8 @@ Image amplified(const Image& a, const Image& b, int tolerance, int surround, con
     fill_rectangle(out, x, y, 1, 1, {grey, grey, blue});
   });
   for_each([&](int x, int y, int level) {
-    if (level > tolerance) fill_rectangle(out, x - surround, y - surround, 2 * surround + 1, 2 * surround + 1, {110, 20, 20});
+    if (level > tolerance)
+      fill_rectangle(out, x - surround, y - surround, 2 * surround + 1, 2 * surround + 1, {110, 20, 20});
   });
   for_each([&](int x, int y, int level) {
     if (level > tolerance) fill_rectangle(out, x, y, 1, 1, heat(level, tolerance));
@@ -83,8 +84,9 @@ Image difference_panels(const Image& a, const Image& b, const Difference& differ
 
   const Image third = amplified(a, b, difference.settings.tolerance, zoom > 1 ? 0 : 2, mask);
   const Image* const images[] = {&a, &b, &third};
-  const std::string captions[] = {fmt::format("A {} x {}", a.width, a.height), fmt::format("B {} x {}", b.width, b.height),
-                                  fmt::format("over {} levels: {}", difference.settings.tolerance, difference.differing)};
+  const std::string captions[] = {
+      fmt::format("A {} x {}", a.width, a.height), fmt::format("B {} x {}", b.width, b.height),
+      fmt::format("over {} levels: {}", difference.settings.tolerance, difference.differing)};
   for (int k = 0; k < 3; ++k) {
     const int x = kGap + k * (panel + kGap);
     draw_text(sheet, x, kGap, captions[k], kInk, scale);
@@ -92,7 +94,8 @@ Image difference_panels(const Image& a, const Image& b, const Difference& differ
     if (difference.worst_window == 0) continue;
     // just outside the window, so that it hides none of its pixels
     const int side = difference.settings.window * zoom + 4;
-    draw_rectangle(sheet, x + difference.worst_at[0] * zoom - 2, top + difference.worst_at[1] * zoom - 2, side, side, 2, kFrame);
+    draw_rectangle(sheet, x + difference.worst_at[0] * zoom - 2, top + difference.worst_at[1] * zoom - 2, side, side, 2,
+                   kFrame);
   }
   for (std::size_t k = 0; k < lines.size(); ++k)
     draw_text(sheet, kGap, top + height * zoom + kGap + static_cast<int>(k) * line, lines[k], kInk, scale);

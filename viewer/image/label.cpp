@@ -8,7 +8,7 @@ namespace {
 
 // ' ' to '_', then '{' to '~'; one row of five pixels a hexadecimal pair, top row first, the leftmost pixel in bit 4
 constexpr std::string_view kGlyphs[] = {
-    "00000000000000",  // space
+    "00000000000000",                                                                          // space
     "04040404040004", "0A0A0A00000000", "0A0A1F0A1F0A0A", "040F140E051E04", "18190204081303",  // ! " # $ %
     "0C12140815120D", "04040800000000", "02040808080402", "08040202020408", "00041F0E1F0400",  // & ' ( ) *  (star)
     "0004041F040400", "00000000060408", "0000001F000000", "00000000000C0C", "00010204081000",  // + , - . /

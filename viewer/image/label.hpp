@@ -19,7 +19,8 @@ inline int text_height(int scale = 1) { return 7 * scale; }
 /// character outside ASCII's printable ones, byte by byte, as a box.
 void draw_text(Image& image, int x, int y, std::string_view text, Rgb colour, int scale = 1);
 
-/// Fills, or draws inwards as a border `thickness` pixels wide, the rectangle [x, x + width) x [y, y + height), clipped.
+/// Fills, or draws inwards as a border `thickness` pixels wide, the rectangle [x, x + width) x [y, y + height),
+/// clipped.
 void fill_rectangle(Image& image, int x, int y, int width, int height, Rgb colour);
 void draw_rectangle(Image& image, int x, int y, int width, int height, int thickness, Rgb colour);
 

@@ -18,8 +18,8 @@ using PngText = std::vector<std::pair<std::string, std::string>>;
 /// chunk can't hold.
 std::string encode_png(const Image& image, const PngText& text = {});
 
-/// `name` stands in the messages. Throws InputError where the bytes are no PNG file, are damaged (every chunk's checksum
-/// is tested) or hold more than 2^26 pixels.
+/// `name` stands in the messages. Throws InputError where the bytes are no PNG file, are damaged (every chunk's
+/// checksum is tested) or hold more than 2^26 pixels.
 Image decode_png(std::string_view bytes, const std::string& name);
 
 /// Complete or not at all: writes beside `path`, then renames. Throws InputError naming the path where that fails.

@@ -18,7 +18,8 @@ unsigned char* deflate_for_stb(unsigned char* data, int size, int* out_size, int
   const std::size_t room = libdeflate_zlib_compress_bound(compressor.get(), static_cast<std::size_t>(size));
   auto* out = static_cast<unsigned char*>(std::malloc(room));
   if (out == nullptr) return nullptr;
-  *out_size = static_cast<int>(libdeflate_zlib_compress(compressor.get(), data, static_cast<std::size_t>(size), out, room));
+  *out_size =
+      static_cast<int>(libdeflate_zlib_compress(compressor.get(), data, static_cast<std::size_t>(size), out, room));
   return out;
 }
 

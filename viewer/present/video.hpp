@@ -1,0 +1,14 @@
+// A film of a run's frames, by the ffmpeg program where there is one.
+#pragma once
+
+#include <filesystem>
+
+namespace impinge {
+
+/// Joins the six-digit PNG files of `frames`, in order, gaps allowed, into `output`; the file name's ending chooses the
+/// container (.mp4). H.264, or MPEG-4 where ffmpeg has no x264; an odd width or height gains one black column or row.
+/// `output` appears complete or not at all. False where ffmpeg isn't installed. Throws InputError where there are no
+/// frames, the rate is not a positive number, or ffmpeg fails.
+bool make_video(const std::filesystem::path& frames, const std::filesystem::path& output, double frames_per_second);
+
+}  // namespace impinge
