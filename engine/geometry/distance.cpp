@@ -75,17 +75,26 @@ PointTriangle closest_on_triangle(const Vec3& x, const TriangleCorners& c) {
   const bool is_flat = !(area2 > 1e-28 * longest * longest);
   const Vec3 r0 = x - c[0];
   double side[3] = {-1.0, -1.0, -1.0};
+  PointTriangle thin;
+  thin.squared_distance = std::numeric_limits<double>::infinity();
   if (!is_flat) {
     side[0] = e0.cross(r0).dot(normal);
     side[1] = e1.cross(x - c[1]).dot(normal);
     side[2] = e2.cross(x - c[2]).dot(normal);
     if (side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0) {
-      const double height = normal.dot(r0);
-      return {x - (height / area2) * normal, TriangleFeature::face, height * height / area2};
+      if (area2 > 1e-8 * longest * longest) {
+        const double height = normal.dot(r0);
+        return {x - (height / area2) * normal, TriangleFeature::face, height * height / area2};
+      }
+      // thin: the normal leans by its rounding, so the foot is taken from its weights, inside the triangle for certain, and
+      // an edge may still be closer
+      const double sum = side[0] + side[1] + side[2];
+      const Vec3 foot = (side[1] / sum) * c[0] + (side[2] / sum) * c[1] + (side[0] / sum) * c[2];
+      thin = {foot, TriangleFeature::face, (x - foot).squaredNorm()};
+      side[0] = side[1] = side[2] = -1.0;
     }
   }
-  PointTriangle best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
+  PointTriangle best = thin;
   for (int k = 0; k < 3; ++k) {
     if (side[k] > 0.0) continue;  // the closest point lies on an edge that has x on its outer side
     const PointSegment e = closest_on_segment(x, c[k], c[(k + 1) % 3]);

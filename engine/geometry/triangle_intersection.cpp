@@ -61,14 +61,35 @@ Verdict edge_against(const TriangleCorners& corners, int k, const Heights& heigh
   return crosses && u > width * face.l2 && v > width * face.l1 && w > width_w ? Verdict::hit : Verdict::unsure;
 }
 
-// the same without bands
-bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& c) {
-  const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], normal = e1.cross(e2), direction = q - p, s = p - c[0];
-  const double at_p = normal.dot(s), at_q = normal.dot(q - c[0]);
-  if (!((at_p > 0.0 && at_q < 0.0) || (at_p < 0.0 && at_q > 0.0))) return false;
-  const double sign = at_p > 0.0 ? 1.0 : -1.0;
-  const double u = sign * s.dot(direction.cross(e2)), v = sign * direction.dot(s.cross(e1));
-  return u >= 0.0 && v >= 0.0 && sign * (at_p - at_q) - u - v >= 0.0;
+// wide enough that the products below have no rounding that matters against that of the coordinates themselves
+#if defined(__SIZEOF_FLOAT128__)
+using Wide = __float128;
+#else
+using Wide = long double;
+#endif
+
+struct WideVector {
+  Wide x, y, z;
+};
+WideVector difference(const Vec3& a, const Vec3& b) {
+  return {static_cast<Wide>(a.x()) - b.x(), static_cast<Wide>(a.y()) - b.y(), static_cast<Wide>(a.z()) - b.z()};
+}
+Wide triple(const WideVector& a, const WideVector& b, const WideVector& c) {
+  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+}
+
+// the same without bands. `distance` is that of the triangles' features: a segment that pierces the face has one of its
+// ends, or a crossing with the border, no farther off than the higher of its ends stands over the plane
+bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& c, double distance) {
+  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  const double height = std::max(std::abs(normal.dot(p - c[0])), std::abs(normal.dot(q - c[0])));
+  const double rounding = 64.0 * 0x1.0p-53 * (l1(p - c[0]) + l1(q - c[0])) * l1(c[1] - c[0]) * l1(c[2] - c[0]);
+  if (distance * normal.norm() > height + rounding) return false;
+  const WideVector e1 = difference(c[1], c[0]), e2 = difference(c[2], c[0]), direction = difference(q, p), s = difference(p, c[0]);
+  const Wide at_p = triple(s, e1, e2), at_q = triple(difference(q, c[0]), e1, e2);
+  if (!((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0))) return false;
+  const Wide sign = at_p > 0 ? 1 : -1, u = sign * triple(s, direction, e2), v = sign * triple(direction, s, e1);
+  return u >= 0 && v >= 0 && sign * (at_p - at_q) - u - v >= 0;
 }
 
 bool is_before(const Vec3& l, const Vec3& r) {
@@ -83,9 +104,11 @@ TriangleCorners sorted(TriangleCorners c) {
 bool decide_by_distance(const TriangleCorners& first, const TriangleCorners& second, double touch) {
   TriangleCorners a = sorted(first), b = sorted(second);
   if (std::lexicographical_compare(b.begin(), b.end(), a.begin(), a.end(), is_before)) std::swap(a, b);
+  const double distance = std::sqrt(closest_features(a, b).squared_distance);
+  if (distance <= touch) return true;
   for (int k = 0; k < 3; ++k)
-    if (pierces(a[k], a[(k + 1) % 3], b) || pierces(b[k], b[(k + 1) % 3], a)) return true;
-  return features_within(a, b, touch);
+    if (pierces(a[k], a[(k + 1) % 3], b, distance) || pierces(b[k], b[(k + 1) % 3], a, distance)) return true;
+  return false;
 }
 
 }  // namespace

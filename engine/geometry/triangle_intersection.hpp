@@ -6,8 +6,9 @@
 // or a face are never missed at any pose; 1e5 m from the origin the tolerance is about 1e-9 m.
 //
 // How it is decided. Each edge-triangle test has a band round its borders, far wider than rounding. Outside all bands the
-// answer is certain. Inside one the pair is decided by the plain test and by the distance of corners, edges and faces, on a
-// sorted copy of the triangles: the answer does not depend on the order of the triangles or of their corners, bit for bit.
+// answer is certain. Inside one the pair is decided by the distance of corners, edges and faces and by the plain test in
+// wide numbers, on a sorted copy of the triangles: the answer does not depend on the order of the triangles or of their
+// corners, bit for bit.
 // There is no division in it: no input of finite numbers gives NaN.
 #pragma once
 
