@@ -1,0 +1,155 @@
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/core/error.hpp"
+#include "tests/support/pictures.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "viewer/image/png.hpp"
+#include "viewer/present/png_sequence.hpp"
+#include "viewer/present/video.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+/// Sets PATH for its own life.
+class SearchPath {
+ public:
+  explicit SearchPath(const std::string& path) : old_(std::getenv("PATH")) { setenv("PATH", path.c_str(), 1); }
+  ~SearchPath() { setenv("PATH", old_.c_str(), 1); }
+
+ private:
+  std::string old_;
+};
+
+}  // namespace
+
+TEST_CASE("A sequence writes each frame under its number, in order, with its text") {
+  const TempFolder folder;
+  const auto frames = folder.path() / "run" / "frames";
+  {
+    PngSequence sequence(frames);
+    for (int k = 0; k < 40; ++k) sequence.add(3 * k, noise(50, 30, k), {{"impinge:frame", std::to_string(3 * k)}});
+    sequence.finish();
+    CHECK(files_in(frames) == 40);
+    CHECK_NOTHROW(sequence.finish());
+    CHECK_THROWS_AS(sequence.add(1, plain(2, 2), {}), InternalError);
+  }
+  CHECK(files_in(frames) == 40);
+  for (int k = 0; k < 40; ++k) {
+    const auto path = frames / fmt::format("{:06}.png", 3 * k);
+    CHECK(read_png(path) == noise(50, 30, k));
+    CHECK(read_png_text(path) == PngText{{"impinge:frame", std::to_string(3 * k)}});
+  }
+  CHECK(PngSequence::file_name(0) == "000000.png");
+  CHECK(PngSequence::file_name(1234567) == "1234567.png");
+}
+
+TEST_CASE("A sequence that isn't finished still writes what it was given") {
+  const TempFolder folder;
+  {
+    PngSequence sequence(folder.path());
+    for (int k = 0; k < 6; ++k) sequence.add(k, noise(400, 300, k), {});
+  }
+  REQUIRE(files_in(folder.path()) == 6);
+  CHECK(read_png(folder / "000005.png") == noise(400, 300, 5));
+  { const PngSequence unused(folder / "empty"); }
+  CHECK(files_in(folder / "empty") == 0);
+}
+
+TEST_CASE("A frame written twice holds the later picture") {
+  const TempFolder folder;
+  PngSequence sequence(folder.path());
+  for (int k = 0; k < 20; ++k) sequence.add(7, noise(30, 30, k), {});
+  sequence.finish();
+  CHECK(files_in(folder.path()) == 1);
+  CHECK(read_png(folder / "000007.png") == noise(30, 30, 19));
+}
+
+TEST_CASE("A frame that can't be written stops the sequence, and its caller learns of it") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "000002.png");  // rename onto a folder fails
+  std::string complaint;
+  int added = 0;
+  PngSequence sequence(folder.path());
+  try {
+    // a bounded queue: the failure must show before a hundred frames are handed over
+    for (; added < 100; ++added) sequence.add(added, noise(20, 20, added), {});
+  } catch (const InputError& error) {
+    complaint = error.what();
+  }
+  CHECK(added < 100);
+  CHECK(added >= 3);
+  CHECK_THAT(complaint, Contains("000002.png"));
+  CHECK_THROWS_AS(sequence.add(200, plain(2, 2), {}), InputError);
+  CHECK_THROWS_WITH(sequence.finish(), Contains("000002.png"));
+  CHECK(std::filesystem::exists(folder / "000001.png"));
+  CHECK_FALSE(std::filesystem::exists(folder / "000003.png"));
+  CHECK_FALSE(std::filesystem::exists(folder / "000002.png.tmp"));
+}
+
+TEST_CASE("A failure in the last frame shows when the sequence is finished") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "000000.png");
+  PngSequence sequence(folder.path());
+  sequence.add(0, plain(5, 5), {});
+  CHECK_THROWS_AS(sequence.finish(), InputError);
+  // a failure of another kind arrives as what it is
+  PngSequence other(folder / "other");
+  other.add(0, Image(), {});
+  CHECK_THROWS_AS(other.finish(), InternalError);
+  // and no frames' folder can be made where a file stands
+  folder.write("taken", "x");
+  CHECK_THROWS_WITH(PngSequence(folder / "taken"), Contains((folder / "taken").string()));
+  CHECK_THROWS_AS(PngSequence(folder / "taken" / "deeper"), InputError);
+}
+
+TEST_CASE("No film is made without ffmpeg, without frames or at no rate") {
+  const TempFolder folder;
+  CHECK_THROWS_AS(make_video(folder.path(), folder / "a.mp4", 30), InputError);
+  CHECK_THROWS_AS(make_video(folder / "missing", folder / "a.mp4", 30), InputError);
+  write_png(folder / "000000.png", plain(16, 16));
+  for (const double rate : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    CHECK_THROWS_AS(make_video(folder.path(), folder / "a.mp4", rate), InputError);
+  const SearchPath nothing_there(folder.path().string());
+  CHECK_FALSE(make_video(folder.path(), folder / "a.mp4", 30));
+  CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("A film appears complete or not at all") {
+  const TempFolder folder;
+  // odd sizes, a gap in the numbers, and a name full of what shells and ffmpeg's patterns treat specially
+  const auto frames = folder.path() / "fra%d [mes] $HOME '";
+  std::filesystem::create_directory(frames);
+  for (const int k : {0, 1, 2, 5, 9, 10}) write_png(frames / PngSequence::file_name(k), noise(65, 33, k));
+  const auto film = folder.path() / "film.mp4";
+  if (!make_video(frames, film, 12.5)) {
+    WARN("ffmpeg isn't installed: films are not tested");
+    return;
+  }
+  const std::string bytes = slurp(film);
+  CHECK(bytes.size() > 1000);
+  CHECK(bytes.substr(4, 4) == "ftyp");
+  // the sample table's count (stsz: 4 bytes of version and flags, sample size 0, count)
+  const std::size_t table = bytes.find("stsz");
+  REQUIRE(table != std::string::npos);
+  CHECK(four_bytes(bytes, table + 12) == 6);
+
+  CHECK_THROWS_WITH(make_video(frames, folder / "film.unknown", 30), Contains("film.unknown"));
+  CHECK_THROWS_AS(make_video(frames, folder / "no folder" / "film.mp4", 30), InputError);
+  const std::string whole = slurp(frames / "000001.png");
+  std::ofstream(frames / "000001.png", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  CHECK_THROWS_AS(make_video(frames, film, 30), InputError);
+  CHECK(slurp(film) == bytes);          // the older film is untouched
+  CHECK(files_in(folder.path()) == 2);  // the frames and the film: no temporary file is left
+}
