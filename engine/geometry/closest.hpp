@@ -9,7 +9,7 @@
 namespace impinge {
 
 /// Parameter in [0, 1] of the point of segment p0 p1 nearest to x; 0 for a segment without length.
-inline double closest_on_segment(const Vec3& x, const Vec3& p0, const Vec3& p1) {
+inline double closest_parameter(const Vec3& x, const Vec3& p0, const Vec3& p1) {
   const Vec3 d = p1 - p0;
   const double length_sq = d.squaredNorm();
   return length_sq > 0.0 ? std::clamp(d.dot(x - p0) / length_sq, 0.0, 1.0) : 0.0;
@@ -34,7 +34,7 @@ inline ClosestOnTriangle closest_on_triangle(const Vec3& x, const Vec3& a, const
     const Vec3& q = *corner[(k + 1) % 3];
     // only an edge whose outer side x is on can hold the nearest point
     if (normal_sq > 0.0 && (x - p).dot((q - p).cross(normal)) < 0.0) continue;
-    const double t = closest_on_segment(x, p, q);
+    const double t = closest_parameter(x, p, q);
     const Vec3 point = t <= 0.0 ? p : t >= 1.0 ? q : Vec3(p + t * (q - p));
     const double distance_sq = (x - point).squaredNorm();
     if (best.distance_sq >= 0.0 && distance_sq >= best.distance_sq) continue;
@@ -83,10 +83,10 @@ inline ClosestOnSegments closest_on_segments(const Vec3& p0, const Vec3& p1, con
     result.p = p;
     result.q = q;
   };
-  consider(0.0, closest_on_segment(p0, q0, q1));
-  consider(1.0, closest_on_segment(p1, q0, q1));
-  consider(closest_on_segment(q0, p0, p1), 0.0);
-  consider(closest_on_segment(q1, p0, p1), 1.0);
+  consider(0.0, closest_parameter(p0, q0, q1));
+  consider(1.0, closest_parameter(p1, q0, q1));
+  consider(closest_parameter(q0, p0, p1), 0.0);
+  consider(closest_parameter(q1, p0, p1), 1.0);
   return result;
 }
 

@@ -253,7 +253,7 @@ void capsule_capsule(ContactSink& sink) {
       for (int end = 0; end < 2; ++end) {
         const double s = end == 0 ? lo : hi;
         const Vec3 p = s <= 0.0 ? a.p0 : s >= 1.0 ? a.p1 : Vec3(a.p0 + s * u);
-        const double t = closest_on_segment(p, b.p0, b.p1);
+        const double t = closest_parameter(p, b.p0, b.p1);
         const Vec3 q = t <= 0.0 ? b.p0 : t >= 1.0 ? b.p1 : Vec3(b.p0 + t * v);
         const Vec3 between = p - q;
         const Vec3 n = between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal;

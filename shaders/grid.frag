@@ -1,0 +1,26 @@
+#version 330 core
+// A floor: matt, with a fine and a coarse grid, fading out well before it ends.
+in vec2 meters;
+in vec2 reach;
+in vec3 eye_position;
+uniform float cell;    // metres; every fifth line is stronger
+uniform vec4 color;
+uniform vec3 eye_normal;
+out vec4 result;
+
+float lines(vec2 p, float size, float width) {
+  vec2 t = p / size, w = max(fwidth(t), 1e-6);
+  vec2 d = abs(fract(t - 0.5) - 0.5) / w;  // pixels from the nearest line
+  vec2 line = clamp(0.5 * width + 0.5 - d, 0.0, 1.0) * clamp(0.35 / w - 0.6, 0.0, 1.0);  // gone before they run together
+  return max(line.x, line.y);
+}
+
+void main() {
+  float r = length(reach);
+  float fade = 1.0 - smoothstep(0.35, 1.0, r);
+  if (fade <= 0.004) discard;
+  float fine = lines(meters, cell, 1.0), coarse = lines(meters, 5.0 * cell, 1.4);
+  vec3 c = color.rgb * (1.0 + 0.10 * (1.0 - r));
+  c = mix(c, vec3(0.78, 0.82, 0.88), max(0.13 * fine, 0.26 * coarse));
+  result = vec4(c, color.a * fade);
+}

@@ -1,0 +1,39 @@
+#version 330 core
+// Light from above and below, a key light over the viewer's left shoulder, a rim. No pow: its bits differ among processors.
+in vec3 eye_position;
+in vec3 eye_normal;
+in vec3 local_position;
+uniform vec4 color;      // sRGB
+uniform vec3 eye_up;     // the world's up in the eye's axes
+uniform vec4 stripes;    // colour and, in w, bands a metre; 0: none
+uniform float outline_only;  // 1: see-through
+out vec4 result;
+
+void main() {
+  vec3 view = normalize(-eye_position);
+  vec3 n = normalize(eye_normal);
+  bool inside = dot(n, view) < 0.0 && !gl_FrontFacing;
+  if (!gl_FrontFacing) n = -n;
+  vec3 base = color.rgb * color.rgb;  // about linear
+  if (stripes.w > 0.0) {
+    float t = (local_position.x + local_position.y + local_position.z) * stripes.w;
+    float w = max(fwidth(t), 1e-6);
+    float band = clamp((abs(fract(t) - 0.5) - 0.34) / w + 0.5, 0.0, 1.0);
+    base = mix(base, stripes.rgb * stripes.rgb, band);
+  }
+  vec3 key_direction = normalize(vec3(-0.42, 0.62, 0.66));
+  float sky = 0.5 + 0.5 * dot(n, eye_up);
+  vec3 light = mix(vec3(0.16, 0.155, 0.17), vec3(0.50, 0.53, 0.58), sky);
+  float key = max(dot(n, key_direction), 0.0);
+  light += vec3(0.78, 0.75, 0.70) * key;
+  vec3 half_way = normalize(key_direction + view);
+  float s = max(dot(n, half_way), 0.0);
+  s *= s; s *= s; s *= s; s *= s; s *= s;  // to the 32nd
+  float f = 1.0 - max(dot(n, view), 0.0);
+  float rim = f * f * f;
+  vec3 c = base * light + vec3(0.10) * s + vec3(0.10, 0.12, 0.15) * rim * sky;
+  if (inside) c *= 0.45;
+  c = c / (1.0 + 0.12 * c);
+  float alpha = mix(color.a, 0.05 + 0.10 * rim, outline_only);
+  result = vec4(sqrt(clamp(c, 0.0, 1.0)), alpha);
+}

@@ -1,0 +1,93 @@
+// What is to be drawn, as plain data: layers write it, the renderer reads it. No OpenGL, no physics.
+#pragma once
+
+#include <string>
+
+#include "viewer/draw/palette.hpp"
+#include "viewer/draw/shaded_surface.hpp"
+
+namespace impinge {
+
+/// tested: hidden by what is in front. on_top: never hidden. both: solid where visible, faint where hidden.
+enum class Depth : std::uint8_t { tested, on_top, both };
+
+/// What a mark belongs to, for picking: 0 is nothing, body i is i + 1, contact i has the top bit set.
+using PickId = std::uint32_t;
+constexpr PickId body_pick(std::size_t body) { return static_cast<PickId>(body + 1); }
+constexpr PickId contact_pick(std::size_t contact) { return 0x80000000u | static_cast<PickId>(contact); }
+
+/// A disc of constant size with a dark rim.
+struct DrawPoint {
+  Vec3 position;
+  Color color;
+  float diameter = 8.0f;  ///< pixels
+  Depth depth = Depth::on_top;
+  PickId pick = 0;
+};
+
+struct DrawLine {
+  Vec3 a, b;
+  Color color;
+  float width = 1.5f;  ///< pixels
+  Depth depth = Depth::tested;
+  PickId pick = 0;
+};
+
+/// From `tail` along `direction`. With length_px > 0 it is that long on the screen where it lies across the line of sight,
+/// and the direction is a unit vector; else it ends at tail + direction.
+struct DrawArrow {
+  Vec3 tail, direction;
+  Color color;
+  float length_px = 0.0f;
+  float width = 2.5f;  ///< of the shaft, pixels
+  Depth depth = Depth::on_top;
+  PickId pick = 0;
+};
+
+/// A surface in its own frame, placed by `pose`.
+struct DrawSurface {
+  ShadedSurfacePointer surface;
+  Pose pose;
+  Color color;
+  bool see_through = false;  ///< hardly more than its edges: what lies behind matters more
+  bool striped = false;      ///< marked with bands: moved by a script
+  PickId pick = 0;
+};
+
+/// A single triangle laid over a surface.
+struct DrawTriangle {
+  std::array<Vec3, 3> corners;
+  Color color;
+  Depth depth = Depth::tested;
+  PickId pick = 0;
+};
+
+/// The half-space below it is solid; drawn as a finite grid seen from above only.
+struct DrawPlane {
+  Vec3 normal;          ///< unit
+  double offset = 0.0;  ///< normal·x = offset
+  Color color;
+  PickId pick = 0;
+};
+
+struct DrawLabel {
+  Vec3 position;
+  std::string text;
+  Color color = role::kInk;
+};
+
+struct DrawList {
+  std::vector<DrawPoint> points;
+  std::vector<DrawLine> lines;
+  std::vector<DrawArrow> arrows;
+  std::vector<DrawSurface> surfaces;
+  std::vector<DrawTriangle> triangles;
+  std::vector<DrawPlane> planes;
+  std::vector<DrawLabel> labels;
+
+  void clear();
+  /// The twelve edges of a box given in the frame of `pose`.
+  void add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth, PickId pick);
+};
+
+}  // namespace impinge

@@ -1,0 +1,86 @@
+#include "viewer/draw/view_settings.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "engine/core/error.hpp"
+
+namespace impinge {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<LayerSwitch>& layers) {
+  std::vector<std::string> names;
+  for (const LayerSwitch& layer : layers) names.push_back(layer.name);
+  return names;
+}
+
+Parameter vector_row(ViewSettings& settings, const char* path, Vec3 Camera::*member, const char* doc) {
+  Parameter row;
+  row.path = path;
+  row.kind = ParameterKind::vector3;
+  row.unit = "m";
+  row.range = {-1e9, 1e9};
+  row.doc = doc;
+  row.initial = settings.camera.*member;
+  row.get = [&settings, member] { return ParameterValue(settings.camera.*member); };
+  row.set = [&settings, member](const ParameterValue& value) {
+    settings.camera.*member = std::get<Vec3>(value);
+    settings.camera_given = true;
+  };
+  return row;
+}
+
+}  // namespace
+
+bool ViewSettings::is_on(std::string_view layer) const {
+  return std::any_of(layers.begin(), layers.end(), [&](const LayerSwitch& l) { return l.name == layer && l.on; });
+}
+
+void ViewSettings::switch_layer(std::string_view layer, bool on) {
+  const auto it = std::find_if(layers.begin(), layers.end(), [&](const LayerSwitch& l) { return l.name == layer; });
+  if (it == layers.end()) {
+    const std::string near = nearest_word(layer, names_of(layers));
+    throw InputError(fmt::format("unknown layer '{}'; allowed: {}{}", layer, fmt::join(names_of(layers), ", "),
+                                 near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  }
+  it->on = on;
+}
+
+std::vector<std::string> ViewSettings::layers_on() const {
+  std::vector<std::string> names;
+  for (const LayerSwitch& layer : layers)
+    if (layer.on) names.push_back(layer.name);
+  return names;
+}
+
+void ViewSettings::bind(ParameterSet& rows) {
+  rows.add(vector_row(*this, "view.camera.eye", &Camera::eye, "Where the camera is; without eye and target it is fitted to the scene."));
+  rows.add(vector_row(*this, "view.camera.target", &Camera::target, "What the camera looks at."));
+  rows.add("view.camera.fov", camera.fov_deg, {1.0, 170.0}, "deg", "Vertical angle of view.");
+
+  Parameter list;
+  list.path = "view.layers";
+  list.kind = ParameterKind::text_list;
+  list.names = names_of(layers);
+  list.doc = "The layers that are shown; all others are off.";
+  list.initial = layers_on();
+  list.get = [this] { return ParameterValue(layers_on()); };
+  list.set = [this](const ParameterValue& value) {
+    for (LayerSwitch& layer : layers) layer.on = false;
+    for (const std::string& name : std::get<std::vector<std::string>>(value)) switch_layer(name, true);
+  };
+  rows.add(std::move(list));
+  for (LayerSwitch& layer : layers) rows.add("view.layer." + layer.name, layer.on, layer.doc);
+
+  rows.add("view.point_size", point_size, {1.0, 100.0}, "px", "Diameter of a contact point, in pixels of a picture 720 high.");
+  rows.add("view.arrow_length", arrow_length, {1.0, 1000.0}, "px", "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
+  rows.add("view.line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
+  rows.add("view.antialiasing", antialiasing, "Smooth edges of surfaces (four samples a pixel; pictures take about twice as long).");
+  rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light"}, "What stands behind the scene.");
+  rows.add("view.panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
+  rows.add("view.panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
+  rows.add("view.panel.timings", show_timings, "Times of the stages among the figures; pictures then differ from run to run.");
+  rows.add("view.panel.scale", panel_scale, {0, 16}, "", "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
+}
+
+}  // namespace impinge

@@ -1,0 +1,44 @@
+// Draws a draw list as a camera sees it. The same list and camera give the same pixels, whatever was drawn before.
+#pragma once
+
+#include <map>
+
+#include "viewer/gl/framebuffer.hpp"
+#include "viewer/gl/grid.hpp"
+#include "viewer/gl/marks.hpp"
+
+namespace impinge {
+
+/// What is behind everything: two colours, one above the other.
+struct Backdrop {
+  Color top, bottom;
+};
+
+class Renderer {
+ public:
+  /// A context must be current, here and in every call.
+  Renderer() = default;
+
+  /// Draws into `target`, which is left bound and not yet resolved; `pixel_scale` multiplies every size in pixels.
+  void draw(const DrawList& list, const Camera& camera, const Backdrop& backdrop, const Framebuffer& target, float pixel_scale);
+
+ private:
+  struct SurfaceBuffers {
+    std::weak_ptr<const ShadedSurface> surface;
+    VertexArray array;
+    int indices = 0;
+  };
+
+  SurfaceBuffers& buffers_of(const ShadedSurfacePointer& surface);
+  void draw_backdrop(const Backdrop& backdrop);
+  void draw_surface(const DrawSurface& item, const ViewTransform& view);
+  void draw_see_through(const DrawList& list, const ViewTransform& view);
+
+  Program surface_program_{"surface"}, backdrop_program_{"backdrop"};
+  VertexArray nothing_;  // a core profile draws nothing without a vertex array
+  std::map<const ShadedSurface*, SurfaceBuffers> buffers_;
+  Grid grid_;
+  Marks marks_;
+};
+
+}  // namespace impinge

@@ -1,0 +1,22 @@
+// The axis-aligned boxes that the broad phase compares, of every body that can move.
+#include "viewer/layers/all.hpp"
+
+namespace impinge {
+namespace {
+
+void draw(const LayerContext& context, DrawList& list) {
+  const float width = static_cast<float>(context.settings.line_width);
+  for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
+    const BodyRecord& body = context.record.bodies[i];
+    if (body.kind == BodyKind::fixed || body.bounds.is_empty()) continue;
+    list.add_box(Pose{}, body.bounds.min, body.bounds.max, with_alpha(role::kAabb, 0.75f), 0.8f * width, Depth::both, body_pick(i));
+  }
+}
+
+}  // namespace
+
+Layer aabbs_layer() {
+  return {"aabbs", "Axis-aligned bounding boxes of dynamic and scripted bodies.", false, draw, {{LegendRow::line, role::kAabb, "bounding box"}}};
+}
+
+}  // namespace impinge

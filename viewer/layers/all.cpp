@@ -1,0 +1,18 @@
+#include "viewer/layers/all.hpp"
+
+namespace impinge {
+
+const std::vector<Layer>& layers() {
+  static const std::vector<Layer> all = {
+      meshes_layer(), aabbs_layer(), normals_layer(), contacts_layer(),
+  };
+  return all;
+}
+
+ViewSettings make_view_settings() {
+  ViewSettings settings;
+  for (const Layer& layer : layers()) settings.layers.push_back({std::string(layer.name), std::string(layer.doc), layer.on});
+  return settings;
+}
+
+}  // namespace impinge

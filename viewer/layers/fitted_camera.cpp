@@ -1,0 +1,36 @@
+#include "viewer/layers/layer.hpp"
+
+namespace impinge {
+
+Camera fitted_camera(const StepRecord& record, const Camera& like, double aspect) {
+  Camera camera;
+  camera.up = like.up;
+  camera.fov_deg = like.fov_deg;
+  camera.look_at({0.55, 0.42, 1.0}, Vec3::Zero());
+  Aabb box;
+  for (const BodyRecord& body : record.bodies)
+    if (body.kind != BodyKind::fixed) box.include(body.bounds);
+  if (!box.is_empty()) {
+    const Vec3 middle = box.center();
+    const Aabb moving = box;
+    for (const BodyRecord& body : record.bodies) {
+      if (body.kind != BodyKind::fixed) continue;
+      if (const auto* plane = std::get_if<Plane>(body.shape)) {
+        // where they would land
+        const Vec3 n = body.pose.rotation * plane->normal;
+        const double height = n.dot(middle - body.pose.position) - plane->offset;
+        if (n.dot(record.gravity) < 0.0 && height > 0.0) box.include(Vec3(middle - height * n));
+      } else if (!body.bounds.is_empty() && body.bounds.extent().norm() < 4.0 * moving.extent().norm()) {
+        box.include(body.bounds);
+      }
+    }
+  } else {
+    for (const BodyRecord& body : record.bodies)
+      if (!std::holds_alternative<Plane>(*body.shape)) box.include(body.bounds);
+  }
+  if (box.is_empty()) return like;
+  camera.fit(box, aspect);
+  return camera;
+}
+
+}  // namespace impinge

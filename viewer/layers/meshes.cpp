@@ -1,0 +1,38 @@
+// The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls in the way: see-through.
+#include "viewer/layers/all.hpp"
+#include "viewer/layers/body_style.hpp"
+
+namespace impinge {
+namespace {
+
+void draw(const LayerContext& context, DrawList& list) {
+  const std::vector<Color> colors = body_colors(context.record);
+  const bool by_group = context.settings.is_on("groups");
+  for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
+    const BodyRecord& body = context.record.bodies[i];
+    if (const auto* plane = std::get_if<Plane>(body.shape)) {
+      const Vec3 normal = body.pose.rotation * plane->normal;
+      list.planes.push_back({normal, plane->offset + normal.dot(body.pose.position), role::kFloor, body_pick(i)});
+      continue;
+    }
+    DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};
+    item.striped = body.kind == BodyKind::scripted;
+    if (body.kind == BodyKind::dynamic && by_group) item.color = body.group < 0 ? role::kUngrouped : series_color(body.group);
+    if (body.asleep) item.color = asleep_color(item.color);
+    item.see_through = is_wall_in_the_way(body, context.camera);
+    list.surfaces.push_back(std::move(item));
+    if (is_wall(body)) {
+      const Vec3 half = std::get<Box>(*body.shape).half;
+      list.add_box(body.pose, -half, half, with_alpha(role::kWallEdge, 0.55f), 1.0f, Depth::tested, body_pick(i));
+    }
+  }
+}
+
+}  // namespace
+
+Layer meshes_layer() {
+  return {"meshes", "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.", true, draw,
+          {{LegendRow::area, role::kScripted, "scripted body"}, {LegendRow::area, role::kStatic, "static body"}}};
+}
+
+}  // namespace impinge

@@ -1,0 +1,48 @@
+// Text over the picture: panels and labels, through Dear ImGui's draw lists and its embedded font.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "viewer/draw/palette.hpp"
+#include "viewer/gl/imgui_backend.hpp"
+
+struct ImDrawList;
+struct ImFont;
+struct ImGuiContext;
+
+namespace impinge {
+
+/// What the panels draw with. Sizes in pixels.
+struct Pen {
+  ImDrawList& list;
+  ImFont& font;
+  float text_size = 13.0f;
+  float unit = 1.0f;  ///< a pixel of a picture with text of 13 pixels
+  float picture_width = 0.0f, picture_height = 0.0f;
+
+  float text_width(const std::string& text) const;
+  void text(float x, float y, Color color, const std::string& text) const;
+  /// A dark translucent sheet with round corners.
+  void sheet(float x, float y, float width, float height) const;
+};
+
+class Overlay {
+ public:
+  /// A GL context must be current, here and in every call. `scale`: text size in steps of 13 pixels.
+  explicit Overlay(int scale);
+  ~Overlay();
+  Overlay(const Overlay&) = delete;
+  Overlay& operator=(const Overlay&) = delete;
+
+  int scale() const { return scale_; }
+  /// Runs `paint` and draws what it wrote into the framebuffer that is bound.
+  void draw(int width, int height, const std::function<void(const Pen&)>& paint);
+
+ private:
+  int scale_;
+  ImGuiContext* context_ = nullptr;
+  std::unique_ptr<ImguiBackend> backend_;
+};
+
+}  // namespace impinge

@@ -1,0 +1,20 @@
+// The panels drawn over a picture.
+#pragma once
+
+#include "viewer/layers/layer.hpp"
+#include "viewer/panels/overlay.hpp"
+
+namespace impinge {
+
+/// Pixels of the picture that a panel covers; empty (width 0) if it was left out.
+struct PanelArea {
+  float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+};
+
+/// The frame's figures at the top left: deterministic ones only, unless timings are asked for. Draws nothing where the panel would cover more than half the picture's width or run over its height.
+PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
+
+/// What the visible layers' marks mean, at the top right; left out where it would meet `other`.
+PanelArea draw_legend(const Pen& pen, const ViewSettings& settings, const PanelArea& other);
+
+}  // namespace impinge
