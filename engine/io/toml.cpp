@@ -89,7 +89,9 @@ class Converter {
   if (const std::size_t colon = reason.find(": "); colon != std::string::npos && reason.find(' ') > colon) reason = reason.substr(colon + 2);
   if (reason.size() < 3) reason = "no valid value";
 
-  // its location() is unreliable, the picture is right: " 3 | text" with a line of ^ or ~ below
+  // its location() is unreliable, the picture is right: " 3 | text" with a line of ^ or ~ below; of two pictures, the first
+  // shows what was there already
+  const bool twice = what.find("already") != std::string::npos;
   std::size_t line = std::max<std::size_t>(1, error.location().line()), column = 1;
   std::size_t bar = std::string::npos;
   for (std::size_t begin = 0; begin < what.size();) {
@@ -101,7 +103,8 @@ class Converter {
     else if (bar != std::string::npos) {
       const std::size_t mark = row.find_first_of("^~", bar);
       if (mark != std::string::npos) column = mark - bar - 2;
-      break;
+      if (!twice) break;
+      bar = std::string::npos;
     }
     begin = end + 1;
   }

@@ -84,7 +84,7 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   const std::string scene = kScene;
   check_scene("[simulation\nsubsteps = 2\n", "1:1", "broken TOML");
   check_scene("[simulation]\nsubsteps = \n", "2:12", "broken TOML");
-  check_scene(scene + "\nmass = 1\nmass = 2\n", "14:8", "broken TOML");
+  check_scene(scene + "\nmass = 1\nmass = 2\n", "14:8", "already exists");
   check_scene(replaced(scene, "substeps = 2", "substepz = 2"), "2:1", "did you mean 'simulation.substeps'?");
   check_scene(replaced(scene, "[simulation]", "[simulatoin]"), "1:2", "did you mean 'simulation'?");
   check_scene(replaced(scene, "substeps = 2", "substeps = \"two\""), "2:12", "an integer in [1, 1000]");
@@ -115,7 +115,7 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   check_scene(replaced(scene, "name = \"crate\"", "name = \"floor\""), "8:8", "names must differ");
   check_scene(replaced(scene, "name = \"crate\"", "name = \"a crate\""), "8:8", "rename it");
   check_scene(replaced(scene, "name = \"crate\"\n", ""), "7:1", "without a name");
-  check_scene(replaced(scene, "size = [1, 1, 1]", "size = [1, 0, 1]"), "10:31", "greater than 0");
+  check_scene(replaced(scene, "size = [1, 1, 1]", "size = [1, 0, 1]"), "10:30", "greater than 0");
   check_scene(replaced(scene, "box = { size", "bx = { size"), "10:11", "did you mean 'box'?");
   check_scene("[[body]]\nname = 3\n", "2:8", "a text is wanted");
   check_scene("[body]\nname = \"a\"\n", "1:1", "[[body]]");

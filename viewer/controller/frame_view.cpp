@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "viewer/image/difference.hpp"
+#include "viewer/image/png.hpp"
 
 namespace impinge {
 
@@ -41,7 +43,13 @@ void FrameView::bind(ParameterSet& rows) {
 void FrameView::open(int, int, const std::string&) { throw InputError("this program draws no pictures; add --no-images"); }
 double FrameView::draw(const StepRecord&, std::span<const Command>, const std::filesystem::path&) { return 0.0; }
 void FrameView::finish() {}
-std::string picture_difference(const std::filesystem::path&, const std::filesystem::path&, int) { return ""; }
+
+std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance) {
+  DifferenceSettings settings;
+  settings.tolerance = tolerance;
+  const Difference difference = compare(read_png(baseline), read_png(picture), settings);
+  return difference.same ? "" : difference.reason;
+}
 
 void FrameView::move_camera(const CameraCommand& command, const World& world) {
   Vec3 back = eye_ - target_;

@@ -14,6 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int kDefaultLastFrame = 240;
 
+// for run.toml, which may be read from anywhere
+std::string absolute_path(const fs::path& path) { return (path.empty() ? fs::current_path() : fs::absolute(path).lexically_normal()).string(); }
+
 void put_text(ByteWriter& out, const std::string& text) {
   out.put<std::uint64_t>(text.size());
   for (const char c : text) out.put(c);
@@ -121,9 +124,9 @@ RunRecord Session::run_record() const {
   RunRecord run;
   if (scene_.run) run = *scene_.run;
   run.version = IMPINGE_VERSION;
-  run.scene = scene_.run ? scene_.run->scene : fs::absolute(scene_.path).lexically_normal().string();
-  run.folder = scene_.run ? scene_.run->folder : fs::absolute(scene_.folder).lexically_normal().string();
-  run.script_file = script_name_.empty() ? "" : fs::absolute(script_name_).lexically_normal().string();
+  run.scene = scene_.run ? scene_.run->scene : absolute_path(scene_.path);
+  run.folder = scene_.run ? scene_.run->folder : absolute_path(scene_.folder);
+  run.script_file = script_name_.empty() ? "" : absolute_path(script_name_);
   run.script = script_lines_;
   return run;
 }
