@@ -1,17 +1,15 @@
 #include "viewer/controller/frame_view.hpp"
 
-#include <algorithm>
-#include <cmath>
-
+#include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/layers/layer.hpp"
+#include "viewer/present/frame_painter.hpp"
+#include "viewer/present/png_sequence.hpp"
 
 namespace impinge {
-
 namespace {
-
-constexpr double kDegree = M_PI / 180.0;
 
 Aabb bounds_of(const World& world) {
   Aabb box;
@@ -22,27 +20,49 @@ Aabb bounds_of(const World& world) {
 
 }  // namespace
 
-FrameView::FrameView() = default;
+FrameView::FrameView() : settings_(make_view_settings()) {}
 FrameView::~FrameView() = default;
 
-void FrameView::bind(ParameterSet& rows) {
-  rows.add("view.camera.eye", eye_, {-1e9, 1e9}, "m", "Where the camera is.");
-  rows.add("view.camera.target", target_, {-1e9, 1e9}, "m", "What it looks at.");
-  rows.add("view.camera.fov", fov_, {1.0, 170.0}, "deg", "Vertical angle of view.");
-  Parameter layers;
-  layers.path = "view.layers";
-  layers.kind = ParameterKind::text_list;
-  layers.names = {"meshes", "aabbs", "contacts", "normals", "contact_forces"};
-  layers.doc = "Layers that are drawn.";
-  layers.initial = layers_;
-  layers.get = [this] { return ParameterValue(layers_); };
-  layers.set = [this](const ParameterValue& value) { layers_ = std::get<std::vector<std::string>>(value); };
-  rows.add(std::move(layers));
+void FrameView::bind(ParameterSet& rows) { settings_.bind(rows); }
+
+void FrameView::open(int width, int height, const std::string& scene_name) {
+  width_ = width;
+  height_ = height;
+  scene_name_ = scene_name;
+  try {
+    painter_ = std::make_unique<FramePainter>(width, height);
+  } catch (const InternalError& error) {
+    throw InputError(std::string("pictures: ") + error.what() + "; choose a smaller --size");
+  } catch (const std::runtime_error& error) {
+    throw InputError(std::string("pictures: ") + error.what() + "; install libosmesa6, or add --no-images");
+  }
 }
 
-void FrameView::open(int, int, const std::string&) { throw InputError("this program draws no pictures; add --no-images"); }
-double FrameView::draw(const StepRecord&, std::span<const Command>, const std::filesystem::path&) { return 0.0; }
-void FrameView::finish() {}
+double FrameView::draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& path) {
+  double milliseconds = 0.0;
+  Image image;
+  {
+    const StageTimer timer(milliseconds);
+    if (!settings_.camera_given) settle_camera(settings_, record, static_cast<double>(width_) / height_);
+    painter_->paint(record, settings_, image);
+  }
+  std::string lines;
+  for (const Command& command : commands) lines += (lines.empty() ? "" : "\n") + format_command(command);
+  if (!sequence_) sequence_ = std::make_unique<PngSequence>(path.parent_path());
+  sequence_->add(record.stats.frame, std::move(image),
+                 {{"impinge:scene", scene_name_},
+                  {"impinge:frame", std::to_string(record.stats.frame)},
+                  {"impinge:commands", lines},
+                  {"impinge:state_hash", hex64(record.stats.state_hash)},
+                  {"impinge:renderer", painter_->renderer_name()}});
+  return milliseconds;
+}
+
+void FrameView::finish() {
+  if (!sequence_) return;
+  sequence_->finish();
+  sequence_.reset();
+}
 
 std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance) {
   DifferenceSettings settings;
@@ -52,32 +72,19 @@ std::string picture_difference(const std::filesystem::path& picture, const std::
 }
 
 void FrameView::move_camera(const CameraCommand& command, const World& world) {
-  Vec3 back = eye_ - target_;
+  // a command that turns or moves what nobody gave starts from the camera that is fitted to the scene
+  const double aspect = static_cast<double>(width_) / height_;
+  if (!settings_.camera_given) settle_camera(settings_, world.record(), aspect);
+  settings_.camera_given = true;
+  Camera& camera = settings_.camera;
   switch (command.verb) {
-    case CameraCommand::eye: eye_ = command.value; break;
-    case CameraCommand::target: target_ = command.value; break;
-    case CameraCommand::fov: fov_ = command.value.x(); break;
-    case CameraCommand::zoom: eye_ = target_ + back / command.value.x(); break;
-    case CameraCommand::orbit: {
-      const double yaw = std::atan2(back.x(), back.z()) + command.value.x() * kDegree, distance = back.norm();
-      const double pitch = std::clamp(std::asin(back.y() / distance) + command.value.y() * kDegree, -89.0 * kDegree, 89.0 * kDegree);
-      eye_ = target_ + distance * Vec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
-      break;
-    }
-    case CameraCommand::pan: {
-      const Vec3 right = Vec3::UnitY().cross(back).normalized(), up = back.cross(right).normalized();
-      const Vec3 shift = command.value.x() * right + command.value.y() * up;
-      eye_ += shift, target_ += shift;
-      break;
-    }
-    case CameraCommand::fit: {
-      const Aabb box = bounds_of(world);
-      if (box.is_empty()) break;
-      const double distance = 0.5 * box.extent().norm() / std::sin(0.5 * fov_ * kDegree);
-      target_ = box.center();
-      eye_ = target_ + distance * back.normalized();
-      break;
-    }
+    case CameraCommand::eye: camera.eye = command.value; break;
+    case CameraCommand::target: camera.target = command.value; break;
+    case CameraCommand::fov: camera.fov_deg = command.value.x(); break;
+    case CameraCommand::zoom: camera.zoom(command.value.x()); break;
+    case CameraCommand::orbit: camera.orbit(command.value.x(), command.value.y()); break;
+    case CameraCommand::pan: camera.pan(command.value.x(), command.value.y()); break;
+    case CameraCommand::fit: camera.fit(bounds_of(world), aspect); break;
   }
 }
 

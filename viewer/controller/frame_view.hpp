@@ -6,8 +6,12 @@
 
 #include "engine/world/world.hpp"
 #include "viewer/controller/command.hpp"
+#include "viewer/draw/view_settings.hpp"
 
 namespace impinge {
+
+class FramePainter;
+class PngSequence;
 
 class FrameView {
  public:
@@ -26,9 +30,11 @@ class FrameView {
   void finish();
 
  private:
-  Vec3 eye_{3, 2, 4}, target_{0, 0.5, 0};
-  double fov_ = 40.0;  // degrees, vertical
-  std::vector<std::string> layers_{"meshes", "contacts", "normals"};
+  ViewSettings settings_;
+  int width_ = 1280, height_ = 720;
+  std::string scene_name_;
+  std::unique_ptr<FramePainter> painter_;
+  std::unique_ptr<PngSequence> sequence_;  // made anew after each finish()
 };
 
 /// What sets two pictures apart beyond the tolerance (of 255), in words; "" if nothing does.
