@@ -1,84 +1,92 @@
 #include "viewer/controller/frame_view.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
-#include "engine/core/error.hpp"
+#include <chrono>
+
+#include "engine/core/archive.hpp"
 #include "viewer/image/difference.hpp"
-#include "viewer/image/png.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
-Aabb bounds_of(const World& world) {
-  Aabb box;
-  for (const RigidBody& body : world.bodies())
-    if (!std::holds_alternative<Plane>(body.shape)) box.include(body.bounds());
-  return box;
+// moving bodies, or what there is
+Aabb bounds_of(const StepRecord& record) {
+  Aabb moving, all;
+  for (const BodyRecord& body : record.bodies) {
+    if (std::holds_alternative<Plane>(*body.shape)) continue;
+    all.include(body.bounds);
+    if (body.kind != BodyKind::fixed) moving.include(body.bounds);
+  }
+  return moving.is_empty() ? all : moving;
 }
 
 }  // namespace
 
-FrameView::FrameView() = default;
-FrameView::~FrameView() = default;
+FrameView::FrameView() : settings_(make_view_settings()) {}
 
-void FrameView::bind(ParameterSet& rows) {
-  rows.add("view.camera.eye", eye_, {-1e9, 1e9}, "m", "Where the camera is.");
-  rows.add("view.camera.target", target_, {-1e9, 1e9}, "m", "What it looks at.");
-  rows.add("view.camera.fov", fov_, {1.0, 170.0}, "deg", "Vertical angle of view.");
-  Parameter layers;
-  layers.path = "view.layers";
-  layers.kind = ParameterKind::text_list;
-  layers.names = {"meshes", "aabbs", "contacts", "normals", "contact_forces"};
-  layers.doc = "Layers that are drawn.";
-  layers.initial = layers_;
-  layers.get = [this] { return ParameterValue(layers_); };
-  layers.set = [this](const ParameterValue& value) { layers_ = std::get<std::vector<std::string>>(value); };
-  rows.add(std::move(layers));
+void FrameView::settle(const StepRecord& record, int width, int height) {
+  width_ = width;
+  height_ = height;
+  settle_camera(settings_, record, static_cast<double>(width) / height);
 }
 
-void FrameView::open(int, int, const std::string&) { throw InputError("this program draws no pictures; add --no-images"); }
-double FrameView::draw(const StepRecord&, std::span<const Command>, const std::filesystem::path&) { return 0.0; }
-void FrameView::finish() {}
+void FrameView::move_camera(const CameraCommand& command, const StepRecord& record) {
+  Camera& camera = settings_.camera;
+  switch (command.verb) {
+    case CameraCommand::eye: camera.eye = command.value; break;
+    case CameraCommand::target: camera.target = command.value; break;
+    case CameraCommand::orbit: camera.orbit(command.value.x(), command.value.y()); break;
+    case CameraCommand::pan: camera.pan(command.value.x(), command.value.y()); break;
+    case CameraCommand::zoom: camera.zoom(command.value.x()); break;
+    case CameraCommand::fov: camera.fov_deg = command.value.x(); break;
+    case CameraCommand::fit: camera.fit(bounds_of(record), static_cast<double>(width_) / height_); break;
+  }
+  settings_.camera_given = true;
+}
+
+void FrameView::open(const std::string& scene_name) {
+  scene_name_ = scene_name;
+  try {
+    painter_ = std::make_unique<FramePainter>(width_, height_);
+  } catch (const InternalError& error) {
+    throw InputError(fmt::format("pictures of {}x{}: {}; smaller ones are wanted; change --size", width_, height_, error.what()));
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("pictures: {}; OpenGL through OSMesa is wanted; install libosmesa6, or add --no-images", error.what()));
+  }
+}
+
+double FrameView::draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder) {
+  const auto start = std::chrono::steady_clock::now();
+  Image image;
+  painter_->paint(record, settings_, image);
+  const double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+  std::vector<std::string> lines;
+  for (const Command& command : commands) lines.push_back(format_command(command));
+  PngText text = {{"impinge:scene", scene_name_},
+                  {"impinge:frame", std::to_string(record.stats.frame)},
+                  {"impinge:commands", fmt::format("{}", fmt::join(lines, "\n"))},
+                  {"impinge:state_hash", hex64(record.stats.state_hash)},
+                  {"impinge:renderer", painter_->renderer_name()}};
+  if (pictures_ == nullptr) pictures_ = std::make_unique<PngSequence>(folder);
+  pictures_->add(record.stats.frame, std::move(image), std::move(text));
+  return milliseconds;
+}
+
+void FrameView::finish() {
+  if (pictures_ == nullptr) return;
+  pictures_->finish();
+  pictures_.reset();  // a finished sequence takes no more
+}
 
 std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance) {
   DifferenceSettings settings;
   settings.tolerance = tolerance;
   const Difference difference = compare(read_png(baseline), read_png(picture), settings);
   return difference.same ? "" : difference.reason;
-}
-
-void FrameView::move_camera(const CameraCommand& command, const World& world) {
-  Vec3 back = eye_ - target_;
-  switch (command.verb) {
-    case CameraCommand::eye: eye_ = command.value; break;
-    case CameraCommand::target: target_ = command.value; break;
-    case CameraCommand::fov: fov_ = command.value.x(); break;
-    case CameraCommand::zoom: eye_ = target_ + back / command.value.x(); break;
-    case CameraCommand::orbit: {
-      const double yaw = std::atan2(back.x(), back.z()) + command.value.x() * kDegree, distance = back.norm();
-      const double pitch = std::clamp(std::asin(back.y() / distance) + command.value.y() * kDegree, -89.0 * kDegree, 89.0 * kDegree);
-      eye_ = target_ + distance * Vec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
-      break;
-    }
-    case CameraCommand::pan: {
-      const Vec3 right = Vec3::UnitY().cross(back).normalized(), up = back.cross(right).normalized();
-      const Vec3 shift = command.value.x() * right + command.value.y() * up;
-      eye_ += shift, target_ += shift;
-      break;
-    }
-    case CameraCommand::fit: {
-      const Aabb box = bounds_of(world);
-      if (box.is_empty()) break;
-      const double distance = 0.5 * box.extent().norm() / std::sin(0.5 * fov_ * kDegree);
-      target_ = box.center();
-      eye_ = target_ + distance * back.normalized();
-      break;
-    }
-  }
 }
 
 }  // namespace impinge
