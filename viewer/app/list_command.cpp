@@ -10,6 +10,7 @@
 #include "engine/narrowphase/narrow_phase.hpp"
 #include "engine/response/response.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 
@@ -73,10 +74,9 @@ void print_parameters() {
 }
 
 void print_layers() {
-  FrameView view;
-  ParameterSet rows;
-  view.bind(rows);
-  for (const std::string& name : rows.find("view.layers")->names) fmt::print("{}\n", name);
+  std::vector<Row> rows;
+  for (const Layer& layer : layers()) rows.push_back({std::string(layer.name), layer.on ? "on" : "off", std::string(layer.doc)});
+  print_table(rows);
 }
 
 const std::vector<std::string> kTopics = {"parameters", "layers", "responses", "lcp_solvers", "broad_phases", "narrow_phases", "materials", "integrators", "cases"};

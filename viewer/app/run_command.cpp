@@ -7,6 +7,10 @@
 #include <cstdio>
 
 #include "viewer/app/commands.hpp"
+#include "viewer/image/contact_sheet.hpp"
+#include "viewer/image/png.hpp"
+#include "viewer/present/png_sequence.hpp"
+#include "viewer/present/video.hpp"
 
 namespace impinge {
 
@@ -46,6 +50,21 @@ class Progress {
   bool shown_ = false;
 };
 
+// the path of the sheet
+std::string write_contact_sheet(const std::filesystem::path& out, int last_frame) {
+  std::vector<std::filesystem::path> frames;
+  for (int frame = 0; frame <= last_frame; ++frame) frames.push_back(out / "frames" / PngSequence::file_name(frame));
+  const std::filesystem::path sheet = out / "contact_sheet.png";
+  write_png(sheet, make_contact_sheet(frames, 5, 25));
+  return sheet.string();
+}
+
+bool write_video(const Arguments& arguments, double frames_per_second) {
+  const bool made = make_video(arguments.run_options.out / "frames", arguments.video, frames_per_second);
+  if (!made) fmt::print(stderr, "note: ffmpeg is not installed, so there is no video\n");
+  return made;
+}
+
 }  // namespace
 
 int run_command(const Arguments& arguments) {
@@ -65,11 +84,15 @@ int run_command(const Arguments& arguments) {
   progress.clear();
   if (!result.diverged.empty()) fmt::print(stderr, "diverged: {}\n", result.diverged);
   if (result.interrupted) fmt::print(stderr, "interrupted after frame {}; the same command with --resume goes on\n", result.last_frame);
+  const std::string sheet = options.images && result.exit_code() < 2 ? write_contact_sheet(options.out, result.last_frame) : "";
+  const bool filmed = !sheet.empty() && !arguments.video.empty() && write_video(arguments, result.frames_per_second);
   if (arguments.quiet) return result.exit_code();
 
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options.images && result.last_frame >= 0) fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);
   fmt::print("figures:  {}/stats.csv ({} frames)\n", options.out.string(), result.last_frame + 1);
+  if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
+  if (filmed) fmt::print("video:    {}\n", arguments.video);
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");
   return result.exit_code();
 }

@@ -1,67 +1,85 @@
 #include "viewer/controller/frame_view.hpp"
 
+#include <fmt/format.h>
+
+#include <chrono>
+
 #include "engine/core/archive.hpp"
-#include "engine/core/error.hpp"
 #include "viewer/image/difference.hpp"
-#include "viewer/image/png.hpp"
 #include "viewer/layers/layer.hpp"
-#include "viewer/present/frame_painter.hpp"
-#include "viewer/present/png_sequence.hpp"
 
 namespace impinge {
+
 namespace {
 
-Aabb bounds_of(const World& world) {
-  Aabb box;
-  for (const RigidBody& body : world.bodies())
-    if (!std::holds_alternative<Plane>(body.shape)) box.include(body.bounds());
-  return box;
+// moving bodies, or what there is
+Aabb bounds_of(const StepRecord& record) {
+  Aabb moving, all;
+  for (const BodyRecord& body : record.bodies) {
+    if (std::holds_alternative<Plane>(*body.shape)) continue;
+    all.include(body.bounds);
+    if (body.kind != BodyKind::fixed) moving.include(body.bounds);
+  }
+  return moving.is_empty() ? all : moving;
 }
 
 }  // namespace
 
 FrameView::FrameView() : settings_(make_view_settings()) {}
-FrameView::~FrameView() = default;
 
-void FrameView::bind(ParameterSet& rows) { settings_.bind(rows); }
-
-void FrameView::open(int width, int height, const std::string& scene_name) {
+void FrameView::settle(const StepRecord& record, int width, int height) {
   width_ = width;
   height_ = height;
+  settle_camera(settings_, record, static_cast<double>(width) / height);
+}
+
+void FrameView::move_camera(const CameraCommand& command, const StepRecord& record) {
+  Camera& camera = settings_.camera;
+  switch (command.verb) {
+    case CameraCommand::eye: camera.eye = command.value; break;
+    case CameraCommand::target: camera.target = command.value; break;
+    case CameraCommand::orbit: camera.orbit(command.value.x(), command.value.y()); break;
+    case CameraCommand::pan: camera.pan(command.value.x(), command.value.y()); break;
+    case CameraCommand::zoom: camera.zoom(command.value.x()); break;
+    case CameraCommand::fov: camera.fov_deg = command.value.x(); break;
+    case CameraCommand::fit: camera.fit(bounds_of(record), static_cast<double>(width_) / height_); break;
+  }
+  settings_.camera_given = true;
+}
+
+void FrameView::open(const std::string& scene_name) {
   scene_name_ = scene_name;
   try {
-    painter_ = std::make_unique<FramePainter>(width, height);
+    painter_ = std::make_unique<FramePainter>(width_, height_);
   } catch (const InternalError& error) {
-    throw InputError(std::string("pictures: ") + error.what() + "; choose a smaller --size");
+    throw InputError(fmt::format("pictures of {}x{}: {}; smaller ones are wanted; change --size", width_, height_, error.what()));
   } catch (const std::runtime_error& error) {
-    throw InputError(std::string("pictures: ") + error.what() + "; install libosmesa6, or add --no-images");
+    throw InputError(fmt::format("pictures: {}; OpenGL through OSMesa is wanted; install libosmesa6, or add --no-images", error.what()));
   }
 }
 
-double FrameView::draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& path) {
-  double milliseconds = 0.0;
+double FrameView::draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder) {
+  const auto start = std::chrono::steady_clock::now();
   Image image;
-  {
-    const StageTimer timer(milliseconds);
-    if (!settings_.camera_given) settle_camera(settings_, record, static_cast<double>(width_) / height_);
-    painter_->paint(record, settings_, image);
-  }
-  std::string lines;
-  for (const Command& command : commands) lines += (lines.empty() ? "" : "\n") + format_command(command);
-  if (!sequence_) sequence_ = std::make_unique<PngSequence>(path.parent_path());
-  sequence_->add(record.stats.frame, std::move(image),
-                 {{"impinge:scene", scene_name_},
+  painter_->paint(record, settings_, image);
+  const double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+  std::vector<std::string> lines;
+  for (const Command& command : commands) lines.push_back(format_command(command));
+  PngText text = {{"impinge:scene", scene_name_},
                   {"impinge:frame", std::to_string(record.stats.frame)},
-                  {"impinge:commands", lines},
+                  {"impinge:commands", fmt::format("{}", fmt::join(lines, "\n"))},
                   {"impinge:state_hash", hex64(record.stats.state_hash)},
-                  {"impinge:renderer", painter_->renderer_name()}});
+                  {"impinge:renderer", painter_->renderer_name()}};
+  if (pictures_ == nullptr) pictures_ = std::make_unique<PngSequence>(folder);
+  pictures_->add(record.stats.frame, std::move(image), std::move(text));
   return milliseconds;
 }
 
 void FrameView::finish() {
-  if (!sequence_) return;
-  sequence_->finish();
-  sequence_.reset();
+  if (pictures_ == nullptr) return;
+  pictures_->finish();
+  pictures_.reset();  // a finished sequence takes no more
 }
 
 std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance) {
@@ -69,23 +87,6 @@ std::string picture_difference(const std::filesystem::path& picture, const std::
   settings.tolerance = tolerance;
   const Difference difference = compare(read_png(baseline), read_png(picture), settings);
   return difference.same ? "" : difference.reason;
-}
-
-void FrameView::move_camera(const CameraCommand& command, const World& world) {
-  // a command that turns or moves what nobody gave starts from the camera that is fitted to the scene
-  const double aspect = static_cast<double>(width_) / height_;
-  if (!settings_.camera_given) settle_camera(settings_, world.record(), aspect);
-  settings_.camera_given = true;
-  Camera& camera = settings_.camera;
-  switch (command.verb) {
-    case CameraCommand::eye: camera.eye = command.value; break;
-    case CameraCommand::target: camera.target = command.value; break;
-    case CameraCommand::fov: camera.fov_deg = command.value.x(); break;
-    case CameraCommand::zoom: camera.zoom(command.value.x()); break;
-    case CameraCommand::orbit: camera.orbit(command.value.x(), command.value.y()); break;
-    case CameraCommand::pan: camera.pan(command.value.x(), command.value.y()); break;
-    case CameraCommand::fit: camera.fit(bounds_of(world), aspect); break;
-  }
 }
 
 }  // namespace impinge

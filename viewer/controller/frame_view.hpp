@@ -3,38 +3,37 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
-#include "engine/world/world.hpp"
 #include "viewer/controller/command.hpp"
-#include "viewer/draw/view_settings.hpp"
+#include "viewer/present/frame_painter.hpp"
+#include "viewer/present/png_sequence.hpp"
 
 namespace impinge {
-
-class FramePainter;
-class PngSequence;
 
 class FrameView {
  public:
   FrameView();
-  ~FrameView();
 
   /// Declares the rows `view.*`. The set refers to this object.
-  void bind(ParameterSet& rows);
-  void move_camera(const CameraCommand& command, const World& world);
+  void bind(ParameterSet& rows) { settings_.bind(rows); }
+  /// Fixes the proportions of the pictures, and the camera, fitted to the record unless the scene gives one.
+  void settle(const StepRecord& record, int width, int height);
+  void move_camera(const CameraCommand& command, const StepRecord& record);
 
-  /// Makes ready to draw; without it nothing is drawn and no GL is touched. Throws InputError where that can't be.
-  void open(int width, int height, const std::string& scene_name);
-  /// Draws the frame and hands the picture on to be written; returns the milliseconds of drawing.
-  double draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& path);
-  /// Waits until all pictures are on the disk. Throws InputError where one can't be written.
+  /// Makes ready to draw pictures of the settled size; without it no OpenGL is touched. Throws InputError without OpenGL.
+  void open(const std::string& scene_name);
+  /// Draws the frame and hands the picture on, to be written into `folder`; returns the milliseconds of drawing.
+  double draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder);
+  /// Returns when all pictures are on the disk. Throws InputError where one can't be written.
   void finish();
 
  private:
   ViewSettings settings_;
-  int width_ = 1280, height_ = 720;
+  int width_ = 1280, height_ = 720;  // pixels
   std::string scene_name_;
   std::unique_ptr<FramePainter> painter_;
-  std::unique_ptr<PngSequence> sequence_;  // made anew after each finish()
+  std::unique_ptr<PngSequence> pictures_;
 };
 
 /// What sets two pictures apart beyond the tolerance (of 255), in words; "" if nothing does.

@@ -33,16 +33,17 @@ int RunResult::exit_code() const {
 }
 
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
-  Session session(options.scene, options.overrides, options.script);
+  Session session(options.scene, options.overrides, options.script, options.width, options.height);
   const int last_frame = options.frames.value_or(session.default_last_frame());
   if (!options.images && !session.script().images().empty())
     throw InputError(session.script().images().front().place + ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
-  if (options.images) view.open(options.width, options.height, session.scene().path.filename().string());
+  if (options.images) view.open(session.scene().path.filename().string());
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume);
 
   RunResult result;
+  result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   Expectations expectations(session.script(), watcher.message);
   const auto judge = [&](int frame, std::span<const double> figures) {
     expectations.check(frame, figures, [&] { return folder.picture(frame); });
@@ -67,7 +68,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       break;
     }
     const int frame = session.frame();
-    const double render_ms = options.images ? view.draw(session.record(), commands, folder.picture(frame)) : 0.0;
+    const double render_ms = options.images ? view.draw(session.record(), commands, folder.picture(frame).parent_path()) : 0.0;
     folder.add_frame(session.record(), commands, render_ms);
     if (watcher.frame) watcher.frame(session.record().stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();

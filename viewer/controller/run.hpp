@@ -31,6 +31,7 @@ struct RunResult {
   int failures = 0;          ///< expectations not met
   bool stopped_by_break = false;
   bool interrupted = false;
+  double frames_per_second = 0;  ///< of simulated time
   std::string diverged;      ///< why, if the simulation left the finite numbers
   int exit_code() const;
 };

@@ -64,7 +64,7 @@ ParameterValue get_value(ByteReader& in, const ParameterValue& like) {
 
 }  // namespace
 
-Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file) {
+Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file, int width, int height) {
   world_.parameters.bind(rows_);
   view_.bind(rows_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
@@ -79,6 +79,7 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   }
   script_ = Script(script_name_, folder, script_lines_, rows_, figure_names());
   start();
+  view_.settle(world_.record(), width, height);
 }
 
 void Session::start() {
@@ -114,7 +115,7 @@ void Session::apply(const Command& command) {
     }
     row.set(names);
   } else {
-    view_.move_camera(std::get<CameraCommand>(command), world_);
+    view_.move_camera(std::get<CameraCommand>(command), world_.record());
   }
 }
 

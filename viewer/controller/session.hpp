@@ -15,8 +15,8 @@ class ByteWriter;
 class Session {
  public:
   /// Loads and checks everything. `script_file` may be empty: then a run.toml's own script is used, if the scene is one.
-  /// Throws InputError.
-  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides, const std::filesystem::path& script_file);
+  /// Pictures are `width` by `height` pixels: a camera that the scene doesn't give is fitted to them. Throws InputError.
+  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides, const std::filesystem::path& script_file, int width = 1280, int height = 720);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 

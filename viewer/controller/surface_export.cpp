@@ -1,7 +1,7 @@
 #include "viewer/controller/surface_export.hpp"
 
 #include "engine/io/mesh_file.hpp"
-#include "engine/io/tessellation.hpp"
+#include "viewer/draw/tessellation.hpp"
 
 namespace impinge {
 
