@@ -89,6 +89,7 @@ class SpatialHash final : public NarrowPhase {
     if (pairs.empty()) return;
     colliders_ = colliders;
     prepare(pairs);
+    if (active_.empty()) return;  // no two boxes meet
     collect_and_mark();
     make_lists();
     query(found);
@@ -132,6 +133,7 @@ class SpatialHash final : public NarrowPhase {
         }
       }
     }
+    if (active_.empty()) return;
     std::sort(active_.begin(), active_.end());
     colour_bodies();
     std::size_t vertices = 0, triangles = 0;
@@ -150,7 +152,7 @@ class SpatialHash final : public NarrowPhase {
     origin_ = all.is_empty() ? Vec3(Vec3::Zero()) : all.min;
     per_cell_ = 1.0 / cell;
     // 1.2 times the vertices, rounded up to the next hundred, minus one
-    const std::size_t size = (vertices * 12 + 999) / 1000 * 100 - 1;
+    const std::size_t size = (std::max<std::size_t>(vertices, 1) * 12 + 999) / 1000 * 100 - 1;
     size_ = static_cast<std::uint32_t>(std::min<std::size_t>(std::max<std::size_t>(size, 99), 0xfffffff0u));
     if (marks_.size() < size_) {
       marks_ = std::vector<std::atomic<std::uint64_t>>(size_);
