@@ -15,9 +15,9 @@ void plane_plane(ContactSink&) {}
 // row <= column, in the order of the Shape variant: plane, sphere, box, capsule, mesh. Mesh-mesh is the narrow phase's.
 constexpr Test kTests[5][5] = {
     {plane_plane, plane_sphere, plane_box, plane_capsule, plane_mesh},
-    {nullptr, sphere_sphere, sphere_box, sphere_capsule, nullptr},
-    {nullptr, nullptr, box_box, box_capsule, nullptr},
-    {nullptr, nullptr, nullptr, capsule_capsule, nullptr},
+    {nullptr, sphere_sphere, sphere_box, sphere_capsule, sphere_mesh},
+    {nullptr, nullptr, box_box, box_capsule, box_mesh},
+    {nullptr, nullptr, nullptr, capsule_capsule, capsule_mesh},
     {nullptr, nullptr, nullptr, nullptr, nullptr},
 };
 

@@ -2,7 +2,7 @@
 // crossing, and separated boxes whose nearest features are corners or edges the exact distance between them.
 #include <array>
 
-#include "engine/geometry/closest.hpp"
+#include "engine/geometry/distance.hpp"
 #include "engine/narrowphase/face_manifold.hpp"
 
 namespace impinge {
@@ -87,12 +87,12 @@ void overlapping(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, co
   const int edge_first = OrientedBox::edge_of(edge.axis_first, support(boxes.first, -edge.normal));
   const int edge_second = OrientedBox::edge_of(edge.axis_second, support(boxes.second, edge.normal));
   const auto a = OrientedBox::edge_corners(edge_first), b = OrientedBox::edge_corners(edge_second);
-  const ClosestOnSegments closest = closest_on_segments(boxes.first.corner(a[0]), boxes.first.corner(a[1]), boxes.second.corner(b[0]),
-                                                        boxes.second.corner(b[1]));
+  const SegmentSegment closest = closest_between_segments(boxes.first.corner(a[0]), boxes.first.corner(a[1]), boxes.second.corner(b[0]),
+                                                          boxes.second.corner(b[1]));
   Candidate c;
   c.normal = edge.normal;
-  c.point_first = closest.p;
-  c.point_second = closest.q;
+  c.point_first = closest.point0;
+  c.point_second = closest.point1;
   c.kind_first = c.kind_second = Feature::edge;
   c.index_first = kCrossing + edge_first;
   c.index_second = kCrossing + edge_second;
@@ -165,16 +165,16 @@ void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
     const Vec3 p0 = boxes.first.corner(a[0]), p1 = boxes.first.corner(a[1]);
     for (int j = 0; j < 12; ++j) {
       const auto b = OrientedBox::edge_corners(j);
-      const ClosestOnSegments closest = closest_on_segments(p0, p1, boxes.second.corner(b[0]), boxes.second.corner(b[1]));
-      const Vec3 offset = closest.p - closest.q;
+      const SegmentSegment closest = closest_between_segments(p0, p1, boxes.second.corner(b[0]), boxes.second.corner(b[1]));
+      const Vec3 offset = closest.point0 - closest.point1;
       const double length = offset.norm();
       if (!(length < distance - boxes.tie)) continue;
       distance = length;
       normal = offset / length;
       edges_nearest = true;
       crossing.normal = normal;
-      crossing.point_first = closest.p;
-      crossing.point_second = closest.q;
+      crossing.point_first = closest.point0;
+      crossing.point_second = closest.point1;
       crossing.kind_first = crossing.kind_second = Feature::edge;
       crossing.index_first = kCrossing + i;
       crossing.index_second = kCrossing + j;

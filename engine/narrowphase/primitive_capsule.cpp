@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/closest.hpp"
+#include "engine/geometry/distance.hpp"
 #include "engine/narrowphase/primitive_pairs.hpp"
 
 namespace impinge {
@@ -193,8 +193,8 @@ struct BoxSegment {
     Vec3 middle = box.half.cwiseProduct(Vec3(edge_normal.array().sign().matrix()));
     middle[edge_axis] = 0.0;
     const Vec3 reach = box.half[edge_axis] * Vec3::Unit(edge_axis);
-    const ClosestOnSegments closest = closest_on_segments(p0, p0 + d, middle - reach, middle + reach);
-    add(closest.s, closest.p - radius * edge_normal, closest.q, edge_normal, Feature::edge, region(middle), 0);
+    const SegmentSegment closest = closest_between_segments(p0, p0 + d, middle - reach, middle + reach);
+    add(closest.s, closest.point0 - radius * edge_normal, closest.point1, edge_normal, Feature::edge, region(middle), 0);
   }
 };
 
@@ -219,11 +219,11 @@ void capsule_capsule(ContactSink& sink) {
   const WorldSegment a = world_axis(sink.first()), b = world_axis(sink.second());
   const double radius_a = std::get<Capsule>(*sink.first().shape).radius, radius_b = std::get<Capsule>(*sink.second().shape).radius;
   const Vec3 u = a.p1 - a.p0, v = b.p1 - b.p0;
-  const ClosestOnSegments closest = closest_on_segments(a.p0, a.p1, b.p0, b.p1);
+  const SegmentSegment closest = closest_between_segments(a.p0, a.p1, b.p0, b.p1);
   const double size = u.norm() + v.norm() + radius_a + radius_b;
 
   // where the axes meet, the normal is across both and points from the middle of b to that of a
-  const Vec3 offset = closest.p - closest.q;
+  const Vec3 offset = closest.point0 - closest.point1;
   Vec3 normal = offset.stableNormalized();
   if (offset.norm() <= 1e-12 * size) {
     const Vec3 cross = u.cross(v);
@@ -253,8 +253,7 @@ void capsule_capsule(ContactSink& sink) {
       for (int end = 0; end < 2; ++end) {
         const double s = end == 0 ? lo : hi;
         const Vec3 p = s <= 0.0 ? a.p0 : s >= 1.0 ? a.p1 : Vec3(a.p0 + s * u);
-        const double t = closest_parameter(p, b.p0, b.p1);
-        const Vec3 q = t <= 0.0 ? b.p0 : t >= 1.0 ? b.p1 : Vec3(b.p0 + t * v);
+        const auto [t, q, distance_sq] = closest_on_segment(p, b.p0, b.p1);
         const Vec3 between = p - q;
         const Vec3 n = between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal;
         add(s, t, p, q, n, 1 + end);
@@ -263,7 +262,7 @@ void capsule_capsule(ContactSink& sink) {
       held_at_ends = nearest_end <= offset.norm() + 1e-9 * size;
     }
   }
-  if (!held_at_ends) add(closest.s, closest.t, closest.p, closest.q, normal, 0);
+  if (!held_at_ends) add(closest.s, closest.t, closest.point0, closest.point1, normal, 0);
 }
 
 }  // namespace impinge

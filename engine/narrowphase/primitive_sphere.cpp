@@ -1,7 +1,7 @@
 // Sphere against sphere, box and capsule: one contact each, along the line from the nearest point to the centre.
 #include "engine/narrowphase/primitive_pairs.hpp"
 
-#include "engine/geometry/closest.hpp"
+#include "engine/geometry/distance.hpp"
 
 namespace impinge {
 
@@ -34,7 +34,7 @@ void sphere_capsule(ContactSink& sink) {
   const double radius_a = std::get<Sphere>(*sink.first().shape).radius;
   const double radius_b = std::get<Capsule>(*sink.second().shape).radius;
   const WorldSegment axis = world_axis(sink.second());
-  const Vec3 nearest = axis.p0 + closest_parameter(center, axis.p0, axis.p1) * (axis.p1 - axis.p0);
+  const Vec3 nearest = closest_on_segment(center, axis.p0, axis.p1).point;
   Candidate c;
   const Vec3 offset = center - nearest;
   // a centre on the axis, where the offset is rounding only, leaves across it in a direction that turns with the capsule

@@ -17,7 +17,7 @@ Shape random_shape(Random& r, int kind) {
     case 1: return Sphere{r.in(0.2, 0.8)};
     case 2: return Box{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
     case 3: return Capsule{r.in(0.1, 0.4), r.in(0.1, 0.8)};
-    default: return make_surface(r.below(2) ? icosphere(1, r.in(0.4, 0.8)) : gridded_box({r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8)}, 2));
+    default: return surface(r.below(2) ? icosphere(1, r.in(0.4, 0.8)) : box({r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8)}, {2, 2, 2}));
   }
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("exact contacts keep their contract in every pair and pose") {
   int found = 0;
   for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 5; ++j) {
-      if (i == 4 || j == 4) continue;
+      if (i == 4 && j == 4) continue;
       int pairs = 0;
       for (int k = 0; k < 150; ++k) {
         Bodies bodies;
@@ -99,15 +99,20 @@ TEST_CASE("exact contacts keep their contract in every pair and pose") {
         check_contract(contacts, bodies, 0, 1, query);
         pairs += contacts.empty() ? 0 : 1;
 
+        // of coplanar triangles that a box overlaps equally, rounding chooses the one that a contact is named after: only the
+        // gap is compared then
+        const bool may_tie = i + j == 6 && i != j;
         const auto swapped = bodies.contacts(1, 2, query);
-        REQUIRE(swapped.size() == contacts.size());
+        REQUIRE(swapped.empty() == contacts.empty());
+        if (!contacts.empty()) REQUIRE(smallest_gap(swapped) == Approx(smallest_gap(contacts)).margin(1e-12));
+        if (!may_tie) REQUIRE(swapped.size() == contacts.size());
         // the pair swapped: the same gaps, opposite normals
         for (const Collision& c : contacts) {
           bool same = false;
           for (const Collision& s : swapped)
             same = same || (std::abs(s.gap - c.gap) < 1e-12 && (s.normal + c.normal).norm() < 1e-9 &&
                             (s.point_b - c.point_a).norm() < 1e-9 && (s.point_a - c.point_b).norm() < 1e-9);
-          REQUIRE(same);
+          REQUIRE((same || may_tie));
         }
 
         // the scene moved as a whole: the same contacts
@@ -116,6 +121,9 @@ TEST_CASE("exact contacts keep their contract in every pair and pose") {
         moved.add(sa, then(move, pa));
         moved.add(sb, then(move, pb));
         const auto there = moved.contacts(0, 1, query);
+        REQUIRE(there.empty() == contacts.empty());
+        if (!contacts.empty()) REQUIRE(std::abs(smallest_gap(there) - smallest_gap(contacts)) < 1e-12);
+        if (may_tie) continue;
         REQUIRE(there.size() == contacts.size());
         for (std::size_t n = 0; n < contacts.size(); ++n) {
           REQUIRE(std::abs(there[n].gap - contacts[n].gap) < 1e-12);
