@@ -43,7 +43,7 @@ TEST_CASE("Reducing a picture takes each area's mean") {
   for (const auto& [from_w, from_h, to_w, to_h] :
        {std::array{12, 8, 4, 2}, {10, 9, 4, 6}, {7, 5, 7, 5}, {13, 11, 1, 1}, {64, 3, 5, 3}}) {
     const Image image = noise(from_w, from_h, 3);
-    const Image small = reduce(image, to_w, to_h);
+    const Image small = reduce_image(image, to_w, to_h);
     REQUIRE(small.width == to_w);
     REQUIRE(small.height == to_h);
     double worst = 0;
@@ -62,9 +62,9 @@ TEST_CASE("Reducing a picture takes each area's mean") {
     INFO(from_w << " x " << from_h << " to " << to_w << " x " << to_h);
     CHECK(worst <= 0.5 + 1e-9);
   }
-  CHECK(reduce(noise(31, 17, 9), 31, 17) == noise(31, 17, 9));
-  CHECK_THROWS_AS(reduce(plain(4, 4), 5, 4), InternalError);
-  CHECK_THROWS_AS(reduce(plain(4, 4), 0, 4), InternalError);
+  CHECK(reduce_image(noise(31, 17, 9), 31, 17) == noise(31, 17, 9));
+  CHECK_THROWS_AS(reduce_image(plain(4, 4), 5, 4), InternalError);
+  CHECK_THROWS_AS(reduce_image(plain(4, 4), 0, 4), InternalError);
 }
 
 TEST_CASE("A contact sheet holds evenly chosen frames in a grid, the first and the last included") {

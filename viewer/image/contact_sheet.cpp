@@ -56,7 +56,7 @@ std::vector<std::size_t> choose(std::size_t count, std::size_t at_most) {
 
 }  // namespace
 
-Image reduce(const Image& image, int width, int height) {
+Image reduce_image(const Image& image, int width, int height) {
   IMPINGE_ASSERT(width > 0 && height > 0 && width <= image.width && height <= image.height);
   Image out(width, height);
   const std::vector<Span> columns = spans(image.width, width), rows = spans(image.height, height);
@@ -99,7 +99,7 @@ Image make_contact_sheet(std::span<const std::filesystem::path> frames, int colu
       throw InputError(fmt::format("{}: has {} x {} pixels; {} x {} as in {} are wanted; make one sheet a size",
                                    path.string(), frame.width, frame.height, frame_width, frame_height,
                                    frames[0].string()));
-    const Image small = reduce(frame, width, height);
+    const Image small = reduce_image(frame, width, height);
     const int x = kMargin + k % columns * (width + kMargin), y = kMargin + k / columns * cell_height;
     for (int row = 0; row < height; ++row) std::copy_n(small.pixel(0, row), 3 * width, sheet.pixel(x, y + row));
     draw_text(sheet, x, y + height + 4, label_of(path, (width + kMargin) / (6 * label_scale)), kInk, label_scale);

@@ -17,6 +17,6 @@ Image make_contact_sheet(std::span<const std::filesystem::path> frames, int colu
 
 /// `image` reduced by the mean over each pixel's area, partly covered pixels weighted. In sRGB values, as viewers do
 /// it. Throws InternalError unless 0 < width <= image.width and 0 < height <= image.height.
-Image reduce(const Image& image, int width, int height);
+Image reduce_image(const Image& image, int width, int height);
 
 }  // namespace impinge
