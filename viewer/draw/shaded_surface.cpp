@@ -14,9 +14,11 @@ ShadedSurface make_shaded_surface(const TriangleMesh& mesh, const MeshTopology& 
   }
   ShadedSurface out;
   out.triangles.resize(mesh.triangles.size());
+  std::vector<std::uint32_t> first_of(mesh.vertices.size(), 0);  // of the positions that a source vertex became
   for (std::size_t v = 0; v + 1 < topology.vertex_triangle_begin.size(); ++v) {
     const int begin = topology.vertex_triangle_begin[v], end = topology.vertex_triangle_begin[v + 1];
     const std::size_t first = out.positions.size();
+    first_of[v] = static_cast<std::uint32_t>(first);
     for (int i = begin; i < end; ++i) {
       const int own = topology.vertex_triangles[i];
       Vec3 sum = Vec3::Zero();
@@ -36,6 +38,7 @@ ShadedSurface make_shaded_surface(const TriangleMesh& mesh, const MeshTopology& 
         if (mesh.triangles[own][corner] == static_cast<int>(v)) out.triangles[own][corner] = static_cast<std::uint32_t>(index);
     }
   }
+  for (const MeshTopology::Edge& edge : topology.edges) out.edges.push_back({first_of[edge.v0], first_of[edge.v1]});
   return out;
 }
 

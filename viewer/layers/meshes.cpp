@@ -7,7 +7,6 @@ namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
   const std::vector<Color> colors = body_colors(context.record);
-  const bool by_group = context.settings.is_on("groups");
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (const auto* plane = std::get_if<Plane>(body.shape)) {
@@ -17,7 +16,6 @@ void draw(const LayerContext& context, DrawList& list) {
     }
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};
     item.striped = body.kind == BodyKind::scripted;
-    if (body.kind == BodyKind::dynamic && by_group) item.color = body.group < 0 ? role::kUngrouped : series_color(body.group);
     if (body.asleep) item.color = asleep_color(item.color);
     item.see_through = is_wall_in_the_way(body, context.camera);
     list.surfaces.push_back(std::move(item));

@@ -17,4 +17,7 @@ PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSetti
 /// What the visible layers' marks mean, at the top right; left out where it would meet `other`.
 PanelArea draw_legend(const Pen& pen, const ViewSettings& settings, const PanelArea& other);
 
+/// Texts at points of the scene, each above its point; one that would meet a nearer one or a panel is left out.
+void draw_labels(const Pen& pen, const std::vector<DrawLabel>& labels, const Camera& camera, std::vector<PanelArea> taken);
+
 }  // namespace impinge

@@ -69,7 +69,8 @@ void FramePainter::paint(const StepRecord& record, const ViewSettings& settings,
   if (!p.overlay || p.overlay->scale() != scale) p.overlay = std::make_unique<Overlay>(scale);
   p.overlay->draw(p.width, p.height, [&](const Pen& pen) {
     const PanelArea figures = draw_figures(pen, record, settings);
-    draw_legend(pen, settings, figures);
+    const PanelArea legend = draw_legend(pen, settings, figures);
+    draw_labels(pen, p.list.labels, camera, {figures, legend});
   });
   target->read(out);
 }

@@ -1,0 +1,33 @@
+// Colours the surfaces by collision group instead of by body. A group has the colour of its first body, so that it keeps
+// its colour while it lasts.
+#include "viewer/layers/all.hpp"
+#include "viewer/layers/body_style.hpp"
+
+namespace impinge {
+namespace {
+
+void draw(const LayerContext& context, DrawList& list) {
+  const StepRecord& record = context.record;
+  const std::vector<Color> colors = body_colors(record);
+  for (DrawSurface& item : list.surfaces) {
+    if (item.pick == 0 || item.pick > record.bodies.size()) continue;
+    const BodyRecord& body = record.bodies[item.pick - 1];
+    if (body.kind != BodyKind::dynamic) continue;
+    item.color = role::kUngrouped;
+    if (body.group >= 0)
+      for (const int member : record.groups[body.group])
+        if (record.bodies[member].kind == BodyKind::dynamic) {
+          item.color = colors[member];
+          break;
+        }
+    if (body.asleep) item.color = asleep_color(item.color);
+  }
+}
+
+}  // namespace
+
+Layer groups_layer() {
+  return {"groups", "Surfaces coloured by collision group.", false, draw, {{LegendRow::area, role::kUngrouped, "in no collision group"}}};
+}
+
+}  // namespace impinge

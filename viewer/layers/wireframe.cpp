@@ -1,0 +1,27 @@
+// Every edge of every surface: dark over drawn surfaces, in the bodies' colours where surfaces are not shown.
+#include "viewer/layers/all.hpp"
+#include "viewer/layers/body_style.hpp"
+
+namespace impinge {
+namespace {
+
+void draw(const LayerContext& context, DrawList& list) {
+  const std::vector<Color> colors = body_colors(context.record);
+  const bool over_surfaces = context.settings.is_on("meshes");
+  const float width = 0.7f * static_cast<float>(context.settings.line_width);
+  for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
+    const BodyRecord& body = context.record.bodies[i];
+    if (std::holds_alternative<Plane>(*body.shape)) continue;
+    const ShadedSurfacePointer surface = context.surfaces.surface_of(*body.shape);
+    std::vector<Vec3> world;
+    for (const Eigen::Vector3f& p : surface->positions) world.push_back(body.pose.apply(p.cast<double>()));
+    const Color color = over_surfaces ? with_alpha(role::kOutline, 0.6f) : with_alpha(colors[i], 0.8f);
+    for (const auto& [a, b] : surface->edges) list.lines.push_back({world[a], world[b], color, width, Depth::tested, body_pick(i)});
+  }
+}
+
+}  // namespace
+
+Layer wireframe_layer() { return {"wireframe", "The edges of all triangles.", false, draw, {}}; }
+
+}  // namespace impinge
