@@ -49,7 +49,7 @@ Collision make_contact(const SurfaceView& own, int t_own, const Deepest& deepest
   Collision c;
   c.body_a = own.body();
   c.body_b = other.body();
-  c.triangle_a = t_own;
+  c.triangle_a = own.triangles_round(v)[0];  // of several that the vertex is deepest of, the same one whichever was found first
   c.triangle_b = t;
   c.point_a = x;
   c.normal = n;

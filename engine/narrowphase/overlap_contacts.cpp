@@ -54,7 +54,7 @@ class Separation {
     depth_ = -i.low;
     const Vec3& x = a_[i.low_corner];
     set(x, closest_on_triangle(x - i.low * n, b_).point, n, query_.b.body(),
-        feature_key(Feature::vertex, query_.a.triangle(pair_.triangle_a)[i.low_corner], Feature::face, pair_.triangle_b));
+        {Feature::vertex, query_.a.triangle(pair_.triangle_a)[i.low_corner]}, {Feature::face, pair_.triangle_b});
   }
 
   void try_face_of_a(const Vec3& n) {
@@ -63,7 +63,7 @@ class Separation {
     depth_ = -i.low;
     const Vec3& x = b_[i.low_corner];
     set(closest_on_triangle(x - i.low * n, a_).point, x, -n, query_.a.body(),
-        feature_key(Feature::face, pair_.triangle_a, Feature::vertex, query_.b.triangle(pair_.triangle_b)[i.low_corner]));
+        {Feature::face, pair_.triangle_a}, {Feature::vertex, query_.b.triangle(pair_.triangle_b)[i.low_corner]});
   }
 
   void try_edges(int i, int j) {
@@ -81,20 +81,20 @@ class Separation {
     depth_ = depth;
     const SegmentSegment closest = closest_between_segments(p, q, r, s);
     set(closest.point0, closest.point1, n, -1,
-        feature_key(Feature::edge, query_.a.triangle_edges(pair_.triangle_a)[i], Feature::edge, query_.b.triangle_edges(pair_.triangle_b)[j]));
+        {Feature::edge, cones_a_[i]->index}, {Feature::edge, cones_b_[j]->index});
   }
 
-  void set(const Vec3& point_a, const Vec3& point_b, const Vec3& n, int owner, std::uint64_t feature) {
+  void set(const Vec3& point_a, const Vec3& point_b, const Vec3& n, int owner, SurfaceFeature fa, SurfaceFeature fb) {
     best_.body_a = pair_.a;
     best_.body_b = pair_.b;
-    best_.triangle_a = pair_.triangle_a;
-    best_.triangle_b = pair_.triangle_b;
+    best_.triangle_a = query_.a.triangle_of(fa);
+    best_.triangle_b = query_.b.triangle_of(fb);
     best_.point_a = point_a;
     best_.point_b = point_b;
     best_.normal = n;
     best_.gap = n.dot(point_a - point_b);
     best_.normal_owner = owner;
-    best_.feature = feature;
+    best_.feature = feature_key(fa.kind, fa.index, fb.kind, fb.index);
   }
 
   const ProximityQuery& query_;
@@ -136,13 +136,18 @@ void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>
   Pushed pushed;
   for (const Collision& c : contacts)
     if (c.gap <= query.touch) pushed.add(c);
-  std::vector<std::pair<Collision, TrianglePair>> found;
+  std::vector<std::pair<Collision, TrianglePair>> found, touching;
+  bool is_any_pushed = std::any_of(contacts.begin(), contacts.end(), [](const Collision& c) { return c.gap < 0.0; });
   for (const TrianglePair& pair : query.triangles) {
     if (!pair.intersecting || pushed.covers(query, pair)) continue;
     const Separation separation(query, pair);
     // triangles that merely touch need no push; sliding along each other they must not catch
-    if (separation.is_found() && separation.contact().gap < -query.touch) found.emplace_back(separation.contact(), pair);
+    if (!separation.is_found() || separation.contact().gap >= -query.touch) continue;
+    const double features = closest_features(query.a.corners(pair.triangle_a), query.b.corners(pair.triangle_b)).squared_distance;
+    (features > query.touch * query.touch ? found : touching).emplace_back(separation.contact(), pair);
   }
+  // triangles that meet in a border only (bodies flush with each other) tell little about the way out: the last resort
+  if (found.empty() && !is_any_pushed) found = std::move(touching);
   if (found.empty()) return;
   // the shallowest first: where it pushes a triangle, the much deeper ways to separate the same triangle are not taken
   std::stable_sort(found.begin(), found.end(), [](const auto& l, const auto& r) {

@@ -64,10 +64,12 @@ class VertexPass {
     if (closest.distance <= query_.touch && add_touching(v)) {
       // decided by the features that touch
     } else if ((x - closest.point).dot(other_.normal(closest.feature)) < 0.0) {
-      add_inside(v, closest);
+      add_inside(v);
     } else {
       for (const Nearest& n : nearest_)
         if (is_minimum(x, n)) add_outside(v, n);
+      // flush with a side that is no way out for it: it may be behind another
+      if (kept_.empty() && closest.distance <= query_.touch) add_inside(v);
     }
     if (query_.time_step > 0.0) add_predicted(v);
     for (const Collision& c : kept_) contacts.push_back(own_is_a_ ? c : exchanged(c));
@@ -138,10 +140,35 @@ class VertexPass {
     keep(v, n.feature, other_.triangle_of(n.feature), n.point, normal, is_smooth);
   }
 
-  void add_inside(int v, const Nearest& n) {
-    const Vec3 normal = n.distance > query_.touch ? Vec3((n.point - own_.vertex(v)) / n.distance) : other_.normal(n.feature);
-    if (normal.isZero(0.0) || falls_steeply(normal, kSteep)) return;
-    keep(v, n.feature, other_.triangle_of(n.feature), n.point, normal, n.feature.kind == Feature::face);
+  // the nearest place where the vertex can leave: where its own edges don't run deeper. (A corner of a box that has sunk
+  // into another near its rim leaves through the top, though the side may be nearer.)
+  void add_inside(int v) {
+    const Vec3& x = own_.vertex(v);
+    const Nearest& closest = nearest_.front();
+    Vec3 normal = other_.normal(closest.feature);
+    if ((x - closest.point).dot(normal) < 0.0) {
+      if (closest.distance > query_.touch) normal = (closest.point - x) / closest.distance;
+      if (!falls_steeply(normal, kSteep)) {
+        keep(v, closest.feature, other_.triangle_of(closest.feature), closest.point, normal, closest.feature.kind == Feature::face);
+        return;
+      }
+    }
+    double least = query_.margin;
+    int best = -1;
+    Vec3 point = Vec3::Zero();
+    for (int t : triangles_) {
+      const TriangleCorners c = other_.corners(t);
+      const Vec3 n = other_.face_normal(t);
+      const double depth = n.dot(c[0] - x);
+      if (!(depth > 0.0 && depth < least) || falls_steeply(n, kSteep)) continue;
+      const PointTriangle foot = closest_on_triangle(x + depth * n, c);
+      if (foot.squared_distance > query_.touch * query_.touch) continue;
+      least = depth;
+      best = t;
+      point = foot.point;
+      normal = n;
+    }
+    if (best >= 0) keep(v, {Feature::face, best}, best, point, normal, true);
   }
 
   // a face that the vertex, not yet within the activation distance, would run through in this sub-step

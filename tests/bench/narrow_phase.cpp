@@ -1,0 +1,155 @@
+// Narrow phases between meshes, measured: the seed's Fig. 6.4, growth with the number of triangles, and the mesh-mesh cases
+// that peers were measured on. CSV on standard output, a summary for people on standard error.
+//
+// Processor time of the whole process (all threads), one thread unless --threads N; the median of some repeats after a first
+// call that allocates. Compare figures of one run only: machines and their other users differ.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <string>
+
+#include "engine/core/parallel.hpp"
+#include "tests/support/meshes.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+double process_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+struct Result {
+  double ms = 0.0;
+  std::size_t pairs = 0;
+};
+
+// repeats until half a second is spent, three times at least (once if a single call takes more than two seconds)
+Result measure(const char* name, const ColliderSet& set, const std::vector<BodyPair>& pairs) {
+  const std::unique_ptr<NarrowPhase> phase = find_entry(narrow_phases(), name)->make();
+  std::vector<TrianglePair> found;
+  double start = process_ms();
+  phase->find(set.all(), pairs, found);
+  std::vector<double> times{process_ms() - start};
+  if (times[0] < 2000.0) {
+    times.clear();
+    double spent = 0.0;
+    while (times.size() < 3 || (spent < 500.0 && times.size() < 25)) {
+      start = process_ms();
+      phase->find(set.all(), pairs, found);
+      times.push_back(process_ms() - start);
+      spent += times.back();
+    }
+    std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  }
+  return {times[times.size() / 2], found.size()};
+}
+
+void row(const std::string& series, std::size_t triangles, const Result& hash, const Result& brute) {
+  fmt::print("{},{},{},{:.4f},{}\n", series, triangles, hash.pairs, hash.ms, brute.ms > 0.0 ? fmt::format("{:.4f}", brute.ms) : "");
+}
+
+// least squares slope of log(ms) over log(n)
+double exponent(const std::vector<std::pair<double, double>>& points) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const auto& [n, ms] : points) {
+    const double x = std::log(n), y = std::log(ms);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double count = static_cast<double>(points.size());
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+// the seed's Fig. 6.4: 2,560 triangles, collisions from few to some 5,000. Two round spheres of 1,280 triangles reach about
+// 1,000; with one of them dented into folds that the other's surface passes many times it goes on
+void figure_6_4() {
+  fmt::print(stderr, "\nFig. 6.4 of the seed: 2,560 triangles in two bodies, more and more of them intersecting\n{:>10} {:>12} {:>14} {:>14} {:>8}\n",
+             "shape", "collisions", "spatial_hash", "brute_force", "ratio");
+  const MeshPointer sphere = surface(icosphere(3));
+  const auto show = [&](const char* shape, const ColliderSet& set) {
+    const Result hash = measure("spatial_hash", set, {{0, 1, 0.0}}), brute = measure("brute_force", set, {{0, 1, 0.0}});
+    row(fmt::format("fig64_{}", shape), 2560, hash, brute);
+    fmt::print(stderr, "{:>10} {:>12} {:>11.3f} ms {:>11.3f} ms {:>8.1f}{}\n", shape, hash.pairs, hash.ms, brute.ms, brute.ms / hash.ms,
+               hash.pairs == brute.pairs ? "" : "  DIFFERENT PAIRS");
+  };
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (double distance : {1.99, 1.9, 1.6, 1.0, 0.3, 0.1, 0.03}) {
+    ColliderSet set;
+    set.add(sphere);
+    set.add(sphere, {turn, distance * Vec3(0.6, 0.64, 0.48)});
+    show("spheres", set);
+  }
+  for (double amplitude : {0.02, 0.05, 0.1, 0.2, 0.4, 0.8}) {
+    TriangleMesh folded = icosphere(3);
+    // neighbouring vertices in and out: each triangle crosses the other sphere's shell
+    for (std::size_t i = 0; i < folded.vertices.size(); ++i) folded.vertices[i] *= 1.0 + (i % 2 == 0 ? amplitude : -amplitude);
+    ColliderSet set;
+    set.add(sphere);
+    set.add(surface(std::move(folded)), {turn, Vec3(0.01, 0.007, 0.003)});
+    show("folded", set);
+  }
+}
+
+void growth(int finest) {
+  fmt::print(stderr, "\nGrowth: two icospheres, far pose (rotated 0.7 rad, moved (0.35, 0.22, 0.13)) and near pose\n{:>6} {:>10} {:>8} {:>14} {:>14} {:>9}   {}\n", "pose",
+             "triangles", "pairs", "spatial_hash", "brute_force", "ratio", "peers, ms, printed figures of another machine");
+  const char* peers[] = {"",
+                         "Embree query 0.25, refit+query 0.6-0.8; FCL AABB refit+query 1.5-1.9",
+                         "Embree query 0.45, refit+query 2; FCL 4-5; CGAL 12",
+                         "Embree query 0.9-1.6, refit+query 6-8; FCL 27-30; CGAL 60",
+                         "Embree query 3.5, refit+query 40-58; FCL 107; CGAL 290",
+                         "Embree query 5.5, refit+query 180; FCL 520; CGAL 1600"};
+  const std::size_t expected[] = {174, 346, 702, 1400, 2798, 5598};
+  const Vec3 axis = Vec3(1, 2, 3).normalized();
+  for (const bool is_far : {true, false}) {
+    std::vector<std::pair<double, double>> hash_points, brute_points;
+    const char* pose = is_far ? "far" : "near";
+    for (int k = 3; k <= finest; ++k) {
+      const MeshPointer mesh = surface(icosphere(k));
+      const std::size_t triangles = 2 * mesh->mesh.triangles.size();
+      ColliderSet set;
+      set.add(mesh);
+      set.add(mesh, is_far ? Pose{Eigen::AngleAxisd(0.7, axis).toRotationMatrix(), Vec3(0.35, 0.22, 0.13)}
+                           : Pose{Eigen::AngleAxisd(0.05, axis).toRotationMatrix(), Vec3(0.010, 0.007, 0.003)});
+      const Result hash = measure("spatial_hash", set, {{0, 1, 0.0}});
+      Result brute;
+      if (k <= 5) brute = measure("brute_force", set, {{0, 1, 0.0}});
+      hash_points.emplace_back(static_cast<double>(triangles), hash.ms);
+      if (k <= 5) brute_points.emplace_back(static_cast<double>(triangles), brute.ms);
+      const double extrapolated = brute_points.back().second * std::pow(static_cast<double>(triangles) / brute_points.back().first, 2.0);
+      row(fmt::format("growth_{}", pose), triangles, hash, brute);
+      fmt::print(stderr, "{:>6} {:>10} {:>8} {:>11.3f} ms {:>11.1f} ms {:>9.1f}{} {}{}\n", pose, triangles, hash.pairs, hash.ms, extrapolated,
+                 extrapolated / hash.ms, k <= 5 ? " " : "*", is_far && k >= 4 ? peers[k - 3] : "",
+                 is_far && hash.pairs != expected[k - 3] ? "  WRONG NUMBER OF PAIRS" : "");
+    }
+    fmt::print(stderr, "  {} pose: time grows as n^{:.2f} (spatial_hash), n^{:.2f} (brute_force, measured to 40,960 triangles; * extrapolated with n^2)\n", pose,
+               exponent(hash_points), exponent(brute_points));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int threads = 1, finest = 7;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--threads" && i + 1 < argc) {
+      threads = std::atoi(argv[++i]);
+    } else if (word == "--finest" && i + 1 < argc) {
+      finest = std::clamp(std::atoi(argv[++i]), 3, 8);
+    } else {
+      fmt::print(stderr, "usage: bench_narrow_phase [--threads N] [--finest K]\n  K: finest icosphere, 20·4^K triangles a body (3 to 8, default 7: 655,360 together)\n");
+      return 2;
+    }
+  }
+  set_thread_count(threads);
+  fmt::print("series,triangles,pairs,spatial_hash_ms,brute_force_ms\n");
+  fmt::print(stderr, "processor time of {} thread{}\n", threads, threads == 1 ? "" : "s");
+  figure_6_4();
+  growth(finest);
+}
