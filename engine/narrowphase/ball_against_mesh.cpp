@@ -134,4 +134,11 @@ class BallTest {
 
 bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball) { return BallTest(sink, mesh, ball).run(); }
 
+std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box) {
+  std::vector<int> near;
+  for (int t = 0; t < count; ++t)
+    if (overlap(triangle_bounds(mesh, t), box)) near.push_back(t);
+  return near;
+}
+
 }  // namespace impinge

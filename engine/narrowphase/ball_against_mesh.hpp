@@ -25,4 +25,7 @@ inline Aabb triangle_bounds(const SurfaceView& mesh, int t) {
   return bounds_of(mesh.vertex(c[0]), mesh.vertex(c[1]), mesh.vertex(c[2]));
 }
 
+/// The mesh's triangles whose bounds overlap the box, ascending.
+std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box);
+
 }  // namespace impinge

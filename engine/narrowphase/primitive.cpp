@@ -1,7 +1,6 @@
 #include "engine/narrowphase/primitive.hpp"
 
 #include "engine/core/error.hpp"
-#include "engine/narrowphase/box_mesh.hpp"
 #include "engine/narrowphase/primitive_pairs.hpp"
 
 namespace impinge {
@@ -21,15 +20,10 @@ constexpr Test kTests[5][5] = {
     {nullptr, nullptr, nullptr, nullptr, nullptr},
 };
 
-bool is_box_with_mesh(const Shape& a, const Shape& b) {
-  return (std::holds_alternative<Box>(a) && is_mesh(b)) || (is_mesh(a) && std::holds_alternative<Box>(b));
-}
-
 }  // namespace
 
 void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pair, const ContactQuery& query, std::vector<Collision>& contacts) {
   const std::size_t a = colliders[pair.a].shape->index(), b = colliders[pair.b].shape->index();
-  if (is_box_with_mesh(*colliders[pair.a].shape, *colliders[pair.b].shape)) return box_mesh_contacts(colliders, pair, query, contacts);
   const bool swapped = a > b;
   const Test test = swapped ? kTests[b][a] : kTests[a][b];
   IMPINGE_ASSERT(test != nullptr);
@@ -39,7 +33,6 @@ void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pai
 
 bool is_pair_supported(const Shape& a, const Shape& b) {
   if (is_mesh(a) && is_mesh(b)) return true;  // the narrow phase's
-  if (is_box_with_mesh(a, b)) return true;
   return kTests[std::min(a.index(), b.index())][std::max(a.index(), b.index())] != nullptr;
 }
 

@@ -1,26 +1,17 @@
-// Sphere, capsule and box against a mesh.
+// Sphere and capsule against a mesh.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/triangle_intersection.hpp"
 #include "engine/narrowphase/ball_against_mesh.hpp"
-#include "engine/narrowphase/contact_points.hpp"
 #include "engine/narrowphase/edge_cone.hpp"
 #include "engine/narrowphase/primitive_pairs.hpp"
-#include "engine/narrowphase/triangle_pair_test.hpp"
 
 namespace impinge {
 namespace {
 
 /// Bodies of these local pairs: 0 the sink's first shape, 1 the mesh.
 SurfaceView view_of(const ContactSink& sink) { return SurfaceView(sink.second(), 1); }
-
-std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box) {
-  std::vector<int> near;
-  for (int t = 0; t < count; ++t)
-    if (overlap(triangle_bounds(mesh, t), box)) near.push_back(t);
-  return near;
-}
 
 void sort_unique(std::vector<int>& list) {
   std::sort(list.begin(), list.end());
@@ -117,43 +108,6 @@ class CylinderTest {
   std::vector<int> near_;
 };
 
-constexpr std::uint64_t kIndex = 0x3fffffffu;  // of a feature key: the index's bits
-
-/// A feature key whose first feature is of the box's triangles, in terms of the box: the two triangles of a side and the
-/// diagonal between them are one face (number: 0 to 5 for -z, +z, -y, +y, -x, +x as make_box_mesh lists them), so that no contact changes its name when it crosses the diagonal.
-std::uint64_t with_box_feature(std::uint64_t key, const MeshTopology& box) {
-  Feature kind = static_cast<Feature>(key >> 62);
-  int index = static_cast<int>(key >> 32 & kIndex);
-  if (kind == Feature::edge && box.edges[index].triangle0 / 2 == box.edges[index].triangle1 / 2) {
-    kind = Feature::face;
-    index = box.edges[index].triangle0;
-  }
-  if (kind == Feature::face) index /= 2;
-  return feature_key(kind, index, static_cast<Feature>(key >> 30 & 3u), static_cast<int>(key & kIndex));
-}
-
-/// A box wholly inside a mesh, where no triangles are near each other: out along the shortest way from its centre.
-void add_enclosed_box(ContactSink& sink, const SurfaceView& mesh) {
-  const OrientedBox box = world_box(sink.first());
-  ContactQuery all = sink.query();
-  all.activation = 0.0;
-  all.time_step = 0.0;
-  const Collider local[2] = {sink.first(), sink.second()};
-  std::vector<Collision> out;
-  ContactSink way_out(local, {0, 1, 0.0}, false, all, out);
-  if (!add_ball_contacts(way_out, mesh, {box.center, 0.0, Feature::shape, 0})) return;
-  for (const Collision& found : out) {
-    Candidate c;
-    c.normal = found.normal;
-    c.point_first = box.center - box.radius_along(found.normal) * found.normal;
-    c.point_second = found.point_b;
-    c.triangle_second = found.triangle_b;
-    c.kind_second = Feature::face;
-    c.index_second = found.triangle_b;
-    sink.add(c);
-  }
-}
-
 }  // namespace
 
 void sphere_mesh(ContactSink& sink) {
@@ -170,68 +124,6 @@ void capsule_mesh(ContactSink& sink) {
   cylinder.add_edges();
   cylinder.add_vertices();
   if (!inside0 && !inside1) cylinder.add_passages();
-}
-
-void box_mesh(ContactSink& sink) {
-  // a box is a polyhedron: the contacts of two meshes, one of which has twelve triangles
-  const Collider& mesh = sink.second();
-  const ContactQuery& query = sink.query();
-  Collider box = sink.first();
-  const Shape surface = make_box_mesh(std::get<Box>(*box.shape).half);
-  std::vector<Vec3> corners;
-  for (const Vec3& v : std::get<MeshPointer>(surface)->mesh.vertices) corners.push_back(box.pose.apply(v));
-  box.shape = &surface;
-  box.vertices = corners;
-  box.mean_edge = mean_edge_length(box.mesh().mesh);
-  const Collider local[2] = {box, mesh};
-
-  // as for two meshes, fast bodies widen the search by one edge length at most
-  const double margin = query.activation + std::min(sink.reach(), std::max(box.mean_edge, mesh.mean_edge));
-  const BodyPair pair{0, 1, margin};
-  const SurfaceView view(local[1], 1);
-  Aabb bounds;
-  for (const Vec3& v : corners) bounds.include(v);
-  const OrientedBox oriented = world_box(sink.first());
-  std::vector<TrianglePair> triangles;
-  const int count = static_cast<int>(mesh.mesh().mesh.triangles.size());
-  for (int t : triangles_near(view, count, bounds.inflated(margin * (1.0 + 1e-9) + touch_distance(corners_of(box, 0))))) {
-    const TriangleCorners c = corners_of(mesh, t);
-    const Aabb turned = bounds_of(oriented.to_local(c[0]), oriented.to_local(c[1]), oriented.to_local(c[2]));
-    const Vec3 reach = oriented.half + Vec3::Constant(margin * (1.0 + 1e-9) + 4.0 * touch_distance(c));
-    if (!overlap(turned, Aabb{-reach, reach})) continue;
-    for (int k = 0; k < 12; ++k) {
-      const PairState state = test_triangles(corners_of(box, k), c, margin);
-      if (state != PairState::apart) triangles.push_back({0, 1, k, t, state == PairState::intersecting});
-    }
-  }
-  std::sort(triangles.begin(), triangles.end());
-  std::vector<Collision> found;
-  // asked for intersections only, the sink keeps what overlaps
-  proximity_contacts(local, pair, triangles, query.activation, query.proximity ? query.time_step : 0.0, found);
-  const MeshTopology& topology = box.mesh().topology;
-  for (Collision& f : found) f.feature = with_box_feature(f.feature, topology);
-  std::stable_sort(found.begin(), found.end(), [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
-  for (const Collision& f : found) {
-    Candidate c;
-    c.point_first = f.point_a;
-    c.point_second = f.point_b;
-    c.normal = f.normal;
-    c.owner = f.normal_owner == 0 ? NormalOwner::first : f.normal_owner == 1 ? NormalOwner::second : NormalOwner::neither;
-    c.kind_first = static_cast<Feature>(f.feature >> 62);
-    c.index_first = static_cast<int>(f.feature >> 32 & kIndex);
-    c.kind_second = static_cast<Feature>(f.feature >> 30 & 3u);
-    c.index_second = static_cast<int>(f.feature & kIndex);
-    c.triangle_second = f.triangle_b;
-    if (c.kind_first == Feature::face && f.normal_owner == 0) {
-      // on the side as a whole, not on the triangle of it that was found first
-      const int axis = 2 - c.index_first / 2;
-      Vec3 x = oriented.to_local(c.point_second).cwiseMax(-oriented.half).cwiseMin(oriented.half);
-      x[axis] = c.index_first % 2 == 0 ? -oriented.half[axis] : oriented.half[axis];
-      c.point_first = oriented.to_world(x);
-    }
-    sink.add_new(c);
-  }
-  if (triangles.empty()) add_enclosed_box(sink, view);
 }
 
 }  // namespace impinge
