@@ -2,7 +2,10 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <sys/wait.h>
+
 #include <csignal>
+#include <cstdlib>
 #include <map>
 #include <regex>
 
@@ -366,4 +369,22 @@ TEST_CASE("a run with pictures that is killed resumes to the same pixels, and pi
   const Outcome judged = impinge_run(files.folder.path(), {"run", "s.toml", "--script", "picture.script", "--out", "judged", "--frames", "25", "--size", "96x54", "--set", "contact.friction=0.5", "--set", "simulation.gravity=[0,-15,0]"});
   CHECK(judged.code == 1);
   CHECK(judged.err.find("picture.script:2:1: frame 25") != std::string::npos);
+}
+
+TEST_CASE("a full disk stops the run with a message, and what is there can be resumed") {
+  // a limit on the size of files stands for the disk: stats.csv passes 8 kB after some 20 frames
+  const Files files;
+  const std::string command = fmt::format("cd {} && ulimit -f 8 && exec {} run s.toml --script a.script --out out --frames 60 --no-images 2> err", files.folder.path().string(), IMPINGE_PROGRAM);
+  const int status = std::system(fmt::format("bash -c '{}'", command).c_str());
+  CHECK(WEXITSTATUS(status) == 2);
+  const std::string error = slurp(files.folder / "err");
+  CHECK(error.rfind("out/stats.csv: can't be written (", 0) == 0);
+  CHECK(std::count(error.begin(), error.end(), '\n') == 1);
+  const std::size_t rows = table(files.folder / "out/stats.csv").size();
+  CHECK(rows > 10);
+  CHECK(rows < 60);
+  const auto run = [&](const char* out) { return impinge_run(files.folder.path(), {"run", "s.toml", "--script", "a.script", "--out", out, "--frames", "60", "--no-images", "--resume"}).code; };
+  CHECK(run("out") == 0);
+  CHECK(run("whole") == 0);
+  CHECK(timeless(files.folder / "out/stats.csv") == timeless(files.folder / "whole/stats.csv"));
 }
