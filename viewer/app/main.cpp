@@ -1,5 +1,6 @@
 // impinge: one program, one sub-command a job. What goes wrong becomes one message on stderr and an exit code:
 // 2 the input is wrong, 3 the simulation diverged, 4 a bug of ours.
+#include <csignal>
 #include <cstdio>
 
 #include "engine/core/error.hpp"
@@ -31,6 +32,7 @@ int fail(int code, const char* kind, const char* what) {
 }  // namespace
 
 int main(int count, char** words) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes then shows as a failed write, which says what to do
   try {
     const impinge::Arguments arguments = impinge::parse_arguments(count, words);
     impinge::set_thread_count(arguments.threads);
