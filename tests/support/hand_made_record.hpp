@@ -1,0 +1,68 @@
+// A step record put together by hand: what the view draws, without a simulation behind it.
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "engine/world/step_record.hpp"
+
+namespace impinge::test {
+
+class HandMadeRecord {
+ public:
+  HandMadeRecord() {
+    record_.gravity = {0.0, -9.81, 0.0};
+    record_.frame_time = 1.0 / 60.0;
+    record_.stats.substeps = 1;
+  }
+  HandMadeRecord(const HandMadeRecord&) = delete;
+  HandMadeRecord& operator=(const HandMadeRecord&) = delete;
+
+  /// Returns the body's index. Stays valid for ever: bodies are never moved.
+  int add(const std::string& name, BodyKind kind, Shape shape, const Vec3& position, const Mat3& rotation = Mat3::Identity()) {
+    names_.push_back(name);
+    shapes_.push_back(std::move(shape));
+    vertices_.emplace_back();
+    BodyRecord body;
+    body.name = names_.back();
+    body.kind = kind;
+    body.shape = &shapes_.back();
+    body.pose = body.file_pose = {rotation, position};
+    body.mass = kind == BodyKind::dynamic ? 1.0 : 0.0;
+    if (const auto* mesh = std::get_if<MeshPointer>(body.shape)) {
+      for (const Vec3& v : (*mesh)->mesh.vertices) vertices_.back().push_back(body.pose.apply(v));
+      body.vertices = vertices_.back();
+      for (const Vec3& v : vertices_.back()) body.bounds.include(v);
+    } else {
+      body.bounds = shape_bounds(*body.shape, body.pose);
+    }
+    record_.bodies.push_back(body);
+    record_.stats.bodies = static_cast<int>(record_.bodies.size());
+    return record_.stats.bodies - 1;
+  }
+
+  ContactRecord& touch(int a, int b, const Vec3& point, const Vec3& normal, ContactState state, double gap = 0.0) {
+    ContactRecord contact;
+    contact.body_a = a, contact.body_b = b;
+    contact.point_b = point;
+    contact.point_a = point + gap * normal;
+    contact.normal = normal;
+    contact.gap = contact.gap0 = gap;
+    contact.state = state;
+    contact.friction = 0.4;
+    record_.contacts.push_back(contact);
+    record_.stats.contacts = static_cast<std::int64_t>(record_.contacts.size());
+    return record_.contacts.back();
+  }
+
+  StepRecord& record() { return record_; }
+  const StepRecord& record() const { return record_; }
+
+ private:
+  std::deque<std::string> names_;
+  std::deque<Shape> shapes_;
+  std::deque<std::vector<Vec3>> vertices_;
+  StepRecord record_;
+};
+
+}  // namespace impinge::test
