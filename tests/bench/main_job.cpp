@@ -29,7 +29,7 @@ Figures run_job(const char* points, int frames, bool pictures, bool judged) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "impinge_bench_frames";
   if (pictures) {
     std::filesystem::create_directories(folder);
-    session.view().open(1280, 720, "drop.toml");
+    session.view().open("drop.toml");
   }
   Figures f;
   const auto start = std::chrono::steady_clock::now();
@@ -37,7 +37,7 @@ Figures run_job(const char* points, int frames, bool pictures, bool judged) {
   for (int frame = 0; frame <= frames; ++frame) {
     const std::vector<Command> commands = session.advance();
     const FrameStats& s = session.record().stats;
-    if (pictures) f.render_ms += session.view().draw(session.record(), commands, folder / "frame.png");
+    if (pictures) f.render_ms += session.view().draw(session.record(), commands, folder);
     f.times.broad_ms += s.times.broad_ms, f.times.narrow_ms += s.times.narrow_ms, f.times.assemble_ms += s.times.assemble_ms;
     f.times.response_ms += s.times.response_ms, f.times.integrate_ms += s.times.integrate_ms, f.times.step_ms += s.times.step_ms;
     f.contacts += s.contacts;
