@@ -54,7 +54,7 @@ TEST_CASE("the overlap judge agrees with the exact box when boxes are given as m
           Approx(penetration(Box{half}, place, turn, ball, Vec3::Zero())).margin(1e-12));
   }
   std::int64_t crossings = 0;
-  CHECK(penetration(make_box_mesh(half), {0.95, 0, 0}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) == Approx(0.05));
+  CHECK(penetration(make_box_mesh(half), {0.97, 0.1, 0.08}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) == Approx(0.03));
   CHECK(crossings > 0);
   CHECK(penetration(make_box_mesh(half), {1.05, 0, 0}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) == 0.0);
   CHECK(crossings == 0);
