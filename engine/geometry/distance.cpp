@@ -86,8 +86,8 @@ PointTriangle closest_on_triangle(const Vec3& x, const TriangleCorners& c) {
         const double height = normal.dot(r0);
         return {x - (height / area2) * normal, TriangleFeature::face, height * height / area2};
       }
-      // thin: the normal leans by its rounding, so the foot is taken from its weights, inside the triangle for certain, and
-      // an edge may still be closer
+      // thin: the normal leans by its rounding, so the foot is taken from its weights, inside the triangle for certain,
+      // and an edge may still be closer
       const double sum = side[0] + side[1] + side[2];
       const Vec3 foot = (side[1] / sum) * c[0] + (side[2] / sum) * c[1] + (side[0] / sum) * c[2];
       thin = {foot, TriangleFeature::face, (x - foot).squaredNorm()};

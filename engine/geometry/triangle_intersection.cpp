@@ -18,7 +18,12 @@ struct Face {
   Vec3 origin, e1, e2, normal;
   double l1, l2;  // at least the lengths of e1 and e2
   explicit Face(const TriangleCorners& c)
-      : origin(c[0]), e1(c[1] - c[0]), e2(c[2] - c[0]), normal(e1.cross(e2)), l1(impinge::l1(e1)), l2(impinge::l1(e2)) {}
+      : origin(c[0]),
+        e1(c[1] - c[0]),
+        e2(c[2] - c[0]),
+        normal(e1.cross(e2)),
+        l1(impinge::l1(e1)),
+        l2(impinge::l1(e2)) {}
 };
 
 // heights of three corners over a face's plane, times twice its area
@@ -37,14 +42,16 @@ struct Heights {
   bool clearly_above(int k) const { return value[k] > band; }
   bool clearly_below(int k) const { return value[k] < -band; }
   bool all_on_one_side() const {
-    return (clearly_above(0) && clearly_above(1) && clearly_above(2)) || (clearly_below(0) && clearly_below(1) && clearly_below(2));
+    return (clearly_above(0) && clearly_above(1) && clearly_above(2)) ||
+           (clearly_below(0) && clearly_below(1) && clearly_below(2));
   }
 };
 
 // the segment from corner k to the next against the face; u and v first, then the ends' sides
 Verdict edge_against(const TriangleCorners& corners, int k, const Heights& heights, const Face& face, double touch) {
   const int next = (k + 1) % 3;
-  if ((heights.clearly_above(k) && heights.clearly_above(next)) || (heights.clearly_below(k) && heights.clearly_below(next)))
+  if ((heights.clearly_above(k) && heights.clearly_above(next)) ||
+      (heights.clearly_below(k) && heights.clearly_below(next)))
     return Verdict::miss;
   const Vec3 direction = corners[next] - corners[k], s = corners[k] - face.origin;
   const double det = heights.value[k] - heights.value[next];  // e1·(direction × e2)
@@ -57,7 +64,8 @@ Verdict edge_against(const TriangleCorners& corners, int k, const Heights& heigh
   if (v < -width * face.l1) return Verdict::miss;
   const double w = sign * det - u - v, width_w = width * (face.l1 + face.l2);
   if (w < -width_w) return Verdict::miss;
-  const bool crosses = (heights.clearly_above(k) && heights.clearly_below(next)) || (heights.clearly_below(k) && heights.clearly_above(next));
+  const bool crosses = (heights.clearly_above(k) && heights.clearly_below(next)) ||
+                       (heights.clearly_below(k) && heights.clearly_above(next));
   return crosses && u > width * face.l2 && v > width * face.l1 && w > width_w ? Verdict::hit : Verdict::unsure;
 }
 
@@ -85,7 +93,8 @@ bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& c, double dist
   const double height = std::max(std::abs(normal.dot(p - c[0])), std::abs(normal.dot(q - c[0])));
   const double rounding = 64.0 * 0x1.0p-53 * (l1(p - c[0]) + l1(q - c[0])) * l1(c[1] - c[0]) * l1(c[2] - c[0]);
   if (distance * normal.norm() > height + rounding) return false;
-  const WideVector e1 = difference(c[1], c[0]), e2 = difference(c[2], c[0]), direction = difference(q, p), s = difference(p, c[0]);
+  const WideVector e1 = difference(c[1], c[0]), e2 = difference(c[2], c[0]), direction = difference(q, p),
+                   s = difference(p, c[0]);
   const Wide at_p = triple(s, e1, e2), at_q = triple(difference(q, c[0]), e1, e2);
   if (!((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0))) return false;
   const Wide sign = at_p > 0 ? 1 : -1, u = sign * triple(s, direction, e2), v = sign * triple(direction, s, e1);
@@ -114,8 +123,7 @@ bool decide_by_distance(const TriangleCorners& first, const TriangleCorners& sec
 }  // namespace
 
 double touch_distance(const TriangleCorners& a) {
-  return kTouchTolerance *
-         a[0].cwiseAbs().cwiseMax(a[1].cwiseAbs()).cwiseMax(a[2].cwiseAbs()).maxCoeff();
+  return kTouchTolerance * a[0].cwiseAbs().cwiseMax(a[1].cwiseAbs()).cwiseMax(a[2].cwiseAbs()).maxCoeff();
 }
 
 bool triangles_intersect(const TriangleCorners& a, const TriangleCorners& b) {
@@ -138,7 +146,8 @@ bool triangles_intersect(const TriangleCorners& a, const TriangleCorners& b) {
   return is_unsure && decide_by_distance(a, b, touch);
 }
 
-std::optional<RayHit> intersect_line(const Vec3& origin, const Vec3& direction, const TriangleCorners& c, double slack) {
+std::optional<RayHit> intersect_line(const Vec3& origin, const Vec3& direction, const TriangleCorners& c,
+                                     double slack) {
   const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], h = direction.cross(e2), s = origin - c[0];
   const double det = e1.dot(h);
   const double size = e1.norm() * e2.norm() * direction.norm();

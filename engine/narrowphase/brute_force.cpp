@@ -1,16 +1,17 @@
 // Every triangle against every triangle of the other body: the reference, and the baseline of the seed's Fig. 6.4.
+#include <algorithm>
+
 #include "engine/core/parallel.hpp"
 #include "engine/narrowphase/narrow_phase.hpp"
 #include "engine/narrowphase/triangle_pair_test.hpp"
-
-#include <algorithm>
 
 namespace impinge {
 namespace {
 
 class BruteForce final : public NarrowPhase {
  public:
-  void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs, std::vector<TrianglePair>& found) override {
+  void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
+            std::vector<TrianglePair>& found) override {
     found.clear();
     for (const BodyPair& pair : pairs) find_pair(colliders, pair, found);
     std::sort(found.begin(), found.end());
@@ -22,7 +23,8 @@ class BruteForce final : public NarrowPhase {
 
   static void make_boxes(const Collider& collider, double margin, std::vector<Aabb>& boxes) {
     boxes.resize(collider.mesh().mesh.triangles.size());
-    for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = search_box(corners_of(collider, static_cast<int>(t)), margin);
+    for (std::size_t t = 0; t < boxes.size(); ++t)
+      boxes[t] = search_box(corners_of(collider, static_cast<int>(t)), margin);
   }
 
   void find_pair(std::span<const Collider> colliders, const BodyPair& pair, std::vector<TrianglePair>& found) {
@@ -58,7 +60,8 @@ class BruteForce final : public NarrowPhase {
 }  // namespace
 
 Entry<NarrowPhase> brute_force_narrow_phase() {
-  return entry<NarrowPhase, BruteForce>("brute_force", "Every triangle pair of a body pair; the reference the others must equal.");
+  return entry<NarrowPhase, BruteForce>("brute_force",
+                                        "Every triangle pair of a body pair; the reference the others must equal.");
 }
 
 }  // namespace impinge

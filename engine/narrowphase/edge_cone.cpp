@@ -19,7 +19,8 @@ constexpr double kConeSlack = 0.1, kConeSlackOfFold = 0.25;
 std::optional<EdgeCone> make_edge_cone(const SurfaceView& view, int e) {
   const MeshTopology::Edge& ends = view.edge(e);
   const Vec3 n0 = view.face_normal(ends.triangle0);
-  EdgeCone cone{e, view.vertex(ends.v0), view.vertex(ends.v1), view.into_face(ends.triangle0, e), Vec3::Zero(), n0, kConeSlack};
+  EdgeCone cone{
+      e, view.vertex(ends.v0), view.vertex(ends.v1), view.into_face(ends.triangle0, e), Vec3::Zero(), n0, kConeSlack};
   if (ends.triangle1 < 0) return cone;
   const Vec3 n1 = view.face_normal(ends.triangle1);
   cone.into1 = view.into_face(ends.triangle1, e);

@@ -22,7 +22,8 @@ struct EdgeCone {
 /// The cone of edge e, or nothing where the edge is flat or concave: there no local minimum of distance lies inside it.
 std::optional<EdgeCone> make_edge_cone(const SurfaceView& view, int e);
 
-/// Unit common normal of two edges, from b towards a, if it leaves both of them between their faces; nothing for parallel edges.
+/// Unit common normal of two edges, from b towards a, if it leaves both of them between their faces; nothing for
+/// parallel edges.
 std::optional<Vec3> common_normal(const EdgeCone& a, const EdgeCone& b);
 
 }  // namespace impinge

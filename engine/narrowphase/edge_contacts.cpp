@@ -1,4 +1,5 @@
-// Proximity contacts of crossing edges: pairs whose closest points are inside both edges and a local minimum of distance.
+// Proximity contacts of crossing edges: pairs whose closest points are inside both edges and a local minimum of
+// distance.
 #include <algorithm>
 #include <cmath>
 
@@ -23,11 +24,13 @@ std::vector<EdgeCone> convex_edges(const SurfaceView& view, std::vector<int> tri
 }
 
 int find_edge(const std::vector<EdgeCone>& edges, int index) {
-  const auto it = std::lower_bound(edges.begin(), edges.end(), index, [](const EdgeCone& l, int r) { return l.index < r; });
+  const auto it =
+      std::lower_bound(edges.begin(), edges.end(), index, [](const EdgeCone& l, int r) { return l.index < r; });
   return it != edges.end() && it->index == index ? static_cast<int>(it - edges.begin()) : -1;
 }
 
-void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone& eb, std::vector<Collision>& contacts) {
+void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone& eb,
+                 std::vector<Collision>& contacts) {
   const Vec3 da = ea.q - ea.p, db = eb.q - eb.p;
   // farther apart than their half lengths and the margin together: the cheap way to drop most pairs
   const double reach = 0.5 * (std::sqrt(da.squaredNorm()) + std::sqrt(db.squaredNorm())) + query.margin;
@@ -40,7 +43,8 @@ void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone
   const double gap = normal.dot(closest.point0 - closest.point1);
 
   const int ta = query.a.edge(ea.index).triangle0, tb = query.b.edge(eb.index).triangle0;
-  const Vec3 path = query.time_step * (query.a.velocity_at(ta, closest.point0) - query.b.velocity_at(tb, closest.point1));
+  const Vec3 path =
+      query.time_step * (query.a.velocity_at(ta, closest.point0) - query.b.velocity_at(tb, closest.point1));
   const double falls = -normal.dot(path);
   const bool would_cross = gap > 0.0 && falls > gap;
   if (gap > query.activation && !would_cross) return;

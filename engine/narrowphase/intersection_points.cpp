@@ -5,9 +5,9 @@
 // triangle may give the vertex: the one whose vertex lies over the other triangle, and of two such, or of none, the
 // shallower. n points from B towards A in both cases.
 //
-// The vertex is traced back against its relative velocity to where it came through the other triangle. Where that gives no
-// sound answer (at rest, moving out, grazing, a ray that misses) the closest point of the triangle to its projection on the plane
-// stands in. Both lie in the triangle's plane, so the gap is the depth of the vertex behind it either way.
+// The vertex is traced back against its relative velocity to where it came through the other triangle. Where that gives
+// no sound answer (at rest, moving out, grazing, a ray that misses) the closest point of the triangle to its projection
+// on the plane stands in. Both lie in the triangle's plane, so the gap is the depth of the vertex behind it either way.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace {
 constexpr double kGrazing = 0.1;
 
 struct Deepest {
-  int corner = -1;     // of the triangle whose vertex it is; -1: none lies behind the other
+  int corner = -1;  // of the triangle whose vertex it is; -1: none lies behind the other
   double depth = 0.0;
   bool is_over = false;  // its projection lies in the other triangle
 };
@@ -36,20 +36,23 @@ Deepest deepest_behind(const TriangleCorners& own, const TriangleCorners& other,
   }
   if (found.corner < 0) return found;
   const Vec3 projected = own[found.corner] + found.depth * n;
-  const double size = std::max({(other[1] - other[0]).norm(), (other[2] - other[1]).norm(), (other[0] - other[2]).norm()});
+  const double size =
+      std::max({(other[1] - other[0]).norm(), (other[2] - other[1]).norm(), (other[0] - other[2]).norm()});
   found.is_over = closest_on_triangle(projected, other).squared_distance <= 1e-18 * size * size;
   return found;
 }
 
 // the contact of a vertex of `own` in triangle t of `other`, as if own were body a
-Collision make_contact(const SurfaceView& own, int t_own, const Deepest& deepest, const SurfaceView& other, int t, const Vec3& n) {
+Collision make_contact(const SurfaceView& own, int t_own, const Deepest& deepest, const SurfaceView& other, int t,
+                       const Vec3& n) {
   const int v = own.triangle(t_own)[deepest.corner];
   const Vec3& x = own.vertex(v);
   const TriangleCorners triangle = other.corners(t);
   Collision c;
   c.body_a = own.body();
   c.body_b = other.body();
-  c.triangle_a = own.triangles_round(v)[0];  // of several that the vertex is deepest of, the same one whichever was found first
+  c.triangle_a =
+      own.triangles_round(v)[0];  // of several that the vertex is deepest of, the same one whichever was found first
   c.triangle_b = t;
   c.point_a = x;
   c.normal = n;
@@ -68,8 +71,8 @@ Collision make_contact(const SurfaceView& own, int t_own, const Deepest& deepest
 
 }  // namespace
 
-void intersection_contacts(std::span<const Collider> colliders, const BodyPair& pair, std::span<const TrianglePair> triangles,
-                           std::vector<Collision>& contacts) {
+void intersection_contacts(std::span<const Collider> colliders, const BodyPair& pair,
+                           std::span<const TrianglePair> triangles, std::vector<Collision>& contacts) {
   const SurfaceView a(colliders[pair.a], pair.a), b(colliders[pair.b], pair.b);
   std::vector<Collision> found;
   for (const TrianglePair& t : triangles) {
@@ -78,7 +81,8 @@ void intersection_contacts(std::span<const Collider> colliders, const BodyPair& 
     const TriangleCorners ca = a.corners(t.triangle_a), cb = b.corners(t.triangle_b);
     const Deepest of_a = deepest_behind(ca, cb, nb), of_b = deepest_behind(cb, ca, na);
     if (of_a.corner < 0 && of_b.corner < 0) continue;  // two triangles of no area
-    const bool from_a = of_b.corner < 0 || (of_a.corner >= 0 && (of_a.is_over != of_b.is_over ? of_a.is_over : of_a.depth <= of_b.depth));
+    const bool from_a = of_b.corner < 0 ||
+                        (of_a.corner >= 0 && (of_a.is_over != of_b.is_over ? of_a.is_over : of_a.depth <= of_b.depth));
     found.push_back(from_a ? make_contact(a, t.triangle_a, of_a, b, t.triangle_b, nb)
                            : exchanged(make_contact(b, t.triangle_b, of_b, a, t.triangle_a, na)));
   }

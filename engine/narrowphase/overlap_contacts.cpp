@@ -1,8 +1,10 @@
-// What is left when surfaces cross deeper than the features tell: each intersecting triangle pair that no contact pushes
-// apart is separated along the axis of least overlap of the two triangles (separating axes: two normals, nine edge pairs).
+// What is left when surfaces cross deeper than the features tell: each intersecting triangle pair that no contact
+// pushes apart is separated along the axis of least overlap of the two triangles (separating axes: two normals, nine
+// edge pairs).
 //
-// The seed's contact, the deepest vertex behind the other triangle's plane [Haapaoja16 §3.2.3], is one of these axes. Where
-// an edge merely clips a corner of a large triangle its depth is that of the far end of the edge; the least overlap is not.
+// The seed's contact, the deepest vertex behind the other triangle's plane [Haapaoja16 §3.2.3], is one of these axes.
+// Where an edge merely clips a corner of a large triangle its depth is that of the far end of the edge; the least
+// overlap is not.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,8 +64,8 @@ class Separation {
     if (!(-i.low < depth_)) return;
     depth_ = -i.low;
     const Vec3& x = b_[i.low_corner];
-    set(closest_on_triangle(x - i.low * n, a_).point, x, -n, query_.a.body(),
-        {Feature::face, pair_.triangle_a}, {Feature::vertex, query_.b.triangle(pair_.triangle_b)[i.low_corner]});
+    set(closest_on_triangle(x - i.low * n, a_).point, x, -n, query_.a.body(), {Feature::face, pair_.triangle_a},
+        {Feature::vertex, query_.b.triangle(pair_.triangle_b)[i.low_corner]});
   }
 
   void try_edges(int i, int j) {
@@ -80,8 +82,8 @@ class Separation {
     if (n.dot(p - r) > of_a.low + rounding || of_b.high > rounding) return;
     depth_ = depth;
     const SegmentSegment closest = closest_between_segments(p, q, r, s);
-    set(closest.point0, closest.point1, n, -1,
-        {Feature::edge, cones_a_[i]->index}, {Feature::edge, cones_b_[j]->index});
+    set(closest.point0, closest.point1, n, -1, {Feature::edge, cones_a_[i]->index},
+        {Feature::edge, cones_b_[j]->index});
   }
 
   void set(const Vec3& point_a, const Vec3& point_b, const Vec3& n, int owner, SurfaceFeature fa, SurfaceFeature fb) {
@@ -132,7 +134,9 @@ class Pushed {
 }  // namespace
 
 void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>& contacts) {
-  if (std::none_of(query.triangles.begin(), query.triangles.end(), [](const TrianglePair& p) { return p.intersecting; })) return;
+  if (std::none_of(query.triangles.begin(), query.triangles.end(),
+                   [](const TrianglePair& p) { return p.intersecting; }))
+    return;
   Pushed pushed;
   for (const Collision& c : contacts)
     if (c.gap <= query.touch) pushed.add(c);
@@ -143,7 +147,8 @@ void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>
     const Separation separation(query, pair);
     // triangles that merely touch need no push; sliding along each other they must not catch
     if (!separation.is_found() || separation.contact().gap >= -query.touch) continue;
-    const double features = closest_features(query.a.corners(pair.triangle_a), query.b.corners(pair.triangle_b)).squared_distance;
+    const double features =
+        closest_features(query.a.corners(pair.triangle_a), query.b.corners(pair.triangle_b)).squared_distance;
     (features > query.touch * query.touch ? found : touching).emplace_back(separation.contact(), pair);
   }
   // triangles that meet in a border only (bodies flush with each other) tell little about the way out: the last resort

@@ -11,7 +11,8 @@ namespace impinge {
 struct ProximityQuery {
   SurfaceView a, b;
   std::span<const TrianglePair> triangles;
-  double margin = 0.0;      ///< metres; how far the triangle pairs reach, and how deep an overlap may be to be taken at face value
+  double margin =
+      0.0;  ///< metres; how far the triangle pairs reach, and how deep an overlap may be to be taken at face value
   double activation = 0.0;  ///< metres
   double time_step = 0.0;   ///< seconds
   /// Features closer than this count as touching, metres: the direction between them is noise and their normals decide.
@@ -26,16 +27,18 @@ inline constexpr double kSameSide = 0.95;
 void append_vertex_contacts(const ProximityQuery& query, std::vector<Collision>& contacts);
 /// Contacts of two edges that cross.
 void append_edge_contacts(const ProximityQuery& query, std::vector<Collision>& contacts);
-/// For each intersecting triangle pair that none of `contacts` pushes apart: the shortest way to separate the two triangles.
+/// For each intersecting triangle pair that none of `contacts` pushes apart: the shortest way to separate the two
+/// triangles.
 void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>& contacts);
 
 /// The direction, from b towards a, in which the surfaces round two touching features separate: of the normals of their
-/// faces the one that all edges of a rise along and all edges of b fall along, or the mean of several equals. The second
-/// value is the steepest slope against it, as a sine: near 0 the direction separates, negative it does not.
-std::pair<Vec3, double> separating_direction(const SurfaceView& a, const SurfaceFeature& fa, const SurfaceView& b, const SurfaceFeature& fb);
+/// faces the one that all edges of a rise along and all edges of b fall along, or the mean of several equals. The
+/// second value is the steepest slope against it, as a sine: near 0 the direction separates, negative it does not.
+std::pair<Vec3, double> separating_direction(const SurfaceView& a, const SurfaceFeature& fa, const SurfaceView& b,
+                                             const SurfaceFeature& fb);
 
-/// Of the contacts of one vertex whose normals constrain the same side (kSameSide), keeps the one with the gap nearest to 0.
-/// Contacts without a vertex stay. Leaves the contacts sorted by feature.
+/// Of the contacts of one vertex whose normals constrain the same side (kSameSide), keeps the one with the gap nearest
+/// to 0. Contacts without a vertex stay. Leaves the contacts sorted by feature.
 void keep_one_a_side(std::vector<Collision>& contacts);
 /// `contact` as it is with the bodies exchanged.
 Collision exchanged(Collision contact);

@@ -1,16 +1,19 @@
 // Proximity contacts: constraints between features that are close, before they overlap.
 //
 // A contact is a local minimum of the distance between the two surfaces, seen from a vertex (against a face, edge or
-// vertex) or from two crossing edges. Each has a signed gap that is continuous as the surfaces touch and overlap a little.
-// What is deeper than the search margin is pushed out along the shortest way that separates the intersecting triangles.
+// vertex) or from two crossing edges. Each has a signed gap that is continuous as the surfaces touch and overlap a
+// little. What is deeper than the search margin is pushed out along the shortest way that separates the intersecting
+// triangles.
 //
 // Which minima are kept, and why nothing loses support by it:
-// - a vertex-face contact is dropped if an edge of the vertex runs steeply (more than 30 degrees) towards the face: its far
-//   end or the border of the face then carries the load; vertices of a face that tilts a little all stay, so that a box that
-//   settles is caught by all its corners in one step;
-// - a contact at a sharp edge or corner of the other surface stays only if it is a minimum seen from both sides. (Otherwise
-//   a corner that stands a little past the rim of the body below it would be held by a sideways normal.) Where it is none,
-//   the rim is closer to an inner point of the face, and gives its own contact from the other side.
+// - a vertex-face contact is dropped if an edge of the vertex runs steeply (more than 30 degrees) towards the face: its
+// far
+//   end or the border of the face then carries the load; vertices of a face that tilts a little all stay, so that a box
+//   that settles is caught by all its corners in one step;
+// - a contact at a sharp edge or corner of the other surface stays only if it is a minimum seen from both sides.
+// (Otherwise
+//   a corner that stands a little past the rim of the body below it would be held by a sideways normal.) Where it is
+//   none, the rim is closer to an inner point of the face, and gives its own contact from the other side.
 #include <algorithm>
 
 #include "engine/narrowphase/contact_points.hpp"
@@ -29,7 +32,8 @@ double smallest_slope(const std::vector<Vec3>& rising, const std::vector<Vec3>& 
   return smallest;
 }
 
-// features that meet in one place (a corner above an edge's end) give one contact, not several equal rows; keeps the first
+// features that meet in one place (a corner above an edge's end) give one contact, not several equal rows; keeps the
+// first
 void drop_coincident(std::vector<Collision>& contacts, double distance) {
   std::vector<int> order(contacts.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
@@ -41,7 +45,8 @@ void drop_coincident(std::vector<Collision>& contacts, double distance) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Collision &l = contacts[order[i]], &r = contacts[order[j]];
       if (r.point_a.x() - l.point_a.x() > distance) break;
-      if ((r.point_a - l.point_a).norm() <= distance && (r.point_b - l.point_b).norm() <= distance && r.normal.dot(l.normal) > 1.0 - 1e-9)
+      if ((r.point_a - l.point_a).norm() <= distance && (r.point_b - l.point_b).norm() <= distance &&
+          r.normal.dot(l.normal) > 1.0 - 1e-9)
         is_dropped[std::max(order[i], order[j])] = 1;
     }
   std::size_t kept = 0;
@@ -52,7 +57,8 @@ void drop_coincident(std::vector<Collision>& contacts, double distance) {
 
 }  // namespace
 
-std::pair<Vec3, double> separating_direction(const SurfaceView& a, const SurfaceFeature& fa, const SurfaceView& b, const SurfaceFeature& fb) {
+std::pair<Vec3, double> separating_direction(const SurfaceView& a, const SurfaceFeature& fa, const SurfaceView& b,
+                                             const SurfaceFeature& fb) {
   std::vector<Vec3> star_a, star_b, normals, candidates;
   a.star(fa, star_a);
   b.star(fb, star_b);
@@ -103,24 +109,32 @@ void keep_one_a_side(std::vector<Collision>& contacts) {
   for (const Collision& c : contacts) {
     if (!kept.empty() && vertex(kept.back()) != vertex(c)) first = kept.size();
     const auto is_same_side = [&](const Collision& k) { return k.normal.dot(c.normal) > kSameSide; };
-    if (vertex(c) == 0 || std::none_of(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end(), is_same_side)) kept.push_back(c);
+    if (vertex(c) == 0 || std::none_of(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end(), is_same_side))
+      kept.push_back(c);
   }
   contacts = std::move(kept);
   sort_by_feature(contacts);
 }
 
 void sort_by_feature(std::vector<Collision>& contacts) {
-  std::stable_sort(contacts.begin(), contacts.end(), [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
   const auto is_same = [](const Collision& l, const Collision& r) { return l.feature == r.feature; };
   contacts.erase(std::unique(contacts.begin(), contacts.end(), is_same), contacts.end());
 }
 
-void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pair, std::span<const TrianglePair> triangles,
-                        double activation, double time_step, std::vector<Collision>& contacts) {
+void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pair,
+                        std::span<const TrianglePair> triangles, double activation, double time_step,
+                        std::vector<Collision>& contacts) {
   if (triangles.empty()) return;
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
-  const ProximityQuery query{SurfaceView(a, pair.a), SurfaceView(b, pair.b),         triangles, std::max(pair.margin, activation),
-                             activation,             time_step, kTouch * std::min(a.mean_edge, b.mean_edge)};
+  const ProximityQuery query{SurfaceView(a, pair.a),
+                             SurfaceView(b, pair.b),
+                             triangles,
+                             std::max(pair.margin, activation),
+                             activation,
+                             time_step,
+                             kTouch * std::min(a.mean_edge, b.mean_edge)};
   std::vector<Collision> found;
   append_vertex_contacts(query, found);
   append_edge_contacts(query, found);

@@ -1,14 +1,17 @@
-// Optimized spatial hashing [Haapaoja16 §3.2.2, after Teschner et al. 2003]: triangles are entered in the cells of a uniform
-// grid that their boxes cover; cells are found through a hash table; triangles that meet in a cell are tested.
+// Optimized spatial hashing [Haapaoja16 §3.2.2, after Teschner et al. 2003]: triangles are entered in the cells of a
+// uniform grid that their boxes cover; cells are found through a hash table; triangles that meet in a cell are tested.
 //
 // What this adds to the seed's description:
 // - Triangles are clipped to where their body's box meets a partner's; what lies outside costs one box test.
-// - Two rounds. The first only marks which bodies come to which table entry; the second enters a triangle in those of its
+// - Two rounds. The first only marks which bodies come to which table entry; the second enters a triangle in those of
+// its
 //   cells that another body comes to as well. Two surfaces that cross along a curve share few cells, so the lists stay
 //   short, and the round over all triangles writes one word of a table that fits the cache. A mark has a bit for each
-//   colour of body (partners differ in colour) and, where few colours are needed, for several classes of cells: with the
-//   seed's table size two cells in five share an entry with a cell of the other body, and only one in forty a class too.
-// - A pair is tested in one cell only: the one with the smallest coordinates that both boxes cover. The list keeps the cell
+//   colour of body (partners differ in colour) and, where few colours are needed, for several classes of cells: with
+//   the seed's table size two cells in five share an entry with a cell of the other body, and only one in forty a class
+//   too.
+// - A pair is tested in one cell only: the one with the smallest coordinates that both boxes cover. The list keeps the
+// cell
 //   of each item, so that different cells in one entry neither lose pairs nor report them twice.
 // - A triangle over more than kMostCells cells is not entered but tested against its partners' boxes directly. Only a
 //   triangle much larger than the mean gets there.
@@ -21,25 +24,21 @@
 #include <cmath>
 
 #include "engine/core/parallel.hpp"
+#include "engine/narrowphase/cell_hash.hpp"
 #include "engine/narrowphase/narrow_phase.hpp"
 #include "engine/narrowphase/triangle_pair_test.hpp"
 
 namespace impinge {
 namespace {
 
-struct Cell {
-  std::int32_t i, j, k;
-  friend bool operator==(const Cell& l, const Cell& r) { return l.i == r.i && l.j == r.j && l.k == r.k; }
-};
-
-constexpr std::size_t kBlock = 2048;      // triangles in a task
+constexpr std::size_t kBlock = 2048;  // triangles in a task
 constexpr std::size_t kEntriesATask = 64;
 constexpr std::int64_t kMostCells = 1024;
-constexpr int kColours = 32;              // bits of a mark
+constexpr int kColours = 32;  // bits of a mark
 
 struct Item {
-  Aabb box;            // widened by half of the body's largest margin
-  Cell low, high;      // cells of the clipped box
+  Aabb box;        // widened by half of the body's largest margin
+  Cell low, high;  // cells of the clipped box
   int body, triangle;
   bool is_large;
 };
@@ -52,21 +51,6 @@ struct Node {
 struct Partner {
   int body;
   double margin;
-};
-
-std::uint32_t hash_of(const Cell& c) {
-  return static_cast<std::uint32_t>(c.i) * 73856093u ^ static_cast<std::uint32_t>(c.j) * 19349663u ^ static_cast<std::uint32_t>(c.k) * 83492791u;
-}
-
-// x mod n for 32-bit numbers by two multiplications [Lemire19]: the division would be the dearest part of a look-up
-struct Modulo {
-  std::uint64_t factor = 0;
-  std::uint32_t n = 1;
-  explicit Modulo(std::uint32_t divisor) : factor(~std::uint64_t{0} / divisor + 1), n(divisor) {}
-  std::uint32_t operator()(std::uint32_t x) const {
-    const std::uint64_t low = factor * x;
-    return static_cast<std::uint32_t>((static_cast<unsigned __int128>(low) * n) >> 64);
-  }
 };
 
 // grows and never shrinks: after the first steps nothing is allocated
@@ -84,7 +68,8 @@ void for_each_cell(const Item& item, Visit&& visit) {
 
 class SpatialHash final : public NarrowPhase {
  public:
-  void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs, std::vector<TrianglePair>& found) override {
+  void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
+            std::vector<TrianglePair>& found) override {
     found.clear();
     if (pairs.empty()) return;
     colliders_ = colliders;
@@ -139,7 +124,8 @@ class SpatialHash final : public NarrowPhase {
     std::size_t vertices = 0, triangles = 0;
     double edges = 0.0;
     for (int b : active_) {
-      std::sort(partners_[b].begin(), partners_[b].end(), [](const Partner& l, const Partner& r) { return l.body < r.body; });
+      std::sort(partners_[b].begin(), partners_[b].end(),
+                [](const Partner& l, const Partner& r) { return l.body < r.body; });
       const std::size_t count = colliders_[b].mesh().mesh.triangles.size();
       vertices += colliders_[b].vertices.size();
       triangles += count;
@@ -185,22 +171,26 @@ class SpatialHash final : public NarrowPhase {
   }
 
   // the place of a cell's class within a mark
-  int class_shift(std::uint32_t hash) const { return static_cast<int>((hash * 0x9E3779B1u >> 27) & class_mask_) * bits_a_class_; }
+  int class_shift(std::uint32_t hash) const {
+    return static_cast<int>((hash * 0x9E3779B1u >> 27) & class_mask_) * bits_a_class_;
+  }
 
   // a body's box, widened so that it contains the search boxes of all its triangles
   Aabb widened(int body, double margin) const {
     const Aabb& box = colliders_[body].bounds;
     if (box.is_empty()) return box;
-    return box.inflated(0.5 * margin * (1.0 + 1e-9) + 2.0 * kTouchTolerance * box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
+    return box.inflated(0.5 * margin * (1.0 + 1e-9) +
+                        2.0 * kTouchTolerance * box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
   }
 
-  // the triangles that reach into their body's region, block by block, and which bodies come to which entry. The order of
-  // the threads does not show: every block has its own part of items_, and marks are or-ed
+  // the triangles that reach into their body's region, block by block, and which bodies come to which entry. The order
+  // of the threads does not show: every block has its own part of items_, and marks are or-ed
   void collect_and_mark() {
     blocks_.clear();
     for (int b : active_) {
       const std::size_t count = colliders_[b].mesh().mesh.triangles.size();
-      for (std::size_t first = 0; first < count; first += kBlock) blocks_.push_back({b, first, std::min(count, first + kBlock), 0});
+      for (std::size_t first = 0; first < count; first += kBlock)
+        blocks_.push_back({b, first, std::min(count, first + kBlock), 0});
     }
     grow(items_, blocks_.size() * kBlock);
     const Modulo modulo(size_);
@@ -243,11 +233,13 @@ class SpatialHash final : public NarrowPhase {
 
   Cell cell_of(const Vec3& x) const {
     const Vec3 c = (x - origin_) * per_cell_;
-    return {static_cast<std::int32_t>(std::floor(c.x())), static_cast<std::int32_t>(std::floor(c.y())), static_cast<std::int32_t>(std::floor(c.z()))};
+    return {static_cast<std::int32_t>(std::floor(c.x())), static_cast<std::int32_t>(std::floor(c.y())),
+            static_cast<std::int32_t>(std::floor(c.z()))};
   }
 
   static std::int64_t cells_of(const Item& item) {
-    const std::int64_t x = item.high.i - item.low.i + 1, y = item.high.j - item.low.j + 1, z = item.high.k - item.low.k + 1;
+    const std::int64_t x = item.high.i - item.low.i + 1, y = item.high.j - item.low.j + 1,
+                       z = item.high.k - item.low.k + 1;
     return std::min(x * y, kMostCells + 1) * z;  // each is below 2^31: no overflow
   }
 
@@ -260,13 +252,16 @@ class SpatialHash final : public NarrowPhase {
       nodes.clear();
       const int body = blocks_[b].body;
       const std::uint32_t one_class = static_cast<std::uint32_t>((std::uint64_t{1} << bits_a_class_) - 1);
-      const std::uint32_t others = is_self_[body] != 0 || is_crowded_ ? one_class : one_class & ~(std::uint32_t{1} << colours_[body]);
+      const std::uint32_t others =
+          is_self_[body] != 0 || is_crowded_ ? one_class : one_class & ~(std::uint32_t{1} << colours_[body]);
       for (std::size_t i = b * kBlock; i < b * kBlock + blocks_[b].items; ++i) {
         if (items_[i].is_large) continue;
         for_each_cell(items_[i], [&](const Cell& cell) {
           const std::uint32_t hash = hash_of(cell), entry = modulo(hash);
           const std::uint32_t mark = static_cast<std::uint32_t>(marks_[entry].load(std::memory_order_relaxed));
-          if ((mark >> class_shift(hash) & others) != 0) nodes.push_back({cell, entry, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(body), first_axes(items_[i].low, cell)});
+          if ((mark >> class_shift(hash) & others) != 0)
+            nodes.push_back({cell, entry, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(body),
+                             first_axes(items_[i].low, cell)});
         });
       }
     });
@@ -310,13 +305,15 @@ class SpatialHash final : public NarrowPhase {
           while (next < count.end && lists_[next].body == l.body) ++next;
           for (std::uint32_t j = is_self_[l.body] != 0 ? i + 1 : next; j < count.end; ++j) {
             const Node& r = lists_[j];
-            // the smallest cell that both cover is the lowest of one of them on each axis; elsewhere the pair is not tested
+            // the smallest cell that both cover is the lowest of one of them on each axis; elsewhere the pair is not
+            // tested
             if ((l.first | r.first) == 7u && l.cell == r.cell) test(items_[l.item], items_[r.item], out);
           }
         }
       }
     });
-    for (std::size_t task = 0; task < tasks; ++task) found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
+    for (std::size_t task = 0; task < tasks; ++task)
+      found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
   }
 
   static std::uint32_t first_axes(const Cell& low, const Cell& cell) {
@@ -331,9 +328,11 @@ class SpatialHash final : public NarrowPhase {
     const auto partner = std::lower_bound(partners.begin(), partners.end(), r.body, before);
     if (partner == partners.end() || partner->body != r.body) return;
     const Collider &a = colliders_[l.body], &b = colliders_[r.body];
-    if (l.body == r.body && share_a_vertex(a.mesh().mesh.triangles[l.triangle], a.mesh().mesh.triangles[r.triangle])) return;
+    if (l.body == r.body && share_a_vertex(a.mesh().mesh.triangles[l.triangle], a.mesh().mesh.triangles[r.triangle]))
+      return;
     const PairState state = test_triangles(corners_of(a, l.triangle), corners_of(b, r.triangle), partner->margin);
-    if (state != PairState::apart) out.push_back({l.body, r.body, l.triangle, r.triangle, state == PairState::intersecting});
+    if (state != PairState::apart)
+      out.push_back({l.body, r.body, l.triangle, r.triangle, state == PairState::intersecting});
   }
 
   // triangles that are in no list against all items of their partners
@@ -355,13 +354,15 @@ class SpatialHash final : public NarrowPhase {
         }
       }
     });
-    for (std::size_t task = 0; task < large_.size(); ++task) found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
+    for (std::size_t task = 0; task < large_.size(); ++task)
+      found.insert(found.end(), task_found_[task].begin(), task_found_[task].end());
   }
 
   struct Block {
     int body;
     std::size_t first, last;  // triangles
-    std::size_t items;        // how many of them reach into the region; they stand in items_ from kBlock times the block's number
+    std::size_t
+        items;  // how many of them reach into the region; they stand in items_ from kBlock times the block's number
   };
   struct Count {
     std::uint32_t step = 0, size = 0, end = 0;
@@ -397,7 +398,8 @@ class SpatialHash final : public NarrowPhase {
 }  // namespace
 
 Entry<NarrowPhase> spatial_hash_narrow_phase() {
-  return entry<NarrowPhase, SpatialHash>("spatial_hash", "Triangles hashed by the grid cells they cover, tested where they meet.");
+  return entry<NarrowPhase, SpatialHash>("spatial_hash",
+                                         "Triangles hashed by the grid cells they cover, tested where they meet.");
 }
 
 }  // namespace impinge

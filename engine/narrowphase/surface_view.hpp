@@ -1,4 +1,5 @@
-// A mesh body at one instant as contact generation sees it: features of its surface, their normals and what surrounds them.
+// A mesh body at one instant as contact generation sees it: features of its surface, their normals and what surrounds
+// them.
 #pragma once
 
 #include "engine/bodies/collider.hpp"
@@ -11,7 +12,9 @@ namespace impinge {
 struct SurfaceFeature {
   Feature kind = Feature::face;
   int index = -1;
-  friend bool operator==(const SurfaceFeature& l, const SurfaceFeature& r) { return l.kind == r.kind && l.index == r.index; }
+  friend bool operator==(const SurfaceFeature& l, const SurfaceFeature& r) {
+    return l.kind == r.kind && l.index == r.index;
+  }
 };
 
 class SurfaceView {
@@ -27,9 +30,12 @@ class SurfaceView {
   const std::array<int, 3>& triangle_edges(int t) const { return topology_->triangle_edges[t]; }
   std::span<const int> triangles_round(int v) const {
     return std::span(topology_->vertex_triangles)
-        .subspan(topology_->vertex_triangle_begin[v], topology_->vertex_triangle_begin[v + 1] - topology_->vertex_triangle_begin[v]);
+        .subspan(topology_->vertex_triangle_begin[v],
+                 topology_->vertex_triangle_begin[v + 1] - topology_->vertex_triangle_begin[v]);
   }
-  TriangleCorners corners(int t) const { return {vertex(triangle(t)[0]), vertex(triangle(t)[1]), vertex(triangle(t)[2])}; }
+  TriangleCorners corners(int t) const {
+    return {vertex(triangle(t)[0]), vertex(triangle(t)[1]), vertex(triangle(t)[2])};
+  }
 
   Vec3 vertex_velocity(int v) const { return collider_->vertex_velocity(v); }
   /// Velocity of the material point of triangle t that is at `point`, m/s.
@@ -42,8 +48,9 @@ class SurfaceView {
 
   /// Outward unit normal; zero for a triangle of no area.
   Vec3 face_normal(int t) const;
-  /// Outward unit normal of a feature: of the face; the mean of an edge's two faces; of a vertex the angle-weighted mean
-  /// of its faces [Baerentzen05], whose sign tells inside from outside for every point that is closest to the feature.
+  /// Outward unit normal of a feature: of the face; the mean of an edge's two faces; of a vertex the angle-weighted
+  /// mean of its faces [Baerentzen05], whose sign tells inside from outside for every point that is closest to the
+  /// feature.
   Vec3 normal(const SurfaceFeature& f) const;
   /// Outward normals of the faces that meet in the feature.
   void adjacent_normals(const SurfaceFeature& f, std::vector<Vec3>& normals) const;

@@ -1,4 +1,5 @@
-// Proximity contacts of vertices: the local minima of the distance from a vertex of one body to the surface of the other.
+// Proximity contacts of vertices: the local minima of the distance from a vertex of one body to the surface of the
+// other.
 #include <algorithm>
 #include <cmath>
 
@@ -31,15 +32,18 @@ class VertexPass {
     std::vector<std::uint64_t> keys;  // vertex of own, triangle of other
     keys.reserve(3 * query_.triangles.size());
     for (const TrianglePair& pair : query_.triangles) {
-      const int t_own = own_is_a_ ? pair.triangle_a : pair.triangle_b, t_other = own_is_a_ ? pair.triangle_b : pair.triangle_a;
-      for (int v : own_.triangle(t_own)) keys.push_back(static_cast<std::uint64_t>(v) << 32 | static_cast<std::uint32_t>(t_other));
+      const int t_own = own_is_a_ ? pair.triangle_a : pair.triangle_b,
+                t_other = own_is_a_ ? pair.triangle_b : pair.triangle_a;
+      for (int v : own_.triangle(t_own))
+        keys.push_back(static_cast<std::uint64_t>(v) << 32 | static_cast<std::uint32_t>(t_other));
     }
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     for (std::size_t i = 0; i < keys.size();) {
       triangles_.clear();
       const int v = static_cast<int>(keys[i] >> 32);
-      for (; i < keys.size() && static_cast<int>(keys[i] >> 32) == v; ++i) triangles_.push_back(static_cast<int>(keys[i] & 0xffffffffu));
+      for (; i < keys.size() && static_cast<int>(keys[i] >> 32) == v; ++i)
+        triangles_.push_back(static_cast<int>(keys[i] & 0xffffffffu));
       visit(v, contacts);
     }
   }
@@ -53,13 +57,15 @@ class VertexPass {
       if (!(p.squared_distance <= query_.margin * query_.margin)) continue;
       const SurfaceFeature feature = other_.feature(t, p.feature);
       const auto is_known = [&](const Nearest& n) { return n.feature == feature; };
-      if (std::none_of(nearest_.begin(), nearest_.end(), is_known)) nearest_.push_back({feature, t, p.point, std::sqrt(p.squared_distance)});
+      if (std::none_of(nearest_.begin(), nearest_.end(), is_known))
+        nearest_.push_back({feature, t, p.point, std::sqrt(p.squared_distance)});
     }
     if (nearest_.empty()) return;
     own_.star({Feature::vertex, v}, own_star_);
     kept_.clear();
     // by distance; of equals (a fold seen from its bisector) the one found first, that is on the smaller triangle
-    std::stable_sort(nearest_.begin(), nearest_.end(), [](const Nearest& l, const Nearest& r) { return l.distance < r.distance; });
+    std::stable_sort(nearest_.begin(), nearest_.end(),
+                     [](const Nearest& l, const Nearest& r) { return l.distance < r.distance; });
     const Nearest& closest = nearest_.front();
     if (closest.distance <= query_.touch && add_touching(v)) {
       // decided by the features that touch
@@ -103,8 +109,10 @@ class VertexPass {
     for (int v : corners)
       if ((other_.vertex(v) - n.point).norm() <= query_.touch) return {Feature::vertex, v};
     for (int k = 0; k < 3; ++k) {
-      const PointSegment s = closest_on_segment(n.point, other_.vertex(corners[k]), other_.vertex(corners[(k + 1) % 3]));
-      if (s.squared_distance <= query_.touch * query_.touch) return {Feature::edge, other_.triangle_edges(n.triangle)[k]};
+      const PointSegment s =
+          closest_on_segment(n.point, other_.vertex(corners[k]), other_.vertex(corners[(k + 1) % 3]));
+      if (s.squared_distance <= query_.touch * query_.touch)
+        return {Feature::edge, other_.triangle_edges(n.triangle)[k]};
     }
     return n.feature;
   }
@@ -128,20 +136,21 @@ class VertexPass {
   }
 
   void add_outside(int v, const Nearest& n) {
-    const Vec3 normal = n.distance > query_.touch ? Vec3((own_.vertex(v) - n.point) / n.distance) : other_.normal(n.feature);
+    const Vec3 normal =
+        n.distance > query_.touch ? Vec3((own_.vertex(v) - n.point) / n.distance) : other_.normal(n.feature);
     bool is_smooth = true;
     other_.adjacent_normals(n.feature, normals_);
     for (const Vec3& m : normals_) is_smooth = is_smooth && m.dot(normal) > kSameSide;
     if (falls_steeply(normal, is_smooth ? kSteep : kSteepAtSharp)) return;
     const double approach = closing_speed(v, n.triangle, n.point, normal);
     const double after = n.distance + query_.time_step * approach;
-    if (n.distance > query_.activation) return;  // left to the prediction
+    if (n.distance > query_.activation) return;                                    // left to the prediction
     if (!is_smooth && after < 0.0 && !sweeps_within(v, 0.5 * n.distance)) return;  // it passes the corner by
     keep(v, n.feature, other_.triangle_of(n.feature), n.point, normal, is_smooth);
   }
 
-  // the nearest place where the vertex can leave: where its own edges don't run deeper. (A corner of a box that has sunk
-  // into another near its rim leaves through the top, though the side may be nearer.)
+  // the nearest place where the vertex can leave: where its own edges don't run deeper. (A corner of a box that has
+  // sunk into another near its rim leaves through the top, though the side may be nearer.)
   void add_inside(int v) {
     const Vec3& x = own_.vertex(v);
     const Nearest& closest = nearest_.front();
@@ -149,7 +158,8 @@ class VertexPass {
     if ((x - closest.point).dot(normal) < 0.0) {
       if (closest.distance > query_.touch) normal = (closest.point - x) / closest.distance;
       if (!falls_steeply(normal, kSteep)) {
-        keep(v, closest.feature, other_.triangle_of(closest.feature), closest.point, normal, closest.feature.kind == Feature::face);
+        keep(v, closest.feature, other_.triangle_of(closest.feature), closest.point, normal,
+             closest.feature.kind == Feature::face);
         return;
       }
     }
@@ -242,10 +252,10 @@ class VertexPass {
   const ProximityQuery& query_;
   const SurfaceView &own_, &other_;
   const bool own_is_a_;
-  std::vector<int> triangles_;     // of the other body, round the vertex at hand
+  std::vector<int> triangles_;  // of the other body, round the vertex at hand
   std::vector<Nearest> nearest_;
   std::vector<Vec3> own_star_, star_, normals_;
-  std::vector<Collision> kept_;    // contacts of the vertex at hand
+  std::vector<Collision> kept_;  // contacts of the vertex at hand
 };
 
 }  // namespace

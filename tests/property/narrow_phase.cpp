@@ -1,5 +1,6 @@
-// Every registered narrow phase against a reference that shares nothing with them but the triangle test, on random poses
-// and on scenes made to be awkward; the same answer for any number of threads and for a phase that has worked before.
+// Every registered narrow phase against a reference that shares nothing with them but the triangle test, on random
+// poses and on scenes made to be awkward; the same answer for any number of threads and for a phase that has worked
+// before.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -87,7 +88,8 @@ void check_poses(Phases& phases, const MeshPointer& a, const MeshPointer& b, int
 
 TEST_CASE("narrow phases equal the reference on random poses of spheres, bumpy spheres and tori", "[narrow_phase]") {
   Phases phases;
-  const MeshPointer sphere = surface(icosphere(2)), torus = surface(bumpy_torus(24, 12)), stone = surface(bumpy_sphere(2));
+  const MeshPointer sphere = surface(icosphere(2)), torus = surface(bumpy_torus(24, 12)),
+                    stone = surface(bumpy_sphere(2));
   check_poses(phases, sphere, torus, 100, 3001);
   check_poses(phases, stone, torus, 100, 3002);
   check_poses(phases, torus, torus, 100, 3003);
@@ -129,7 +131,8 @@ TEST_CASE("narrow phases equal the reference on boxes that touch, lie in one pla
   Phases phases;
   Random random(3005);
   std::size_t total = 0;
-  for (const Vec3& offset : {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(0.25, 1, 0.5), Vec3(0, 0, 0), Vec3(0.5, 0.5, 0)})
+  for (const Vec3& offset :
+       {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(0.25, 1, 0.5), Vec3(0, 0, 0), Vec3(0.5, 0.5, 0)})
     for (double far : {0.0, 1e5}) {
       const MeshPointer mesh = surface(box(Vec3::Constant(0.5), {3, 2, 4}));
       const Mat3 rotation = random.rotation();
@@ -157,12 +160,23 @@ TEST_CASE("narrow phases equal the reference on slivers, triangles of no area an
       for (int t = 0; t < 60; ++t) {
         Vec3 a = random.vector(), b = a + 0.3 * random.vector(), c = a + 0.3 * random.vector();
         switch (random.below(8)) {
-          case 0: c = a + 0.5 * (b - a) + 1e-9 * random.vector(); break;
-          case 1: c = a + 0.5 * (b - a); break;
-          case 2: b = c = a; break;
-          case 3: b = a + 200.0 * random.vector(), c = a + 200.0 * random.vector(); break;
-          case 4: a.y() = b.y() = c.y() = 0.0; break;
-          default: break;
+          case 0:
+            c = a + 0.5 * (b - a) + 1e-9 * random.vector();
+            break;
+          case 1:
+            c = a + 0.5 * (b - a);
+            break;
+          case 2:
+            b = c = a;
+            break;
+          case 3:
+            b = a + 200.0 * random.vector(), c = a + 200.0 * random.vector();
+            break;
+          case 4:
+            a.y() = b.y() = c.y() = 0.0;
+            break;
+          default:
+            break;
         }
         const int first = static_cast<int>(m.vertices.size());
         m.vertices.insert(m.vertices.end(), {a, b, c});
@@ -185,13 +199,15 @@ TEST_CASE("narrow phases equal the reference on a mesh over a floor of two huge 
   CHECK(phases.check(set, {{0, 1, 0.05}}) > 50);
 }
 
-TEST_CASE("narrow phases equal the reference on many bodies, each pair with its own margin, and on self-collision", "[narrow_phase]") {
+TEST_CASE("narrow phases equal the reference on many bodies, each pair with its own margin, and on self-collision",
+          "[narrow_phase]") {
   Phases phases;
   Random random(3007);
   ColliderSet set;
   std::vector<BodyPair> pairs;
   const int bodies = 45;  // more than a mark has bits
-  for (int i = 0; i < bodies; ++i) set.add(surface(i % 2 == 0 ? icosphere(1, 0.5) : torus(0.4, 0.15, 12, 6)), random_pose(random, 0.9));
+  for (int i = 0; i < bodies; ++i)
+    set.add(surface(i % 2 == 0 ? icosphere(1, 0.5) : torus(0.4, 0.15, 12, 6)), random_pose(random, 0.9));
   // a ribbon that crosses itself
   TriangleMesh knot = bumpy_torus(30, 8);
   for (Vec3& v : knot.vertices) v = 0.5 * Vec3(v.x() * (1.0 - 0.9 * v.z() * v.z()), v.y() + 0.2 * v.x() * v.z(), v.z());

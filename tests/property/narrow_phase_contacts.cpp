@@ -18,7 +18,8 @@ std::vector<TrianglePair> triangles_of(const ColliderSet& set, const BodyPair& p
   return found;
 }
 
-std::vector<Collision> proximity(const ColliderSet& set, double activation, double time_step = 0.0, double reach = 0.0) {
+std::vector<Collision> proximity(const ColliderSet& set, double activation, double time_step = 0.0,
+                                 double reach = 0.0) {
   const BodyPair pair{0, 1, activation + reach};
   std::vector<Collision> contacts;
   proximity_contacts(set.all(), pair, triangles_of(set, pair), activation, time_step, contacts);
@@ -166,7 +167,8 @@ TEST_CASE("gaps of separate bumpy bodies are true distances, the least that of t
     set.add(b, random_pose(random, 1.6));
     const double reach = 0.3;
     const std::vector<TrianglePair> pairs = triangles_of(set, {0, 1, reach});
-    if (pairs.empty() || std::any_of(pairs.begin(), pairs.end(), [](const TrianglePair& p) { return p.intersecting; })) continue;
+    if (pairs.empty() || std::any_of(pairs.begin(), pairs.end(), [](const TrianglePair& p) { return p.intersecting; }))
+      continue;
     // found by the triangle distances alone
     double least = 1e300;
     for (const TrianglePair& p : pairs)
@@ -227,7 +229,8 @@ TEST_CASE("gaps do not depend on where the scene stands", "[contacts]") {
     ColliderSet set, moved;
     const Pose pa = random_pose(random, 1.1), pb = random_pose(random, 1.1), m = random_pose(random, 2.0);
     set.add(a, pa), set.add(b, pb);
-    moved.add(a, {m.rotation * pa.rotation, m.apply(pa.position)}), moved.add(b, {m.rotation * pb.rotation, m.apply(pb.position)});
+    moved.add(a, {m.rotation * pa.rotation, m.apply(pa.position)}),
+        moved.add(b, {m.rotation * pb.rotation, m.apply(pb.position)});
     const std::vector<Collision> there = proximity(set, 0.05), here = proximity(moved, 0.05);
     CAPTURE(i);
     REQUIRE(there.size() == here.size());
@@ -261,7 +264,8 @@ TEST_CASE("an activation distance of several edges gives no more contacts than v
 TEST_CASE("a fast vertex is caught before it crosses, one that passes by is not", "[contacts]") {
   const MeshPointer spike = surface(box(Vec3(0.05, 0.05, 0.05)));
   ColliderSet set;
-  const Mat3 on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1).normalized(), Vec3(0, -1, 0)).toRotationMatrix();
+  const Mat3 on_corner =
+      Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1).normalized(), Vec3(0, -1, 0)).toRotationMatrix();
   const double low = 0.05 * std::sqrt(3.0);
   set.add(spike, {on_corner, Vec3(0.03, 0.5 + low + 0.02, 0.04)});
   set.add(surface(box(Vec3::Constant(0.5), {4, 4, 4})));
@@ -270,7 +274,8 @@ TEST_CASE("a fast vertex is caught before it crosses, one that passes by is not"
   std::vector<Collision> contacts = proximity(set, 1e-3, step, 0.06);
   REQUIRE(!contacts.empty());
   for (const Collision& c : contacts) CHECK((c.normal - Vec3::UnitY()).norm() < 1e-12);
-  CHECK(std::any_of(contacts.begin(), contacts.end(), [](const Collision& c) { return std::abs(c.gap - 0.02) < 1e-9; }));
+  CHECK(
+      std::any_of(contacts.begin(), contacts.end(), [](const Collision& c) { return std::abs(c.gap - 0.02) < 1e-9; }));
   set[0].velocity = Vec3(0, 5.0, 0);
   CHECK(proximity(set, 1e-3, step, 0.06).empty());
   set[0].velocity = Vec3(0, -1.0, 0);  // 1 cm: does not get there
@@ -284,7 +289,8 @@ TEST_CASE("a fast vertex is caught before it crosses, one that passes by is not"
 
 TEST_CASE("overlap of any depth is pushed out", "[contacts]") {
   Random random(4005);
-  const MeshPointer a = surface(bumpy_sphere(2)), b = surface(bumpy_torus(24, 12)), cube = surface(box(Vec3::Constant(0.5)));
+  const MeshPointer a = surface(bumpy_sphere(2)), b = surface(bumpy_torus(24, 12)),
+                    cube = surface(box(Vec3::Constant(0.5)));
   int overlapping = 0;
   for (int i = 0; i < 120; ++i) {
     ColliderSet set;
@@ -308,12 +314,14 @@ TEST_CASE("overlap of any depth is pushed out", "[contacts]") {
 TEST_CASE("intersection contacts: deepest vertex, traced back along its path", "[contacts]") {
   // one corner of a cube 4 cm below the top of a block, moving down and sideways
   const MeshPointer spike = surface(box(Vec3::Constant(0.1)));
-  const Mat3 on_corner = Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1).normalized(), Vec3(0, -1, 0)).toRotationMatrix();
+  const Mat3 on_corner =
+      Eigen::Quaterniond::FromTwoVectors(Vec3(1, 1, 1).normalized(), Vec3(0, -1, 0)).toRotationMatrix();
   ColliderSet set;
   set.add(spike, {on_corner, Vec3(0.1, 0.5 + 0.1 * std::sqrt(3.0) - 0.04, -0.2)});
   set.add(surface(box(Vec3::Constant(0.5))));
   const Vec3 tip(0.1, 0.46, -0.2);
-  for (const Vec3& velocity : {Vec3(1.0, -2.0, 0.0), Vec3(0, 0, 0), Vec3(3.0, -1e-6, 0.0), Vec3(0.0, 2.0, 0.0), Vec3(0.0, -0.65, 6.0)}) {
+  for (const Vec3& velocity :
+       {Vec3(1.0, -2.0, 0.0), Vec3(0, 0, 0), Vec3(3.0, -1e-6, 0.0), Vec3(0.0, 2.0, 0.0), Vec3(0.0, -0.65, 6.0)}) {
     set[0].velocity = velocity;
     const std::vector<Collision> contacts = intersection(set);
     CAPTURE(velocity.transpose());

@@ -10,7 +10,8 @@ namespace impinge::test {
 namespace {
 
 double bump(const Vec3& p) {
-  return std::sin(3.1 * p.x() + 0.4) * std::sin(2.7 * p.y() - 0.3) * std::cos(3.7 * p.z()) + 0.4 * std::sin(9.0 * p.x() + 7.0 * p.z());
+  return std::sin(3.1 * p.x() + 0.4) * std::sin(2.7 * p.y() - 0.3) * std::cos(3.7 * p.z()) +
+         0.4 * std::sin(9.0 * p.x() + 7.0 * p.z());
 }
 
 }  // namespace
@@ -18,15 +19,17 @@ double bump(const Vec3& p) {
 TriangleMesh icosphere(int k, double radius) {
   const double g = 0.5 * (1.0 + std::sqrt(5.0));
   TriangleMesh m;
-  m.vertices = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  m.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                 {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  m.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  m.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                 {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                 {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (Vec3& v : m.vertices) v.normalize();
   for (int level = 0; level < k; ++level) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
-      const auto [it, is_new] = middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(m.vertices.size()));
+      const auto [it, is_new] =
+          middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(m.vertices.size()));
       if (is_new) m.vertices.push_back((m.vertices[a] + m.vertices[b]).normalized());
       return it->second;
     };
@@ -110,11 +113,13 @@ TriangleMesh box(const Vec3& half, const Eigen::Vector3i& cells) {
 TriangleMesh sheet(double half, int cells) {
   TriangleMesh m;
   for (int i = 0; i <= cells; ++i)
-    for (int j = 0; j <= cells; ++j) m.vertices.emplace_back(half * (2.0 * i / cells - 1.0), 0.0, half * (2.0 * j / cells - 1.0));
+    for (int j = 0; j <= cells; ++j)
+      m.vertices.emplace_back(half * (2.0 * i / cells - 1.0), 0.0, half * (2.0 * j / cells - 1.0));
   const auto at = [&](int i, int j) { return i * (cells + 1) + j; };
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j)
-      m.triangles.insert(m.triangles.end(), {{at(i, j), at(i, j + 1), at(i + 1, j)}, {at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)}});
+      m.triangles.insert(m.triangles.end(),
+                         {{at(i, j), at(i, j + 1), at(i + 1, j)}, {at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)}});
   return m;
 }
 

@@ -1,5 +1,5 @@
-// Closest points against the conditions that make a point of a convex set closest: no way within the set leads nearer. Such
-// a condition at the corners proves the whole, so the tests need no second implementation.
+// Closest points against the conditions that make a point of a convex set closest: no way within the set leads nearer.
+// Such a condition at the corners proves the whole, so the tests need no second implementation.
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/distance.hpp"

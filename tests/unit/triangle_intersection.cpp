@@ -1,5 +1,5 @@
-// The triangle test against exact integer arithmetic: two triangles meet iff the origin lies in the convex hull of the nine
-// differences of their corners, that is (Carathéodory) in that of at most four of them.
+// The triangle test against exact integer arithmetic: two triangles meet iff the origin lies in the convex hull of the
+// nine differences of their corners, that is (Carathéodory) in that of at most four of them.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -65,11 +65,21 @@ TriangleCorners placed(const IntTriangle& t, const Pose& pose) {
 std::pair<IntTriangle, IntTriangle> random_pair(Random& random) {
   IntTriangle a = random_triangle(random, 2), b = random_triangle(random, 2);
   switch (random.below(6)) {
-    case 0: b[0] = a[0]; break;
-    case 1: b[0] = a[0], b[1] = a[1]; break;
-    case 2: for (Int3& c : a) c[1] = 0; for (Int3& c : b) c[1] = 0; break;
-    case 3: a[1] = a[0]; break;
-    default: break;
+    case 0:
+      b[0] = a[0];
+      break;
+    case 1:
+      b[0] = a[0], b[1] = a[1];
+      break;
+    case 2:
+      for (Int3& c : a) c[1] = 0;
+      for (Int3& c : b) c[1] = 0;
+      break;
+    case 3:
+      a[1] = a[0];
+      break;
+    default:
+      break;
   }
   return {a, b};
 }
