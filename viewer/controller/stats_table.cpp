@@ -101,7 +101,7 @@ StatsLine parse_stats_row(std::string_view line, bool judged) {
     const std::size_t end = std::min(line.find(','), line.size());
     const std::string_view word = line.substr(0, end);
     if (column.value == nullptr) {
-      row.state_hash = word;
+      row.state_hash = std::string(word);
     } else {
       double value = 0.0;
       const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
