@@ -11,7 +11,7 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kKeys = {"version", "scene", "folder", "script_file", "script", "frames", "images", "contacts", "export", "size", "surfaces"};
+const std::vector<std::string> kKeys = {"version", "scene", "folder", "script_file", "script", "frames", "images", "contacts", "judge", "export", "size", "surfaces"};
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
@@ -41,6 +41,7 @@ RunRecord read_run_record(const TomlNode& table) {
   run.frames = static_cast<int>(scene_real(need("frames"), "run.frames", {0, 1e9}));
   run.images = scene_flag(need("images"), "run.images");
   run.contacts = scene_flag(need("contacts"), "run.contacts");
+  run.judge = scene_flag(need("judge"), "run.judge");
   run.export_ply = scene_text(need("export"), "run.export") == "ply";
   const TomlNode& size = need("size");
   if (size.items.size() != 2) refuse(size.place, "run.size is no pair", "[width, height] is wanted", "run the scene again");
@@ -66,7 +67,7 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
   out += fmt::format("version = {}\nscene = {}\nfolder = {}\nscript_file = {}\n", toml_string(run.version), toml_string(run.scene), toml_string(run.folder), toml_string(run.script_file));
   out += "script = [\n";
   for (const std::string& line : run.script) out += fmt::format("  {},\n", toml_string(line));
-  out += fmt::format("]\nframes = {}\nimages = {}\ncontacts = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n", run.frames, run.images, run.contacts,
+  out += fmt::format("]\nframes = {}\nimages = {}\ncontacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n", run.frames, run.images, run.contacts, run.judge,
                      run.export_ply ? "ply" : "", run.width, run.height);
   for (const SurfaceFile& file : scene.surfaces) out += fmt::format("  {{ file = {}, hash = \"{}\" }},\n", toml_string(file.name), hex64(file.hash));
   out += "]\n";

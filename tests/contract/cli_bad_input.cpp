@@ -251,7 +251,7 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"rum", "s.toml"}, "did you mean 'run'?");
   refused({"debug", "s.toml"}, "not part of this version");
   refused({"sweep", "s.toml"}, "not part of this version");
-  refused({"run", "s.toml", "--judge"}, "not part of this version");
+  refused({"run", "s.toml", "--ids"}, "not part of this version");
   refused({"run", "s.toml", "--freeze", "3"}, "not part of this version");
   refused({"diff", "a", "b", "--update"}, "not part of this version");
   refused({"run"}, "SCENE");

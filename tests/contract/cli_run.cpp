@@ -388,3 +388,29 @@ TEST_CASE("a full disk stops the run with a message, and what is there can be re
   CHECK(run("whole") == 0);
   CHECK(timeless(files.folder / "out/stats.csv") == timeless(files.folder / "whole/stats.csv"));
 }
+
+TEST_CASE("the judge's columns come last and are there only when asked for") {
+  const Files files;
+  files.folder.write("j.toml", R"([simulation]
+gravity = [0, 0, 0]
+[[body]]
+name = "a"
+kind = "dynamic"
+shape = { sphere = { radius = 1 } }
+[[body]]
+name = "b"
+kind = "static"
+shape = { sphere = { radius = 1 } }
+position = [1.75, 0, 0]
+)");
+  files.folder.write("j.script", "expect judged_penetration_m > 0.2 && judged_intersections == 0 at 0\n");
+  REQUIRE(impinge_run(files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "j", "--frames", "3", "--no-images", "--judge"}).code == 0);
+  const std::string stats = slurp(files.folder / "j/stats.csv");
+  CHECK(stats.substr(0, stats.find('\n')).ends_with(",state_hash,unconverged,asleep,judged_penetration_m,judged_intersections"));
+  CHECK(std::stod(table(files.folder / "j/stats.csv")[0].at("judged_penetration_m")) == Approx(0.25).epsilon(1e-12));
+  CHECK(impinge_run(files.folder.path(), {"replay", "j"}).code == 0);
+  CHECK(impinge_run(files.folder.path(), {"check", "j.toml", "--script", "j.script"}).code == 0);
+  const Outcome without = impinge_run(files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "k", "--frames", "3", "--no-images"});
+  CHECK(without.code == 2);
+  CHECK(without.err.find("unknown figure 'judged_penetration_m'") != std::string::npos);
+}

@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list"};
 const std::vector<std::string> kReserved = {"debug", "step", "sweep", "test", "compare", "verify"};
-const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--judge", "--freeze", "--ids"}}, {"diff", {"--update"}}};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--freeze", "--ids"}}, {"diff", {"--update"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
@@ -123,6 +123,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   run->add_flag("--no-images", raw.no_images, "no pictures, figures only");
   run->add_option("--export", raw.export_format, "ply: the bodies' surfaces of each frame");
   run->add_flag("--contacts", arguments.run_options.contacts, "write contacts.csv");
+  run->add_flag("--judge", arguments.run_options.judge, "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
   threads_of(run);
   run->add_flag("--resume", arguments.run_options.resume, "continue an interrupted run in the folder");
   run->add_option("--video", arguments.video, "video file to make of the pictures (needs ffmpeg)");

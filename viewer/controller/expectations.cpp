@@ -14,7 +14,7 @@ void Expectations::check(int frame, std::span<const double> figures, const std::
   };
   for (const Script::Expectation& expectation : script_.expectations()) {
     if (expectation.frame != frame || expectation.condition.holds(figures)) continue;
-    fail(fmt::format("{}: frame {}: expected {}; found {}", expectation.place, frame, expectation.condition.text(), expectation.condition.describe(figures, figure_names())));
+    fail(fmt::format("{}: frame {}: expected {}; found {}", expectation.place, frame, expectation.condition.text(), expectation.condition.describe(figures, figure_names(judged_))));
   }
   for (const Script::ImageExpectation& image : script_.images()) {
     if (image.frame != frame) continue;
@@ -32,7 +32,7 @@ bool Expectations::needs_picture(int frame) const {
 bool Expectations::breaks(int frame, std::span<const double> figures) const {
   for (const Script::Break& point : script_.breaks()) {
     if (!point.condition.holds(figures)) continue;
-    if (report_) report_(fmt::format("{}: frame {}: stopped by break when {}; {}", point.place, frame, point.condition.text(), point.condition.describe(figures, figure_names())));
+    if (report_) report_(fmt::format("{}: frame {}: stopped by break when {}; {}", point.place, frame, point.condition.text(), point.condition.describe(figures, figure_names(judged_))));
     return true;
   }
   return false;

@@ -10,7 +10,8 @@ namespace impinge {
 class Expectations {
  public:
   /// `report` gets one line for each failure. The script must outlive this.
-  Expectations(const Script& script, std::function<void(const std::string&)> report) : script_(script), report_(std::move(report)) {}
+  /// `judged`: the figures have those of --judge.
+  Expectations(const Script& script, bool judged, std::function<void(const std::string&)> report) : script_(script), judged_(judged), report_(std::move(report)) {}
 
   /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is compared.
   void check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture);
@@ -23,6 +24,7 @@ class Expectations {
 
  private:
   const Script& script_;
+  bool judged_ = false;
   std::function<void(const std::string&)> report_;
   int failures_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
+#include "engine/world/judge.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
@@ -33,7 +34,7 @@ int RunResult::exit_code() const {
 }
 
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
-  Session session(options.scene, options.overrides, options.script, options.width, options.height);
+  Session session(options.scene, options.overrides, options.script, {options.width, options.height, options.judge});
   const int last_frame = options.frames.value_or(session.default_last_frame());
   if (!options.images && !session.script().images().empty())
     throw InputError(session.script().images().front().place + ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
@@ -44,7 +45,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
 
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
-  Expectations expectations(session.script(), watcher.message);
+  const bool judged = session.is_judged();
+  Expectations expectations(session.script(), judged, watcher.message);
   const auto judge = [&](int frame, std::span<const double> figures) {
     expectations.check(frame, figures, [&] { return folder.picture(frame); });
     if (!expectations.breaks(frame, figures)) return false;
@@ -68,11 +70,17 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       break;
     }
     const int frame = session.frame();
-    const double render_ms = options.images ? view.draw(session.record(), commands, folder.picture(frame).parent_path()) : 0.0;
-    folder.add_frame(session.record(), commands, render_ms);
+    FrameExtras extras;
+    extras.render_ms = options.images ? view.draw(session.record(), commands, folder.picture(frame).parent_path()) : 0.0;
+    if (judged) {
+      const OverlapVerdict verdict = judge_overlap(session.world().bodies());
+      extras.judged_penetration = verdict.penetration;
+      extras.judged_intersections = verdict.intersections;
+    }
+    folder.add_frame(session.record(), commands, extras);
     if (watcher.frame) watcher.frame(session.record().stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
-    stop = judge(frame, figure_values(session.record().stats, render_ms));
+    stop = judge(frame, figure_values(session.record().stats, extras, judged));
     if (frame % kSnapshotEvery == 0 || frame == last_frame || stop || interrupted()) {
       view.finish();
       folder.add_snapshot(session);

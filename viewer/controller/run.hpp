@@ -15,7 +15,7 @@ struct RunOptions {
   std::optional<int> frames;             ///< the last frame's number
   std::vector<std::string> overrides;    ///< PATH=VALUE
   int width = 1280, height = 720;        ///< pixels
-  bool images = true, contacts = false, export_ply = false, resume = false;
+  bool images = true, contacts = false, export_ply = false, judge = false, resume = false;
 };
 
 /// Whoever watches a run. Called in the thread of run().

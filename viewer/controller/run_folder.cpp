@@ -34,15 +34,15 @@ std::pair<std::string, int> split_frames(const std::string& run_toml) {
 std::string read_if_there(const fs::path& path) { return fs::is_regular_file(path) ? read_file(path, kMostBytes) : ""; }
 
 // leading lines that are whole and belong to frames 0, 1, 2, ...
-std::vector<StatsLine> whole_rows(const std::string& text) {
+std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
   std::vector<StatsLine> rows;
   std::size_t begin = text.find('\n');
-  if (begin == std::string::npos || text.substr(0, begin) != stats_header()) return rows;
+  if (begin == std::string::npos || text.substr(0, begin) != stats_header(judged)) return rows;
   for (++begin; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;
     try {
-      StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin));
+      StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
       if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16) break;
       rows.push_back(std::move(row));
     } catch (const InputError&) {
@@ -99,7 +99,7 @@ bool is_our_number(const fs::path& path, const char* ending) {
 RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume) : folder_(folder), run_(run) {
   check_new(resume, run_toml);
   if (resume) {
-    kept_ = whole_rows(read_if_there(folder_ / "stats.csv"));
+    kept_ = whole_rows(read_if_there(folder_ / "stats.csv"), run_.judge);
     kept_.resize(static_cast<std::size_t>(last_resumable(kept_) + 1));
   }
   make_folder(folder_);
@@ -111,7 +111,7 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   const std::string log = read_if_there(folder_ / "commands.log");
   commands_ = AppendFile(folder_ / "commands.log", resume_frame() < 0 ? 0 : bytes_up_to(log, resume_frame(), false, frame_of_command));
   if (run_.contacts) contacts_ = open_table(folder_ / "contacts.csv", resume_frame(), contacts_header());
-  stats_ = open_table(folder_ / "stats.csv", resume_frame(), stats_header());
+  stats_ = open_table(folder_ / "stats.csv", resume_frame(), stats_header(run_.judge));
 }
 
 void RunFolder::check_new(bool resume, const std::string& run_toml) const {
@@ -160,7 +160,7 @@ void RunFolder::clear_markers() const {
 fs::path RunFolder::snapshot(int frame) const { return folder_ / "snapshots" / (six_digits(frame) + ".bin"); }
 fs::path RunFolder::picture(int frame) const { return folder_ / "frames" / (six_digits(frame) + ".png"); }
 
-void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, double render_ms) {
+void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras) {
   const int frame = record.stats.frame;
   if (run_.export_ply) {
     const fs::path surfaces = folder_ / "surfaces" / six_digits(frame);
@@ -171,7 +171,7 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
   for (const Command& command : commands) log += fmt::format("at {} {}\n", frame, format_command(command));
   commands_.append(log);
   if (run_.contacts) contacts_.append(contacts_rows(record));
-  stats_.append(stats_row(record.stats, render_ms) + "\n");
+  stats_.append(stats_row(record.stats, extras, run_.judge) + "\n");
 }
 
 void RunFolder::add_snapshot(const Session& session) { write_snapshot(snapshot(session.frame()), session); }

@@ -28,7 +28,7 @@ class RunFolder {
   const std::filesystem::path& path() const { return folder_; }
 
   /// Everything of a frame but its picture; the row of stats.csv comes last.
-  void add_frame(const StepRecord& record, std::span<const Command> commands, double render_ms);
+  void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras);
   /// To be called when all pictures up to the frame are on the disk.
   void add_snapshot(const Session& session);
   void finish();

@@ -64,10 +64,11 @@ ParameterValue get_value(ByteReader& in, const ParameterValue& like) {
 
 }  // namespace
 
-Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file, int width, int height) {
+Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file, const SessionOptions& options) {
   world_.parameters.bind(rows_);
   view_.bind(rows_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
+  judge_ = options.judge || (scene_.run && scene_.run->judge);
   fs::path folder = script_file.parent_path();
   if (!script_file.empty()) {
     script_name_ = script_file.string();
@@ -77,9 +78,9 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
     script_lines_ = scene_.run->script;
     folder = fs::path(script_name_).parent_path();
   }
-  script_ = Script(script_name_, folder, script_lines_, rows_, figure_names());
+  script_ = Script(script_name_, folder, script_lines_, rows_, figure_names(judge_));
   start();
-  view_.settle(world_.record(), width, height);
+  view_.settle(world_.record(), options.width, options.height);
 }
 
 void Session::start() {
@@ -129,6 +130,7 @@ RunRecord Session::run_record() const {
   run.folder = scene_.run ? scene_.run->folder : absolute_path(scene_.folder);
   run.script_file = script_name_.empty() ? "" : absolute_path(script_name_);
   run.script = script_lines_;
+  run.judge = judge_;
   return run;
 }
 

@@ -12,11 +12,16 @@ namespace impinge {
 class ByteReader;
 class ByteWriter;
 
+struct SessionOptions {
+  int width = 1280, height = 720;  ///< of pictures, pixels: a camera that the scene doesn't give is fitted to them
+  bool judge = false;              ///< whether the judged figures exist, for scripts to name
+};
+
 class Session {
  public:
   /// Loads and checks everything. `script_file` may be empty: then a run.toml's own script is used, if the scene is one.
-  /// Pictures are `width` by `height` pixels: a camera that the scene doesn't give is fitted to them. Throws InputError.
-  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides, const std::filesystem::path& script_file, int width = 1280, int height = 720);
+  /// Throws InputError.
+  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides, const std::filesystem::path& script_file, const SessionOptions& options = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -38,6 +43,7 @@ class Session {
   const Scene& scene() const { return scene_; }
   const Script& script() const { return script_; }
   FrameView& view() { return view_; }
+  bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
   /// The scene's, script's and program's part of run.toml.
   RunRecord run_record() const;
 
@@ -52,6 +58,7 @@ class Session {
   Script script_;
   std::vector<std::string> script_lines_;
   std::string script_name_;
+  bool judge_ = false;
   int frame_ = -1;
 };
 
