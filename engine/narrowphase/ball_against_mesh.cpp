@@ -29,7 +29,7 @@ class BallTest {
     const bool inside = (ball_.center - nearest_.point).dot(mesh_.normal(nearest_.feature)) < 0.0;
     if (inside) {
       // all around a point inside are local minima; only the nearest is the way out
-      add(nearest_, distance > touch_ ? Vec3((nearest_.point - ball_.center) / distance) : mesh_.normal(nearest_.feature));
+      add(nearest_, distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
       return true;
     }
     // faces before edges before vertices: a centre right above an edge belongs to the face
@@ -81,7 +81,7 @@ class BallTest {
   Vec3 outward(const Nearest& n) const {
     const double distance = std::sqrt(n.distance_sq);
     if (n.feature.kind == Feature::face || distance <= touch_) return mesh_.normal(n.feature);
-    return (ball_.center - n.point) / distance;
+    return (ball_.center - n.point).normalized();
   }
 
   /// A ball that crosses in one step what it isn't near yet: the plane of the triangle that its centre meets.

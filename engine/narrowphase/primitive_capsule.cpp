@@ -10,6 +10,8 @@ namespace {
 
 /// Capsules closer to parallel than this sine (about 3 degrees) are held at both ends of their common length.
 constexpr double kNearlyParallel = 0.05;
+/// Ends of two capsules closer than this part of their length lie side by side.
+constexpr double kSameEnd = 1e-6;
 /// As for two boxes: normals within about 14 degrees of a face's get the points above that face too.
 constexpr double kNearlyFace = 0.97;
 
@@ -240,26 +242,39 @@ void capsule_capsule(ContactSink& sink) {
     sink.add_new(c);
   };
 
+  // nearly parallel: the ends of the common length, which are ends of either axis that lie beside the other one. Ends that
+  // lie side by side are found from both capsules and have one name.
   const double sine_scale = u.norm() * v.norm();
   bool held_at_ends = false;
   if (sine_scale > 0.0 && u.cross(v).norm() < kNearlyParallel * sine_scale) {
-    // the common length, on a's axis
-    double lo = u.dot(b.p0 - a.p0) / u.squaredNorm(), hi = u.dot(b.p1 - a.p0) / u.squaredNorm();
-    if (lo > hi) std::swap(lo, hi);
-    lo = std::max(lo, 0.0);
-    hi = std::min(hi, 1.0);
-    if ((hi - lo) * u.norm() > 1e-6 * size) {
-      double nearest_end = 1e300;
-      for (int end = 0; end < 2; ++end) {
-        const double s = end == 0 ? lo : hi;
-        const Vec3 p = s <= 0.0 ? a.p0 : s >= 1.0 ? a.p1 : Vec3(a.p0 + s * u);
-        const auto [t, q, distance_sq] = closest_on_segment(p, b.p0, b.p1);
-        const Vec3 between = p - q;
-        const Vec3 n = between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal;
-        add(s, t, p, q, n, 1 + end);
-        nearest_end = std::min(nearest_end, between.norm());
+    struct End {
+      double s, t;
+      Vec3 p, q;
+    };
+    std::array<End, 4> ends;
+    int count = 0;
+    const auto place = [](const Vec3& x0, const Vec3& x1, double t) { return t <= 0.0 ? x0 : t >= 1.0 ? x1 : Vec3(x0 + t * (x1 - x0)); };
+    for (int i = 0; i < 4; ++i) {
+      const bool of_first = i < 2;
+      const Vec3& end = i == 0 ? a.p0 : i == 1 ? a.p1 : i == 2 ? b.p0 : b.p1;
+      const Vec3 &start = of_first ? b.p0 : a.p0, &along = of_first ? v : u;
+      double t = along.dot(end - start) / along.squaredNorm();
+      if (t < -kSameEnd || t > 1.0 + kSameEnd) continue;
+      t = t < kSameEnd ? 0.0 : t > 1.0 - kSameEnd ? 1.0 : t;
+      const double own = i % 2;
+      ends[count++] = of_first ? End{own, t, end, place(b.p0, b.p1, t)} : End{t, own, place(a.p0, a.p1, t), end};
+    }
+    double length = 0.0, nearest = 1e300;
+    for (int i = 0; i < count; ++i) {
+      length = std::max(length, (ends[i].p - ends[0].p).norm());
+      nearest = std::min(nearest, (ends[i].p - ends[i].q).norm());
+    }
+    if (length > kSameEnd * size) {
+      for (int i = 0; i < count; ++i) {
+        const Vec3 between = ends[i].p - ends[i].q;
+        add(ends[i].s, ends[i].t, ends[i].p, ends[i].q, between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal, 1);
       }
-      held_at_ends = nearest_end <= offset.norm() + 1e-9 * size;
+      held_at_ends = nearest <= offset.norm() + 1e-9 * size;
     }
   }
   if (!held_at_ends) add(closest.s, closest.t, closest.point0, closest.point1, normal, 0);

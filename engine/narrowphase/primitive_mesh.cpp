@@ -39,7 +39,7 @@ class CylinderTest {
       const SegmentSegment s = closest_between_segments(axis_.p0, axis_.p1, mesh_.vertex(ends.v0), mesh_.vertex(ends.v1));
       if (!s.interior || !is_within(s.squared_distance)) continue;
       const std::optional<EdgeCone> cone = make_edge_cone(mesh_, e);
-      const Vec3 n = (s.point0 - s.point1) / std::sqrt(s.squared_distance);
+      const Vec3 n = (s.point0 - s.point1).normalized();
       if (cone && cone->is_outward(n)) add(s.point0, s.point1, n, {Feature::edge, e});
     }
   }
@@ -52,7 +52,7 @@ class CylinderTest {
     for (int v : vertices) {
       const PointSegment s = closest_on_segment(mesh_.vertex(v), axis_.p0, axis_.p1);
       if (s.t <= 0.0 || s.t >= 1.0 || !is_within(s.squared_distance)) continue;
-      const Vec3 n = (s.point - mesh_.vertex(v)) / std::sqrt(s.squared_distance);
+      const Vec3 n = (s.point - mesh_.vertex(v)).normalized();
       mesh_.star({Feature::vertex, v}, star);
       double highest = -1.0, lowest = 1.0;
       for (const Vec3& e : star) {

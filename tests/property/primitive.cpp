@@ -31,6 +31,13 @@ struct Projection {
     if (const Capsule* c = std::get_if<Capsule>(&shape)) return pose.apply({0.0, std::clamp(l.y(), -c->half_length, c->half_length), 0.0});
     return pose.position;
   }
+  /// How far the core reaches from its centre along a unit direction.
+  double reach(const Vec3& n) const {
+    const Vec3 l = pose.rotation.transpose() * n;
+    if (const Box* box = std::get_if<Box>(&shape)) return l.cwiseAbs().dot(box->half);
+    if (const Capsule* c = std::get_if<Capsule>(&shape)) return std::abs(l.y()) * c->half_length;
+    return 0.0;
+  }
   double radius() const {
     if (const Sphere* s = std::get_if<Sphere>(&shape)) return s->radius;
     if (const Capsule* c = std::get_if<Capsule>(&shape)) return c->radius;
@@ -38,12 +45,15 @@ struct Projection {
   }
 };
 
-/// Distance of the two cores (box, segment, point): accelerated projected gradient with restart on |x - y|²/2 over the
-/// product of the two convex sets.
-double core_distance(const Projection& a, const Projection& b) {
+/// Bounds of the distance of the two cores (box, segment, point): from above by accelerated projected gradient with
+/// restart on |x - y|²/2 over the product of the two convex sets, from below by the separation along x - y.
+struct Distance {
+  double low, high;
+};
+Distance core_distance(const Projection& a, const Projection& b, int iterations = 4000) {
   Vec3 x = a.pose.position, y = b.pose.position, xm = x, ym = y;
   double momentum = 1.0;
-  for (int i = 0; i < 4000; ++i) {
+  for (int i = 0; i < iterations; ++i) {
     const Vec3 g = xm - ym;
     const Vec3 xn = a(xm - 0.5 * g), yn = b(ym + 0.5 * g);
     if ((xm - xn).dot(xn - x) + (ym - yn).dot(yn - y) > 0.0) momentum = 1.0;
@@ -55,7 +65,9 @@ double core_distance(const Projection& a, const Projection& b) {
     x = xn;
     y = yn;
   }
-  return (x - y).norm();
+  const double high = (x - y).norm();
+  const Vec3 n = high > 0.0 ? Vec3((x - y) / high) : Vec3(Vec3::UnitX());
+  return {n.dot(a.pose.position - b.pose.position) - a.reach(n) - b.reach(n), high};
 }
 
 void check_contract(const std::vector<Collision>& contacts, const Bodies& bodies, int a, int b, const ContactQuery& query) {
@@ -149,10 +161,10 @@ TEST_CASE("gaps of separated exact shapes are their distances") {
         const Projection a{random_pose(r, 1.0), random_shape(r, i)}, b{random_pose(r, 1.0), random_shape(r, j)};
         bodies.add(a.shape, a.pose);
         bodies.add(b.shape, b.pose);
-        const double distance = core_distance(a, b);
-        if (distance < 1e-6) continue;
-        const double gap = distance - a.radius() - b.radius();
-        INFO(shape_name(a.shape) << " " << shape_name(b.shape) << " case " << k << " distance " << distance);
+        const Distance distance = core_distance(a, b);
+        if (distance.high < 1e-6) continue;
+        const double gap = distance.high - a.radius() - b.radius();
+        INFO(shape_name(a.shape) << " " << shape_name(b.shape) << " case " << k << " distance " << distance.high);
         const auto contacts = bodies.contacts(0, 1, {true, 10.0, 0.0});
         REQUIRE(!contacts.empty());
         REQUIRE(std::abs(smallest_gap(contacts) - gap) < 1e-8);
@@ -174,6 +186,45 @@ TEST_CASE("gaps of separated exact shapes are their distances") {
       }
   for (int i = 1; i < 4; ++i)
     for (int j = 1; j < 4; ++j) REQUIRE(apart[i][j] > 20);
+}
+
+TEST_CASE("gaps of nearly aligned boxes and capsules are their distances too") {
+  // ties between faces, edges and corners: right angles disturbed by 1e-12 to 0.1 rad
+  Random r(12);
+  int converged = 0, compared = 0;
+  for (int i = 2; i < 4; ++i)
+    for (int j = 2; j < 4; ++j)
+      for (int k = 0; k < 200; ++k) {
+        const auto tilted = [&] {
+          Mat3 m = Eigen::AngleAxisd(0.5 * M_PI * r.below(4), Vec3::Unit(r.below(3))).toRotationMatrix();
+          return Mat3(Eigen::AngleAxisd(std::pow(10.0, r.in(-12.0, -1.0)), r.direction()).toRotationMatrix() * m);
+        };
+        Shape sa = random_shape(r, i), sb = random_shape(r, j);
+        if (i == j && k % 2) sb = sa;
+        Vec3 offset = r.vector();
+        if (k % 3 == 0) offset[r.below(3)] = 1e-9 * r.sym();
+        if (k % 5 == 0) offset[r.below(3)] = 0.0;
+        const Projection a{{tilted(), Vec3::Zero()}, sa}, b{{tilted(), 2.0 * offset}, sb};
+        const Distance distance = core_distance(a, b, 6000);
+        if (distance.high < 1e-3) continue;
+        Bodies bodies;
+        bodies.add(a.shape, a.pose);
+        bodies.add(b.shape, b.pose);
+        const ContactQuery query{true, 10.0, 0.0};
+        const auto contacts = bodies.contacts(0, 1, query);
+        const double radii = a.radius() + b.radius();
+        INFO(shape_name(a.shape) << " " << shape_name(b.shape) << " case " << k << " distance " << distance.low << " to " << distance.high);
+        check_contract(contacts, bodies, 0, 1, query);
+        REQUIRE(!contacts.empty());
+        // the solver creeps where faces are nearly parallel: both bounds hold always, and nearly meet almost always
+        // (a contact that another one at the same place covers to 1e-8 of the size is left out, so that names last)
+        REQUIRE(smallest_gap(contacts) < distance.high - radii + 1e-7);
+        REQUIRE(smallest_gap(contacts) > distance.low - radii - 2e-8);
+        converged += distance.high - distance.low < 1e-6 ? 1 : 0;
+        ++compared;
+      }
+  REQUIRE(compared > 400);
+  REQUIRE(converged > compared * 3 / 4);
 }
 
 TEST_CASE("overlapping boxes are as deep as the shortest way out") {
@@ -206,8 +257,8 @@ TEST_CASE("overlapping boxes are as deep as the shortest way out") {
     const auto contacts = bodies.contacts(0, 1, {false, 0.0, 0.0});
     INFO("case " << k << " depth " << depth);
     REQUIRE(!contacts.empty());
-    // a face is preferred to a crossing that is less deep by up to 2 %, and clipped away corners may be the deepest
-    REQUIRE(-smallest_gap(contacts) < 1.021 * depth + 1e-6);
+    // a face is taken beside a crossing that is less deep by up to 5 %, and clipped away corners may be the deepest
+    REQUIRE(-smallest_gap(contacts) < 1.051 * depth + 1e-6);
     REQUIRE(-smallest_gap(contacts) > 0.0);
     for (const Collision& c : contacts) {
       REQUIRE(overlap(c.normal) < 1.08 * depth + 1e-6);
