@@ -15,6 +15,7 @@ constexpr int kSamples = 4;  // as many as llvmpipe has
 
 Backdrop backdrop_of(const ViewSettings& settings) {
   if (settings.backdrop == "light") return {hex(0xf7f8fa), hex(0xdfe3e8)};
+  if (settings.backdrop == "flat") return {hex(0x3f4650), hex(0x3f4650)};
   return {hex(0x5a6472), hex(0x23272e)};
 }
 
