@@ -72,7 +72,7 @@ int main() {
         painter.paint(scene.record(), settings, image);
         bytes += encode_png(image).size();
       });
-      fmt::print("{:>10} {:>13} {:>12.1f} {:>12.1f} {:>12.1f}   {}\n", c.triangles, smooth ? "4 samples" : "none", paint, both, 1e3 / both, c.peers);
+      fmt::print("{:>10} {:>13} {:>12.1f} {:>12.1f} {:>12.1f}   {}\n", c.triangles, smooth ? "edges" : "none", paint, both, 1e3 / both, c.peers);
     }
   }
 }

@@ -75,8 +75,8 @@ void ViewSettings::bind(ParameterSet& rows) {
   rows.add("view.point_size", point_size, {1.0, 100.0}, "px", "Diameter of a contact point, in pixels of a picture 720 high.");
   rows.add("view.arrow_length", arrow_length, {1.0, 1000.0}, "px", "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
   rows.add("view.line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
-  rows.add("view.antialiasing", antialiasing, "Smooth edges of surfaces (four samples a pixel; pictures take about twice as long).");
-  rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light"}, "What stands behind the scene.");
+  rows.add("view.antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
+  rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light", "flat"}, "What stands behind the scene; flat is one colour, for pictures that are compared.");
   rows.add("view.panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
   rows.add("view.panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
   rows.add("view.panel.timings", show_timings, "Times of the stages among the figures; pictures then differ from run to run.");

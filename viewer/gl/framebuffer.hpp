@@ -1,4 +1,4 @@
-// What is drawn to: an own framebuffer object, multisampled, resolved before it is read.
+// What is drawn to: an own framebuffer object, one sample a pixel.
 #pragma once
 
 #include "viewer/image/image.hpp"
@@ -7,8 +7,8 @@ namespace impinge {
 
 class Framebuffer {
  public:
-  /// `samples` 0 or 1: not multisampled. Throws InternalError if the size cannot be had.
-  Framebuffer(int width, int height, int samples);
+  /// Throws InternalError if the size cannot be had.
+  Framebuffer(int width, int height);
   ~Framebuffer();
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
@@ -16,15 +16,17 @@ class Framebuffer {
   int width() const { return width_; }
   int height() const { return height_; }
   void bind() const;
-  /// Averages the samples; what is drawn from here on goes to the resolved picture (no depth there).
-  void resolve() const;
-  /// Reads the resolved picture, top row first.
+  /// Smooths the edges of what has been drawn; its depth stays.
+  void smooth_edges();
+  /// Top row first.
   void read(Image& out);
 
  private:
-  int width_, height_, samples_;
-  unsigned drawn_ = 0, resolved_ = 0, color_ = 0, depth_ = 0, resolved_color_ = 0;
-  std::vector<std::uint8_t> rows_;  // as OpenGL gives them: RGBA, bottom row first
+  void read_rows();
+
+  int width_, height_;
+  unsigned framebuffer_ = 0, color_ = 0, depth_ = 0;
+  std::vector<std::uint8_t> rows_, smooth_rows_;  // as OpenGL gives them: RGBA, bottom row first
 };
 
 }  // namespace impinge

@@ -86,14 +86,14 @@ void Renderer::draw_see_through(const DrawList& list, const ViewTransform& view)
   glDisable(GL_BLEND);
 }
 
-void Renderer::draw(const DrawList& list, const Camera& camera, const Backdrop& backdrop, const Framebuffer& target, float pixel_scale) {
+void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target) {
   const ViewTransform view = make_view_transform(camera, bounds_of(list), target.width(), target.height());
   target.bind();
   glDisable(GL_SCISSOR_TEST);
   glDepthMask(GL_TRUE);
   glClearDepth(1.0);
   glClear(GL_DEPTH_BUFFER_BIT);
-  draw_backdrop(backdrop);
+  draw_backdrop(style.backdrop);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view);
@@ -103,7 +103,8 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const Backdrop& 
   for (const DrawSurface& item : list.surfaces)
     if (!item.see_through) draw_surface(item, view);
   draw_see_through(list, view);
-  marks_.draw(list, view, pixel_scale);
+  if (style.smooth_edges) target.smooth_edges();
+  marks_.draw(list, view, style.pixel_scale);
 }
 
 }  // namespace impinge

@@ -14,13 +14,19 @@ struct Backdrop {
   Color top, bottom;
 };
 
+struct RenderStyle {
+  Backdrop backdrop;
+  bool smooth_edges = true;   ///< of surfaces; marks are always smooth
+  float pixel_scale = 1.0f;   ///< multiplies every size in pixels
+};
+
 class Renderer {
  public:
   /// A context must be current, here and in every call.
   Renderer() = default;
 
-  /// Draws into `target`, which is left bound and not yet resolved; `pixel_scale` multiplies every size in pixels.
-  void draw(const DrawList& list, const Camera& camera, const Backdrop& backdrop, const Framebuffer& target, float pixel_scale);
+  /// Draws into `target`, which is left bound.
+  void draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target);
 
  private:
   struct SurfaceBuffers {

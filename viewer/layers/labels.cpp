@@ -1,4 +1,4 @@
-// The bodies' names, above them.
+// The moving bodies' names, above them.
 #include "viewer/layers/all.hpp"
 
 namespace impinge {
@@ -6,7 +6,7 @@ namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
   for (const BodyRecord& body : context.record.bodies) {
-    if (std::holds_alternative<Plane>(*body.shape) || body.bounds.is_empty()) continue;
+    if (body.kind == BodyKind::fixed || body.bounds.is_empty()) continue;
     Vec3 top = body.bounds.center();
     top.y() = body.bounds.max.y();
     list.labels.push_back({top, std::string(body.name), role::kInk});
@@ -15,6 +15,6 @@ void draw(const LayerContext& context, DrawList& list) {
 
 }  // namespace
 
-Layer labels_layer() { return {"labels", "The bodies' names.", false, draw, {}}; }
+Layer labels_layer() { return {"labels", "The names of dynamic and scripted bodies.", false, draw, {}}; }
 
 }  // namespace impinge

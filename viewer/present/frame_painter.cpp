@@ -11,10 +11,9 @@
 namespace impinge {
 namespace {
 
-constexpr int kSamples = 4;  // as many as llvmpipe has
-
 Backdrop backdrop_of(const ViewSettings& settings) {
   if (settings.backdrop == "light") return {hex(0xf7f8fa), hex(0xdfe3e8)};
+  if (settings.backdrop == "flat") return {hex(0x3f4650), hex(0x3f4650)};
   return {hex(0x5a6472), hex(0x23272e)};
 }
 
@@ -30,18 +29,17 @@ int text_scale(const ViewSettings& settings, int height) {
 struct FramePainter::Parts {
   // in order of making; the context outlives everything that lives in it
   std::unique_ptr<GlContext> context = make_offscreen_context();
-  std::map<bool, std::unique_ptr<Framebuffer>> framebuffers;  // by antialiasing
+  Framebuffer target;
   Renderer renderer;
   std::unique_ptr<Overlay> overlay;
   SurfaceCache surfaces;
   DrawList list;
-  int width = 0, height = 0;
+  int width, height;
+
+  Parts(int w, int h) : target(w, h), width(w), height(h) {}
 };
 
-FramePainter::FramePainter(int width, int height) : parts_(std::make_unique<Parts>()) {
-  parts_->width = width;
-  parts_->height = height;
-}
+FramePainter::FramePainter(int width, int height) : parts_(std::make_unique<Parts>(width, height)) {}
 
 FramePainter::~FramePainter() {
   parts_->context->make_current();  // OpenGL's objects are given back in their own context
@@ -60,10 +58,7 @@ void FramePainter::paint(const StepRecord& record, const ViewSettings& settings,
     if (settings.is_on(layer.name)) layer.draw(context, p.list);
   p.surfaces.forget_unused();
 
-  std::unique_ptr<Framebuffer>& target = p.framebuffers[settings.antialiasing];
-  if (!target) target = std::make_unique<Framebuffer>(p.width, p.height, settings.antialiasing ? kSamples : 0);
-  p.renderer.draw(p.list, camera, backdrop_of(settings), *target, pixel_scale(p.height));
-  target->resolve();
+  p.renderer.draw(p.list, camera, {backdrop_of(settings), settings.antialiasing, pixel_scale(p.height)}, p.target);
 
   const int scale = text_scale(settings, p.height);
   if (!p.overlay || p.overlay->scale() != scale) p.overlay = std::make_unique<Overlay>(scale);
@@ -72,7 +67,7 @@ void FramePainter::paint(const StepRecord& record, const ViewSettings& settings,
     const PanelArea legend = draw_legend(pen, settings, figures);
     draw_labels(pen, p.list.labels, camera, {figures, legend});
   });
-  target->read(out);
+  p.target.read(out);
 }
 
 void settle_camera(ViewSettings& settings, const StepRecord& record, double aspect) {

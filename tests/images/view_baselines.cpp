@@ -1,0 +1,94 @@
+// Pictures kept in tests/images/baselines/. IMPINGE_UPDATE_BASELINES=1 writes them anew; look at them before they are committed.
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/support/view_scenes.hpp"
+#include "viewer/image/difference.hpp"
+#include "viewer/image/png.hpp"
+#include "viewer/layers/layer.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+struct Baseline {
+  std::string name;
+  Image (*paint)();
+};
+
+const std::vector<Baseline>& baselines() {
+  static const std::vector<Baseline> all = {
+      {"meshes", [] { return painted(sample_record(), settings_with({"meshes"})); }},
+      {"contacts", [] { return painted(sample_record(), settings_with({"meshes", "contacts", "normals"})); }},
+      {"forces", [] { return painted(sample_record(), settings_with({"meshes", "contact_forces", "gaps"})); }},
+      {"boxes_and_pairs", [] { return painted(sample_record(), settings_with({"meshes", "aabbs", "broad_pairs"})); }},
+      {"triangle_pairs", [] { return painted(sample_record(), settings_with({"meshes", "triangle_pairs"})); }},
+      {"motion", [] { return painted(sample_record(), settings_with({"meshes", "velocities", "mass_centers"})); }},
+      {"groups", [] { return painted(sample_record(), settings_with({"meshes", "groups"})); }},
+      {"wireframe", [] { return painted(sample_record(), settings_with({"wireframe", "labels"})); }},
+      {"moved", [] { return painted(other_record(), settings_with({"meshes", "contacts", "normals"})); }},
+      {"floor",
+       [] {
+         HandMadeRecord scene;
+         scene.add("floor", BodyKind::fixed, Plane{Vec3::UnitY(), 0.0}, Vec3::Zero());
+         scene.add("ball", BodyKind::dynamic, Sphere{0.5}, {0, 0.5, 0});
+         return painted(scene.record(), settings_with({"meshes"}), 160, 90);
+       }},
+      {"panels",
+       [] {
+         ViewSettings settings = settings_with({"contacts"});
+         settings.show_figures = settings.show_legend = true;
+         settings.layers.front().on = false;
+         return painted(sample_record(), settings, 480, 200);
+       }},
+  };
+  return all;
+}
+
+std::filesystem::path folder() { return std::filesystem::path(IMPINGE_SOURCE_DIR) / "tests/images/baselines"; }
+bool updating() {
+  const char* word = std::getenv("IMPINGE_UPDATE_BASELINES");
+  return word != nullptr && std::string(word) == "1";
+}
+
+}  // namespace
+
+TEST_CASE("pictures are those of the baselines") {
+  for (const Baseline& baseline : baselines()) {
+    CAPTURE(baseline.name);
+    const std::filesystem::path file = folder() / ("view_" + baseline.name + ".png");
+    const Image now = baseline.paint();
+    if (updating()) write_png(file, now);
+    REQUIRE(std::filesystem::exists(file));
+    const Image kept = read_png(file);
+    const Difference difference = compare(kept, now);
+    if (!difference.same) {
+      const std::filesystem::path shown = std::filesystem::path(IMPINGE_BINARY_DIR) / ("view_" + baseline.name + "_difference.png");
+      write_png(shown, difference_panels(kept, now, difference));
+      WARN("see " << shown.string());
+    }
+    INFO(difference.reason);
+    CHECK(difference.same);
+    CHECK(std::filesystem::file_size(file) < 40'000);
+  }
+}
+
+TEST_CASE("the tolerance tells all baselines apart") {
+  std::vector<Image> pictures;
+  for (const Baseline& baseline : baselines()) pictures.push_back(baseline.paint());
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    for (std::size_t k = i + 1; k < pictures.size(); ++k) {
+      CAPTURE(baselines()[i].name, baselines()[k].name);
+      CHECK_FALSE(compare(pictures[i], pictures[k]).same);
+    }
+}
+
+TEST_CASE("the tolerance sees a single mark that is missing") {
+  const Image whole = painted(sample_record(), settings_with({"meshes", "contacts", "normals"}));
+  StepRecord less = sample_record();
+  less.contacts.pop_back();
+  CHECK_FALSE(compare(whole, painted(less, settings_with({"meshes", "contacts", "normals"}))).same);
+}

@@ -1,0 +1,24 @@
+// Small scenes for the tests of the view, and pictures of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/support/hand_made_record.hpp"
+#include "viewer/draw/view_settings.hpp"
+#include "viewer/image/image.hpp"
+
+namespace impinge::test {
+
+/// One of everything but a plane (its grid is costly to keep as PNG): slab, walls, all shapes, all kinds of bodies, contacts in every state, triangle pairs, two groups.
+const StepRecord& sample_record();
+/// The same bodies elsewhere.
+const StepRecord& other_record();
+
+/// Settings with exactly these layers, no panels, a fixed camera.
+ViewSettings settings_with(const std::vector<std::string>& layers);
+
+/// Painted by a painter that lives as long as the program (one a size).
+Image painted(const StepRecord& record, const ViewSettings& settings, int width = 320, int height = 180);
+
+}  // namespace impinge::test
