@@ -5,7 +5,7 @@ in vec2 reach;
 in vec3 eye_position;
 uniform float cell;    // metres; every fifth line is stronger
 uniform vec4 color;
-uniform vec3 eye_normal;
+uniform float pixel_scale;  // widths of lines are for pictures 720 high
 out vec4 result;
 
 float lines(vec2 p, float size, float width) {
@@ -19,8 +19,9 @@ void main() {
   float r = length(reach);
   float fade = 1.0 - smoothstep(0.35, 1.0, r);
   if (fade <= 0.004) discard;
-  float fine = lines(meters, cell, 1.0), coarse = lines(meters, 5.0 * cell, 1.4);
+  float fine = lines(meters, cell, pixel_scale), coarse = lines(meters, 5.0 * cell, 1.4 * pixel_scale);
   vec3 c = color.rgb * (1.0 + 0.10 * (1.0 - r));
-  c = mix(c, vec3(0.78, 0.82, 0.88), max(0.13 * fine, 0.26 * coarse));
+  vec3 ink = color.g > 0.5 ? vec3(0.25, 0.29, 0.35) : vec3(0.78, 0.82, 0.88);
+  c = mix(c, ink, max(0.13 * fine, 0.26 * coarse));
   result = vec4(c, color.a * fade);
 }

@@ -1,7 +1,7 @@
-// Pictures a second at 1280 x 720: a record in, pixels out, and with encoding as PNG in the same thread (a run encodes on
-// another one). Beside them what the same software renderer needed for the bare triangles, and what MuJoCo's needed.
-#include <ctime>
+// Pictures a second at 1280 x 720: a record in, pixels out, and with encoding as PNG in the same thread (a run encodes
+// on another one). Beside them what the same software renderer needed for the bare triangles, and what MuJoCo's needed.
 #include <fmt/format.h>
+#include <ctime>
 
 #include <algorithm>
 #include <chrono>
@@ -44,19 +44,22 @@ void add_spheres(test::HandMadeRecord& scene, int count, int divisions) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   scene.add("floor", BodyKind::fixed, Plane{Vec3::UnitY(), 0.0}, Vec3::Zero());
   for (int i = 0; i < count; ++i)
-    scene.add(fmt::format("s{}", i), BodyKind::dynamic, MeshPointer(surface), {i % side - 0.5 * side, 0.4, i / side - 0.5 * side});
+    scene.add(fmt::format("s{}", i), BodyKind::dynamic, MeshPointer(surface),
+              {i % side - 0.5 * side, 0.4, i / side - 0.5 * side});
 }
 
 }  // namespace
 
 int main() {
-  fmt::print("{:>10} {:>13} {:>12} {:>12} {:>12}   {}\n", "triangles", "antialiasing", "paint ms", "with PNG ms", "pictures/s", "peers, ms a frame with 1 / 2 threads");
+  fmt::print("{:>10} {:>13} {:>12} {:>12} {:>12}   {}\n", "triangles", "antialiasing", "paint ms", "with PNG ms",
+             "pictures/s", "peers, ms a frame with 1 / 2 threads");
   struct Case {
     int count, divisions, triangles;
     const char* peers;
   };
-  for (const Case& c : {Case{10, 0, 80, "llvmpipe alone 3.6 / 1.9"}, Case{55, 3, 70400, "llvmpipe alone 29 / 22; MuJoCo's 73-78"},
-                        Case{158, 3, 202240, "llvmpipe alone (203k) 51 / 37"}}) {
+  for (const Case& c :
+       {Case{10, 0, 80, "llvmpipe alone 3.6 / 1.9"}, Case{55, 3, 70400, "llvmpipe alone 29 / 22; MuJoCo's 73-78"},
+        Case{158, 3, 202240, "llvmpipe alone (203k) 51 / 37"}}) {
     test::HandMadeRecord scene;
     add_spheres(scene, c.count, c.divisions);
     ViewSettings settings = make_view_settings();
@@ -72,7 +75,8 @@ int main() {
         painter.paint(scene.record(), settings, image);
         bytes += encode_png(image).size();
       });
-      fmt::print("{:>10} {:>13} {:>12.1f} {:>12.1f} {:>12.1f}   {}\n", c.triangles, smooth ? "edges" : "none", paint, both, 1e3 / both, c.peers);
+      fmt::print("{:>10} {:>13} {:>12.1f} {:>12.1f} {:>12.1f}   {}\n", c.triangles, smooth ? "edges" : "none", paint,
+                 both, 1e3 / both, c.peers);
     }
   }
 }

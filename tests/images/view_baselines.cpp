@@ -1,4 +1,5 @@
-// Pictures kept in tests/images/baselines/. IMPINGE_UPDATE_BASELINES=1 writes them anew; look at them before they are committed.
+// Pictures kept in tests/images/baselines/. IMPINGE_UPDATE_BASELINES=1 writes them anew; look at them before they are
+// committed.
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
@@ -22,14 +23,38 @@ struct Baseline {
 const std::vector<Baseline>& baselines() {
   static const std::vector<Baseline> all = {
       {"meshes", [] { return painted(sample_record(), settings_with({"meshes"})); }},
-      {"contacts", [] { return painted(sample_record(), settings_with({"meshes", "contacts", "normals"})); }},
-      {"forces", [] { return painted(sample_record(), settings_with({"meshes", "contact_forces", "gaps"})); }},
-      {"boxes_and_pairs", [] { return painted(sample_record(), settings_with({"meshes", "aabbs", "broad_pairs"})); }},
-      {"triangle_pairs", [] { return painted(sample_record(), settings_with({"meshes", "triangle_pairs"})); }},
-      {"motion", [] { return painted(sample_record(), settings_with({"meshes", "velocities", "mass_centers"})); }},
-      {"groups", [] { return painted(sample_record(), settings_with({"meshes", "groups"})); }},
-      {"wireframe", [] { return painted(sample_record(), settings_with({"wireframe", "labels"})); }},
-      {"moved", [] { return painted(other_record(), settings_with({"meshes", "contacts", "normals"})); }},
+      {"contacts",
+       [] {
+         return painted(sample_record(), settings_with({"meshes", "contacts", "normals"}));
+       }},
+      {"forces",
+       [] {
+         return painted(sample_record(), settings_with({"meshes", "contact_forces", "gaps"}));
+       }},
+      {"boxes_and_pairs",
+       [] {
+         return painted(sample_record(), settings_with({"meshes", "aabbs", "broad_pairs"}));
+       }},
+      {"triangle_pairs",
+       [] {
+         return painted(sample_record(), settings_with({"meshes", "triangle_pairs"}));
+       }},
+      {"motion",
+       [] {
+         return painted(sample_record(), settings_with({"meshes", "velocities", "mass_centers"}));
+       }},
+      {"groups",
+       [] {
+         return painted(sample_record(), settings_with({"meshes", "groups"}));
+       }},
+      {"wireframe",
+       [] {
+         return painted(sample_record(), settings_with({"wireframe", "labels"}));
+       }},
+      {"moved",
+       [] {
+         return painted(other_record(), settings_with({"meshes", "contacts", "normals"}));
+       }},
       {"floor",
        [] {
          HandMadeRecord scene;
@@ -66,7 +91,8 @@ TEST_CASE("pictures are those of the baselines") {
     const Image kept = read_png(file);
     const Difference difference = compare(kept, now);
     if (!difference.same) {
-      const std::filesystem::path shown = std::filesystem::path(IMPINGE_BINARY_DIR) / ("view_" + baseline.name + "_difference.png");
+      const std::filesystem::path shown =
+          std::filesystem::path(IMPINGE_BINARY_DIR) / ("view_" + baseline.name + "_difference.png");
       write_png(shown, difference_panels(kept, now, difference));
       WARN("see " << shown.string());
     }

@@ -9,7 +9,9 @@ using namespace impinge::test;
 
 namespace {
 
-bool differs_at(const Image& a, const Image& b, int x, int y) { return !std::equal(a.pixel(x, y), a.pixel(x, y) + 3, b.pixel(x, y)); }
+bool differs_at(const Image& a, const Image& b, int x, int y) {
+  return !std::equal(a.pixel(x, y), a.pixel(x, y) + 3, b.pixel(x, y));
+}
 
 int changed_pixels(const Image& a, const Image& b) {
   int count = 0;
@@ -23,8 +25,10 @@ int changed_near(const Image& a, const Image& b, const Camera& camera, const Vec
   const auto at = camera.project(point, a.width, a.height);
   REQUIRE(at);
   int count = 0;
-  for (int y = std::max(0, static_cast<int>(at->y()) - reach); y <= std::min(a.height - 1, static_cast<int>(at->y()) + reach); ++y)
-    for (int x = std::max(0, static_cast<int>(at->x()) - reach); x <= std::min(a.width - 1, static_cast<int>(at->x()) + reach); ++x)
+  for (int y = std::max(0, static_cast<int>(at->y()) - reach);
+       y <= std::min(a.height - 1, static_cast<int>(at->y()) + reach); ++y)
+    for (int x = std::max(0, static_cast<int>(at->x()) - reach);
+         x <= std::min(a.width - 1, static_cast<int>(at->x()) + reach); ++x)
       count += differs_at(a, b, x, y);
   return count;
 }
@@ -37,8 +41,8 @@ TEST_CASE("layers have distinct names and each says what it draws") {
     CHECK(names.insert(layer.name).second);
     CHECK_FALSE(layer.doc.empty());
   }
-  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps", "velocities", "mass_centers",
-                           "broad_pairs", "triangle_pairs", "groups", "labels"})
+  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps",
+                           "velocities", "mass_centers", "broad_pairs", "triangle_pairs", "groups", "labels"})
     CHECK(names.count(name) == 1);
 }
 
@@ -69,7 +73,8 @@ TEST_CASE("marks appear where their bodies and contacts are, and nowhere else") 
 
   const Image normals = painted(sample_record(), settings_with({"meshes", "normals"}));
   for (const ContactRecord& c : sample_record().contacts) {
-    // within the arrow, which is arrow_length pixels long in a picture 720 high, half of that in small ones, less where open
+    // within the arrow, which is arrow_length pixels long in a picture 720 high, half of that in small ones, less where
+    // open
     const double length = 0.25 * plain.arrow_length * plain.camera.pixel_size_at(c.point_b, base.height);
     CHECK(changed_near(base, normals, plain.camera, 0.5 * (c.point_a + c.point_b) + length * c.normal, 2) > 4);
   }
@@ -107,7 +112,8 @@ TEST_CASE("contacts are told apart by state") {
 
 TEST_CASE("a wall hides nothing when it stands between the eye and what it looks at") {
   HandMadeRecord open, walled, blocked;
-  for (HandMadeRecord* scene : {&open, &walled, &blocked}) scene->add("ball", BodyKind::dynamic, Sphere{0.4}, Vec3::Zero());
+  for (HandMadeRecord* scene : {&open, &walled, &blocked})
+    scene->add("ball", BodyKind::dynamic, Sphere{0.4}, Vec3::Zero());
   walled.add("wall", BodyKind::fixed, Box{{2.0, 2.0, 0.05}}, {0, 0, 1.5});
   blocked.add("thick", BodyKind::fixed, Box{{2.0, 2.0, 1.0}}, {0, 0, 2.0});
   ViewSettings settings = settings_with({"meshes"});

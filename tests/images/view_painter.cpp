@@ -94,7 +94,8 @@ TEST_CASE("a sphere covers the area that perspective gives it") {
   settings.camera.look_at({0, 0, distance}, {0, 0, 0});
   settings.camera.fov_deg = 40.0;
   const int width = 640, height = 360;
-  const Image with = painted(scene.record(), settings, width, height), without = painted(StepRecord{}, settings, width, height);
+  const Image with = painted(scene.record(), settings, width, height),
+              without = painted(StepRecord{}, settings, width, height);
   int covered = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) covered += !std::equal(with.pixel(x, y), with.pixel(x, y) + 3, without.pixel(x, y));

@@ -19,7 +19,8 @@ class HandMadeRecord {
   HandMadeRecord& operator=(const HandMadeRecord&) = delete;
 
   /// Returns the body's index. Stays valid for ever: bodies are never moved.
-  int add(const std::string& name, BodyKind kind, Shape shape, const Vec3& position, const Mat3& rotation = Mat3::Identity()) {
+  int add(const std::string& name, BodyKind kind, Shape shape, const Vec3& position,
+          const Mat3& rotation = Mat3::Identity()) {
     names_.push_back(name);
     shapes_.push_back(std::move(shape));
     vertices_.emplace_back();

@@ -21,9 +21,11 @@ std::unique_ptr<HandMadeRecord> make_record(double shift) {
   const int ball = scene->add("ball", BodyKind::dynamic, Sphere{0.25}, {-0.55 + shift, 0.25, 0.45});
   const Mat3 turned = Eigen::AngleAxisd(0.5, Vec3::UnitY()).toRotationMatrix();
   const int crate = scene->add("crate", BodyKind::dynamic, Box{{0.25, 0.2, 0.3}}, {0.15 + shift, 0.2, 0.4}, turned);
-  scene->add("pill", BodyKind::dynamic, Capsule{0.12, 0.2}, {0.85, 0.32 + shift, 0.45}, Eigen::AngleAxisd(0.6, Vec3::UnitZ()).toRotationMatrix());
+  scene->add("pill", BodyKind::dynamic, Capsule{0.12, 0.2}, {0.85, 0.32 + shift, 0.45},
+             Eigen::AngleAxisd(0.6, Vec3::UnitZ()).toRotationMatrix());
   const int stone = scene->add("stone", BodyKind::dynamic, bumpy, {-0.4 + shift, 0.36, -0.4});
-  const int wheel = scene->add("wheel", BodyKind::dynamic, ring, {0.25 + shift, 0.43, -0.4}, Eigen::AngleAxisd(1.2, Vec3::UnitX()).toRotationMatrix());
+  const int wheel = scene->add("wheel", BodyKind::dynamic, ring, {0.25 + shift, 0.43, -0.4},
+                               Eigen::AngleAxisd(1.2, Vec3::UnitX()).toRotationMatrix());
   StepRecord& r = scene->record();
   r.bodies[static_cast<std::size_t>(crate)].asleep = true;
   r.stats.asleep = 1;
@@ -33,11 +35,13 @@ std::unique_ptr<HandMadeRecord> make_record(double shift) {
   for (std::size_t g = 0; g < r.groups.size(); ++g)
     for (const int body : r.groups[g])
       if (body != 0) r.bodies[static_cast<std::size_t>(body)].group = static_cast<int>(g);
-  scene->touch(0, ball, {-0.55 + shift, 0.0, 0.45}, -Vec3::UnitY(), ContactState::slip, -0.002).lambda = {0.16, 0.05, 0.0};
+  scene->touch(0, ball, {-0.55 + shift, 0.0, 0.45}, -Vec3::UnitY(), ContactState::slip, -0.002).lambda = {0.16, 0.05,
+                                                                                                          0.0};
   scene->touch(0, crate, {0.05 + shift, 0.0, 0.3}, -Vec3::UnitY(), ContactState::stick).lambda = {0.08, 0.0, 0.01};
   scene->touch(0, crate, {0.25 + shift, 0.0, 0.55}, -Vec3::UnitY(), ContactState::stick).lambda = {0.09, 0.0, 0.0};
   scene->touch(paddle, ball, {-0.8 + shift, 0.25, 0.45}, -Vec3::UnitX(), ContactState::open, 0.1);
-  scene->touch(stone, wheel, {-0.1 + shift, 0.4, -0.35}, -Vec3::UnitX(), ContactState::slip, 0.06).lambda = {0.05, 0.01, 0.0};
+  scene->touch(stone, wheel, {-0.1 + shift, 0.4, -0.35}, -Vec3::UnitX(), ContactState::slip, 0.06).lambda = {0.05, 0.01,
+                                                                                                             0.0};
   r.broad_pairs = {{0, ball}, {0, crate}, {paddle, ball}, {stone, wheel}};
   for (int t = 0; t < 40; ++t) r.triangle_pairs.push_back({stone, wheel, 9 * t, 5 * t, t % 2 == 0});
   r.stats.frame = shift == 0.0 ? 7 : 8;

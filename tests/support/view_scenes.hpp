@@ -10,7 +10,8 @@
 
 namespace impinge::test {
 
-/// One of everything but a plane (its grid is costly to keep as PNG): slab, walls, all shapes, all kinds of bodies, contacts in every state, triangle pairs, two groups.
+/// One of everything but a plane (its grid is costly to keep as PNG): slab, walls, all shapes, all kinds of bodies,
+/// contacts in every state, triangle pairs, two groups.
 const StepRecord& sample_record();
 /// The same bodies elsewhere.
 const StepRecord& other_record();

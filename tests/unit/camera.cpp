@@ -92,7 +92,8 @@ TEST_CASE("fit shows every corner of any box, and not from farther than needed")
     CHECK(angle_deg(camera.eye - camera.target, direction) < 1e-6);
     const int height = 500, width = static_cast<int>(height * aspect);
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 p(corner & 1 ? box.max.x() : box.min.x(), corner & 2 ? box.max.y() : box.min.y(), corner & 4 ? box.max.z() : box.min.z());
+      const Vec3 p(corner & 1 ? box.max.x() : box.min.x(), corner & 2 ? box.max.y() : box.min.y(),
+                   corner & 4 ? box.max.z() : box.min.z());
       const auto at = camera.project(p, width, height);
       REQUIRE(at);
       CHECK(at->x() >= -1.0);

@@ -46,7 +46,8 @@ TEST_CASE("corners are smooth on round surfaces and sharp on boxes") {
   const TriangleMesh ball = tessellate(Sphere{2.0});
   const ShadedSurface round = make_shaded_surface(ball, make_topology(ball), 50.0);
   CHECK(round.positions.size() == ball.vertices.size());  // nothing was split
-  for (std::size_t i = 0; i < round.positions.size(); ++i) CHECK(round.normals[i].dot(round.positions[i].normalized()) > 0.999f);
+  for (std::size_t i = 0; i < round.positions.size(); ++i)
+    CHECK(round.normals[i].dot(round.positions[i].normalized()) > 0.999f);
 
   const TriangleMesh crate = tessellate(Box{{1, 2, 3}});
   const ShadedSurface sharp = make_shaded_surface(crate, make_topology(crate), 50.0);
@@ -54,7 +55,9 @@ TEST_CASE("corners are smooth on round surfaces and sharp on boxes") {
   CHECK(sharp.edges.size() == 18);
   for (std::size_t t = 0; t < crate.triangles.size(); ++t) {
     const Triangle& source = crate.triangles[t];
-    const Vec3 normal = (crate.vertices[source[1]] - crate.vertices[source[0]]).cross(crate.vertices[source[2]] - crate.vertices[source[0]]).normalized();
+    const Vec3 normal = (crate.vertices[source[1]] - crate.vertices[source[0]])
+                            .cross(crate.vertices[source[2]] - crate.vertices[source[0]])
+                            .normalized();
     for (int k = 0; k < 3; ++k) {
       CHECK((sharp.positions[sharp.triangles[t][k]].cast<double>() - crate.vertices[source[k]]).norm() < 1e-6);
       CHECK((sharp.normals[sharp.triangles[t][k]].cast<double>() - normal).norm() < 1e-6);

@@ -10,19 +10,19 @@ namespace impinge {
 struct Camera {
   Vec3 eye{3.0, 2.0, 4.0};
   Vec3 target{0.0, 0.5, 0.0};
-  Vec3 up = Vec3::UnitY();   ///< which way is up for orbit; need not be normal to the line of sight
-  double fov_deg = 40.0;     ///< vertical angle of view
+  Vec3 up = Vec3::UnitY();  ///< which way is up for orbit; need not be normal to the line of sight
+  double fov_deg = 40.0;    ///< vertical angle of view
 
   void look_at(const Vec3& from, const Vec3& to) { eye = from, target = to; }
-  /// Turns the eye about the target: yaw about `up` (positive: eye moves to the right), pitch towards `up`; kept 1° away
-  /// from the poles, where `up` would lose its meaning.
+  /// Turns the eye about the target: yaw about `up` (positive: eye moves to the right), pitch towards `up`; kept 1°
+  /// away from the poles, where `up` would lose its meaning.
   void orbit(double yaw_deg, double pitch_deg);
   /// Moves eye and target, in metres to the right and up as seen.
   void pan(double right, double upwards);
   /// Divides the distance to the target.
   void zoom(double factor);
-  /// Looks at the middle of the box from the present direction, near enough that the box's sphere just fits a picture of
-  /// that aspect (width / height). Does nothing for an empty box.
+  /// Looks at the middle of the box from the present direction, near enough that the box's sphere just fits a picture
+  /// of that aspect (width / height). Does nothing for an empty box.
   void fit(const Aabb& box, double aspect = 16.0 / 9.0);
 
   double distance() const { return (eye - target).norm(); }

@@ -12,7 +12,8 @@ void DrawList::clear() {
   labels.clear();
 }
 
-void DrawList::add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth, PickId pick) {
+void DrawList::add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth,
+                       PickId pick) {
   const auto corner = [&](int bits) {
     return pose.apply({bits & 1 ? high.x() : low.x(), bits & 2 ? high.y() : low.y(), bits & 4 ? high.z() : low.z()});
   };

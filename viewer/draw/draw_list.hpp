@@ -33,8 +33,8 @@ struct DrawLine {
   PickId pick = 0;
 };
 
-/// From `tail` along `direction`. With length_px > 0 it is that long on the screen where it lies across the line of sight,
-/// and the direction is a unit vector; else it ends at tail + direction.
+/// From `tail` along `direction`. With length_px > 0 it is that long on the screen where it lies across the line of
+/// sight, and the direction is a unit vector; else it ends at tail + direction.
 struct DrawArrow {
   Vec3 tail, direction;
   Color color;

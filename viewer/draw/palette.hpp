@@ -1,5 +1,5 @@
-// Colours. Bodies take turns through colours that stay apart for colour-blind eyes (after Okabe & Ito 2008); what a mark
-// means has one colour everywhere: in the layers, the legend and the panels.
+// Colours. Bodies take turns through colours that stay apart for colour-blind eyes (after Okabe & Ito 2008); what a
+// mark means has one colour everywhere: in the layers, the legend and the panels.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,11 @@ namespace role {
 constexpr Color kStatic = hex(0x9aa3ad), kScripted = hex(0xe8e4da), kScriptedStripe = hex(0x5b5f66);
 constexpr Color kOpen = hex(0xf2f4f7), kStick = hex(0x35c08e), kSlip = hex(0xffb000);
 constexpr Color kNormal = hex(0x56c1f5), kForce = hex(0xff6b3d), kGap = hex(0xff5fb0);
-constexpr Color kOverlap = hex(0xff3b3b), kNearTriangle = hex(0xffd23b), kSpin = hex(0xc59bff), kMassCenter = hex(0xffffff);
+constexpr Color kOverlap = hex(0xff3b3b), kNearTriangle = hex(0xffd23b), kSpin = hex(0xc59bff),
+                kMassCenter = hex(0xffffff);
 constexpr Color kVelocity = hex(0xf5e663), kAabb = hex(0xa9c7e8), kPair = hex(0xd9a6ff), kTriangle = hex(0xff3b6b);
-constexpr Color kFloor = hex(0x3a4048), kWallEdge = hex(0xdfe6ee), kUngrouped = hex(0x8a9099);
+constexpr Color kFloor = hex(0x3a4048), kLightFloor = hex(0xd3d9e0), kWallEdge = hex(0xdfe6ee),
+                kUngrouped = hex(0x8a9099);
 constexpr Color kAxisX = hex(0xe8604c), kAxisY = hex(0x5fbf4a), kAxisZ = hex(0x4c8df0);
 constexpr Color kOutline = hex(0x0d1014), kInk = hex(0xf2f4f7);
 }  // namespace role

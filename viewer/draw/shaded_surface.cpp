@@ -35,7 +35,8 @@ ShadedSurface make_shaded_surface(const TriangleMesh& mesh, const MeshTopology& 
         out.normals.push_back(normal);
       }
       for (int corner = 0; corner < 3; ++corner)
-        if (mesh.triangles[own][corner] == static_cast<int>(v)) out.triangles[own][corner] = static_cast<std::uint32_t>(index);
+        if (mesh.triangles[own][corner] == static_cast<int>(v))
+          out.triangles[own][corner] = static_cast<std::uint32_t>(index);
     }
   }
   for (const MeshTopology::Edge& edge : topology.edges) out.edges.push_back({first_of[edge.v0], first_of[edge.v1]});

@@ -8,7 +8,7 @@
 namespace impinge {
 
 struct ShadedSurface {
-  std::vector<Eigen::Vector3f> positions, normals;  ///< as many of each
+  std::vector<Eigen::Vector3f> positions, normals;      ///< as many of each
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< in the source's order
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< each once, as two of the positions
 };

@@ -14,7 +14,8 @@ ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) {
   MeshPointer source;
   if (const auto* s = std::get_if<Sphere>(&shape)) std::get<2>(key) = s->radius;
   if (const auto* s = std::get_if<Capsule>(&shape)) std::get<2>(key) = s->radius, std::get<3>(key) = s->half_length;
-  if (const auto* s = std::get_if<Box>(&shape)) std::tie(std::get<2>(key), std::get<3>(key), std::get<4>(key)) = std::tie(s->half.x(), s->half.y(), s->half.z());
+  if (const auto* s = std::get_if<Box>(&shape))
+    std::tie(std::get<2>(key), std::get<3>(key), std::get<4>(key)) = std::tie(s->half.x(), s->half.y(), s->half.z());
   if (const auto* s = std::get_if<MeshPointer>(&shape)) source = *s, std::get<1>(key) = s->get();
   const auto [place, is_new] = kept_.try_emplace(key);
   Kept& kept = place->second;

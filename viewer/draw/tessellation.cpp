@@ -8,24 +8,25 @@
 namespace impinge {
 namespace {
 
-constexpr int kSphereDivisions = 3;     // 20 * 4^3 = 1280 triangles
-constexpr int kCapsuleSegments = 32;    // round the axis
-constexpr int kCapsuleRings = 8;        // from the equator of a cap to its pole
+constexpr int kSphereDivisions = 3;   // 20 * 4^3 = 1280 triangles
+constexpr int kCapsuleSegments = 32;  // round the axis
+constexpr int kCapsuleRings = 8;      // from the equator of a cap to its pole
 
 /// An icosahedron divided: nearly equal triangles, no poles.
 TriangleMesh sphere(double radius) {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   TriangleMesh mesh;
-  mesh.vertices = {{-1, t, 0}, {1, t, 0}, {-1, -t, 0}, {1, -t, 0}, {0, -1, t}, {0, 1, t},
-                   {0, -1, -t}, {0, 1, -t}, {t, 0, -1}, {t, 0, 1}, {-t, 0, -1}, {-t, 0, 1}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  mesh.vertices = {{-1, t, 0},  {1, t, 0},  {-1, -t, 0}, {1, -t, 0}, {0, -1, t},  {0, 1, t},
+                   {0, -1, -t}, {0, 1, -t}, {t, 0, -1},  {t, 0, 1},  {-t, 0, -1}, {-t, 0, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (Vec3& v : mesh.vertices) v.normalize();
   for (int division = 0; division < kSphereDivisions; ++division) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
-      const auto [place, is_new] = middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(mesh.vertices.size()));
+      const auto [place, is_new] =
+          middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<int>(mesh.vertices.size()));
       if (is_new) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]).normalized());
       return place->second;
     };

@@ -1,7 +1,7 @@
 #include "viewer/draw/view_settings.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "engine/core/error.hpp"
 
@@ -54,7 +54,8 @@ std::vector<std::string> ViewSettings::layers_on() const {
 }
 
 void ViewSettings::bind(ParameterSet& rows) {
-  rows.add(vector_row(*this, "view.camera.eye", &Camera::eye, "Where the camera is; without eye and target it is fitted to the scene."));
+  rows.add(vector_row(*this, "view.camera.eye", &Camera::eye,
+                      "Where the camera is; without eye and target it is fitted to the scene."));
   rows.add(vector_row(*this, "view.camera.target", &Camera::target, "What the camera looks at."));
   rows.add("view.camera.fov", camera.fov_deg, {1.0, 170.0}, "deg", "Vertical angle of view.");
 
@@ -72,15 +73,21 @@ void ViewSettings::bind(ParameterSet& rows) {
   rows.add(std::move(list));
   for (LayerSwitch& layer : layers) rows.add("view.layer." + layer.name, layer.on, layer.doc);
 
-  rows.add("view.point_size", point_size, {1.0, 100.0}, "px", "Diameter of a contact point, in pixels of a picture 720 high.");
-  rows.add("view.arrow_length", arrow_length, {1.0, 1000.0}, "px", "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
+  rows.add("view.point_size", point_size, {1.0, 100.0}, "px",
+           "Diameter of a contact point, in pixels of a picture 720 high.");
+  rows.add("view.arrow_length", arrow_length, {1.0, 1000.0}, "px",
+           "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
   rows.add("view.line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
   rows.add("view.antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
-  rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light", "flat"}, "What stands behind the scene; flat is one colour, for pictures that are compared.");
+  rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light", "flat"},
+           "What stands behind the scene; flat is one colour, for pictures that are compared.");
   rows.add("view.panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
-  rows.add("view.panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
-  rows.add("view.panel.timings", show_timings, "Times of the stages among the figures; pictures then differ from run to run.");
-  rows.add("view.panel.scale", panel_scale, {0, 16}, "", "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
+  rows.add("view.panel.legend", show_legend,
+           "What the marks of the visible layers mean, left out where there is no room.");
+  rows.add("view.panel.timings", show_timings,
+           "Times of the stages among the figures; pictures then differ from run to run.");
+  rows.add("view.panel.scale", panel_scale, {0, 16}, "",
+           "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
 }
 
 }  // namespace impinge

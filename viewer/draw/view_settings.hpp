@@ -13,14 +13,14 @@ struct LayerSwitch {
 
 struct ViewSettings {
   Camera camera;
-  bool camera_given = false;         ///< else the painter fits the camera to what it paints
-  std::vector<LayerSwitch> layers;   ///< in the order they are drawn; layers/layer.hpp fills them in
+  bool camera_given = false;        ///< else the painter fits the camera to what it paints
+  std::vector<LayerSwitch> layers;  ///< in the order they are drawn; layers/layer.hpp fills them in
 
-  double point_size = 9.0;      ///< diameter of a contact, pixels of a picture 720 high
-  double arrow_length = 36.0;   ///< of a normal, and of the largest force or velocity, same pixels
-  double line_width = 1.4;      ///< same pixels
+  double point_size = 9.0;     ///< diameter of a contact, pixels of a picture 720 high
+  double arrow_length = 36.0;  ///< of a normal, and of the largest force or velocity, same pixels
+  double line_width = 1.4;     ///< same pixels
   bool show_figures = true, show_legend = true, show_timings = false;
-  int panel_scale = 0;          ///< text size in steps of 13 pixels; 0: by the picture's height
+  int panel_scale = 0;  ///< text size in steps of 13 pixels; 0: by the picture's height
   bool antialiasing = true;
   std::string backdrop = "dark";
 

@@ -35,14 +35,16 @@ void VertexArray::set_indices(const void* data, std::size_t bytes) {
 void VertexArray::floats(unsigned location, int count, std::size_t stride, std::size_t offset, bool per_instance) {
   bind();
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride), reinterpret_cast<const void*>(offset));
+  glVertexAttribPointer(location, count, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                        reinterpret_cast<const void*>(offset));
   glVertexAttribDivisor(location, per_instance ? 1 : 0);
 }
 
 void VertexArray::bytes(unsigned location, int count, std::size_t stride, std::size_t offset, bool per_instance) {
   bind();
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, count, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride), reinterpret_cast<const void*>(offset));
+  glVertexAttribPointer(location, count, GL_UNSIGNED_BYTE, GL_TRUE, static_cast<GLsizei>(stride),
+                        reinterpret_cast<const void*>(offset));
   glVertexAttribDivisor(location, per_instance ? 1 : 0);
 }
 

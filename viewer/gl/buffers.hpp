@@ -5,7 +5,8 @@
 
 namespace impinge {
 
-/// A vertex array with one vertex buffer and perhaps an index buffer. Made, used and destroyed while its context is current.
+/// A vertex array with one vertex buffer and perhaps an index buffer. Made, used and destroyed while its context is
+/// current.
 class VertexArray {
  public:
   VertexArray();

@@ -6,8 +6,8 @@
 
 namespace impinge {
 
-/// An OpenGL 3.3 core context without a window. Its default framebuffer is never drawn to: own framebuffers give the same
-/// pixels on every way to a context.
+/// An OpenGL 3.3 core context without a window. Its default framebuffer is never drawn to: own framebuffers give the
+/// same pixels on every way to a context.
 class GlContext {
  public:
   virtual ~GlContext() = default;

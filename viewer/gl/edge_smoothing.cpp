@@ -59,7 +59,8 @@ float share_of_neighbour(const Luma& luma, int x, int y, int& px, int& py) {
   const End nearer = back.distance < forth.distance ? back : forth;
   float share = 0.0f;
   // where the edge ends it turns to one side: only the pixels that lose area by it change
-  if ((nearer.beyond < 0) != (m < other)) share = 0.5f - static_cast<float>(nearer.distance) / static_cast<float>(back.distance + forth.distance);
+  if ((nearer.beyond < 0) != (m < other))
+    share = 0.5f - static_cast<float>(nearer.distance) / static_cast<float>(back.distance + forth.distance);
   // a pixel that sticks out of its surroundings is drawn towards them
   const float mean = static_cast<float>(2 * (n + s + e + w) + ne + nw + se + sw) / 12.0f;
   const float spike = std::min(1.0f, std::abs(mean - static_cast<float>(m)) / static_cast<float>(contrast));
@@ -75,7 +76,8 @@ void smooth_edges(const std::vector<std::uint8_t>& in, std::vector<std::uint8_t>
   parallel_for(static_cast<std::size_t>(height), 64, [&](std::size_t row) {
     const std::uint8_t* p = in.data() + row * width * 4;
     std::uint8_t* to = luma.values.data() + row * width;
-    for (int x = 0; x < width; ++x, p += 4) to[x] = static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2]) >> 8);
+    for (int x = 0; x < width; ++x, p += 4)
+      to[x] = static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2]) >> 8);
   });
   parallel_for(static_cast<std::size_t>(height), 64, [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -95,7 +97,8 @@ void smooth_edges(const std::vector<std::uint8_t>& in, std::vector<std::uint8_t>
       const std::uint8_t* other = in.data() + (static_cast<std::size_t>(v) * width + u) * 4;
       std::uint8_t* to = out.data() + (row * width + x) * 4;
       for (int c = 0; c < 3; ++c)
-        to[c] = static_cast<std::uint8_t>(std::lround(static_cast<float>(own[c]) + share * static_cast<float>(other[c] - own[c])));
+        to[c] = static_cast<std::uint8_t>(
+            std::lround(static_cast<float>(own[c]) + share * static_cast<float>(other[c] - own[c])));
     }
   });
 }

@@ -1,5 +1,6 @@
 #include "viewer/gl/grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "viewer/gl/gl.hpp"
@@ -26,7 +27,7 @@ Grid::Grid() {
   array_.floats(2, 2, sizeof(Corner), offsetof(Corner, from_center));
 }
 
-void Grid::draw(const DrawPlane& plane, const Camera& camera, const ViewTransform& view) {
+void Grid::draw(const DrawPlane& plane, const Camera& camera, const ViewTransform& view, float pixel_scale) {
   const Vec3 n = plane.normal;
   if (n.dot(camera.eye) <= plane.offset) return;  // seen from its solid side it would only be in the way
   // axes in the plane that follow the world's where they can
@@ -48,6 +49,7 @@ void Grid::draw(const DrawPlane& plane, const Camera& camera, const ViewTransfor
   array_.set_vertices(corners, sizeof corners);
   program_.use();
   program_.set("projection", view.projection);
+  program_.set("pixel_scale", std::max(1.0f, pixel_scale));
   program_.set("cell", static_cast<float>(cell));
   program_.set("color", Eigen::Vector4f(plane.color.r, plane.color.g, plane.color.b, plane.color.a));
   glEnable(GL_BLEND);

@@ -12,7 +12,7 @@ class Grid {
  public:
   Grid();
   /// Before the surfaces: it writes depth, so that what is below the floor stays hidden.
-  void draw(const DrawPlane& plane, const Camera& camera, const ViewTransform& view);
+  void draw(const DrawPlane& plane, const Camera& camera, const ViewTransform& view, float pixel_scale);
 
  private:
   Program program_{"grid"};

@@ -1,8 +1,8 @@
 #include "viewer/gl/imgui_backend.hpp"
 
+#include <imgui.h>
 #include <cmath>
 #include <cstdint>
-#include <imgui.h>
 
 #include "viewer/gl/gl.hpp"
 
@@ -48,12 +48,13 @@ void ImguiBackend::draw(const ImDrawData& data) {
       }
       const ImVec4& clip = command.ClipRect;  // left, top, right, bottom, from the top left
       if (clip.z <= clip.x || clip.w <= clip.y) continue;
-      glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(data.DisplaySize.y - clip.w), static_cast<GLsizei>(std::ceil(clip.z - clip.x)),
-                static_cast<GLsizei>(std::ceil(clip.w - clip.y)));
+      glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(data.DisplaySize.y - clip.w),
+                static_cast<GLsizei>(std::ceil(clip.z - clip.x)), static_cast<GLsizei>(std::ceil(clip.w - clip.y)));
       glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::intptr_t>(command.GetTexID())));
       const GLenum type = sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;
       glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), type,
-                               reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)), static_cast<GLint>(command.VtxOffset));
+                               reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)),
+                               static_cast<GLint>(command.VtxOffset));
     }
   }
   glDisable(GL_SCISSOR_TEST);

@@ -10,7 +10,9 @@ namespace {
 constexpr float kFaint = 0.30f;  // of a mark's opacity where it is hidden and shown all the same
 
 std::array<std::uint8_t, 4> packed(const Color& c) {
-  const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255.0f * std::min(1.0f, std::max(0.0f, v)))); };
+  const auto byte = [](float v) {
+    return static_cast<std::uint8_t>(std::lround(255.0f * std::min(1.0f, std::max(0.0f, v))));
+  };
   return {byte(c.r), byte(c.g), byte(c.b), byte(c.a)};
 }
 
@@ -70,7 +72,8 @@ void Marks::draw_triangles(const DrawList& list, const ViewTransform& view, Dept
   });
 }
 
-void Marks::draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale, bool arrows, Depth depth) {
+void Marks::draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale,
+                          bool arrows, Depth depth) {
   if (segments.empty()) return;
   segment_array_.set_vertices(segments.data(), segments.size() * sizeof(Segment));
   segment_program_.use();
@@ -102,7 +105,8 @@ void Marks::draw_arrows(const DrawList& list, const ViewTransform& view, float p
       const double away = -(view.rotation * (arrow.tail - view.eye)).z();
       scale = arrow.length_px * pixel_scale * std::max(away, view.near) / view.focal;
     }
-    segments.push_back({view.to_eye(arrow.tail), view.to_eye(arrow.tail + scale * arrow.direction), packed(arrow.color), arrow.width * pixel_scale});
+    segments.push_back({view.to_eye(arrow.tail), view.to_eye(arrow.tail + scale * arrow.direction), packed(arrow.color),
+                        arrow.width * pixel_scale});
   }
   draw_segments(segments, view, pixel_scale, true, depth);
 }

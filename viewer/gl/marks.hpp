@@ -39,7 +39,8 @@ class Marks {
   void draw_lines(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth);
   void draw_arrows(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth);
   void draw_points(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth);
-  void draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale, bool arrows, Depth depth);
+  void draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale, bool arrows,
+                     Depth depth);
 
   Program segment_program_{"segment"}, point_program_{"point"}, flat_program_{"flat"};
   VertexArray segment_array_, point_array_, flat_array_;

@@ -25,7 +25,8 @@ GLuint compile(GLenum stage, const std::string& file) {
 }  // namespace
 
 Program::Program(const std::string& name) {
-  const GLuint vertex = compile(GL_VERTEX_SHADER, name + ".vert"), fragment = compile(GL_FRAGMENT_SHADER, name + ".frag");
+  const GLuint vertex = compile(GL_VERTEX_SHADER, name + ".vert"),
+               fragment = compile(GL_FRAGMENT_SHADER, name + ".frag");
   id_ = glCreateProgram();
   glAttachShader(id_, vertex);
   glAttachShader(id_, fragment);

@@ -26,14 +26,16 @@ Aabb bounds_of(const DrawList& list) {
 
 Renderer::SurfaceBuffers& Renderer::buffers_of(const ShadedSurfacePointer& surface) {
   // a surface that is gone may have left its address to another
-  for (auto it = buffers_.begin(); it != buffers_.end();) it = it->second.surface.expired() ? buffers_.erase(it) : std::next(it);
+  for (auto it = buffers_.begin(); it != buffers_.end();)
+    it = it->second.surface.expired() ? buffers_.erase(it) : std::next(it);
   const auto [place, is_new] = buffers_.try_emplace(surface.get());
   SurfaceBuffers& buffers = place->second;
   if (!is_new) return buffers;
   buffers.surface = surface;
   std::vector<Eigen::Vector3f> data;
   data.reserve(2 * surface->positions.size());
-  for (std::size_t i = 0; i < surface->positions.size(); ++i) data.insert(data.end(), {surface->positions[i], surface->normals[i]});
+  for (std::size_t i = 0; i < surface->positions.size(); ++i)
+    data.insert(data.end(), {surface->positions[i], surface->normals[i]});
   buffers.array.set_vertices(data.data(), data.size() * sizeof(Eigen::Vector3f));
   buffers.array.floats(0, 3, 6 * sizeof(float), 0);
   buffers.array.floats(1, 3, 6 * sizeof(float), 3 * sizeof(float));
@@ -96,7 +98,7 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyl
   draw_backdrop(style.backdrop);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view);
+  for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view, style.pixel_scale);
   surface_program_.use();
   surface_program_.set("projection", view.projection);
   surface_program_.set("eye_up", view.eye_up);

@@ -16,8 +16,8 @@ struct Backdrop {
 
 struct RenderStyle {
   Backdrop backdrop;
-  bool smooth_edges = true;   ///< of surfaces; marks are always smooth
-  float pixel_scale = 1.0f;   ///< multiplies every size in pixels
+  bool smooth_edges = true;  ///< of surfaces; marks are always smooth
+  float pixel_scale = 1.0f;  ///< multiplies every size in pixels
 };
 
 class Renderer {

@@ -4,26 +4,17 @@ namespace impinge {
 
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = {
-      meshes_layer(),
-      groups_layer(),
-      wireframe_layer(),
-      triangle_pairs_layer(),
-      aabbs_layer(),
-      broad_pairs_layer(),
-      gaps_layer(),
-      normals_layer(),
-      contact_forces_layer(),
-      velocities_layer(),
-      mass_centers_layer(),
-      contacts_layer(),
-      labels_layer(),
+      meshes_layer(),       groups_layer(),   wireframe_layer(), triangle_pairs_layer(), aabbs_layer(),
+      broad_pairs_layer(),  gaps_layer(),     normals_layer(),   contact_forces_layer(), velocities_layer(),
+      mass_centers_layer(), contacts_layer(), labels_layer(),
   };
   return all;
 }
 
 ViewSettings make_view_settings() {
   ViewSettings settings;
-  for (const Layer& layer : layers()) settings.layers.push_back({std::string(layer.name), std::string(layer.doc), layer.on});
+  for (const Layer& layer : layers())
+    settings.layers.push_back({std::string(layer.name), std::string(layer.doc), layer.on});
   return settings;
 }
 

@@ -22,9 +22,15 @@ std::vector<Color> body_colors(const StepRecord& record) {
   int turn = 0;
   for (const BodyRecord& body : record.bodies) {
     switch (body.kind) {
-      case BodyKind::fixed: colors.push_back(role::kStatic); break;
-      case BodyKind::scripted: colors.push_back(role::kScripted); break;
-      default: colors.push_back(series_color(turn++)); break;
+      case BodyKind::fixed:
+        colors.push_back(role::kStatic);
+        break;
+      case BodyKind::scripted:
+        colors.push_back(role::kScripted);
+        break;
+      default:
+        colors.push_back(series_color(turn++));
+        break;
     }
   }
   return colors;

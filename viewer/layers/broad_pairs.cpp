@@ -25,7 +25,11 @@ void draw(const LayerContext& context, DrawList& list) {
 }  // namespace
 
 Layer broad_pairs_layer() {
-  return {"broad_pairs", "Body pairs that the broad phase hands on.", false, draw, {{LegendRow::line, role::kPair, "broad-phase pair"}}};
+  return {"broad_pairs",
+          "Body pairs that the broad phase hands on.",
+          false,
+          draw,
+          {{LegendRow::line, role::kPair, "broad-phase pair"}}};
 }
 
 }  // namespace impinge

@@ -1,5 +1,5 @@
-// The force of every contact, impulse over time step: on body A, or on body B where A cannot be moved. The mean weight of
-// the dynamic bodies is as long as a normal; without gravity the frame's largest force is.
+// The force of every contact, impulse over time step: on body A, or on body B where A cannot be moved. The mean weight
+// of the dynamic bodies is as long as a normal; without gravity the frame's largest force is.
 #include <algorithm>
 
 #include "viewer/layers/all.hpp"
@@ -41,7 +41,10 @@ void draw(const LayerContext& context, DrawList& list) {
 }  // namespace
 
 Layer contact_forces_layer() {
-  return {"contact_forces", "Contact forces with friction; a normal's length is the bodies' mean weight.", false, draw,
+  return {"contact_forces",
+          "Contact forces with friction; a normal's length is the bodies' mean weight.",
+          false,
+          draw,
           {{LegendRow::arrow, role::kForce, "contact force"}}};
 }
 

@@ -10,14 +10,18 @@ void draw(const LayerContext& context, DrawList& list) {
     const ContactRecord& c = context.record.contacts[i];
     const Color color = c.gap < 0.0 ? role::kOverlap : role::kGap;
     list.lines.push_back({c.point_a, c.point_b, color, 1.6f * width, Depth::on_top, contact_pick(i)});
-    for (const Vec3& p : {c.point_a, c.point_b}) list.points.push_back({p, color, 2.2f * width, Depth::on_top, contact_pick(i)});
+    for (const Vec3& p : {c.point_a, c.point_b})
+      list.points.push_back({p, color, 2.2f * width, Depth::on_top, contact_pick(i)});
   }
 }
 
 }  // namespace
 
 Layer gaps_layer() {
-  return {"gaps", "From point A to point B of every contact.", false, draw,
+  return {"gaps",
+          "From point A to point B of every contact.",
+          false,
+          draw,
           {{LegendRow::line, role::kGap, "gap, apart"}, {LegendRow::line, role::kOverlap, "gap, overlapping"}}};
 }
 

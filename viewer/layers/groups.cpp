@@ -1,5 +1,5 @@
-// Colours the surfaces by collision group instead of by body. A group has the colour of its first body, so that it keeps
-// its colour while it lasts.
+// Colours the surfaces by collision group instead of by body. A group has the colour of its first body, so that it
+// keeps its colour while it lasts.
 #include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
 
@@ -27,7 +27,11 @@ void draw(const LayerContext& context, DrawList& list) {
 }  // namespace
 
 Layer groups_layer() {
-  return {"groups", "Surfaces coloured by collision group.", false, draw, {{LegendRow::area, role::kUngrouped, "in no collision group"}}};
+  return {"groups",
+          "Surfaces coloured by collision group.",
+          false,
+          draw,
+          {{LegendRow::area, role::kUngrouped, "in no collision group"}}};
 }
 
 }  // namespace impinge

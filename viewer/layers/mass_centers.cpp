@@ -5,23 +5,31 @@ namespace impinge {
 namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
-  const float length = 0.8f * static_cast<float>(context.settings.arrow_length), width = 1.5f * static_cast<float>(context.settings.line_width);
+  const float length = 0.8f * static_cast<float>(context.settings.arrow_length),
+              width = 1.5f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed) continue;
     const Color colors[3] = {role::kAxisX, role::kAxisY, role::kAxisZ};
     for (int axis = 0; axis < 3; ++axis)
-      list.arrows.push_back({body.pose.position, body.pose.rotation.col(axis), colors[axis], length, width, Depth::on_top, body_pick(i)});
-    list.points.push_back({body.pose.position, role::kMassCenter, 0.8f * static_cast<float>(context.settings.point_size), Depth::on_top, body_pick(i)});
+      list.arrows.push_back(
+          {body.pose.position, body.pose.rotation.col(axis), colors[axis], length, width, Depth::on_top, body_pick(i)});
+    list.points.push_back({body.pose.position, role::kMassCenter,
+                           0.8f * static_cast<float>(context.settings.point_size), Depth::on_top, body_pick(i)});
   }
 }
 
 }  // namespace
 
 Layer mass_centers_layer() {
-  return {"mass_centers", "Centres of mass with the axes of the bodies' frames.", false, draw,
-          {{LegendRow::point, role::kMassCenter, "centre of mass"}, {LegendRow::arrow, role::kAxisX, "body axis x"},
-           {LegendRow::arrow, role::kAxisY, "body axis y"}, {LegendRow::arrow, role::kAxisZ, "body axis z"}}};
+  return {"mass_centers",
+          "Centres of mass with the axes of the bodies' frames.",
+          false,
+          draw,
+          {{LegendRow::point, role::kMassCenter, "centre of mass"},
+           {LegendRow::arrow, role::kAxisX, "body axis x"},
+           {LegendRow::arrow, role::kAxisY, "body axis y"},
+           {LegendRow::arrow, role::kAxisZ, "body axis z"}}};
 }
 
 }  // namespace impinge

@@ -11,7 +11,8 @@ void draw(const LayerContext& context, DrawList& list) {
     const BodyRecord& body = context.record.bodies[i];
     if (const auto* plane = std::get_if<Plane>(body.shape)) {
       const Vec3 normal = body.pose.rotation * plane->normal;
-      list.planes.push_back({normal, plane->offset + normal.dot(body.pose.position), role::kFloor, body_pick(i)});
+      list.planes.push_back({normal, plane->offset + normal.dot(body.pose.position),
+                             context.settings.backdrop == "light" ? role::kLightFloor : role::kFloor, body_pick(i)});
       continue;
     }
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};
@@ -29,7 +30,10 @@ void draw(const LayerContext& context, DrawList& list) {
 }  // namespace
 
 Layer meshes_layer() {
-  return {"meshes", "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.", true, draw,
+  return {"meshes",
+          "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.",
+          true,
+          draw,
           {{LegendRow::area, role::kScripted, "scripted body"}, {LegendRow::area, role::kStatic, "static body"}}};
 }
 

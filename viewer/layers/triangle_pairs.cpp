@@ -28,18 +28,24 @@ void draw(const LayerContext& context, DrawList& list) {
       continue;
     }
     const Color color = intersecting ? role::kTriangle : role::kNearTriangle;
-    list.triangles.push_back({corners, with_alpha(color, 0.75f), Depth::both, body_pick(static_cast<std::size_t>(key.first))});
+    list.triangles.push_back(
+        {corners, with_alpha(color, 0.75f), Depth::both, body_pick(static_cast<std::size_t>(key.first))});
     for (int k = 0; k < 3; ++k)
-      list.lines.push_back({corners[k], corners[(k + 1) % 3], mix(color, role::kOutline, 0.45f), 0.8f * static_cast<float>(context.settings.line_width),
-                            Depth::both, body_pick(static_cast<std::size_t>(key.first))});
+      list.lines.push_back({corners[k], corners[(k + 1) % 3], mix(color, role::kOutline, 0.45f),
+                            0.8f * static_cast<float>(context.settings.line_width), Depth::both,
+                            body_pick(static_cast<std::size_t>(key.first))});
   }
 }
 
 }  // namespace
 
 Layer triangle_pairs_layer() {
-  return {"triangle_pairs", "Triangles that intersect others or are near enough to count.", false, draw,
-          {{LegendRow::area, role::kTriangle, "triangle, intersects"}, {LegendRow::area, role::kNearTriangle, "triangle, near"}}};
+  return {"triangle_pairs",
+          "Triangles that intersect others or are near enough to count.",
+          false,
+          draw,
+          {{LegendRow::area, role::kTriangle, "triangle, intersects"},
+           {LegendRow::area, role::kNearTriangle, "triangle, near"}}};
 }
 
 }  // namespace impinge

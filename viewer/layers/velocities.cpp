@@ -18,15 +18,20 @@ void draw(const LayerContext& context, DrawList& list) {
     const double angle = body.angular_velocity.norm() * time;
     if (angle > 0.02)  // one radian is as long as a normal
       list.arrows.push_back({body.pose.position, body.angular_velocity.normalized(), role::kSpin,
-                             static_cast<float>(context.settings.arrow_length * std::min(angle, 4.0)), 0.8f * width, Depth::on_top, body_pick(i)});
+                             static_cast<float>(context.settings.arrow_length * std::min(angle, 4.0)), 0.8f * width,
+                             Depth::on_top, body_pick(i)});
   }
 }
 
 }  // namespace
 
 Layer velocities_layer() {
-  return {"velocities", "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).", false, draw,
-          {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation"}}};
+  return {
+      "velocities",
+      "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).",
+      false,
+      draw,
+      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation"}}};
 }
 
 }  // namespace impinge

@@ -16,7 +16,8 @@ void draw(const LayerContext& context, DrawList& list) {
     std::vector<Vec3> world;
     for (const Eigen::Vector3f& p : surface->positions) world.push_back(body.pose.apply(p.cast<double>()));
     const Color color = over_surfaces ? with_alpha(role::kOutline, 0.6f) : with_alpha(colors[i], 0.8f);
-    for (const auto& [a, b] : surface->edges) list.lines.push_back({world[a], world[b], color, width, Depth::tested, body_pick(i)});
+    for (const auto& [a, b] : surface->edges)
+      list.lines.push_back({world[a], world[b], color, width, Depth::tested, body_pick(i)});
   }
 }
 

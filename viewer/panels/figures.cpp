@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "viewer/panels/panels.hpp"
 
@@ -37,8 +37,12 @@ std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   };
   if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), kWarning});
   if (timings)
-    for (const auto& [name, ms] : {std::pair{"broad", s.times.broad_ms}, {"narrow", s.times.narrow_ms}, {"assemble", s.times.assemble_ms},
-                                   {"response", s.times.response_ms}, {"integrate", s.times.integrate_ms}, {"step", s.times.step_ms}})
+    for (const auto& [name, ms] : {std::pair{"broad", s.times.broad_ms},
+                                   {"narrow", s.times.narrow_ms},
+                                   {"assemble", s.times.assemble_ms},
+                                   {"response", s.times.response_ms},
+                                   {"integrate", s.times.integrate_ms},
+                                   {"step", s.times.step_ms}})
       rows.push_back({name, fmt::format("{:.2f} ms", ms)});
   return rows;
 }
@@ -49,7 +53,8 @@ PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSetti
   if (!settings.show_figures) return {};
   const std::vector<Row> rows = rows_of(record, settings.show_timings);
   const float u = pen.unit;
-  float labels = 0.0f, values = pen.text_width("0.0000000 mm");  // wide enough that it seldom changes from frame to frame
+  float labels = 0.0f,
+        values = pen.text_width("0.0000000 mm");  // wide enough that it seldom changes from frame to frame
   for (const Row& row : rows) {
     labels = std::max(labels, pen.text_width(row.label));
     values = std::max(values, pen.text_width(row.value));

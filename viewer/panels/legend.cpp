@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <imgui.h>
+#include <algorithm>
 
 #include "viewer/panels/panels.hpp"
 
@@ -17,15 +17,20 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
   const ImU32 ink = packed(row.color), dark = packed(role::kOutline);
   ImDrawList& list = pen.list;
   switch (row.mark) {
-    case LegendRow::area: list.AddRectFilled({x + 2.0f * u, y + 1.0f * u}, {right - 2.0f * u, y + 12.0f * u}, ink, 2.0f * u); break;
+    case LegendRow::area:
+      list.AddRectFilled({x + 2.0f * u, y + 1.0f * u}, {right - 2.0f * u, y + 12.0f * u}, ink, 2.0f * u);
+      break;
     case LegendRow::point:
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.4f * u, dark, 24);
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 4.2f * u, ink, 24);
       break;
-    case LegendRow::line: list.AddLine({x, middle}, {right, middle}, ink, 1.6f * u); break;
+    case LegendRow::line:
+      list.AddLine({x, middle}, {right, middle}, ink, 1.6f * u);
+      break;
     case LegendRow::arrow:
       list.AddLine({x, middle}, {right - 6.0f * u, middle}, ink, 2.2f * u);
-      list.AddTriangleFilled({right - 8.0f * u, middle - 4.0f * u}, {right - 8.0f * u, middle + 4.0f * u}, {right, middle}, ink);
+      list.AddTriangleFilled({right - 8.0f * u, middle - 4.0f * u}, {right - 8.0f * u, middle + 4.0f * u},
+                             {right, middle}, ink);
       break;
   }
 }
@@ -47,7 +52,8 @@ PanelArea draw_legend(const Pen& pen, const ViewSettings& settings, const PanelA
   area.x = pen.picture_width - kMargin * u - area.width;
   area.y = kMargin * u;
   const bool meets = other.width > 0.0f && area.x < other.x + other.width + kMargin * u;
-  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * kMargin * u > pen.picture_height) return {};
+  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * kMargin * u > pen.picture_height)
+    return {};
   pen.sheet(area.x, area.y, area.width, area.height);
   float y = area.y + kPadding * u;
   for (const LegendRow& row : rows) {

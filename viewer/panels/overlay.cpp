@@ -15,7 +15,9 @@ ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.
 
 }  // namespace
 
-float Pen::text_width(const std::string& text) const { return font.CalcTextSizeA(text_size, FLT_MAX, 0.0f, text.c_str()).x; }
+float Pen::text_width(const std::string& text) const {
+  return font.CalcTextSizeA(text_size, FLT_MAX, 0.0f, text.c_str()).x;
+}
 
 void Pen::text(float x, float y, Color color, const std::string& text) const {
   list.AddText(&font, text_size, {x, y}, packed(color), text.c_str());
@@ -23,7 +25,8 @@ void Pen::text(float x, float y, Color color, const std::string& text) const {
 
 void Pen::sheet(float x, float y, float width, float height) const {
   list.AddRectFilled({x, y}, {x + width, y + height}, packed(hex(0x12151a, 0.78f)), 5.0f * unit);
-  list.AddRect({x + 0.5f, y + 0.5f}, {x + width - 0.5f, y + height - 0.5f}, packed(hex(0xffffff, 0.10f)), 5.0f * unit, 0, unit);
+  list.AddRect({x + 0.5f, y + 0.5f}, {x + width - 0.5f, y + height - 0.5f}, packed(hex(0xffffff, 0.10f)), 5.0f * unit,
+               0, unit);
 }
 
 Overlay::Overlay(int scale) : scale_(scale) {
@@ -57,7 +60,8 @@ void Overlay::draw(int width, int height, const std::function<void(const Pen&)>&
   io.DeltaTime = 1.0f / 60.0f;
   ImGui::NewFrame();
   const float unit = static_cast<float>(scale_);
-  const Pen pen{*ImGui::GetBackgroundDrawList(), *ImGui::GetFont(), 13.0f * unit, unit, io.DisplaySize.x, io.DisplaySize.y};
+  const Pen pen{
+      *ImGui::GetBackgroundDrawList(), *ImGui::GetFont(), 13.0f * unit, unit, io.DisplaySize.x, io.DisplaySize.y};
   paint(pen);
   ImGui::Render();
   backend_->draw(*ImGui::GetDrawData());

@@ -50,7 +50,9 @@ std::string FramePainter::renderer_name() const { return parts_->context->render
 void FramePainter::paint(const StepRecord& record, const ViewSettings& settings, Image& out) {
   Parts& p = *parts_;
   p.context->make_current();
-  const Camera camera = settings.camera_given ? settings.camera : fitted_camera(record, settings.camera, static_cast<double>(p.width) / p.height);
+  const Camera camera = settings.camera_given
+                            ? settings.camera
+                            : fitted_camera(record, settings.camera, static_cast<double>(p.width) / p.height);
 
   p.list.clear();
   const LayerContext context{record, settings, camera, p.surfaces};

@@ -10,7 +10,8 @@
 
 namespace impinge {
 
-/// The same record and settings give the same pixels, whatever was painted before. Use one painter in one thread at a time.
+/// The same record and settings give the same pixels, whatever was painted before. Use one painter in one thread at a
+/// time.
 class FramePainter {
  public:
   /// Throws std::runtime_error if there is no OpenGL, InternalError if the picture is too large for it.
