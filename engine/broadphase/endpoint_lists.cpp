@@ -30,7 +30,8 @@ void EndpointLists::build(std::span<const Aabb> boxes) {
   }
 }
 
-bool EndpointLists::update_axis(int axis, std::span<const Aabb> before, std::span<const Aabb> now, std::size_t max_swaps) {
+bool EndpointLists::update_axis(int axis, std::span<const Aabb> before, std::span<const Aabb> now,
+                                std::size_t max_swaps) {
   std::vector<Endpoint>& list = lists_[axis];
   for (std::size_t i = 0; i < list.size(); ++i) {
     Endpoint moving = list[i];
@@ -40,8 +41,8 @@ bool EndpointLists::update_axis(int axis, std::span<const Aabb> before, std::spa
     std::size_t j = i;
     for (; j > 0 && EndpointLists::before(moving, list[j - 1]); --j) {
       const Endpoint& passed = list[j - 1];
-      // an inner pair of ends swaps at most once, so a swap tells what holds at the end of the pass on this axis; the two
-      // boxes themselves tell about the other axes
+      // an inner pair of ends swaps at most once, so a swap tells what holds at the end of the pass on this axis; the
+      // two boxes themselves tell about the other axes
       if ((passed.key ^ moving.key) & 1u) {
         const std::uint32_t other = passed.key >> 1;
         if (upper) {

@@ -1,6 +1,6 @@
-// The incremental half of sweep and prune [Haapaoja16 §3.1]: three sorted lists of box ends, kept from frame to frame and
-// sorted again by insertion. Every change of the overlap set shows as a swap of one box's lower end with another's upper
-// end, so n boxes with s swaps cost O(n + s).
+// The incremental half of sweep and prune [Haapaoja16 §3.1]: three sorted lists of box ends, kept from frame to frame
+// and sorted again by insertion. Every change of the overlap set shows as a swap of one box's lower end with another's
+// upper end, so n boxes with s swaps cost O(n + s).
 #pragma once
 
 #include <span>

@@ -15,7 +15,6 @@ constexpr double kMaxCopies = 2.0;
 /// Lower ends from which the quantiles are taken.
 constexpr std::size_t kSample = 128;
 
-
 float below(double x) {
   const float f = static_cast<float>(x);
   return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
@@ -39,8 +38,10 @@ void PrunedSweep::sort_by_x(std::span<const Aabb> boxes) {
   scratch_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Aabb& b = boxes[i];
-    scratch_[i] = {{below(b.min.x()), below(b.min.y()), below(b.min.z())}, {above(b.max.x()), above(b.max.y()), above(b.max.z())},
-                   static_cast<std::uint32_t>(i), 3u};
+    scratch_[i] = {{below(b.min.x()), below(b.min.y()), below(b.min.z())},
+                   {above(b.max.x()), above(b.max.y()), above(b.max.z())},
+                   static_cast<std::uint32_t>(i),
+                   3u};
   }
   if (count < 256) {
     std::sort(scratch_.begin(), scratch_.end(),
@@ -51,7 +52,8 @@ void PrunedSweep::sort_by_x(std::span<const Aabb> boxes) {
   // radix sort of (key, index), 11 bits a pass; the entries move once
   found_.resize(count);
   ordered_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) found_[i] = static_cast<std::uint64_t>(radix_key(scratch_[i].min[0])) << 32 | i;
+  for (std::size_t i = 0; i < count; ++i)
+    found_[i] = static_cast<std::uint64_t>(radix_key(scratch_[i].min[0])) << 32 | i;
   for (int shift = 32; shift < 64; shift += 11) {
     std::array<std::uint32_t, 2048> place{};
     for (std::uint64_t v : found_) ++place[v >> shift & 2047];
@@ -73,8 +75,8 @@ void PrunedSweep::sweep(std::span<const Entry> entries) {
     for (std::size_t j = i + 1; j < entries.size() && entries[j].min[0] <= a.max[0]; ++j) {
       const Entry& b = entries[j];
       // of the columns that two boxes share, the one where the later of them starts, in y and z, reports the pair
-      const bool hit = (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) & (b.min[2] <= a.max[2]) &
-                       ((a.starts | b.starts) == 3u);
+      const bool hit = (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) &
+                       (b.min[2] <= a.max[2]) & ((a.starts | b.starts) == 3u);
       if (hit) found_.push_back(static_cast<std::uint64_t>(std::min(a.id, b.id)) << 32 | std::max(a.id, b.id));
     }
   }
@@ -153,7 +155,8 @@ void PrunedSweep::divide(std::span<const Entry> entries, int axis, int depth, in
     return;
   }
   for (std::size_t s = 0; s + 1 < strips_of.begin.size(); ++s) {
-    const std::size_t begin = static_cast<std::size_t>(strips_of.begin[s]), end = static_cast<std::size_t>(strips_of.begin[s + 1]);
+    const std::size_t begin = static_cast<std::size_t>(strips_of.begin[s]),
+                      end = static_cast<std::size_t>(strips_of.begin[s + 1]);
     divide(std::span<const Entry>(strips_of.entries).subspan(begin, end - begin), 3 - axis, depth + 1, 0);
   }
 }
@@ -171,7 +174,8 @@ void PrunedSweep::output(std::span<const Aabb> boxes, std::vector<BoxPair>& pair
   for (std::uint64_t v : found_) ++row_[(v >> 32) + 1];
   for (std::size_t i = 0; i < boxes.size(); ++i) row_[i + 1] += row_[i];
   pairs.resize(found_.size());
-  for (std::uint64_t v : found_) pairs[row_[v >> 32]++] = {static_cast<int>(v >> 32), static_cast<int>(v & 0xffffffffu)};
+  for (std::uint64_t v : found_)
+    pairs[row_[v >> 32]++] = {static_cast<int>(v >> 32), static_cast<int>(v & 0xffffffffu)};
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < boxes.size(); ++i) {  // row_[i] is now the end of row i
     const std::uint32_t end = row_[i];
@@ -179,7 +183,8 @@ void PrunedSweep::output(std::span<const Aabb> boxes, std::vector<BoxPair>& pair
       std::sort(pairs.begin() + begin, pairs.begin() + end);
     } else {
       for (std::uint32_t k = begin + 1; k < end; ++k)
-        for (std::uint32_t m = k; m > begin && pairs[m].second < pairs[m - 1].second; --m) std::swap(pairs[m], pairs[m - 1]);
+        for (std::uint32_t m = k; m > begin && pairs[m].second < pairs[m - 1].second; --m)
+          std::swap(pairs[m], pairs[m - 1]);
     }
     begin = end;
   }

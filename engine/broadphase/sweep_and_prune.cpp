@@ -11,8 +11,8 @@
 namespace impinge {
 namespace {
 
-/// Swaps a box that cost as much as the full sweep (measured: about 3 ns a swap, 100 ns a box), and so the bound.
-constexpr double kSwapsPerBox = 24.0;
+/// Swaps a box that cost as much as the full sweep (measured: about 15 ns a swap, 200 ns a box), and so the bound.
+constexpr double kSwapsPerBox = 12.0;
 /// Frames without an attempt after one that was given up; doubles each time up to the second number.
 constexpr int kPatience = 8, kMaxPatience = 1024;
 
@@ -98,7 +98,8 @@ class SweepAndPrune : public BroadPhase {
 }  // namespace
 
 Entry<BroadPhase> sweep_and_prune_broad_phase() {
-  return entry<BroadPhase, SweepAndPrune>("sweep_and_prune", "Sorted box ends, followed from frame to frame; a full sweep when much has moved.");
+  return entry<BroadPhase, SweepAndPrune>(
+      "sweep_and_prune", "Sorted box ends, followed from frame to frame; a full sweep when much has moved.");
 }
 
 }  // namespace impinge

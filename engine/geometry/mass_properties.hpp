@@ -8,9 +8,9 @@ namespace impinge {
 
 /// Of a solid of uniform density.
 struct MassProperties {
-  double mass = 0.0;             ///< kg; <= 0 for a mesh that is inside out or encloses nothing: the caller says so
-  Vec3 center = Vec3::Zero();    ///< centre of mass, in the axes of the shape, metres
-  Mat3 inertia = Mat3::Zero();   ///< about `center`, kg·m², in the axes of the shape
+  double mass = 0.0;            ///< kg; <= 0 for a mesh that is inside out or encloses nothing: the caller says so
+  Vec3 center = Vec3::Zero();   ///< centre of mass, in the axes of the shape, metres
+  Mat3 inertia = Mat3::Zero();  ///< about `center`, kg·m², in the axes of the shape
 };
 
 /// Signed volume that a closed mesh encloses, m³; negative when its triangles face inwards.

@@ -12,7 +12,9 @@ namespace impinge {
 namespace {
 
 /// "3 border edges", "1 border edge".
-std::string counted(int count, std::string_view noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
+std::string counted(int count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
 
 bool traverses(const Triangle& t, int from, int to) {
   for (int k = 0; k < 3; ++k)
@@ -33,21 +35,27 @@ const MeshTopology::Edge* first_nonmanifold(const MeshTopology& topology) {
 }  // namespace
 
 std::optional<std::string> check_indices(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return "has no triangles: a closed surface is needed; export faces, not only points or lines";
+  if (mesh.triangles.empty())
+    return "has no triangles: a closed surface is needed; export faces, not only points or lines";
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!mesh.vertices[v].allFinite())
-      return fmt::format("has a vertex that is not finite: vertex {} is ({}, {}, {}); export it again or remove that vertex", v,
-                         mesh.vertices[v].x(), mesh.vertices[v].y(), mesh.vertices[v].z());
+      return fmt::format(
+          "has a vertex that is not finite: vertex {} is ({}, {}, {}); export it again or remove that vertex", v,
+          mesh.vertices[v].x(), mesh.vertices[v].y(), mesh.vertices[v].z());
   const int count = static_cast<int>(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     for (int v : t)
       if (v < 0 || v >= count)
-        return fmt::format("has an index out of range: triangle {} names vertex {}, allowed are 0 to {}; the file is damaged, export it again",
-                           i, v, count - 1);
+        return fmt::format(
+            "has an index out of range: triangle {} names vertex {}, allowed are 0 to {}; the file is damaged, export "
+            "it again",
+            i, v, count - 1);
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-      return fmt::format("has a degenerate triangle: triangle {} has the corners {}, {} and {}; remove it or merge its neighbours' vertices",
-                         i, t[0], t[1], t[2]);
+      return fmt::format(
+          "has a degenerate triangle: triangle {} has the corners {}, {} and {}; remove it or merge its neighbours' "
+          "vertices",
+          i, t[0], t[1], t[2]);
   }
   return std::nullopt;
 }
@@ -56,25 +64,32 @@ std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopolo
   if (auto problem = check_indices(mesh)) return problem;
   if (topology.nonmanifold_edges > 0)
     if (const MeshTopology::Edge* edge = first_nonmanifold(topology))
-      return fmt::format("is not manifold: {} with three or more triangles, first between vertices {} and {}; "
-                         "separate the parts that meet there or remove inner walls",
-                         counted(topology.nonmanifold_edges, "edge"), edge->v0, edge->v1);
+      return fmt::format(
+          "is not manifold: {} with three or more triangles, first between vertices {} and {}; "
+          "separate the parts that meet there or remove inner walls",
+          counted(topology.nonmanifold_edges, "edge"), edge->v0, edge->v1);
   if (topology.border_edges > 0)
     for (const MeshTopology::Edge& edge : topology.edges)
       if (edge.triangle1 < 0)
-        return fmt::format("is not closed: {}, first between vertices {} and {}; fill the holes or merge vertices that lie close together",
-                           counted(topology.border_edges, "border edge"), edge.v0, edge.v1);
+        return fmt::format(
+            "is not closed: {}, first between vertices {} and {}; fill the holes or merge vertices that lie close "
+            "together",
+            counted(topology.border_edges, "border edge"), edge.v0, edge.v1);
   if (topology.misoriented_edges > 0)
     for (const MeshTopology::Edge& edge : topology.edges) {
       if (edge.triangle1 < 0) continue;
-      if (traverses(mesh.triangles[edge.triangle0], edge.v0, edge.v1) == traverses(mesh.triangles[edge.triangle1], edge.v0, edge.v1))
-        return fmt::format("is not oriented: neighbouring triangles face opposite ways across {}, first triangles {} and {} "
-                           "at vertices {} and {}; make the normals consistent",
-                           counted(topology.misoriented_edges, "edge"), edge.triangle0, edge.triangle1, edge.v0, edge.v1);
+      if (traverses(mesh.triangles[edge.triangle0], edge.v0, edge.v1) ==
+          traverses(mesh.triangles[edge.triangle1], edge.v0, edge.v1))
+        return fmt::format(
+            "is not oriented: neighbouring triangles face opposite ways across {}, first triangles {} and {} "
+            "at vertices {} and {}; make the normals consistent",
+            counted(topology.misoriented_edges, "edge"), edge.triangle0, edge.triangle1, edge.v0, edge.v1);
     }
   const double volume = signed_volume(mesh);
   if (volume < 0.0)
-    return fmt::format("is inside out: its triangles face inwards (volume {:.6g} m³); flip the order of each triangle's corners", volume);
+    return fmt::format(
+        "is inside out: its triangles face inwards (volume {:.6g} m³); flip the order of each triangle's corners",
+        volume);
   if (!(volume > 0.0)) return "encloses no volume: it is flat; give it a thickness";
   return std::nullopt;
 }

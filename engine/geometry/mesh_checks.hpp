@@ -8,19 +8,20 @@
 namespace impinge {
 
 /// The first problem that even make_topology can't take (no triangles, a coordinate that isn't finite, an index out of
-/// range, a triangle that names a vertex twice), worded to follow the mesh's name, with a remedy; nothing if there is none.
+/// range, a triangle that names a vertex twice), worded to follow the mesh's name, with a remedy; nothing if there is
+/// none.
 std::optional<std::string> check_indices(const TriangleMesh& mesh);
 
 /// The first problem that keeps the mesh from bounding a solid, in this order: those of check_indices, edges with three
-/// or more triangles, border edges, neighbours of opposite orientation, no or negative volume. Worded to follow the mesh's
-/// name ("is not closed: 3 border edges, first between vertices 0 and 7; ..."), with a remedy.
+/// or more triangles, border edges, neighbours of opposite orientation, no or negative volume. Worded to follow the
+/// mesh's name ("is not closed: 3 border edges, first between vertices 0 and 7; ..."), with a remedy.
 std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopology& topology);
 
 /// A mesh whose vertices of exactly equal position are one.
 struct WeldedMesh {
   TriangleMesh mesh;
-  std::vector<int> new_vertex;      ///< new index of each old vertex
-  std::vector<int> old_triangle;    ///< old index of each new triangle (those left with two equal corners are gone)
+  std::vector<int> new_vertex;    ///< new index of each old vertex
+  std::vector<int> old_triangle;  ///< old index of each new triangle (those left with two equal corners are gone)
 };
 
 /// Vertices of equal coordinates (0 equals -0) become the first of them; the order is kept. No tolerance: files repeat

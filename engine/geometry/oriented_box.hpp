@@ -34,11 +34,11 @@ struct OrientedBox {
 
 /// Where the surface of a box is nearest to a point.
 struct NearestOnBox {
-  double distance = 0.0;              ///< signed: negative inside
-  Vec3 point = Vec3::Zero();          ///< on the surface, world
-  Vec3 normal = Vec3::Zero();         ///< unit, outward; defined everywhere, also on the surface and in the centre
-  std::array<int, 3> side{};          ///< -1, 0, 1 for each axis; one entry that isn't 0: face, two: edge, three: corner
-  int beyond = 0;                     ///< how many entries of `side` aren't 0
+  double distance = 0.0;       ///< signed: negative inside
+  Vec3 point = Vec3::Zero();   ///< on the surface, world
+  Vec3 normal = Vec3::Zero();  ///< unit, outward; defined everywhere, also on the surface and in the centre
+  std::array<int, 3> side{};   ///< -1, 0, 1 for each axis; one entry that isn't 0: face, two: edge, three: corner
+  int beyond = 0;              ///< how many entries of `side` aren't 0
 };
 
 inline NearestOnBox nearest_on_box(const OrientedBox& box, const Vec3& x) {

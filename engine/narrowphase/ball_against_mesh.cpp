@@ -29,11 +29,13 @@ class BallTest {
     const bool inside = (ball_.center - nearest_.point).dot(mesh_.normal(nearest_.feature)) < 0.0;
     if (inside) {
       // all around a point inside are local minima; only the nearest is the way out
-      add(nearest_, distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
+      add(nearest_,
+          distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
       return true;
     }
     // faces before edges before vertices: a centre right above an edge belongs to the face
-    std::stable_sort(close_.begin(), close_.end(), [](const Nearest& l, const Nearest& r) { return l.feature.kind > r.feature.kind; });
+    std::stable_sort(close_.begin(), close_.end(),
+                     [](const Nearest& l, const Nearest& r) { return l.feature.kind > r.feature.kind; });
     for (const Nearest& n : close_) {
       if (is_known(n) || !is_minimum(n)) continue;
       known_.push_back(n);
@@ -44,7 +46,9 @@ class BallTest {
   }
 
  private:
-  static double distance_sq(const Aabb& box, const Vec3& x) { return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm(); }
+  static double distance_sq(const Aabb& box, const Vec3& x) {
+    return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
+  }
 
   /// Collects what lies within reach, and the nearest of all if the centre may be inside.
   void search() {
@@ -88,7 +92,8 @@ class BallTest {
   void look_ahead() {
     const ContactQuery& query = sink_.query();
     if (!query.proximity || !(query.time_step > 0.0)) return;
-    const Vec3 way = query.time_step * (sink_.first().velocity_at(ball_.center) - sink_.second().velocity_at(ball_.center));
+    const Vec3 way =
+        query.time_step * (sink_.first().velocity_at(ball_.center) - sink_.second().velocity_at(ball_.center));
     if (way.norm() <= query.activation) return;
     Aabb swept;
     swept.include(ball_.center);
@@ -132,7 +137,9 @@ class BallTest {
 
 }  // namespace
 
-bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball) { return BallTest(sink, mesh, ball).run(); }
+bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball) {
+  return BallTest(sink, mesh, ball).run();
+}
 
 std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box) {
   std::vector<int> near;

@@ -14,9 +14,9 @@ struct Ball {
   int index = 0;
 };
 
-/// Adds the contacts of a ball with the mesh that is the sink's second shape. A centre outside gives one contact for each
-/// local minimum of its distance to the surface (a ball on a tessellated plane has one, wherever it rolls); a centre
-/// inside gives one, out through the nearest point. Returns whether the centre is inside.
+/// Adds the contacts of a ball with the mesh that is the sink's second shape. A centre outside gives one contact for
+/// each local minimum of its distance to the surface (a ball on a tessellated plane has one, wherever it rolls); a
+/// centre inside gives one, out through the nearest point. Returns whether the centre is inside.
 bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball);
 
 /// Bounds of triangle t of the mesh.

@@ -14,7 +14,8 @@ double approach_speed(const Collider& a, const Collider& b) {
   const Vec3 center = bounded.bounds.center();
   // the points of a contact lie within the bounded collider or a gap away from it; twice its radius covers what matters
   const double radius = bounded.bounds.extent().norm();
-  double speed = (a.velocity_at(center) - b.velocity_at(center)).norm() + (a.angular_velocity - b.angular_velocity).norm() * radius;
+  double speed = (a.velocity_at(center) - b.velocity_at(center)).norm() +
+                 (a.angular_velocity - b.angular_velocity).norm() * radius;
   for (const Collider* c : {&a, &b}) {
     double extra_sq = 0.0;
     for (std::size_t i = 0; i < c->vertex_velocities.size(); ++i)
@@ -35,11 +36,12 @@ Vec3 material_velocity(const Collider& collider, const Vec3& point, int triangle
   if (!(area_sq > 0.0)) return collider.vertex_velocities[t[0]];
   const double v = (point - a).cross(c - a).dot(normal) / area_sq;
   const double w = (b - a).cross(point - a).dot(normal) / area_sq;
-  return (1.0 - v - w) * collider.vertex_velocities[t[0]] + v * collider.vertex_velocities[t[1]] + w * collider.vertex_velocities[t[2]];
+  return (1.0 - v - w) * collider.vertex_velocities[t[0]] + v * collider.vertex_velocities[t[1]] +
+         w * collider.vertex_velocities[t[2]];
 }
 
-ContactSink::ContactSink(std::span<const Collider> colliders, const BodyPair& pair, bool swapped, const ContactQuery& query,
-                         std::vector<Collision>& contacts)
+ContactSink::ContactSink(std::span<const Collider> colliders, const BodyPair& pair, bool swapped,
+                         const ContactQuery& query, std::vector<Collision>& contacts)
     : first_(&colliders[swapped ? pair.b : pair.a]),
       second_(&colliders[swapped ? pair.a : pair.b]),
       pair_(pair),

@@ -40,8 +40,8 @@ class ContactSink {
   bool add(const Candidate& candidate);
   /// The same, unless this sink already has a contact of the same two features.
   bool add_new(const Candidate& candidate);
-  /// Whether this sink has a contact no farther than `distance` from a candidate's point on the first shape, whose gap is
-  /// no larger than the candidate's by more than `tie`: the candidate would say nothing new.
+  /// Whether this sink has a contact no farther than `distance` from a candidate's point on the first shape, whose gap
+  /// is no larger than the candidate's by more than `tie`: the candidate would say nothing new.
   bool covers(const Candidate& candidate, double distance, double tie) const;
 
  private:

@@ -6,12 +6,12 @@
 namespace impinge {
 namespace {
 
-/// A corner of the clipped polygon. `edge` is where the polygon's side from this corner to the next lies: an edge of the
-/// incident box (>= 0) or, below zero, ~p on side plane p of the reference face.
+/// A corner of the clipped polygon. `edge` is where the polygon's side from this corner to the next lies: an edge of
+/// the incident box (>= 0) or, below zero, ~p on side plane p of the reference face.
 struct Corner {
   Vec3 point;
-  int vertex = -1;    ///< of the incident box, if the corner is one
-  int crossed = -1;   ///< side plane of the reference face that cut the incident edge `cut_edge` here
+  int vertex = -1;   ///< of the incident box, if the corner is one
+  int crossed = -1;  ///< side plane of the reference face that cut the incident edge `cut_edge` here
   int cut_edge = -1;
   int edge = 0;
 };
@@ -49,8 +49,8 @@ Polygon clip(const Polygon& polygon, const Vec3& normal, double offset, int plan
 
 }  // namespace
 
-void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const OrientedBox& incident, int axis, const Vec3& outward,
-                       bool reference_is_first, bool overlapping) {
+void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const OrientedBox& incident, int axis,
+                       const Vec3& outward, bool reference_is_first, bool overlapping) {
   const int side = reference.axes.col(axis).dot(outward) < 0.0 ? 0 : 1;
   const double face_offset = outward.dot(reference.center) + reference.half[axis];
   const int reference_face = 2 * axis + side;
@@ -104,7 +104,8 @@ void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const Or
 
   // corners closer than this are one: 1e-4 of the smaller face, far above rounding and far below what a contact's
   // place matters to its torque
-  const double merge = 1e-4 * std::min(std::min(reference.half[ru], reference.half[rv]), std::min(incident.half[u], incident.half[v]));
+  const double merge =
+      1e-4 * std::min(std::min(reference.half[ru], reference.half[rv]), std::min(incident.half[u], incident.half[v]));
   struct Found {
     Candidate candidate;
     double height;
@@ -160,8 +161,8 @@ void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const Or
     int same = -1;
     for (int j = 0; j < count && same < 0; ++j) {
       const Candidate& o = found[j].candidate;
-      const bool one_key = o.kind_first == c.kind_first && o.index_first == c.index_first && o.kind_second == c.kind_second &&
-                           o.index_second == c.index_second;
+      const bool one_key = o.kind_first == c.kind_first && o.index_first == c.index_first &&
+                           o.kind_second == c.kind_second && o.index_second == c.index_second;
       if (one_key || (o.point_first - c.point_first).norm() <= merge) same = j;
     }
     if (same < 0)

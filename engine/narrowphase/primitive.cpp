@@ -22,7 +22,8 @@ constexpr Test kTests[5][5] = {
 
 }  // namespace
 
-void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pair, const ContactQuery& query, std::vector<Collision>& contacts) {
+void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pair, const ContactQuery& query,
+                        std::vector<Collision>& contacts) {
   const std::size_t a = colliders[pair.a].shape->index(), b = colliders[pair.b].shape->index();
   const bool swapped = a > b;
   const Test test = swapped ? kTests[b][a] : kTests[a][b];

@@ -8,8 +8,8 @@
 namespace impinge {
 namespace {
 
-/// Normals within about 14 degrees of a face's get that face's manifold too: a box that lands nearly flat is held by all
-/// the points it is about to rest on, not by its lowest one alone.
+/// Normals within about 14 degrees of a face's get that face's manifold too: a box that lands nearly flat is held by
+/// all the points it is about to rest on, not by its lowest one alone.
 constexpr double kNearlyFace = 0.97;
 
 struct FaceAxis {
@@ -25,8 +25,8 @@ struct EdgeAxis {
   Vec3 normal = Vec3::UnitY();
 };
 
-/// Edges of a crossing that is a contact by itself are numbered from here on; the manifold's crossings, whose points lie
-/// above a face instead, have the same two edges from 0 on.
+/// Edges of a crossing that is a contact by itself are numbered from here on; the manifold's crossings, whose points
+/// lie above a face instead, have the same two edges from 0 on.
 constexpr int kCrossing = 12;
 
 struct Boxes {
@@ -44,7 +44,8 @@ FaceAxis best_face(const Boxes& boxes) {
     const double along = axis.dot(offset);
     const double separation = std::abs(along) - owner.half[i % 3] - other.radius_along(axis);
     // strictly better by more than rounding: equal faces go to the first box and the first axis, in every step
-    if (i == 0 || separation > best.separation + boxes.tie) best = {separation, i < 3, i % 3, along < 0.0 ? Vec3(-axis) : axis};
+    if (i == 0 || separation > best.separation + boxes.tie)
+      best = {separation, i < 3, i % 3, along < 0.0 ? Vec3(-axis) : axis};
   }
   return best;
 }
@@ -87,8 +88,8 @@ void overlapping(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, co
   const int edge_first = OrientedBox::edge_of(edge.axis_first, support(boxes.first, -edge.normal));
   const int edge_second = OrientedBox::edge_of(edge.axis_second, support(boxes.second, edge.normal));
   const auto a = OrientedBox::edge_corners(edge_first), b = OrientedBox::edge_corners(edge_second);
-  const SegmentSegment closest = closest_between_segments(boxes.first.corner(a[0]), boxes.first.corner(a[1]), boxes.second.corner(b[0]),
-                                                          boxes.second.corner(b[1]));
+  const SegmentSegment closest = closest_between_segments(boxes.first.corner(a[0]), boxes.first.corner(a[1]),
+                                                          boxes.second.corner(b[0]), boxes.second.corner(b[1]));
   Candidate c;
   c.normal = edge.normal;
   c.point_first = closest.point0;
@@ -165,7 +166,8 @@ void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
     const Vec3 p0 = boxes.first.corner(a[0]), p1 = boxes.first.corner(a[1]);
     for (int j = 0; j < 12; ++j) {
       const auto b = OrientedBox::edge_corners(j);
-      const SegmentSegment closest = closest_between_segments(p0, p1, boxes.second.corner(b[0]), boxes.second.corner(b[1]));
+      const SegmentSegment closest =
+          closest_between_segments(p0, p1, boxes.second.corner(b[0]), boxes.second.corner(b[1]));
       const Vec3 offset = closest.point0 - closest.point1;
       const double length = offset.norm();
       if (!(length < distance - boxes.tie)) continue;

@@ -1,5 +1,6 @@
-// Box against mesh. A box is a polyhedron: its contacts are those of two meshes, one of which has twelve triangles, with
-// the box's own frame as the search structure. The box still counts as an exact shape: triangle -1, features of the box.
+// Box against mesh. A box is a polyhedron: its contacts are those of two meshes, one of which has twelve triangles,
+// with the box's own frame as the search structure. The box still counts as an exact shape: triangle -1, features of
+// the box.
 #include <algorithm>
 
 #include "engine/narrowphase/ball_against_mesh.hpp"
@@ -12,8 +13,9 @@ namespace {
 
 constexpr std::uint64_t kIndex = 0x3fffffffu;  // of a feature key: the index's bits
 
-/// A feature key whose first feature is of the box's triangles, in terms of the box: the two triangles of a side and the
-/// diagonal between them are one face (number: 0 to 5 for -z, +z, -y, +y, -x, +x as make_box_mesh lists them), so that no contact changes its name when it crosses the diagonal.
+/// A feature key whose first feature is of the box's triangles, in terms of the box: the two triangles of a side and
+/// the diagonal between them are one face (number: 0 to 5 for -z, +z, -y, +y, -x, +x as make_box_mesh lists them), so
+/// that no contact changes its name when it crosses the diagonal.
 std::uint64_t with_box_feature(std::uint64_t key, const MeshTopology& box) {
   Feature kind = static_cast<Feature>(key >> 62);
   int index = static_cast<int>(key >> 32 & kIndex);
@@ -55,15 +57,19 @@ void box_mesh(ContactSink& sink) {
   const ContactQuery& query = sink.query();
   const OrientedBox oriented = world_box(sink.first());
   // as for two meshes, fast bodies widen the search by one edge length at most
-  const double margin = query.activation + std::min(sink.reach(), std::max(2.0 * oriented.half.maxCoeff(), mesh.mean_edge));
+  const double margin =
+      query.activation + std::min(sink.reach(), std::max(2.0 * oriented.half.maxCoeff(), mesh.mean_edge));
   const SurfaceView view(mesh, 1);
   // wider by rounding: triangles that touch the box must not be lost
   const Vec3 reach = oriented.half + Vec3::Constant(margin + 1e-9 * (margin + oriented.half.sum()));
   const Vec3 extent = oriented.axes.cwiseAbs() * reach;
   std::vector<int> near;
-  for (int t : triangles_near(view, static_cast<int>(mesh.mesh().mesh.triangles.size()), {oriented.center - extent, oriented.center + extent})) {
+  for (int t : triangles_near(view, static_cast<int>(mesh.mesh().mesh.triangles.size()),
+                              {oriented.center - extent, oriented.center + extent})) {
     const TriangleCorners c = view.corners(t);
-    if (overlap(bounds_of(oriented.to_local(c[0]), oriented.to_local(c[1]), oriented.to_local(c[2])), Aabb{-reach, reach})) near.push_back(t);
+    if (overlap(bounds_of(oriented.to_local(c[0]), oriented.to_local(c[1]), oriented.to_local(c[2])),
+                Aabb{-reach, reach}))
+      near.push_back(t);
   }
   if (near.empty()) {
     add_enclosed_box(sink, view);
@@ -93,13 +99,16 @@ void box_mesh(ContactSink& sink) {
   proximity_contacts(local, pair, triangles, query.activation, query.proximity ? query.time_step : 0.0, found);
   const MeshTopology& topology = box.mesh().topology;
   for (Collision& f : found) f.feature = with_box_feature(f.feature, topology);
-  std::stable_sort(found.begin(), found.end(), [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
   for (const Collision& f : found) {
     Candidate c;
     c.point_first = f.point_a;
     c.point_second = f.point_b;
     c.normal = f.normal;
-    c.owner = f.normal_owner == 0 ? NormalOwner::first : f.normal_owner == 1 ? NormalOwner::second : NormalOwner::neither;
+    c.owner = f.normal_owner == 0   ? NormalOwner::first
+              : f.normal_owner == 1 ? NormalOwner::second
+                                    : NormalOwner::neither;
     c.kind_first = static_cast<Feature>(f.feature >> 62);
     c.index_first = static_cast<int>(f.feature >> 32 & kIndex);
     c.kind_second = static_cast<Feature>(f.feature >> 30 & 3u);

@@ -25,15 +25,15 @@ void set_feature(Feature& kind, int& index, double t, int place) {
 
 struct BoxSegment {
   ContactSink& sink;
-  OrientedBox box;      ///< the first shape
-  double radius;        ///< of the second shape
-  Vec3 p0, d;           ///< the segment p0 + t d, 0 <= t <= 1, in the box's axes
-  double size;          ///< a length to compare rounding with
+  OrientedBox box;  ///< the first shape
+  double radius;    ///< of the second shape
+  Vec3 p0, d;       ///< the segment p0 + t d, 0 <= t <= 1, in the box's axes
+  double size;      ///< a length to compare rounding with
 
   Vec3 at(double t) const { return p0 + t * d; }
 
-  /// Adds the contact of the capsule's point x with box point q (both in the box's axes), x by the segment's point at t;
-  /// n: unit, from the box to the segment.
+  /// Adds the contact of the capsule's point x with box point q (both in the box's axes), x by the segment's point at
+  /// t; n: unit, from the box to the segment.
   void add(double t, const Vec3& x, const Vec3& q, const Vec3& n, Feature kind, int index, int place) const {
     Candidate c;
     c.normal = -(box.axes * n);
@@ -127,7 +127,11 @@ struct BoxSegment {
     const double length = offset.norm();
     if (length <= 1e-12 * size) return;
     const int beyond = static_cast<int>((offset.array() != 0.0).count());
-    add(t, at(t) - radius / length * offset, at(t) - offset, offset / length, beyond == 1 ? Feature::face : beyond == 2 ? Feature::edge : Feature::vertex, region(offset), 0);
+    add(t, at(t) - radius / length * offset, at(t) - offset, offset / length,
+        beyond == 1   ? Feature::face
+        : beyond == 2 ? Feature::edge
+                      : Feature::vertex,
+        region(offset), 0);
   }
 
   /// A number for the face, edge or corner that an excess belongs to.
@@ -196,7 +200,8 @@ struct BoxSegment {
     middle[edge_axis] = 0.0;
     const Vec3 reach = box.half[edge_axis] * Vec3::Unit(edge_axis);
     const SegmentSegment closest = closest_between_segments(p0, p0 + d, middle - reach, middle + reach);
-    add(closest.s, closest.point0 - radius * edge_normal, closest.point1, edge_normal, Feature::edge, region(middle), 0);
+    add(closest.s, closest.point0 - radius * edge_normal, closest.point1, edge_normal, Feature::edge, region(middle),
+        0);
   }
 };
 
@@ -206,7 +211,11 @@ void box_capsule(ContactSink& sink) {
   const OrientedBox box = world_box(sink.first());
   const WorldSegment axis = world_axis(sink.second());
   const Vec3 p0 = box.to_local(axis.p0);
-  const BoxSegment test{sink, box, std::get<Capsule>(*sink.second().shape).radius, p0, box.to_local(axis.p1) - p0,
+  const BoxSegment test{sink,
+                        box,
+                        std::get<Capsule>(*sink.second().shape).radius,
+                        p0,
+                        box.to_local(axis.p1) - p0,
                         box.half.sum() + (axis.p1 - axis.p0).norm()};
   const double t = test.nearest_parameter();
   const Vec3 offset = test.excess(t);
@@ -219,7 +228,8 @@ void box_capsule(ContactSink& sink) {
 
 void capsule_capsule(ContactSink& sink) {
   const WorldSegment a = world_axis(sink.first()), b = world_axis(sink.second());
-  const double radius_a = std::get<Capsule>(*sink.first().shape).radius, radius_b = std::get<Capsule>(*sink.second().shape).radius;
+  const double radius_a = std::get<Capsule>(*sink.first().shape).radius,
+               radius_b = std::get<Capsule>(*sink.second().shape).radius;
   const Vec3 u = a.p1 - a.p0, v = b.p1 - b.p0;
   const SegmentSegment closest = closest_between_segments(a.p0, a.p1, b.p0, b.p1);
   const double size = u.norm() + v.norm() + radius_a + radius_b;
@@ -229,7 +239,8 @@ void capsule_capsule(ContactSink& sink) {
   Vec3 normal = offset.stableNormalized();
   if (offset.norm() <= 1e-12 * size) {
     const Vec3 cross = u.cross(v);
-    normal = cross.norm() > 1e-9 * u.norm() * v.norm() ? Vec3(cross.normalized()) : Vec3(sink.first().pose.rotation.col(0));
+    normal =
+        cross.norm() > 1e-9 * u.norm() * v.norm() ? Vec3(cross.normalized()) : Vec3(sink.first().pose.rotation.col(0));
     if (normal.dot(sink.first().pose.position - sink.second().pose.position) < 0.0) normal = -normal;
   }
   const auto add = [&](double s, double t, const Vec3& p, const Vec3& q, const Vec3& n, int place) {
@@ -242,8 +253,8 @@ void capsule_capsule(ContactSink& sink) {
     sink.add_new(c);
   };
 
-  // nearly parallel: the ends of the common length, which are ends of either axis that lie beside the other one. Ends that
-  // lie side by side are found from both capsules and have one name.
+  // nearly parallel: the ends of the common length, which are ends of either axis that lie beside the other one. Ends
+  // that lie side by side are found from both capsules and have one name.
   const double sine_scale = u.norm() * v.norm();
   bool held_at_ends = false;
   if (sine_scale > 0.0 && u.cross(v).norm() < kNearlyParallel * sine_scale) {
@@ -253,7 +264,9 @@ void capsule_capsule(ContactSink& sink) {
     };
     std::array<End, 4> ends;
     int count = 0;
-    const auto place = [](const Vec3& x0, const Vec3& x1, double t) { return t <= 0.0 ? x0 : t >= 1.0 ? x1 : Vec3(x0 + t * (x1 - x0)); };
+    const auto place = [](const Vec3& x0, const Vec3& x1, double t) {
+      return t <= 0.0 ? x0 : t >= 1.0 ? x1 : Vec3(x0 + t * (x1 - x0));
+    };
     for (int i = 0; i < 4; ++i) {
       const bool of_first = i < 2;
       const Vec3& end = i == 0 ? a.p0 : i == 1 ? a.p1 : i == 2 ? b.p0 : b.p1;
@@ -272,7 +285,8 @@ void capsule_capsule(ContactSink& sink) {
     if (length > kSameEnd * size) {
       for (int i = 0; i < count; ++i) {
         const Vec3 between = ends[i].p - ends[i].q;
-        add(ends[i].s, ends[i].t, ends[i].p, ends[i].q, between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal, 1);
+        add(ends[i].s, ends[i].t, ends[i].p, ends[i].q,
+            between.norm() > 1e-12 * size ? Vec3(between.normalized()) : normal, 1);
       }
       held_at_ends = nearest <= offset.norm() + 1e-9 * size;
     }

@@ -22,7 +22,10 @@ void sort_unique(std::vector<int>& list) {
 class CylinderTest {
  public:
   CylinderTest(ContactSink& sink, const SurfaceView& mesh)
-      : sink_(sink), mesh_(mesh), axis_(world_axis(sink.first())), radius_(std::get<Capsule>(*sink.first().shape).radius) {
+      : sink_(sink),
+        mesh_(mesh),
+        axis_(world_axis(sink.first())),
+        radius_(std::get<Capsule>(*sink.first().shape).radius) {
     Aabb box;
     box.include(axis_.p0);
     box.include(axis_.p1);
@@ -36,7 +39,8 @@ class CylinderTest {
     sort_unique(edges);
     for (int e : edges) {
       const MeshTopology::Edge& ends = mesh_.edge(e);
-      const SegmentSegment s = closest_between_segments(axis_.p0, axis_.p1, mesh_.vertex(ends.v0), mesh_.vertex(ends.v1));
+      const SegmentSegment s =
+          closest_between_segments(axis_.p0, axis_.p1, mesh_.vertex(ends.v0), mesh_.vertex(ends.v1));
       if (!s.interior || !is_within(s.squared_distance)) continue;
       const std::optional<EdgeCone> cone = make_edge_cone(mesh_, e);
       const Vec3 n = (s.point0 - s.point1).normalized();
@@ -65,13 +69,15 @@ class CylinderTest {
     }
   }
 
-  /// Both caps are outside: where the axis passes through the body, out of each passage. The ball that is pushed stands a
-  /// quarter from the end of the passage where less of the capsule sticks out; the middle could not tell the ends apart.
+  /// Both caps are outside: where the axis passes through the body, out of each passage. The ball that is pushed stands
+  /// a quarter from the end of the passage where less of the capsule sticks out; the middle could not tell the ends
+  /// apart.
   void add_passages() {
     const Vec3 d = axis_.p1 - axis_.p0;
     std::vector<std::pair<double, bool>> crossings;  // parameter, leaves the body
     for (int t : near_)
-      if (const std::optional<RayHit> hit = intersect_line(axis_.p0, d, mesh_.corners(t)); hit && hit->t > 0.0 && hit->t < 1.0)
+      if (const std::optional<RayHit> hit = intersect_line(axis_.p0, d, mesh_.corners(t));
+          hit && hit->t > 0.0 && hit->t < 1.0)
         crossings.emplace_back(hit->t, mesh_.face_normal(t).dot(d) > 0.0);
     std::sort(crossings.begin(), crossings.end());
     int passage = 2;
@@ -111,7 +117,8 @@ class CylinderTest {
 }  // namespace
 
 void sphere_mesh(ContactSink& sink) {
-  add_ball_contacts(sink, view_of(sink), {sink.first().pose.position, std::get<Sphere>(*sink.first().shape).radius, Feature::shape, 0});
+  add_ball_contacts(sink, view_of(sink),
+                    {sink.first().pose.position, std::get<Sphere>(*sink.first().shape).radius, Feature::shape, 0});
 }
 
 void capsule_mesh(ContactSink& sink) {

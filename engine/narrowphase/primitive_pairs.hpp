@@ -1,5 +1,5 @@
-// The exact tests, one for each pair of shapes in the order plane, sphere, box, capsule, mesh. Each reads its two shapes
-// from the sink and adds its contacts to it. Internal to the narrow phase: callers use primitive.hpp.
+// The exact tests, one for each pair of shapes in the order plane, sphere, box, capsule, mesh. Each reads its two
+// shapes from the sink and adds its contacts to it. Internal to the narrow phase: callers use primitive.hpp.
 #pragma once
 
 #include "engine/geometry/oriented_box.hpp"
@@ -34,7 +34,9 @@ inline WorldPlane world_plane(const Collider& c) {
   const Vec3 normal = c.pose.rotation * plane.normal;
   return {normal, plane.offset + normal.dot(c.pose.position)};
 }
-inline OrientedBox world_box(const Collider& c) { return {c.pose.position, c.pose.rotation, std::get<Box>(*c.shape).half}; }
+inline OrientedBox world_box(const Collider& c) {
+  return {c.pose.position, c.pose.rotation, std::get<Box>(*c.shape).half};
+}
 inline WorldSegment world_axis(const Collider& c) {
   const Vec3 reach = c.pose.rotation.col(1) * std::get<Capsule>(*c.shape).half_length;
   return {c.pose.position - reach, c.pose.position + reach};

@@ -7,7 +7,8 @@ namespace impinge {
 
 void sphere_sphere(ContactSink& sink) {
   const Vec3 &a = sink.first().pose.position, &b = sink.second().pose.position;
-  const double radius_a = std::get<Sphere>(*sink.first().shape).radius, radius_b = std::get<Sphere>(*sink.second().shape).radius;
+  const double radius_a = std::get<Sphere>(*sink.first().shape).radius,
+               radius_b = std::get<Sphere>(*sink.second().shape).radius;
   Candidate c;
   const Vec3 offset = a - b;
   const double distance = offset.stableNorm();
@@ -37,8 +38,10 @@ void sphere_capsule(ContactSink& sink) {
   const Vec3 nearest = closest_on_segment(center, axis.p0, axis.p1).point;
   Candidate c;
   const Vec3 offset = center - nearest;
-  // a centre on the axis, where the offset is rounding only, leaves across it in a direction that turns with the capsule
-  c.normal = offset.stableNorm() > 1e-12 * radius_b ? Vec3(offset.stableNormalized()) : Vec3(sink.second().pose.rotation.col(0));
+  // a centre on the axis, where the offset is rounding only, leaves across it in a direction that turns with the
+  // capsule
+  c.normal = offset.stableNorm() > 1e-12 * radius_b ? Vec3(offset.stableNormalized())
+                                                    : Vec3(sink.second().pose.rotation.col(0));
   c.point_first = center - radius_a * c.normal;
   c.point_second = nearest + radius_b * c.normal;
   sink.add(c);

@@ -1,7 +1,7 @@
-// Broad phases on moving boxes: milliseconds a frame (boxes in, sorted pairs out), growth with n, and FCL's dynamic AABB
-// tree in the same process when it is installed.  bench_broad_phase [largest n]
-#include <ctime>
+// Broad phases on moving boxes: milliseconds a frame (boxes in, sorted pairs out), growth with n, and FCL's dynamic
+// AABB tree in the same process when it is installed.  bench_broad_phase [largest n]
 #include <fmt/format.h>
+#include <ctime>
 
 #include <algorithm>
 #include <map>
@@ -123,15 +123,16 @@ double exponent(const std::vector<std::pair<int, double>>& points) {
 
 int main(int argc, char** argv) {
   const int largest = argc > 1 ? std::atoi(argv[1]) : 100000;
-  fmt::print("{:<18}{:>8}  {:<9}{:>12}{:>12}{:>10}{:>12}\n", "broad phase", "boxes", "motion", "first ms", "frame ms", "pairs", "against FCL");
+  fmt::print("{:<18}{:>8}  {:<9}{:>12}{:>12}{:>10}{:>12}\n", "broad phase", "boxes", "motion", "first ms", "frame ms",
+             "pairs", "against FCL");
   for (double speed : {kCoherent, kFast}) {
     const char* motion = speed == kCoherent ? "coherent" : "fast";
     std::map<int, Result> peer;
 #ifdef IMPINGE_HAS_FCL
     for (int count = 100; count <= largest; count *= 10) {
       peer[count] = run_fcl(count, speed);
-      fmt::print("{:<18}{:>8}  {:<9}{:>12.4g}{:>12.4g}{:>10}\n", "FCL AABB tree", count, motion, peer[count].first_ms, peer[count].frame_ms,
-                 peer[count].pairs);
+      fmt::print("{:<18}{:>8}  {:<9}{:>12.4g}{:>12.4g}{:>10}\n", "FCL AABB tree", count, motion, peer[count].first_ms,
+                 peer[count].frame_ms, peer[count].pairs);
     }
 #endif
     for (const auto& entry : broad_phases()) {
@@ -141,14 +142,16 @@ int main(int argc, char** argv) {
         const auto broad = entry.make();
         const Result result = run(*broad, count, speed);
         points.emplace_back(count, result.frame_ms);
-        fmt::print("{:<18}{:>8}  {:<9}{:>12.4g}{:>12.4g}{:>10}", entry.name, count, motion, result.first_ms, result.frame_ms, result.pairs);
+        fmt::print("{:<18}{:>8}  {:<9}{:>12.4g}{:>12.4g}{:>10}", entry.name, count, motion, result.first_ms,
+                   result.frame_ms, result.pairs);
         if (peer.contains(count)) {
           fmt::print("{:>11.2f}x", peer[count].frame_ms / result.frame_ms);
           if (peer[count].pairs != result.pairs) fmt::print("  PAIRS DIFFER");
         }
         fmt::print("\n");
       }
-      if (points.size() > 1) fmt::print("{:<18}{:>8}  {:<9} grows like n^{:.2f}\n", entry.name, "", motion, exponent(points));
+      if (points.size() > 1)
+        fmt::print("{:<18}{:>8}  {:<9} grows like n^{:.2f}\n", entry.name, "", motion, exponent(points));
     }
   }
   return 0;

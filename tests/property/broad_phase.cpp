@@ -20,7 +20,8 @@ std::vector<BoxPair> truth(const std::vector<Aabb>& boxes) {
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
     for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
       bool apart = false;
-      for (int k = 0; k < 3; ++k) apart = apart || boxes[i].min[k] > boxes[j].max[k] || boxes[j].min[k] > boxes[i].max[k];
+      for (int k = 0; k < 3; ++k)
+        apart = apart || boxes[i].min[k] > boxes[j].max[k] || boxes[j].min[k] > boxes[i].max[k];
       if (!apart) pairs.emplace_back(i, j);
     }
   return pairs;
@@ -163,8 +164,9 @@ TEST_CASE("moving boxes have the published numbers of overlapping pairs") {
     std::size_t pairs;
   };
   for (const auto& phase : broad_phases())
-    for (const Published& p : {Published{1000, 63, kCoherent, 1494}, Published{1000, 63, kFast, 1453}, Published{10000, 23, kCoherent, 15931},
-                               Published{10000, 23, kFast, 15976}, Published{100000, 5, kCoherent, 164207}}) {
+    for (const Published& p : {Published{1000, 63, kCoherent, 1494}, Published{1000, 63, kFast, 1453},
+                               Published{10000, 23, kCoherent, 15931}, Published{10000, 23, kFast, 15976},
+                               Published{100000, 5, kCoherent, 164207}}) {
       if (phase.name == "brute_force" && p.boxes > 1000) continue;  // minutes; it is checked against the others above
       MovingBoxes moving(p.boxes, p.speed);
       const auto broad = phase.make();

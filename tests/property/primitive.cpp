@@ -1,5 +1,5 @@
-// What every exact test must do, over random poses of every pair: contracts, symmetry, invariance, and distances against
-// an independent solver.
+// What every exact test must do, over random poses of every pair: contracts, symmetry, invariance, and distances
+// against an independent solver.
 #include <catch2/catch.hpp>
 
 #include <set>
@@ -13,11 +13,17 @@ namespace {
 
 Shape random_shape(Random& r, int kind) {
   switch (kind) {
-    case 0: return Plane{r.direction(), 0.3 * r.sym()};
-    case 1: return Sphere{r.in(0.2, 0.8)};
-    case 2: return Box{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
-    case 3: return Capsule{r.in(0.1, 0.4), r.in(0.1, 0.8)};
-    default: return surface(r.below(2) ? icosphere(1, r.in(0.4, 0.8)) : box({r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8)}, {2, 2, 2}));
+    case 0:
+      return Plane{r.direction(), 0.3 * r.sym()};
+    case 1:
+      return Sphere{r.in(0.2, 0.8)};
+    case 2:
+      return Box{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
+    case 3:
+      return Capsule{r.in(0.1, 0.4), r.in(0.1, 0.8)};
+    default:
+      return surface(r.below(2) ? icosphere(1, r.in(0.4, 0.8))
+                                : box({r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8)}, {2, 2, 2}));
   }
 }
 
@@ -28,7 +34,8 @@ struct Projection {
   Vec3 operator()(const Vec3& x) const {
     const Vec3 l = pose.apply_inverse(x);
     if (const Box* box = std::get_if<Box>(&shape)) return pose.apply(l.cwiseMax(-box->half).cwiseMin(box->half));
-    if (const Capsule* c = std::get_if<Capsule>(&shape)) return pose.apply({0.0, std::clamp(l.y(), -c->half_length, c->half_length), 0.0});
+    if (const Capsule* c = std::get_if<Capsule>(&shape))
+      return pose.apply({0.0, std::clamp(l.y(), -c->half_length, c->half_length), 0.0});
     return pose.position;
   }
   /// How far the core reaches from its centre along a unit direction.
@@ -70,7 +77,8 @@ Distance core_distance(const Projection& a, const Projection& b, int iterations 
   return {n.dot(a.pose.position - b.pose.position) - a.reach(n) - b.reach(n), high};
 }
 
-void check_contract(const std::vector<Collision>& contacts, const Bodies& bodies, int a, int b, const ContactQuery& query) {
+void check_contract(const std::vector<Collision>& contacts, const Bodies& bodies, int a, int b,
+                    const ContactQuery& query) {
   std::set<std::uint64_t> keys;
   for (const Collision& c : contacts) {
     REQUIRE(c.body_a == a);
@@ -111,8 +119,8 @@ TEST_CASE("exact contacts keep their contract in every pair and pose") {
         check_contract(contacts, bodies, 0, 1, query);
         pairs += contacts.empty() ? 0 : 1;
 
-        // of coplanar triangles that a box overlaps equally, rounding chooses the one that a contact is named after: only the
-        // gap is compared then
+        // of coplanar triangles that a box overlaps equally, rounding chooses the one that a contact is named after:
+        // only the gap is compared then
         const bool may_tie = i + j == 6 && i != j;
         const auto swapped = bodies.contacts(1, 2, query);
         REQUIRE(swapped.empty() == contacts.empty());
@@ -172,7 +180,8 @@ TEST_CASE("gaps of separated exact shapes are their distances") {
           ++apart[i][j];
           // the nearest points lie on the surfaces, all others on or (the far cap of a tilted capsule) below them
           for (const Collision& c : contacts) {
-            const double off_a = (a(c.point_a) - c.point_a).norm() - a.radius(), off_b = (b(c.point_b) - c.point_b).norm() - b.radius();
+            const double off_a = (a(c.point_a) - c.point_a).norm() - a.radius(),
+                         off_b = (b(c.point_b) - c.point_b).norm() - b.radius();
             REQUIRE(off_a < 1e-9);
             REQUIRE(off_b < 1e-9);
             if (c.gap < gap + 1e-12) {
@@ -213,7 +222,8 @@ TEST_CASE("gaps of nearly aligned boxes and capsules are their distances too") {
         const ContactQuery query{true, 10.0, 0.0};
         const auto contacts = bodies.contacts(0, 1, query);
         const double radii = a.radius() + b.radius();
-        INFO(shape_name(a.shape) << " " << shape_name(b.shape) << " case " << k << " distance " << distance.low << " to " << distance.high);
+        INFO(shape_name(a.shape) << " " << shape_name(b.shape) << " case " << k << " distance " << distance.low
+                                 << " to " << distance.high);
         check_contract(contacts, bodies, 0, 1, query);
         REQUIRE(!contacts.empty());
         // the solver creeps where faces are nearly parallel: both bounds hold always, and nearly meet almost always
@@ -232,11 +242,12 @@ TEST_CASE("overlapping boxes are as deep as the shortest way out") {
   Random r(13);
   int overlapping = 0, crossings = 0;
   for (int k = 0; k < 300; ++k) {
-    const Box a{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))}, b{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
+    const Box a{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))},
+        b{Vec3(r.in(0.2, 0.8), r.in(0.2, 0.8), r.in(0.2, 0.8))};
     const Pose pa = random_pose(r, 0.6), pb = random_pose(r, 0.6);
     const auto overlap = [&](const Vec3& n) {
-      return (pa.rotation.transpose() * n).cwiseAbs().dot(a.half) + (pb.rotation.transpose() * n).cwiseAbs().dot(b.half) -
-             n.dot(pa.position - pb.position);
+      return (pa.rotation.transpose() * n).cwiseAbs().dot(a.half) +
+             (pb.rotation.transpose() * n).cwiseAbs().dot(b.half) - n.dot(pa.position - pb.position);
     };
     double depth = 1e300;
     Vec3 way = Vec3::UnitX();

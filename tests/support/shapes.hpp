@@ -14,7 +14,8 @@ namespace impinge::test {
 /// Owns what colliders point to. Bodies are numbered in the order in which they are added.
 class Bodies {
  public:
-  Collider& add(const Shape& shape, const Pose& pose = {}) {
+  // poses by value: they may be those of a collider that moves in memory
+  Collider& add(const Shape& shape, Pose pose = {}) {
     shapes_.push_back(shape);
     Collider c;
     c.shape = &shapes_.back();
@@ -23,7 +24,7 @@ class Bodies {
     place(static_cast<int>(colliders_.size()) - 1, pose);
     return colliders_.back();
   }
-  void place(int i, const Pose& pose) {
+  void place(int i, Pose pose) {
     Collider& c = colliders_[i];
     c.pose = pose;
     c.bounds = shape_bounds(*c.shape, pose);
@@ -54,7 +55,9 @@ inline Pose random_pose(Random& random, double spread) {
   return pose;
 }
 
-inline Pose then(const Pose& outer, const Pose& inner) { return {outer.rotation * inner.rotation, outer.apply(inner.position)}; }
+inline Pose then(const Pose& outer, const Pose& inner) {
+  return {outer.rotation * inner.rotation, outer.apply(inner.position)};
+}
 
 inline double smallest_gap(const std::vector<Collision>& contacts) {
   double gap = std::numeric_limits<double>::infinity();

@@ -60,7 +60,10 @@ TEST_CASE("a capsule is its cylinder and two half balls") {
     for (int j = 0; j < around; ++j) {
       const double polar = M_PI * i / rings, azimuth = 2.0 * M_PI * j / around;
       const double y = -r * std::cos(polar);
-      mesh.vertices.emplace_back(r * std::sin(polar) * std::cos(azimuth), y + (i < rings / 2 ? -h : i > rings / 2 ? h : 0.0),
+      mesh.vertices.emplace_back(r * std::sin(polar) * std::cos(azimuth),
+                                 y + (i < rings / 2   ? -h
+                                      : i > rings / 2 ? h
+                                                      : 0.0),
                                  r * std::sin(polar) * std::sin(azimuth));
     }
   const auto at = [&](int i, int j) { return i == 0 ? 0 : i == rings ? 1 : 2 + (i - 1) * around + j % around; };
@@ -106,7 +109,8 @@ TEST_CASE("mass properties turn and move with the mesh, also far away") {
     const MassProperties there = mesh_mass(moved(mesh, pose), 800.0);
     CHECK(there.mass == Approx(here.mass).epsilon(1e-12));
     CHECK((there.center - pose.apply(here.center)).norm() < 1e-12);
-    CHECK((there.inertia - pose.rotation * here.inertia * pose.rotation.transpose()).norm() < 1e-12 * here.inertia.norm());
+    CHECK((there.inertia - pose.rotation * here.inertia * pose.rotation.transpose()).norm() <
+          1e-12 * here.inertia.norm());
   }
   // at 1e6 m a coordinate has 1e-10 m left; nothing more may be lost
   const MassProperties far = mesh_mass(moved(mesh, {Mat3::Identity(), Vec3(1e6, -1e6, 1e6)}), 800.0);
@@ -116,7 +120,9 @@ TEST_CASE("mass properties turn and move with the mesh, also far away") {
 
 TEST_CASE("mesh checks name the first problem and its remedy") {
   const auto problem = [](const TriangleMesh& mesh) { return check_mesh(mesh, make_topology(mesh)).value_or(""); };
-  const auto starts = [](const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0 && text.find("; ") != std::string::npos; };
+  const auto starts = [](const std::string& text, const std::string& with) {
+    return text.rfind(with, 0) == 0 && text.find("; ") != std::string::npos;
+  };
   const TriangleMesh good = icosphere(1, 1.0);
   CHECK(problem(good).empty());
   CHECK(starts(check_indices(TriangleMesh{}).value_or(""), "has no triangles"));
@@ -145,7 +151,8 @@ TEST_CASE("mesh checks name the first problem and its remedy") {
   CHECK(starts(check_indices(mesh).value_or(""), "has a vertex that is not finite: vertex 5"));
   mesh = good;
   mesh.triangles[3][2] = 42;
-  CHECK(starts(check_indices(mesh).value_or(""), "has an index out of range: triangle 3 names vertex 42, allowed are 0 to 41"));
+  CHECK(starts(check_indices(mesh).value_or(""),
+               "has an index out of range: triangle 3 names vertex 42, allowed are 0 to 41"));
   mesh.triangles[3][2] = -1;
   CHECK(check_indices(mesh).has_value());
   mesh.triangles[3] = {1, 2, 1};
@@ -169,7 +176,8 @@ TEST_CASE("welding joins vertices of equal position and keeps the order") {
   const WeldedMesh welded = weld(soup);
   CHECK(welded.mesh.vertices.size() == good.vertices.size());
   CHECK(make_topology(welded.mesh).is_closed());
-  for (std::size_t v = 0; v < soup.vertices.size(); ++v) REQUIRE(welded.mesh.vertices[welded.new_vertex[v]] == soup.vertices[v]);
+  for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+    REQUIRE(welded.mesh.vertices[welded.new_vertex[v]] == soup.vertices[v]);
   CHECK(welded.new_vertex[0] == 0);
 
   soup.vertices[0] = {0.0, -0.0, 0.0};

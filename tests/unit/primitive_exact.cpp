@@ -48,7 +48,8 @@ TEST_CASE("a plane meets a sphere, a box and a capsule where they are deepest") 
 
 TEST_CASE("a plane is placed by its body's pose") {
   Bodies bodies;
-  bodies.add(Plane{Vec3::UnitY(), 0.0}, turned({0, 1, 0}, 90, Vec3::UnitZ()));  // now x <= ... : normal -x through (0, 1, 0)
+  bodies.add(Plane{Vec3::UnitY(), 0.0},
+             turned({0, 1, 0}, 90, Vec3::UnitZ()));  // now x <= ... : normal -x through (0, 1, 0)
   bodies.add(Sphere{0.5}, at(-0.4, 7, 0));
   const auto contacts = bodies.contacts(0, 1, kClose);
   REQUIRE(contacts.size() == 1);
@@ -64,7 +65,8 @@ TEST_CASE("stacked equal boxes touch at four corners whose names last") {
     const double noise = step < 100 ? 1e-16 : 1e-6;
     Bodies bodies;
     bodies.add(Box{Vec3(0.5, 0.5, 0.5)}, turned(noise * r.vector(), noise * r.sym(), r.direction()));
-    bodies.add(Box{Vec3(0.5, 0.5, 0.5)}, turned(Vec3(0, 1.0 + 1e-5 * r.sym(), 0) + noise * r.vector(), noise * r.sym(), r.direction()));
+    bodies.add(Box{Vec3(0.5, 0.5, 0.5)},
+               turned(Vec3(0, 1.0 + 1e-5 * r.sym(), 0) + noise * r.vector(), noise * r.sym(), r.direction()));
     const auto contacts = bodies.contacts(0, 1, kClose);
     INFO("step " << step);
     REQUIRE(contacts.size() == 4);
@@ -210,7 +212,8 @@ TEST_CASE("degenerate overlaps give finite unit normals") {
   const Shape shapes[] = {Sphere{0.5}, Box{Vec3(0.5, 0.5, 0.5)}, Capsule{0.2, 0.5}, Sphere{0.0}, Capsule{0.2, 0.0}};
   for (const Shape& a : shapes)
     for (const Shape& b : shapes)
-      for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0), Vec3(1e-17, 0, -1e-200)}) {
+      for (const Vec3& offset :
+           {Vec3(0, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0), Vec3(1e-17, 0, -1e-200)}) {
         Bodies pair;
         Pose pose;
         pose.position = offset;

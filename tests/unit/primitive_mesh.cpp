@@ -1,5 +1,5 @@
-// Exact shapes against meshes: against the exact shapes that the meshes stand for, and on surfaces where a wrong contact
-// would be felt.
+// Exact shapes against meshes: against the exact shapes that the meshes stand for, and on surfaces where a wrong
+// contact would be felt.
 #include <catch2/catch.hpp>
 
 #include "tests/support/shapes.hpp"
@@ -66,7 +66,7 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
   const Shape others[] = {Plane{r.direction(), -0.45}, Sphere{0.3}, Capsule{0.2, 0.4}, Box{Vec3(0.3, 0.2, 0.4)}};
   for (const Shape& other : others) {
     int compared = 0;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 300; ++i) {
       Bodies bodies;
       const Pose pose = random_pose(r, 0.8);
       const bool plane = std::holds_alternative<Plane>(other);
@@ -76,12 +76,14 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
       const ContactQuery query{true, 0.1, 0.0};
       const auto mesh = bodies.contacts(0, 1, query), exact = bodies.contacts(0, 2, query);
       const double gap = smallest_gap(exact);
-      // deep inside each other a sphere and its mesh may leave on different ways
-      if (!(gap > -0.05 && gap < 0.1 - 2.0 * chord)) continue;
+      // deep inside each other a sphere and its mesh may leave on different ways; two polyhedra already where they
+      // overlap by more than a fraction of an edge
+      const double deepest = std::holds_alternative<Box>(other) ? -0.01 : -0.05;
+      if (!(gap > deepest && gap < 0.1 - 2.0 * chord)) continue;
       INFO(shape_name(other) << " case " << i << " gap " << gap);
       ++compared;
       REQUIRE(!mesh.empty());
-      // two polyhedra that overlap have more than one measure of depth, within the same error
+      // two polyhedra that overlap have a depth for each pair of crossing edges, which differ by the same error
       REQUIRE(smallest_gap(mesh) > gap - (std::holds_alternative<Box>(other) && gap < 0.0 ? chord : 1e-9));
       REQUIRE(smallest_gap(mesh) < gap + chord + 1e-9);
     }
@@ -133,7 +135,8 @@ TEST_CASE("a capsule lies across a ridge and a peak") {
   const MeshPointer mesh = surface(roof);
   REQUIRE(mesh->topology.is_closed());
   Bodies bodies;
-  bodies.add(Capsule{0.1, 0.5}, {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.1005, 0.2)});
+  bodies.add(Capsule{0.1, 0.5},
+             {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.1005, 0.2)});
   bodies.add(mesh);
   auto contacts = bodies.contacts(0, 1, {true, 1e-3, 0.0});
   REQUIRE(contacts.size() == 1);
@@ -145,7 +148,8 @@ TEST_CASE("a capsule lies across a ridge and a peak") {
   peak.vertices = {{0, 0, 0}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, {-1, -1, 1}};
   peak.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {1, 4, 3}, {1, 3, 2}};
   Bodies peaked;
-  peaked.add(Capsule{0.1, 0.5}, {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.0995, 0.0)});
+  peaked.add(Capsule{0.1, 0.5},
+             {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.0995, 0.0)});
   peaked.add(surface(peak));
   contacts = peaked.contacts(0, 1, {true, 1e-3, 0.0});
   REQUIRE(contacts.size() == 1);
