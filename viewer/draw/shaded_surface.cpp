@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/geometry/mass_properties.hpp"
+
 namespace impinge {
 
 ShadedSurface make_shaded_surface(const TriangleMesh& mesh, const MeshTopology& topology, double crease_deg) {
@@ -40,6 +42,8 @@ ShadedSurface make_shaded_surface(const TriangleMesh& mesh, const MeshTopology& 
     }
   }
   for (const MeshTopology::Edge& edge : topology.edges) out.edges.push_back({first_of[edge.v0], first_of[edge.v1]});
+  for (const Eigen::Vector3f& p : out.positions) out.bounds.extend(p);
+  out.solid = topology.is_closed() && signed_volume(mesh) > 0.0;
   return out;
 }
 
