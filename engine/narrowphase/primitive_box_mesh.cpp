@@ -2,6 +2,7 @@
 // with the box's own frame as the search structure. The box still counts as an exact shape: triangle -1, features of
 // the box.
 #include <algorithm>
+#include <optional>
 
 #include "engine/narrowphase/ball_against_mesh.hpp"
 #include "engine/narrowphase/contact_points.hpp"
@@ -101,6 +102,10 @@ void box_mesh(ContactSink& sink) {
   for (Collision& f : found) f.feature = with_box_feature(f.feature, topology);
   std::stable_sort(found.begin(), found.end(),
                    [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
+  // A vertex of the mesh that lies below a side but beside the box is not in the box: the crossing of edges there tells
+  // the depth, and only if there is nothing else does the shallowest such vertex stand for the overlap.
+  std::optional<Candidate> beside;
+  bool overlaps = false;
   for (const Collision& f : found) {
     Candidate c;
     c.point_first = f.point_a;
@@ -115,14 +120,22 @@ void box_mesh(ContactSink& sink) {
     c.index_second = static_cast<int>(f.feature & kIndex);
     c.triangle_second = f.triangle_b;
     if (c.kind_first == Feature::face && f.normal_owner == 0) {
-      // on the side as a whole, not on the triangle of it that was found first
       const int axis = 2 - c.index_first / 2;
-      Vec3 x = oriented.to_local(c.point_second).cwiseMax(-oriented.half).cwiseMin(oriented.half);
-      x[axis] = c.index_first % 2 == 0 ? -oriented.half[axis] : oriented.half[axis];
-      c.point_first = oriented.to_world(x);
+      const Vec3 x = oriented.to_local(c.point_second);
+      Vec3 foot = x.cwiseMax(-oriented.half).cwiseMin(oriented.half);
+      foot[axis] = x[axis];
+      const bool is_beside = (x - foot).norm() > 1e-9 * oriented.half.sum();
+      // on the side as a whole, not on the triangle of it that was found first
+      foot[axis] = c.index_first % 2 == 0 ? -oriented.half[axis] : oriented.half[axis];
+      c.point_first = oriented.to_world(foot);
+      if (is_beside && f.gap < 0.0) {
+        if (!beside || f.gap > beside->normal.dot(beside->point_first - beside->point_second)) beside = c;
+        continue;
+      }
     }
-    sink.add_new(c);
+    overlaps = (sink.add_new(c) && f.gap < 0.0) || overlaps;
   }
+  if (beside && !overlaps) sink.add_new(*beside);
 }
 
 }  // namespace impinge
