@@ -80,7 +80,8 @@ ViewSettings settings_with(const std::vector<std::string>& layers) {
 }
 
 Image painted(const StepRecord& record, const ViewSettings& settings, int width, int height) {
-  static std::map<std::pair<int, int>, std::unique_ptr<FramePainter>> painters;
+  // never destroyed: OSMesa tears itself down at exit before statics of ours would be
+  static auto& painters = *new std::map<std::pair<int, int>, std::unique_ptr<FramePainter>>;
   std::unique_ptr<FramePainter>& painter = painters[{width, height}];
   if (!painter) painter = std::make_unique<FramePainter>(width, height);
   Image image;
