@@ -57,6 +57,21 @@ void ViewSettings::bind(ParameterSet& rows) {
   rows.add(vector_row(*this, "view.camera.eye", &Camera::eye,
                       "Where the camera is; without eye and target it is fitted to the scene."));
   rows.add(vector_row(*this, "view.camera.target", &Camera::target, "What the camera looks at."));
+  Parameter distance;
+  distance.path = "view.camera.distance";
+  distance.kind = ParameterKind::real;
+  distance.unit = "m";
+  distance.range = {1e-9, 1e9, true};
+  distance.doc = "From the camera to its target; setting it moves the camera along its line of sight.";
+  distance.initial = camera.distance();
+  distance.get = [this] { return ParameterValue(camera.distance()); };
+  distance.set = [this](const ParameterValue& value) {
+    const double wanted = std::get<double>(value), now = camera.distance();
+    if (wanted == now || now == 0.0) return;  // what a record of all values repeats must not round the eye
+    camera.eye = camera.target + (camera.eye - camera.target) * (wanted / now);
+    camera_given = true;
+  };
+  rows.add(std::move(distance));
   rows.add("view.camera.fov", camera.fov_deg, {1.0, 170.0}, "deg", "Vertical angle of view.");
 
   Parameter list;
