@@ -11,15 +11,23 @@ namespace {
 
 /// Makes columns p and q of b orthogonal; false if they already were, to rounding.
 bool rotate_columns(Mat3& b, Mat3& v, int p, int q) {
-  const double alpha = b.col(p).squaredNorm(), beta = b.col(q).squaredNorm(), gamma = b.col(p).dot(b.col(q));
-  if (!(std::abs(gamma) > 1e-16 * std::sqrt(alpha * beta)) || gamma == 0.0) return false;
-  const double zeta = (beta - alpha) / (2.0 * gamma);
-  const double t = std::copysign(1.0, zeta) / (std::abs(zeta) + std::sqrt(1.0 + zeta * zeta));
+  const double b0 = b(0, p), b1 = b(1, p), b2 = b(2, p), c0 = b(0, q), c1 = b(1, q), c2 = b(2, q);
+  const double alpha = b0 * b0 + b1 * b1 + b2 * b2, beta = c0 * c0 + c1 * c1 + c2 * c2, gamma = b0 * c0 + b1 * c1 + b2 * c2;
+  if (!(gamma * gamma > 1e-32 * alpha * beta)) return false;
+  // tan of the angle is the smaller root of t² + 2 ζ t = 1, ζ = (β − α)/2γ
+  const double difference = 0.5 * (beta - alpha);
+  const double t = gamma / (difference + std::copysign(std::sqrt(difference * difference + gamma * gamma), difference));
   const double c = 1.0 / std::sqrt(1.0 + t * t), s = c * t;
-  for (Mat3* m : {&b, &v}) {
-    const Vec3 mp = m->col(p), mq = m->col(q);
-    m->col(p) = c * mp - s * mq;
-    m->col(q) = s * mp + c * mq;
+  b(0, p) = c * b0 - s * c0;
+  b(1, p) = c * b1 - s * c1;
+  b(2, p) = c * b2 - s * c2;
+  b(0, q) = s * b0 + c * c0;
+  b(1, q) = s * b1 + c * c1;
+  b(2, q) = s * b2 + c * c2;
+  for (int i = 0; i < 3; ++i) {
+    const double vp = v(i, p), vq = v(i, q);
+    v(i, p) = c * vp - s * vq;
+    v(i, q) = s * vp + c * vq;
   }
   return true;
 }

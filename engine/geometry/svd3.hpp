@@ -6,7 +6,7 @@
 namespace impinge {
 
 /// F = U diag(sigma) Vᵀ with det U = det V = 1, so that U and V are rotations and an inversion shows as sigma[2] < 0.
-/// sigma[0] >= sigma[1] >= |sigma[2]|.
+/// sigma[0] >= sigma[1] >= |sigma[2]|, to rounding.
 struct Svd3 {
   Mat3 u;
   Vec3 sigma;
