@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <functional>
 
 #include "engine/core/error.hpp"
-#include "tests/support/random.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"
 
 using namespace impinge;
@@ -55,16 +55,6 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "impinge_tet_file_test";
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name, std::ios::binary) << text;
-    return path / name;
-  }
-};
-
 }  // namespace
 
 TEST_CASE("volume meshes come back from every format as they were written") {
@@ -84,18 +74,18 @@ TEST_CASE("volume meshes come back from every format as they were written") {
 }
 
 TEST_CASE("files are found by their ending and read from disk") {
-  const Folder folder;
+  const test::TempFolder folder;
   const TetMesh mesh = sample();
   check_same(read_tet_file(folder.write("a.veg", test::veg_text(mesh))), mesh);
   check_same(read_tet_file(folder.write("a.msh", test::msh41_text(mesh))), mesh);
   folder.write("a.node", test::node_text(mesh));
   const auto ele = folder.write("a.ele", test::ele_text(mesh));
   check_same(read_tet_file(ele), mesh);
-  check_same(read_tet_file(folder.path / "a.node"), mesh);
+  check_same(read_tet_file(folder / "a.node"), mesh);
   const auto alone = folder.write("alone.ele", test::ele_text(mesh));
   check_refused(alone.string(), "alone.node", [&] { read_tet_file(alone); });
-  check_refused((folder.path / "a.xyz").string(), "'.xyz'", [&] { read_tet_file(folder.path / "a.xyz"); });
-  check_refused((folder.path / "none.veg").string(), "", [&] { read_tet_file(folder.path / "none.veg"); });
+  check_refused((folder / "a.xyz").string(), "'.xyz'", [&] { read_tet_file(folder / "a.xyz"); });
+  check_refused((folder / "none.veg").string(), "", [&] { read_tet_file(folder / "none.veg"); });
 }
 
 TEST_CASE(".veg materials, sets and regions") {
@@ -120,13 +110,13 @@ TEST_CASE(".veg materials, sets and regions") {
 }
 
 TEST_CASE(".veg includes") {
-  const Folder folder;
+  const test::TempFolder folder;
   folder.write("vertices.txt", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
   folder.write("nested.txt", "*INCLUDE list.txt\n");
   folder.write("list.txt", "1\n");
   const std::string good = "*VERTICES\n*INCLUDE vertices.txt\n" + kTet + "*SET s\n*INCLUDE nested.txt\n*MATERIAL m\nENU 1 1 0\n*REGION\ns,m\n";
   CHECK(read_tet_file(folder.write("good.veg", good)).mesh.tets.size() == 1);
-  const std::string place = (folder.path / "bad.veg").string();
+  const std::string place = (folder / "bad.veg").string();
   const auto refuse = [&](const std::string& text, const std::string& at, const std::string& part) {
     check_refused(at, part, [&] { read_tet_file(folder.write("bad.veg", text)); });
   };
@@ -137,11 +127,11 @@ TEST_CASE(".veg includes") {
   refuse(kVeg + "*INCLUDE bad.veg\n", place + ":11:10:", "itself");
   folder.write("cycle_a.txt", "# a\n*INCLUDE cycle_b.txt\n");
   folder.write("cycle_b.txt", "*INCLUDE cycle_a.txt\n");
-  refuse(kVeg + "*INCLUDE cycle_a.txt\n", (folder.path / "cycle_b.txt").string() + ":1:10:", "itself");
+  refuse(kVeg + "*INCLUDE cycle_a.txt\n", (folder / "cycle_b.txt").string() + ":1:10:", "itself");
   for (int i = 0; i < 12; ++i) folder.write(fmt::format("deep{}.txt", i), fmt::format("*INCLUDE deep{}.txt\n", i + 1));
-  refuse(kVeg + "*INCLUDE deep0.txt\n", (folder.path / "deep6.txt").string() + ":1:10:", "deep");
+  refuse(kVeg + "*INCLUDE deep0.txt\n", (folder / "deep6.txt").string() + ":1:10:", "deep");
   folder.write("wrong.txt", "# list\n1, 2\n");
-  refuse(kVeg + "*SET s\n*INCLUDE wrong.txt\n", (folder.path / "wrong.txt").string() + ":2:4:", "element 2");
+  refuse(kVeg + "*SET s\n*INCLUDE wrong.txt\n", (folder / "wrong.txt").string() + ":2:4:", "element 2");
 }
 
 TEST_CASE("each damaged .veg file gives one located error") {
@@ -273,9 +263,9 @@ TEST_CASE("each damaged .msh file gives one located error") {
 }
 
 TEST_CASE("meshes of other programs are read") {
-  const std::filesystem::path folder = "/work/shared/data/meshes";
-  if (!std::filesystem::exists(folder)) {
-    WARN("no sample meshes at " << folder << ": skipped");
+  const std::filesystem::path folder = std::filesystem::path(test::shared_file("meshes/cube.msh")).parent_path();
+  if (folder.empty()) {
+    WARN("no sample meshes at hand: skipped");
     return;
   }
   const auto count = [&](const char* name) { return read_tet_file(folder / name).mesh.tets.size(); };
