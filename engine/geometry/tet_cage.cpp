@@ -198,9 +198,9 @@ TetCage make_tet_cage(const TriangleMesh& surface, const TetCageSettings& settin
   parallel_for(home.size(), 4096, [&](std::size_t i) { home[i] = lattice.locate(surface.vertices[i]); });
   const std::vector<char> touched = touched_tets(lattice, surface, home);
 
-  // rays along the longest side are the fewest
+  // along the shortest side: more rays than along the others, but thin parts are thin along them, where they are exact
   int axis = 0;
-  box.extent().maxCoeff(&axis);
+  box.extent().minCoeff(&axis);
   const double faces = static_cast<double>(lattice.size()[(axis + 1) % 3]) * lattice.size()[(axis + 2) % 3];
   constexpr double kMostRays = 4e6;
   const int rays = std::clamp(static_cast<int>(std::sqrt(kMostRays / faces)), 4, settings.rays_per_cell);

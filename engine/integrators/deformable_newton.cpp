@@ -61,7 +61,9 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
     // forces are sums of products of stiffness and position, so they can't be told from zero below their rounding
     double largest = 0.0;
     for (int i = 0; i < body.nodes(); ++i) largest = std::max(largest, k.values[body.fem.pattern()->diagonal[i]].trace());
-    const double rounding = 1e-15 * step.tau * largest * step.start.cwiseAbs().maxCoeff() * std::sqrt(static_cast<double>(body.nodes()));
+    const double extent = step.start.cwiseAbs().maxCoeff();
+    const double rounding = 1e-15 * step.tau * largest * extent * std::sqrt(static_cast<double>(body.nodes()));
+    const double potential_rounding = 1e-15 * step.tau / step.s * largest * extent * extent;
     if (residual <= settings.tolerance * size + rounding) {
       step.converged = true;
       break;
@@ -84,7 +86,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
       body.scatter_free(v_free + length * direction, trial);
       const double after = potential.value(trial);
       // close to the solution the fall is below the rounding of φ: then the full step is right
-      lowered = after <= before + 1e-4 * length * slope + 1e-14 * std::abs(before);
+      lowered = after <= before + 1e-4 * length * slope + 1e-14 * std::abs(before) + potential_rounding;
     }
     if (!lowered) break;
     v = trial;

@@ -91,9 +91,6 @@ TEST_CASE("a bar's first axial frequency is c/4L") {
   // ν = 0, E 1e6, ρ 1000: c = 31.62 m/s, f = 7.9057 Hz; linear elements are off by (kh)²/24 = 2.6e-4 with 20 of them
   DeformableBody body = test::make_body(make_tet_box(Vec3(1.0, 0.1, 0.1), 20, 2, 2), {.material = "corotational", .young = 1e6, .poisson = 0.0});
   body.hold(test::nodes_where(body, [](const Vec3& p) { return p.x() < 1e-9; }));
-  // bending is slower: only motion along the axis is left by a start that is even over the section
-  const auto solver = make_linear_solver("simplicial_llt");
-  solver->analyze(*body.free_pattern());
   BlockMatrix k(body.fem.pattern());
   VecX f, mass;
   body.fem.stiffness(body.position, Tangent::exact, f, k);
@@ -111,7 +108,7 @@ TEST_CASE("cantilever: linear tetrahedra lock by known amounts") {
   const double tips[] = {-0.497, -0.215}, frequencies[] = {0.295, 0.095};
   for (int k = 0; k < 2; ++k) {
     DeformableBody body = cantilever(k == 0 ? 2 : 4);
-    CHECK(test::lowest_frequency(body) / kFirstFrequency - 1.0 == Approx(frequencies[k]).margin(0.015));
+    CHECK(test::lowest_mode(body).omega / (2.0 * M_PI) / kFirstFrequency - 1.0 == Approx(frequencies[k]).margin(0.015));
     CHECK(tip_deflection(body, "simplicial_llt") / kTimoshenkoTip - 1.0 == Approx(tips[k]).margin(0.01));
   }
 }
@@ -121,7 +118,7 @@ TEST_CASE("cantilever: 12 cells through the thickness come within 5 % in deflect
   const int across[3] = {3, 6, 12};
   for (int k = 0; k < 3; ++k) {
     DeformableBody body = cantilever(across[k]);
-    if (k == 2) frequency = test::lowest_frequency(body, "conjugate_gradient", 4) / kFirstFrequency - 1.0;
+    if (k == 2) frequency = test::lowest_mode(body, "conjugate_gradient", 8).omega / (2.0 * M_PI) / kFirstFrequency - 1.0;
     tip[k] = tip_deflection(body, "conjugate_gradient") / kTimoshenkoTip - 1.0;
   }
   CAPTURE(tip[0], tip[1], tip[2], frequency);
@@ -132,35 +129,54 @@ TEST_CASE("cantilever: 12 cells through the thickness come within 5 % in deflect
   CHECK(order < 2.2);
 }
 
-TEST_CASE("a column of Poisson's ratio 0.49 keeps its volume and its stiffness when pressed") {
-  // sides free, ends held across by nothing but symmetry: x = 0, y = 0 planes are not needed since the ends slide: both ends
-  // are moved along z only, which leaves the exact solution uniform
+TEST_CASE("a column of Poisson's ratio 0.49 keeps its volume and its stiffness when pressed between smooth plates") {
   const Vec3 size(0.1, 0.1, 0.2);
   for (const auto& entry : materials())
     for (const double press : {0.05, 0.30}) {
       if (press > 0.1 && entry.name != "neo_hookean") continue;
       CAPTURE(std::string(entry.name), press);
-      DeformableBody body = test::make_body(make_tet_box(size, 5, 5, 10), {.material = entry.name, .young = 1e5, .poisson = 0.49});
-      const auto low = test::nodes_where(body, [](const Vec3& p) { return p.z() < 1e-9; });
+      TetMesh mesh = make_tet_box(size, 4, 4, 8);
+      // springs only add up to an isotropic solid where the mesh is regular
+      if (entry.name != "mass_spring") test::shake_inside(mesh, size, 0.004, 63);
+      DeformableBody body = test::make_body(mesh, {.material = entry.name, .young = 1e5, .poisson = 0.49});
       const auto high = test::nodes_where(body, [&](const Vec3& p) { return p.z() > size.z() - 1e-9; });
-      std::vector<int> ends = low;
-      ends.insert(ends.end(), high.begin(), high.end());
-      body.hold(ends);
+      // the plates hold z; x and y of two corners keep the column from turning and gliding
+      std::vector<int> pinned = {0, 1, 3 * 4 + 1};
+      for (const int i : test::nodes_where(body, [](const Vec3& p) { return p.z() < 1e-9; })) pinned.push_back(3 * i + 2);
+      for (const int i : high) pinned.push_back(3 * i + 2);
       const double rest = volume_now(body);
-      // glued ends, as a script would hold them; in five stages
       for (int stage = 1; stage <= 5; ++stage) {
-        for (int i = 0; i < body.nodes(); ++i) {
-          const double z = body.fem.rest().vertices[i].z();
-          body.position[3 * i + 2] -= press / 5.0 * z;
-        }
-        const double residual = test::solve_static(body, VecX::Zero(3 * body.nodes()), "simplicial_llt", 80, 1e-8);
-        CHECK(residual < 1e-3);
+        for (int i = 0; i < body.nodes(); ++i) body.position[3 * i + 2] -= press / 5.0 * body.fem.rest().vertices[i].z();
+        CHECK(test::solve_static(body, VecX::Zero(3 * body.nodes()), "simplicial_llt", 80, 1e-9, pinned) < 1e-6);
       }
       CHECK(volume_now(body) / rest == Approx(1.0).margin(0.01));
-      CHECK(body.smallest_volume_ratio() > 0.5);
-      if (press > 0.1) continue;
+      CHECK(body.smallest_volume_ratio() > 0.9);
+      // sides are free: they stand out evenly
+      CHECK(body.position[3 * (body.nodes() - 1)] - body.position[3 * (body.nodes() - 5)] > 0.1 * (1.0 + 0.45 * press));
       const double stiffness = reaction(body, high).z() / (1e5 * 0.01 * press);
-      WARN(std::string(entry.name) << ": axial stiffness over EA " << stiffness << ", volume " << volume_now(body) / rest);
-      CHECK(stiffness == Approx(1.0).margin(0.1));
+      // springs know no direction but their edges': along the axes of this lattice they are a third too stiff (materials/mass_spring.cpp)
+      if (press < 0.1) CHECK(stiffness == Approx(1.0).margin(entry.name == "mass_spring" ? 0.35 : 0.1));
     }
+}
+
+TEST_CASE("a column of Poisson's ratio 0.49 between glued ends: how much linear tetrahedra lock", "[long]") {
+  // aspect 2; a stiff bearing's factor 1 + 2 S² with S = 1/8 says 1.03 E A for the solid. Locking shows at the glued ends and
+  // shrinks with the mesh
+  const Vec3 size(0.1, 0.1, 0.2);
+  double before = 1e9;
+  for (const int across : {4, 8, 16}) {
+    DeformableBody body = test::make_body(make_tet_box(size, across, across, 2 * across), {.material = "corotational", .young = 1e5, .poisson = 0.49});
+    const auto high = test::nodes_where(body, [&](const Vec3& p) { return p.z() > size.z() - 1e-9; });
+    body.hold(test::nodes_where(body, [&](const Vec3& p) { return p.z() < 1e-9 || p.z() > size.z() - 1e-9; }));
+    const double rest = volume_now(body);
+    for (int i = 0; i < body.nodes(); ++i) body.position[3 * i + 2] -= 0.05 * body.fem.rest().vertices[i].z();
+    test::solve_static(body, VecX::Zero(3 * body.nodes()), "conjugate_gradient", 30, 1e-7);
+    const double stiffness = reaction(body, high).z() / (1e5 * 0.01 * 0.05);
+    WARN(across << " cells across: axial stiffness over EA " << stiffness << ", volume " << volume_now(body) / rest);
+    CHECK(stiffness > 1.0);
+    CHECK(stiffness < before);
+    CHECK(volume_now(body) / rest == Approx(1.0).margin(0.01));
+    before = stiffness;
+  }
+  CHECK(before < 1.2);
 }

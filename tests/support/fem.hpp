@@ -40,8 +40,8 @@ inline void shake_inside(TetMesh& mesh, const Vec3& size, double amount, std::ui
 }
 
 /// Equilibrium of the free nodes under `force` (over all nodes, N), by Newton's method from the present position, each step
-/// halved while the energy rises. Returns the last residual, N.
-inline double solve_static(DeformableBody& body, const VecX& force, std::string_view solver_name = "simplicial_llt", int most = 60, double tolerance = 1e-10) {
+/// halved while the energy rises. `pinned` (3 node + axis) components keep their position. Returns the last residual, N.
+inline double solve_static(DeformableBody& body, const VecX& force, std::string_view solver_name = "simplicial_llt", int most = 60, double tolerance = 1e-10, const std::vector<int>& pinned = {}) {
   const auto solver = make_linear_solver(solver_name);
   solver->tolerance = 1e-12;
   solver->max_iterations = 100000;
@@ -52,10 +52,14 @@ inline double solve_static(DeformableBody& body, const VecX& force, std::string_
   double residual = 0.0;
   for (int i = 0; i < most; ++i) {
     const double energy = body.fem.stiffness(body.position, Tangent::projected, f, k) - force.dot(body.position);
-    const VecX g = body.gather_free(f + force);
+    VecX all = f + force;
+    for (const int c : pinned) all[c] = 0.0;
+    const VecX g = body.gather_free(all);
     residual = g.norm();
     if (residual <= tolerance * std::max(f.norm(), 1e-12)) break;
     fill_system(body, 0.0, 0.0, 1.0, &k, step);
+    // a diagonal entry this large leaves a pinned component where it is
+    for (const int c : pinned) step.a.values[body.free_pattern()->diagonal[body.free_index()[c / 3]]](c % 3, c % 3) *= 1e20;
     if (solver->factorize(step.a) != SolveStatus::ok) return 1e300;
     VecX d = VecX::Zero(body.dofs());
     solver->solve(g, d);
@@ -70,35 +74,41 @@ inline double solve_static(DeformableBody& body, const VecX& force, std::string_
   return residual;
 }
 
-/// Lowest frequency (Hz) of the body about its rest shape, by inverse iteration on K φ = ω² M φ.
-inline double lowest_frequency(DeformableBody& body, std::string_view solver_name = "simplicial_llt", int iterations = 8) {
+/// Lowest mode of vibration about the rest shape: its shape over all nodes (unit modal mass) and ω in rad/s, by inverse
+/// iteration on K φ = ω² M φ from a bend in no particular direction.
+struct Mode {
+  VecX shape;
+  double omega = 0.0;
+};
+inline Mode lowest_mode(DeformableBody& body, std::string_view solver_name = "simplicial_llt", int iterations = 40) {
   const auto solver = make_linear_solver(solver_name);
   solver->tolerance = 1e-9;
   solver->max_iterations = 100000;
   solver->analyze(*body.free_pattern());
   BlockMatrix k(body.fem.pattern());
-  VecX f;
+  VecX f, mass;
   body.fem.stiffness(body.position, Tangent::exact, f, k);
   DeformableStep step;
   fill_system(body, 0.0, 0.0, 1.0, &k, step);
-  if (solver->factorize(step.a) != SolveStatus::ok) return 0.0;
-  VecX all = VecX::Zero(3 * body.nodes()), mass;
-  for (int i = 0; i < body.nodes(); ++i)
-    if (!body.is_held(i)) all.segment<3>(3 * i) = body.fem.rest().vertices[i];
-  double omega_sq = 0.0;
-  VecX x = body.gather_free(all);
-  for (int i = 0; i < iterations; ++i) {
-    body.fem.multiply_mass(all, mass);
-    solver->solve(body.gather_free(mass), x);
-    body.scatter_free(x, all);
-    body.fem.multiply_mass(all, mass);
-    const double modal_mass = x.dot(body.gather_free(mass));
-    omega_sq = x.dot(step.a * x) / modal_mass;
-    all /= std::sqrt(modal_mass);
-    x /= std::sqrt(modal_mass);
-    x /= omega_sq;  // what the next solve will give: a good start
+  Mode mode;
+  if (solver->factorize(step.a) != SolveStatus::ok) return mode;
+  mode.shape.setZero(3 * body.nodes());
+  for (const int i : body.free_node()) {
+    const double x = body.fem.rest().vertices[i].x();
+    mode.shape.segment<3>(3 * i) = x * x * Vec3(0, 1, -0.6);
   }
-  return std::sqrt(omega_sq) / (2.0 * M_PI);
+  VecX x = body.gather_free(mode.shape);
+  for (int i = 0; i < iterations; ++i) {
+    body.fem.multiply_mass(mode.shape, mass);
+    solver->solve(body.gather_free(mass), x);
+    body.scatter_free(x, mode.shape);
+    body.fem.multiply_mass(mode.shape, mass);
+    const double modal_mass = mode.shape.dot(mass);
+    mode.omega = std::sqrt(x.dot(step.a * x) / modal_mass);
+    mode.shape /= std::sqrt(modal_mass);
+    x /= std::sqrt(modal_mass) * mode.omega * mode.omega;  // what the next solve will give: a good start
+  }
+  return mode;
 }
 
 /// Largest distance between nodes and the rest shape after the best rigid motion, m.
