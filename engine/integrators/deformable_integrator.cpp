@@ -75,12 +75,12 @@ void solve_free_velocity(const DeformableBody& body, DeformableStep& step, Linea
 void DeformableIntegrator::linearize(DeformableBody& body, const VecX& v, DeformableStep& step) const {
   const VecX all = with_held(body, v);
   VecX force, g;
-  BlockMatrix k(body.fem.pattern());
-  body.fem.stiffness(step.position(all), Tangent::projected, force, k);
+  if (step.tangent.pattern != body.fem.pattern()) step.tangent = BlockMatrix(body.fem.pattern());
+  body.fem.stiffness(step.position(all), Tangent::projected, force, step.tangent);
   body.fem.multiply_mass(all - step.v_hat, g);
   g += step.tau * (damping_force(body, step, all) - force - applied_force(body, step.gravity));
   const RayleighDamping& d = body.damping;
-  fill_system(body, 1.0 + step.tau * d.alpha, step.tau * d.beta, step.tau * step.s, &k, step);
+  fill_system(body, 1.0 + step.tau * d.alpha, step.tau * d.beta, step.tau * step.s, &step.tangent, step);
   step.b = step.a * v - body.gather_free(g);
 }
 
@@ -95,12 +95,10 @@ void DeformableIntegrator::advance(DeformableBody& body, const DeformableStep& s
   body.acceleration_known = false;
 }
 
-DeformableStep advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h, LinearSolver& solver) {
-  DeformableStep step;
+void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h, LinearSolver& solver, DeformableStep& step) {
   integrator.begin(body, gravity, h, step);
   integrator.free_velocity(body, step, solver);
   integrator.advance(body, step, step.v_star);
-  return step;
 }
 
 }  // namespace impinge

@@ -16,7 +16,8 @@
 
 namespace impinge {
 
-/// One body's sub-step. Vectors over the free nodes (DeformableBody::free_node), x, y, z each.
+/// One body's sub-step. Vectors over the free nodes (DeformableBody::free_node), x, y, z each. Keep it from one sub-step to the
+/// next: its matrices are as large as the body, and begin() reuses them.
 struct DeformableStep {
   double time_step = 0.0;     ///< h, s
   Vec3 gravity = Vec3::Zero();
@@ -26,6 +27,7 @@ struct DeformableStep {
   VecX v_hat;                 ///< over all nodes, m/s
   VecX force;                 ///< elastic f(x₀) over all nodes, N
   BlockMatrix stiffness;      ///< K(x₀) over all nodes, N/m; empty where nothing needs it
+  BlockMatrix tangent;        ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
   BlockMatrix a;              ///< over the free nodes, kg
   VecX b;                     ///< kg m/s
   VecX v_star;                ///< solution without contact, m/s
@@ -82,7 +84,7 @@ VecX with_held(const DeformableBody& body, const VecX& free);
 void solve_free_velocity(const DeformableBody& body, DeformableStep& step, LinearSolver& solver);
 /// Newton's method with a projected tangent and a line search on the incremental potential, whose gradient is g.
 void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solver, const NewtonSettings& settings);
-/// One sub-step from begin to advance; returns the closed step.
-DeformableStep advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h, LinearSolver& solver);
+/// One sub-step from begin to advance, without contact.
+void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h, LinearSolver& solver, DeformableStep& step);
 
 }  // namespace impinge

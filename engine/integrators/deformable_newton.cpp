@@ -42,7 +42,8 @@ class IncrementalPotential {
 
 void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solver, const NewtonSettings& settings) {
   IncrementalPotential potential(body, step);
-  BlockMatrix k(body.fem.pattern());
+  if (step.tangent.pattern != body.fem.pattern()) step.tangent = BlockMatrix(body.fem.pattern());
+  BlockMatrix& k = step.tangent;
   VecX force, v = with_held(body, body.gather_free(body.velocity));
   double first_residual = 0.0;
   step.converged = false;

@@ -19,7 +19,11 @@ void run(const DeformableIntegrator& scheme, DeformableBody& body, const Vec3& g
   solver->tolerance = tolerance;
   solver->analyze(*body.free_pattern());
   const int steps = static_cast<int>(std::lround(time / h));
-  for (int i = 0; i < steps; ++i) watch(advance_alone(scheme, body, gravity, h, *solver));
+  DeformableStep step;
+  for (int i = 0; i < steps; ++i) {
+    advance_alone(scheme, body, gravity, h, *solver, step);
+    watch(step);
+  }
 }
 
 double vega_tip(const BodyOptions& options, std::string_view solver) {
