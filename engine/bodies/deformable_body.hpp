@@ -21,11 +21,11 @@ class DeformableBody {
   std::string name;
 
   // node by node x, y, z
-  VecX position;        ///< m
-  VecX velocity;        ///< m/s; of a held node: what it is moved with
-  VecX acceleration;    ///< m/s²; kept by integrators that need it (newmark)
+  VecX position;                    ///< m
+  VecX velocity;                    ///< m/s; of a held node: what it is moved with
+  VecX acceleration;                ///< m/s²; kept by integrators that need it (newmark)
   bool acceleration_known = false;  ///< false: such an integrator computes it from the forces first
-  VecX external_force;  ///< N, beside gravity; zero unless someone sets it
+  VecX external_force;              ///< N, beside gravity; zero unless someone sets it
 
   int nodes() const { return fem.nodes(); }
   int free_nodes() const { return static_cast<int>(free_node_.size()); }
@@ -53,8 +53,8 @@ class DeformableBody {
   double kinetic_energy() const;                       ///< J
   double potential_energy(const Vec3& gravity) const;  ///< −Σ m g·x, J
   double elastic_energy() { return fem.energy(position); }
-  Vec3 momentum() const;                               ///< kg m/s
-  Vec3 angular_momentum() const;                       ///< about the origin, kg m²/s
+  Vec3 momentum() const;          ///< kg m/s
+  Vec3 angular_momentum() const;  ///< about the origin, kg m²/s
   Vec3 center_of_mass() const;
   /// Smallest J = det F over the elements; <= 0 where one is inverted.
   double smallest_volume_ratio() const;

@@ -16,8 +16,12 @@ constexpr std::size_t kNodesPerTask = 256;
 
 }  // namespace
 
-FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass, std::vector<int> element_material, std::vector<double> fraction)
-    : rest_(std::move(rest)), materials_(std::move(materials)), element_material_(std::move(element_material)), mass_kind_(mass) {
+FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass,
+                         std::vector<int> element_material, std::vector<double> fraction)
+    : rest_(std::move(rest)),
+      materials_(std::move(materials)),
+      element_material_(std::move(element_material)),
+      mass_kind_(mass) {
   const std::size_t count = rest_.tets.size();
   if (element_material_.empty()) element_material_.assign(count, 0);
   if (fraction.empty()) fraction.assign(count, 1.0);
@@ -26,7 +30,8 @@ FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassK
   elements_.reserve(count);
   for (std::size_t e = 0; e < count; ++e) {
     const Tet& t = rest_.tets[e];
-    elements_.push_back(make_tet_rest(rest_.vertices[t[0]], rest_.vertices[t[1]], rest_.vertices[t[2]], rest_.vertices[t[3]], fraction[e]));
+    elements_.push_back(make_tet_rest(rest_.vertices[t[0]], rest_.vertices[t[1]], rest_.vertices[t[2]],
+                                      rest_.vertices[t[3]], fraction[e]));
     IMPINGE_ASSERT(elements_.back().volume > 0.0);
   }
   pattern_ = std::make_shared<BlockPattern>(make_block_pattern(nodes(), rest_.tets));
@@ -47,7 +52,8 @@ FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassK
   std::partial_sum(block_begin_.begin(), block_begin_.end(), block_begin_.begin());
   node_code_.resize(4 * count);
   block_code_.resize(10 * count);
-  std::vector<int> node_cursor(node_begin_.begin(), node_begin_.end() - 1), block_cursor(block_begin_.begin(), block_begin_.end() - 1);
+  std::vector<int> node_cursor(node_begin_.begin(), node_begin_.end() - 1),
+      block_cursor(block_begin_.begin(), block_begin_.end() - 1);
   for (std::size_t e = 0; e < count; ++e) {
     const int element = static_cast<int>(e);
     for (int k = 0; k < 4; ++k) node_code_[node_cursor[rest_.tets[e][k]]++] = 4 * element + k;
@@ -93,7 +99,8 @@ void FemAssembly::multiply_mass(const VecX& x, VecX& y) const {
   }
   parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
-    for (int k = pattern_->begin[i]; k < pattern_->begin[i + 1]; ++k) sum += block_mass_[k] * x.segment<3>(3 * pattern_->column[k]);
+    for (int k = pattern_->begin[i]; k < pattern_->begin[i + 1]; ++k)
+      sum += block_mass_[k] * x.segment<3>(3 * pattern_->column[k]);
     y.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
   });
 }
@@ -112,7 +119,9 @@ double FemAssembly::total_energy() const {
 }
 
 double FemAssembly::energy(const VecX& x) {
-  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) { slot_[e].energy = material(static_cast<int>(e)).energy(elements_[e], corners(x, static_cast<int>(e))); });
+  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
+    slot_[e].energy = material(static_cast<int>(e)).energy(elements_[e], corners(x, static_cast<int>(e)));
+  });
   return total_energy();
 }
 
@@ -120,20 +129,25 @@ void FemAssembly::gather_forces(VecX& f) const {
   f.resize(3 * nodes());
   parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
-    for (int k = node_begin_[i]; k < node_begin_[i + 1]; ++k) sum += slot_[node_code_[k] / 4].force.col(node_code_[k] % 4);
+    for (int k = node_begin_[i]; k < node_begin_[i + 1]; ++k)
+      sum += slot_[node_code_[k] / 4].force.col(node_code_[k] % 4);
     f.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
   });
 }
 
 double FemAssembly::forces(const VecX& x, VecX& f) {
-  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) { material(static_cast<int>(e)).force(elements_[e], corners(x, static_cast<int>(e)), slot_[e]); });
+  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
+    material(static_cast<int>(e)).force(elements_[e], corners(x, static_cast<int>(e)), slot_[e]);
+  });
   gather_forces(f);
   return total_energy();
 }
 
 double FemAssembly::stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k) {
   IMPINGE_ASSERT(k.pattern == pattern_);
-  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) { material(static_cast<int>(e)).response(elements_[e], corners(x, static_cast<int>(e)), tangent, slot_[e]); });
+  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
+    material(static_cast<int>(e)).response(elements_[e], corners(x, static_cast<int>(e)), tangent, slot_[e]);
+  });
   gather_forces(f);
   parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {
     for (int block = pattern_->diagonal[i]; block < pattern_->begin[i + 1]; ++block) {
@@ -141,8 +155,10 @@ double FemAssembly::stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatr
       for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
         const int code = block_code_[c];
         const Mat3& part = slot_[code / 32].stiffness[(code % 32) / 2];
-        if (code % 2 == 0) sum += part;
-        else sum += part.transpose();
+        if (code % 2 == 0)
+          sum += part;
+        else
+          sum += part.transpose();
       }
       k.values[block] = sum;
       k.values[pattern_->mirror[block]] = sum.transpose();

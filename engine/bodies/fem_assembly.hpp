@@ -1,8 +1,8 @@
 // A tetrahedral body's energy, forces, stiffness and mass, summed over its elements into a pattern that is made once.
 //
-// Elements are evaluated in parallel, each into its own slot; nodes and blocks then add up what concerns them in order of
-// elements. So the sums don't depend on the number of threads. (Colouring needs no slots but at least 24 passes, the number of
-// tetrahedra round a node, each with poor locality.)
+// Elements are evaluated in parallel, each into its own slot; nodes and blocks then add up what concerns them in order
+// of elements. So the sums don't depend on the number of threads. (Colouring needs no slots but at least 24 passes, the
+// number of tetrahedra round a node, each with poor locality.)
 #pragma once
 
 #include <memory>
@@ -25,7 +25,8 @@ class FemAssembly {
  public:
   /// rest: checked by check_tet_mesh. element_material: index into `materials` of each tetrahedron, or empty for all 0.
   /// fraction: how much of each tetrahedron is filled, in (0, 1], or empty for all 1; it weighs mass and stiffness.
-  FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass, std::vector<int> element_material = {}, std::vector<double> fraction = {});
+  FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass, std::vector<int> element_material = {},
+              std::vector<double> fraction = {});
 
   const TetMesh& rest() const { return rest_; }
   int nodes() const { return static_cast<int>(rest_.vertices.size()); }
@@ -43,7 +44,8 @@ class FemAssembly {
   /// The same, and the stiffness −∂f/∂x (or the stand-in that `tangent` names) into k, whose pattern is pattern().
   double stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k);
 
-  /// Mass of each node, kg: a quarter of each tetrahedron round it. Row sums of either mass matrix; what gravity acts on.
+  /// Mass of each node, kg: a quarter of each tetrahedron round it. Row sums of either mass matrix; what gravity acts
+  /// on.
   const std::vector<double>& node_mass() const { return node_mass_; }
   /// The chosen mass matrix: one number a block of the pattern, kg (the block is that times the identity).
   const std::vector<double>& block_mass() const { return block_mass_; }

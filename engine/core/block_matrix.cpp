@@ -46,7 +46,8 @@ BlockPattern make_block_pattern(int rows, std::span<const std::array<int, 4>> gr
   std::vector<int> row;
   for (int i = 0; i < rows; ++i) {
     row.assign(1, i);
-    for (int k = start[i]; k < start[i + 1]; ++k) row.insert(row.end(), groups[member[k]].begin(), groups[member[k]].end());
+    for (int k = start[i]; k < start[i + 1]; ++k)
+      row.insert(row.end(), groups[member[k]].begin(), groups[member[k]].end());
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
     p.column.insert(p.column.end(), row.begin(), row.end());
@@ -99,7 +100,8 @@ void multiply(const BlockMatrix& a, const VecX& x, VecX& y) {
     }
   };
   const std::size_t tasks = (p.rows + kRowsPerTask - 1) / kRowsPerTask;
-  parallel_for(tasks, 1, [&](std::size_t t) { rows(t * kRowsPerTask, std::min<std::size_t>((t + 1) * kRowsPerTask, p.rows)); });
+  parallel_for(tasks, 1,
+               [&](std::size_t t) { rows(t * kRowsPerTask, std::min<std::size_t>((t + 1) * kRowsPerTask, p.rows)); });
 }
 
 VecX operator*(const BlockMatrix& a, const VecX& x) {

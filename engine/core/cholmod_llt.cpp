@@ -1,6 +1,7 @@
-// CHOLMOD's supernodal Cholesky factorization: dense kernels on blocks of columns, several times faster than a simplicial one
-// from a few thousand unknowns on. Compiled in only where the library was found (cmake defines IMPINGE_CHOLMOD). Its
-// supernodal part is under GPL-2+, so a program with it is under the GPL too; without it everything works, slower.
+// CHOLMOD's supernodal Cholesky factorization: dense kernels on blocks of columns, several times faster than a
+// simplicial one from a few thousand unknowns on. Compiled in only where the library was found (cmake defines
+// IMPINGE_CHOLMOD). Its supernodal part is under GPL-2+, so a program with it is under the GPL too; without it
+// everything works, slower.
 #ifdef IMPINGE_CHOLMOD
 
 #include <Eigen/CholmodSupport>
@@ -46,7 +47,9 @@ class Cholmod : public LinearSolver {
 
 }  // namespace
 
-Entry<LinearSolver> cholmod_solver() { return entry<LinearSolver, Cholmod>("cholmod", "CHOLMOD's supernodal Cholesky factorization"); }
+Entry<LinearSolver> cholmod_solver() {
+  return entry<LinearSolver, Cholmod>("cholmod", "CHOLMOD's supernodal Cholesky factorization");
+}
 
 }  // namespace impinge
 

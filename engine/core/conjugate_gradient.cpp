@@ -1,5 +1,5 @@
-// Conjugate gradients with the inverse 3 × 3 diagonal blocks as preconditioner. For the single right-hand side of an implicit
-// step: M dominates A there, so it takes tens of iterations, starting from the last velocity.
+// Conjugate gradients with the inverse 3 × 3 diagonal blocks as preconditioner. For the single right-hand side of an
+// implicit step: M dominates A there, so it takes tens of iterations, starting from the last velocity.
 #include <Eigen/LU>
 #include <cmath>
 
@@ -24,7 +24,9 @@ class ConjugateGradient : public LinearSolver {
       positive = positive && d(0, 0) > 0.0 && d(0, 0) * d(1, 1) > d(0, 1) * d(1, 0) && d.determinant() > 0.0;
       inverse_[i] = d.inverse();
     }
-    return status_ = !finite ? SolveStatus::not_finite : !positive ? SolveStatus::not_positive_definite : SolveStatus::ok;
+    return status_ = !finite     ? SolveStatus::not_finite
+                     : !positive ? SolveStatus::not_positive_definite
+                                 : SolveStatus::ok;
   }
 
   SolveReport solve(const VecX& b, VecX& x) override {
@@ -47,7 +49,9 @@ class ConjugateGradient : public LinearSolver {
     while (r_norm > goal && report.iterations < max_iterations) {
       multiply(*a_, p_, q_);
       const double curvature = dot(p_, q_);
-      if (!(curvature > 0.0)) return {std::isfinite(curvature) ? SolveStatus::not_positive_definite : SolveStatus::not_finite, report.iterations, r_norm / b_norm};
+      if (!(curvature > 0.0))
+        return {std::isfinite(curvature) ? SolveStatus::not_positive_definite : SolveStatus::not_finite,
+                report.iterations, r_norm / b_norm};
       const double alpha = rz / curvature;
       x += alpha * p_;
       r_ -= alpha * q_;
@@ -82,7 +86,8 @@ class ConjugateGradient : public LinearSolver {
  private:
   void precondition() {
     z_.resize(r_.size());
-    for (std::size_t i = 0; i < inverse_.size(); ++i) z_.segment<3>(3 * i).noalias() = inverse_[i] * r_.segment<3>(3 * i);
+    for (std::size_t i = 0; i < inverse_.size(); ++i)
+      z_.segment<3>(3 * i).noalias() = inverse_[i] * r_.segment<3>(3 * i);
   }
 
   const BlockMatrix* a_ = nullptr;
@@ -94,7 +99,8 @@ class ConjugateGradient : public LinearSolver {
 }  // namespace
 
 Entry<LinearSolver> conjugate_gradient_solver() {
-  return entry<LinearSolver, ConjugateGradient>("conjugate_gradient", "conjugate gradients, preconditioned by 3 x 3 diagonal blocks");
+  return entry<LinearSolver, ConjugateGradient>("conjugate_gradient",
+                                                "conjugate gradients, preconditioned by 3 x 3 diagonal blocks");
 }
 
 }  // namespace impinge

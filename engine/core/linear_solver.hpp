@@ -1,5 +1,5 @@
-// One seam for solving A x = b with a symmetric positive definite A of 3 × 3 blocks: the pattern is analyzed once, numbers are
-// taken when A changed, then any number of right-hand sides follow.
+// One seam for solving A x = b with a symmetric positive definite A of 3 × 3 blocks: the pattern is analyzed once,
+// numbers are taken when A changed, then any number of right-hand sides follow.
 #pragma once
 
 #include "engine/core/block_matrix.hpp"
@@ -16,8 +16,8 @@ enum class SolveStatus {
 
 struct SolveReport {
   SolveStatus status = SolveStatus::ok;
-  int iterations = 0;       ///< 0 for a direct solver
-  double residual = 0.0;    ///< ‖b − A x‖/‖b‖ as the iteration knows it; 0 for a direct solver
+  int iterations = 0;     ///< 0 for a direct solver
+  double residual = 0.0;  ///< ‖b − A x‖/‖b‖ as the iteration knows it; 0 for a direct solver
 };
 
 class LinearSolver {
@@ -40,8 +40,8 @@ class LinearSolver {
 /// `conjugate_gradient`, `simplicial_llt` and, where it was compiled in, `cholmod`.
 const Registry<LinearSolver>& linear_solvers();
 
-/// The registered name that is best for `unknowns` unknowns and `right_hand_sides` solves with each A; see linear_solver.cpp
-/// for the measurements behind it.
+/// The registered name that is best for `unknowns` unknowns and `right_hand_sides` solves with each A; see
+/// linear_solver.cpp for the measurements behind it.
 std::string_view automatic_linear_solver(int unknowns, int right_hand_sides);
 
 /// A solver by registered name, or the automatic one for "automatic". Throws InternalError on an unknown name.

@@ -1,5 +1,5 @@
-// Eigen's sparse Cholesky factorization with approximate minimum degree ordering: no library beside Eigen, the same bits
-// everywhere, good up to some 10⁴ unknowns.
+// Eigen's sparse Cholesky factorization with approximate minimum degree ordering: no library beside Eigen, the same
+// bits everywhere, good up to some 10⁴ unknowns.
 #include <Eigen/SparseCholesky>
 #include <optional>
 

@@ -43,8 +43,10 @@ class Grid {
           for (int j = low[1]; j <= high[1]; ++j)
             for (int i = low[0]; i <= high[0]; ++i) {
               const std::size_t c = (static_cast<std::size_t>(k) * size_[1] + j) * size_[0] + i;
-              if (count) ++begin_[c + 1];
-              else member_[cursor_[c]++] = static_cast<int>(t);
+              if (count)
+                ++begin_[c + 1];
+              else
+                member_[cursor_[c]++] = static_cast<int>(t);
             }
       }
       if (!count) break;
@@ -94,7 +96,8 @@ struct Best {
 
 Vec4 barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double volume = tet_volume(a, b, c, d);
-  const double wb = tet_volume(a, p, c, d) / volume, wc = tet_volume(a, b, p, d) / volume, wd = tet_volume(a, b, c, p) / volume;
+  const double wb = tet_volume(a, p, c, d) / volume, wc = tet_volume(a, b, p, d) / volume,
+               wd = tet_volume(a, b, c, p) / volume;
   return {1.0 - wb - wc - wd, wb, wc, wd};
 }
 
@@ -138,7 +141,8 @@ void interpolate(const Embedding& embedding, const TetMesh& mesh, const VecX& x,
   parallel_for(points.size(), 2048, [&](std::size_t i) {
     const Tet& tet = mesh.tets[embedding.tet[i]];
     const Vec4& w = embedding.weight[i];
-    points[i] = w[0] * x.segment<3>(3 * tet[0]) + w[1] * x.segment<3>(3 * tet[1]) + w[2] * x.segment<3>(3 * tet[2]) + w[3] * x.segment<3>(3 * tet[3]);
+    points[i] = w[0] * x.segment<3>(3 * tet[0]) + w[1] * x.segment<3>(3 * tet[1]) + w[2] * x.segment<3>(3 * tet[2]) +
+                w[3] * x.segment<3>(3 * tet[3]);
   });
 }
 

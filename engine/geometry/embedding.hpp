@@ -8,10 +8,10 @@
 namespace impinge {
 
 struct Embedding {
-  std::vector<int> tet;       ///< of each point
-  std::vector<Vec4> weight;   ///< barycentric, sum 1; slightly negative for a point outside the mesh
-  int outside = 0;            ///< points in no tetrahedron: carried by the nearest one
-  double farthest = 0.0;      ///< smallest weight found, as a positive number; 0 when all points are inside
+  std::vector<int> tet;      ///< of each point
+  std::vector<Vec4> weight;  ///< barycentric, sum 1; slightly negative for a point outside the mesh
+  int outside = 0;           ///< points in no tetrahedron: carried by the nearest one
+  double farthest = 0.0;     ///< smallest weight found, as a positive number; 0 when all points are inside
 };
 
 /// Barycentric weights of p in the tetrahedron a, b, c, d of nonzero volume.

@@ -17,13 +17,15 @@ struct Crossing {
 }  // namespace
 
 std::pair<int, int> RayColumns::range(int k, double low, double high) const {
-  return {static_cast<int>(std::ceil((low - start_[k]) / spacing_)), static_cast<int>(std::floor((high - start_[k]) / spacing_)) + 1};
+  return {static_cast<int>(std::ceil((low - start_[k]) / spacing_)),
+          static_cast<int>(std::floor((high - start_[k]) / spacing_)) + 1};
 }
 
 RayColumns::RayColumns(const TriangleMesh& surface, int axis, double spacing) : axis_(axis), spacing_(spacing) {
   Aabb box;
   for (const Vec3& p : surface.vertices) box.include(p);
-  // an offset that no lattice and no symmetric model has: a ray through a vertex or along an edge would be decided by rounding
+  // an offset that no lattice and no symmetric model has: a ray through a vertex or along an edge would be decided by
+  // rounding
   static constexpr std::array<double, 2> kOffset = {0.4142135623730951, 0.7320508075688772};
   for (int k = 0; k < 2; ++k) {
     const int a = (axis + 1 + k) % 3;
@@ -44,8 +46,8 @@ RayColumns::RayColumns(const TriangleMesh& surface, int axis, double spacing) : 
       for (int i = i0; i < i1; ++i) {
         const double pu = u(i), pv = v(j);
         if (!exists(i, j)) continue;
-        // which side of each edge the ray passes; computed from the lower to the higher vertex index, so that the two triangles of an
-        // edge get the same number and exactly one of them is hit
+        // which side of each edge the ray passes; computed from the lower to the higher vertex index, so that the two
+        // triangles of an edge get the same number and exactly one of them is hit
         int left = 0;
         for (int e = 0; e < 3; ++e) {
           int from = t[e], to = t[(e + 1) % 3];
@@ -63,7 +65,9 @@ RayColumns::RayColumns(const TriangleMesh& surface, int axis, double spacing) : 
         crossings.push_back({index(i, j), std::clamp(at, low, high), left == 3 ? -1 : 1});
       }
   }
-  std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) { return std::tie(x.ray, x.at, y.step) < std::tie(y.ray, y.at, x.step); });
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) {
+    return std::tie(x.ray, x.at, y.step) < std::tie(y.ray, y.at, x.step);
+  });
 
   const std::size_t rays = static_cast<std::size_t>(count_[0]) * count_[1];
   begin_.assign(rays + 1, 0);

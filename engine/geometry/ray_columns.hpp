@@ -1,5 +1,5 @@
-// The inside of a closed surface as intervals along a grid of parallel rays: cheap to make for millions of triangles, exact
-// along the rays.
+// The inside of a closed surface as intervals along a grid of parallel rays: cheap to make for millions of triangles,
+// exact along the rays.
 #pragma once
 
 #include <span>
@@ -14,8 +14,8 @@ class RayColumns {
     double low, high;
   };
 
-  /// Rays along `axis`, `spacing` apart, over the surface's bounds. Surface: closed, oriented outwards, welded (neighbours share
-  /// vertices). Where it overlaps itself, winding numbers above zero are inside.
+  /// Rays along `axis`, `spacing` apart, over the surface's bounds. Surface: closed, oriented outwards, welded
+  /// (neighbours share vertices). Where it overlaps itself, winding numbers above zero are inside.
   RayColumns(const TriangleMesh& surface, int axis, double spacing);
 
   int axis() const { return axis_; }
@@ -32,7 +32,8 @@ class RayColumns {
     if (!exists(i, j)) return {};
     return {intervals_.data() + begin_[index(i, j)], begin_[index(i, j) + 1] - begin_[index(i, j)]};
   }
-  /// Rays that leave the surface as often as they enter it only after rounding decided otherwise: dropped, normally none.
+  /// Rays that leave the surface as often as they enter it only after rounding decided otherwise: dropped, normally
+  /// none.
   int dropped_rays() const { return dropped_; }
   bool is_dropped(int i, int j) const { return exists(i, j) && is_dropped_[index(i, j)] != 0; }
 

@@ -1,5 +1,5 @@
-// One-sided Jacobi (Hestenes): plane rotations from the right until the columns of F V are orthogonal. Compared with the
-// eigenvectors of FᵀF it doesn't square the condition number, so nearly flat elements keep their smallest stretch.
+// One-sided Jacobi (Hestenes): plane rotations from the right until the columns of F V are orthogonal. Compared with
+// the eigenvectors of FᵀF it doesn't square the condition number, so nearly flat elements keep their smallest stretch.
 #include "engine/geometry/svd3.hpp"
 
 #include <cmath>
@@ -12,7 +12,8 @@ namespace {
 /// Makes columns p and q of b orthogonal; false if they already were, to rounding.
 bool rotate_columns(Mat3& b, Mat3& v, int p, int q) {
   const double b0 = b(0, p), b1 = b(1, p), b2 = b(2, p), c0 = b(0, q), c1 = b(1, q), c2 = b(2, q);
-  const double alpha = b0 * b0 + b1 * b1 + b2 * b2, beta = c0 * c0 + c1 * c1 + c2 * c2, gamma = b0 * c0 + b1 * c1 + b2 * c2;
+  const double alpha = b0 * b0 + b1 * b1 + b2 * b2, beta = c0 * c0 + c1 * c1 + c2 * c2,
+               gamma = b0 * c0 + b1 * c1 + b2 * c2;
   if (!(gamma * gamma > 1e-32 * alpha * beta)) return false;
   // tan of the angle is the smaller root of t² + 2 ζ t = 1, ζ = (β − α)/2γ
   const double difference = 0.5 * (beta - alpha);
@@ -96,8 +97,8 @@ Svd3 rotation_svd(const Mat3& f) {
 }
 
 Mat3 nearest_rotation(const Mat3& f) {
-  // Newton's iteration for the polar factor (Higham 1986) is several times cheaper than the singular values and exact to
-  // rounding, but only for an F that is neither inverted nor nearly flat.
+  // Newton's iteration for the polar factor (Higham 1986) is several times cheaper than the singular values and exact
+  // to rounding, but only for an F that is neither inverted nor nearly flat.
   const double det = f.determinant();
   const double norm_sq = f.squaredNorm();
   if (det > 1e-3 * norm_sq * std::sqrt(norm_sq)) {

@@ -1,4 +1,5 @@
-// Singular values and rotations of a 3 × 3 deformation gradient, for elements of any shape: stretched, flat, inverted, a point.
+// Singular values and rotations of a 3 × 3 deformation gradient, for elements of any shape: stretched, flat, inverted,
+// a point.
 #pragma once
 
 #include "engine/core/types.hpp"
@@ -13,8 +14,8 @@ struct Svd3 {
   Mat3 v;
 };
 
-/// Never fails: F = 0 gives rotations too. Relative error near rounding, small singular values included. A NaN in F ends in
-/// NaN, not in a loop.
+/// Never fails: F = 0 gives rotations too. Relative error near rounding, small singular values included. A NaN in F
+/// ends in NaN, not in a loop.
 Svd3 rotation_svd(const Mat3& f);
 
 /// The rotation nearest to F (F = R S), det R = 1 also where F is inverted or flat: U Vᵀ of rotation_svd.

@@ -13,8 +13,9 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-/// The lattice: cubic cells with a node at each corner and centre. Between two neighbouring cells, four tetrahedra share the
-/// edge that joins their centres; each takes one edge of the common face. Cells are counted with one layer round the surface.
+/// The lattice: cubic cells with a node at each corner and centre. Between two neighbouring cells, four tetrahedra
+/// share the edge that joins their centres; each takes one edge of the common face. Cells are counted with one layer
+/// round the surface.
 class Lattice {
  public:
   Lattice(const Aabb& box, int cells) : cell_(box.extent().maxCoeff() / cells) {
@@ -30,7 +31,9 @@ class Lattice {
   const Cell& size() const { return size_; }
   std::size_t cell_count() const { return static_cast<std::size_t>(size_[0]) * size_[1] * size_[2]; }
   std::size_t tet_count() const { return 12 * cell_count(); }
-  std::size_t cell_index(const Cell& c) const { return (static_cast<std::size_t>(c[2]) * size_[1] + c[1]) * size_[0] + c[0]; }
+  std::size_t cell_index(const Cell& c) const {
+    return (static_cast<std::size_t>(c[2]) * size_[1] + c[1]) * size_[0] + c[0];
+  }
   Cell cell_at(std::size_t index) const {
     const std::size_t row = index / size_[0];
     return {static_cast<int>(index % size_[0]), static_cast<int>(row % size_[1]), static_cast<int>(row / size_[1])};
@@ -46,7 +49,8 @@ class Lattice {
     const int axis = static_cast<int>(id / 4 % 3), q = static_cast<int>(id % 4);
     Cell next = c;
     ++next[axis];
-    return {corner_count() + cell_index(c), corner_count() + cell_index(next), corner(c, axis, q), corner(c, axis, (q + 1) % 4)};
+    return {corner_count() + cell_index(c), corner_count() + cell_index(next), corner(c, axis, q),
+            corner(c, axis, (q + 1) % 4)};
   }
   Vec3 position(std::size_t node) const {
     if (node >= corner_count()) {
@@ -54,7 +58,8 @@ class Lattice {
       return origin_ + cell_ * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
     }
     const std::size_t nx = size_[0] + 1, ny = size_[1] + 1;
-    return origin_ + cell_ * Vec3(static_cast<double>(node % nx), static_cast<double>(node / nx % ny), static_cast<double>(node / nx / ny));
+    return origin_ + cell_ * Vec3(static_cast<double>(node % nx), static_cast<double>(node / nx % ny),
+                                  static_cast<double>(node / nx / ny));
   }
   std::array<Vec3, 4> corners(std::size_t id) const {
     const auto n = nodes(id);
@@ -63,7 +68,8 @@ class Lattice {
 
   Cell cell_of(const Vec3& p) const {
     Cell c;
-    for (int a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>(std::floor((p[a] - origin_[a]) / cell_)), 1, size_[a] - 2);
+    for (int a = 0; a < 3; ++a)
+      c[a] = std::clamp(static_cast<int>(std::floor((p[a] - origin_[a]) / cell_)), 1, size_[a] - 2);
     return c;
   }
   /// The tetrahedron that holds p: the pyramid of the cell's face that p is nearest to, then the edge of that face.
@@ -94,7 +100,8 @@ class Lattice {
   Cell inner_{}, size_{};
 };
 
-/// Whether a plane through the origin with this normal leaves the two sets strictly apart. `slack` in the normal's units.
+/// Whether a plane through the origin with this normal leaves the two sets strictly apart. `slack` in the normal's
+/// units.
 bool separated(const Vec3& n, const std::array<Vec3, 4>& tet, const std::array<Vec3, 3>& triangle, double slack) {
   double tet_low = n.dot(tet[0]), tet_high = tet_low, low = n.dot(triangle[0]), high = low;
   for (int k = 1; k < 4; ++k) {
@@ -180,7 +187,8 @@ double filled_fraction(const std::array<Vec3, 4>& corner, bool touched, const Ra
       }
       if (!(low < high)) continue;
       total += high - low;
-      for (const RayColumns::Interval& interval : columns.inside(i, j)) inside += std::max(0.0, std::min(high, interval.high) - std::max(low, interval.low));
+      for (const RayColumns::Interval& interval : columns.inside(i, j))
+        inside += std::max(0.0, std::min(high, interval.high) - std::max(low, interval.low));
       if (!touched && high - low > 0.1 * (box.max[w] - box.min[w])) return inside > 0.5 * total ? 1.0 : 0.0;
     }
   return total > 0.0 ? std::clamp(inside / total, 0.0, 1.0) : 0.0;

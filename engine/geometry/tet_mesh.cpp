@@ -24,7 +24,8 @@ std::vector<Face> sorted_faces(const TetMesh& mesh) {
       std::sort(face.key.begin(), face.key.end());
       faces.push_back(face);
     }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return std::tie(a.key, a.tet) < std::tie(b.key, b.tet); });
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return std::tie(a.key, a.tet) < std::tie(b.key, b.tet); });
   return faces;
 }
 
@@ -53,7 +54,8 @@ std::vector<Triangle> boundary_triangles(const TetMesh& mesh) {
     if (end == i + 1) single.push_back(faces[i]);
     i = end;
   }
-  std::sort(single.begin(), single.end(), [](const Face& a, const Face& b) { return std::tie(a.tet, a.side) < std::tie(b.tet, b.side); });
+  std::sort(single.begin(), single.end(),
+            [](const Face& a, const Face& b) { return std::tie(a.tet, a.side) < std::tie(b.tet, b.side); });
   std::vector<Triangle> triangles;
   triangles.reserve(single.size());
   for (const Face& face : single) {
@@ -68,30 +70,41 @@ std::optional<std::string> check_tet_mesh(const TetMesh& mesh, int tet_base) {
   if (mesh.tets.empty()) return "has no tetrahedra; at least one is needed; export the volume mesh again";
   const int vertices = static_cast<int>(mesh.vertices.size());
   for (int i = 0; i < vertices; ++i)
-    if (!mesh.vertices[i].allFinite()) return fmt::format("has a coordinate that is not finite at vertex {}; finite numbers are wanted; export it again", i + tet_base);
+    if (!mesh.vertices[i].allFinite())
+      return fmt::format("has a coordinate that is not finite at vertex {}; finite numbers are wanted; export it again",
+                         i + tet_base);
   std::vector<char> used(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Tet& tet = mesh.tets[t];
     for (int k = 0; k < 4; ++k) {
       if (tet[k] < 0 || tet[k] >= vertices)
-        return fmt::format("names vertex {} in tetrahedron {}; there are vertices {} to {}; export it again", tet[k] + tet_base, t + tet_base, tet_base, vertices - 1 + tet_base);
+        return fmt::format("names vertex {} in tetrahedron {}; there are vertices {} to {}; export it again",
+                           tet[k] + tet_base, t + tet_base, tet_base, vertices - 1 + tet_base);
       for (int l = 0; l < k; ++l)
-        if (tet[k] == tet[l]) return fmt::format("names vertex {} twice in tetrahedron {}; four different ones are wanted; remove the tetrahedron", tet[k] + tet_base, t + tet_base);
+        if (tet[k] == tet[l])
+          return fmt::format(
+              "names vertex {} twice in tetrahedron {}; four different ones are wanted; remove the tetrahedron",
+              tet[k] + tet_base, t + tet_base);
       used[tet[k]] = 1;
     }
     const double volume = tet_volume(mesh, tet);
     double longest_sq = 0.0;
-    for (const auto& [a, b] : kTetEdges) longest_sq = std::max(longest_sq, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).squaredNorm());
-    // a sliver this flat has a height of a millionth of a millionth of its longest edge: the inverse of its edges means nothing
+    for (const auto& [a, b] : kTetEdges)
+      longest_sq = std::max(longest_sq, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).squaredNorm());
+    // a sliver this flat has a height of a millionth of a millionth of its longest edge: the inverse of its edges means
+    // nothing
     if (!(volume > 1e-13 * longest_sq * std::sqrt(longest_sq)))
-      return fmt::format("has {} tetrahedron {} (volume {} m³); positive volumes are wanted; mesh it again", volume < 0.0 ? "the inverted" : "the flat", t + tet_base, volume);
+      return fmt::format("has {} tetrahedron {} (volume {} m³); positive volumes are wanted; mesh it again",
+                         volume < 0.0 ? "the inverted" : "the flat", t + tet_base, volume);
   }
   const std::vector<Face> faces = sorted_faces(mesh);
   for (std::size_t i = 2; i < faces.size(); ++i)
     if (faces[i].key == faces[i - 2].key)
-      return fmt::format("has a face shared by tetrahedra {}, {} and {}; at most two may meet there; mesh it again", faces[i - 2].tet + tet_base, faces[i - 1].tet + tet_base, faces[i].tet + tet_base);
+      return fmt::format("has a face shared by tetrahedra {}, {} and {}; at most two may meet there; mesh it again",
+                         faces[i - 2].tet + tet_base, faces[i - 1].tet + tet_base, faces[i].tet + tet_base);
   for (int i = 0; i < vertices; ++i)
-    if (!used[i]) return fmt::format("has vertex {} in no tetrahedron; every vertex must be used; remove it", i + tet_base);
+    if (!used[i])
+      return fmt::format("has vertex {} in no tetrahedron; every vertex must be used; remove it", i + tet_base);
   return std::nullopt;
 }
 
@@ -114,8 +127,10 @@ int component_count(const TetMesh& mesh) {
 }
 
 TetMesh make_tet_box(const Vec3& size, int nx, int ny, int nz) {
-  // the six orders in which a path from corner to corner can take the axes, with the parity that decides the orientation
-  static constexpr std::array<std::array<int, 3>, 6> kPaths = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  // the six orders in which a path from corner to corner can take the axes, with the parity that decides the
+  // orientation
+  static constexpr std::array<std::array<int, 3>, 6> kPaths = {
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   TetMesh mesh;
   const auto index = [&](const std::array<int, 3>& p) { return (p[2] * (ny + 1) + p[1]) * (nx + 1) + p[0]; };
   for (int k = 0; k <= nz; ++k)

@@ -26,20 +26,21 @@ double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 double tet_volume(const TetMesh& mesh, const Tet& tet);
 double total_volume(const TetMesh& mesh);
 
-/// Faces that belong to one tetrahedron only, counter-clockwise seen from outside, in order of tetrahedra. Vertex indices
-/// are those of the mesh. Edges of such a boundary may be pinched: shared by four faces, not two.
+/// Faces that belong to one tetrahedron only, counter-clockwise seen from outside, in order of tetrahedra. Vertex
+/// indices are those of the mesh. Edges of such a boundary may be pinched: shared by four faces, not two.
 std::vector<Triangle> boundary_triangles(const TetMesh& mesh);
 
-/// The first problem that keeps the mesh from being a body, worded to follow its name: no tetrahedra, an index out of range,
-/// a corner named twice, a coordinate that isn't finite, a flat or inverted tetrahedron, a face shared by three or more
-/// tetrahedra, a vertex in no tetrahedron. `tet_base` is added to the indices in the message (0 or 1, as the file counts).
+/// The first problem that keeps the mesh from being a body, worded to follow its name: no tetrahedra, an index out of
+/// range, a corner named twice, a coordinate that isn't finite, a flat or inverted tetrahedron, a face shared by three
+/// or more tetrahedra, a vertex in no tetrahedron. `tet_base` is added to the indices in the message (0 or 1, as the
+/// file counts).
 std::optional<std::string> check_tet_mesh(const TetMesh& mesh, int tet_base = 0);
 
 /// How many parts the mesh has that share no vertex.
 int component_count(const TetMesh& mesh);
 
-/// Box [0, size] of nx × ny × nz cells, six tetrahedra a cell along the diagonal from its lowest to its highest corner (Kuhn,
-/// Freudenthal). Vertex (i, j, k) has index (k (ny+1) + j) (nx+1) + i.
+/// Box [0, size] of nx × ny × nz cells, six tetrahedra a cell along the diagonal from its lowest to its highest corner
+/// (Kuhn, Freudenthal). Vertex (i, j, k) has index (k (ny+1) + j) (nx+1) + i.
 TetMesh make_tet_box(const Vec3& size, int nx, int ny, int nz);
 
 }  // namespace impinge

@@ -1,5 +1,5 @@
-// Backward Euler solved to the end: Newton's method with a line search. Unconditionally stable, damps (a vibration of ω loses
-// a factor 1/√(1 + (ωh)²) a step).
+// Backward Euler solved to the end: Newton's method with a line search. Unconditionally stable, damps (a vibration of ω
+// loses a factor 1/√(1 + (ωh)²) a step).
 #include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
@@ -20,7 +20,8 @@ class ImplicitEuler : public DeformableIntegrator {
 }  // namespace
 
 Entry<DeformableIntegrator> deformable_implicit_euler() {
-  return entry<DeformableIntegrator, ImplicitEuler>("implicit_euler", "backward Euler, Newton's method with line search");
+  return entry<DeformableIntegrator, ImplicitEuler>("implicit_euler",
+                                                    "backward Euler, Newton's method with line search");
 }
 
 }  // namespace impinge

@@ -34,7 +34,8 @@ void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step)
   step.start = body.position;
   // held nodes move by h times their prescribed velocity, whatever s is
   for (int i = 0; i < body.nodes(); ++i)
-    if (body.is_held(i)) step.offset.segment<3>(3 * i) = (step.time_step - step.s) * body.held_velocity().segment<3>(3 * i);
+    if (body.is_held(i))
+      step.offset.segment<3>(3 * i) = (step.time_step - step.s) * body.held_velocity().segment<3>(3 * i);
   if (with_stiffness) {
     if (step.stiffness.pattern != body.fem.pattern()) step.stiffness = BlockMatrix(body.fem.pattern());
     body.fem.stiffness(body.position, Tangent::automatic, step.force, step.stiffness);
@@ -47,7 +48,8 @@ void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step)
   step.linear_status = SolveStatus::ok;
 }
 
-void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k, DeformableStep& step) {
+void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k,
+                 DeformableStep& step) {
   if (step.a.pattern != body.free_pattern()) step.a = BlockMatrix(body.free_pattern());
   const std::vector<int>& source = body.free_source();
   const std::vector<double>& block_mass = body.fem.block_mass();
@@ -95,7 +97,8 @@ void DeformableIntegrator::advance(DeformableBody& body, const DeformableStep& s
   body.acceleration_known = false;
 }
 
-void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h, LinearSolver& solver, DeformableStep& step) {
+void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h,
+                   LinearSolver& solver, DeformableStep& step) {
   integrator.begin(body, gravity, h, step);
   integrator.free_velocity(body, step, solver);
   integrator.advance(body, step, step.v_star);

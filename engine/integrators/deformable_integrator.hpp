@@ -1,5 +1,5 @@
-// Time integration of deformable bodies: what the velocity of a sub-step has to satisfy, A v = b, and what it does to the
-// positions, Δq(v). [Haapaoja16 §2.1]
+// Time integration of deformable bodies: what the velocity of a sub-step has to satisfy, A v = b, and what it does to
+// the positions, Δq(v). [Haapaoja16 §2.1]
 //
 // Every implicit scheme here is the root of one residual, over the nodes that aren't held:
 //   g(v) = M (v − v̂) + τ (D v − f(x₀ + Δq(v)) − f_ext),   Δq(v) = s v + d,   D = α M + β K(x₀)
@@ -9,17 +9,16 @@
 // Contact adds Jᵀλ to b and reads its gap from x₀ + Δq(v).
 #pragma once
 
-#include <optional>
 
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/core/linear_solver.hpp"
 
 namespace impinge {
 
-/// One body's sub-step. Vectors over the free nodes (DeformableBody::free_node), x, y, z each. Keep it from one sub-step to the
-/// next: its matrices are as large as the body, and begin() reuses them.
+/// One body's sub-step. Vectors over the free nodes (DeformableBody::free_node), x, y, z each. Keep it from one
+/// sub-step to the next: its matrices are as large as the body, and begin() reuses them.
 struct DeformableStep {
-  double time_step = 0.0;     ///< h, s
+  double time_step = 0.0;  ///< h, s
   Vec3 gravity = Vec3::Zero();
   double tau = 0.0, s = 0.0;  ///< s
   VecX start;                 ///< x₀ over all nodes, m
@@ -27,15 +26,15 @@ struct DeformableStep {
   VecX v_hat;                 ///< over all nodes, m/s
   VecX force;                 ///< elastic f(x₀) over all nodes, N
   BlockMatrix stiffness;      ///< K(x₀) over all nodes, N/m; empty where nothing needs it
-  BlockMatrix tangent;        ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
-  BlockMatrix a;              ///< over the free nodes, kg
-  VecX b;                     ///< kg m/s
-  VecX v_star;                ///< solution without contact, m/s
+  BlockMatrix tangent;  ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
+  BlockMatrix a;        ///< over the free nodes, kg
+  VecX b;               ///< kg m/s
+  VecX v_star;          ///< solution without contact, m/s
 
   // how free_velocity fared
   int newton_iterations = 0;
   int linear_iterations = 0;
-  double residual = 0.0;      ///< ‖g(v*)‖ relative to the first residual; of one-iteration schemes: of the linear solve
+  double residual = 0.0;  ///< ‖g(v*)‖ relative to the first residual; of one-iteration schemes: of the linear solve
   bool converged = true;
   SolveStatus linear_status = SolveStatus::ok;
 
@@ -44,9 +43,9 @@ struct DeformableStep {
 };
 
 struct NewtonSettings {
-  double tolerance = 1e-6;      ///< on ‖g‖ relative to the forces and momenta that make it up
+  double tolerance = 1e-6;  ///< on ‖g‖ relative to the forces and momenta that make it up
   int max_iterations = 50;
-  int max_line_search = 30;     ///< halvings of a step that doesn't lower the incremental potential
+  int max_line_search = 30;  ///< halvings of a step that doesn't lower the incremental potential
 };
 
 class DeformableIntegrator {
@@ -73,7 +72,8 @@ const Registry<DeformableIntegrator>& deformable_integrators();
 /// Sets x₀, f(x₀), K(x₀) where `with_stiffness`, and the motion of held nodes; the caller has set h, τ, s, v̂ and d.
 void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step);
 /// step.a = mass M + start K(x₀) + now K, over the free nodes. `k` may be null where now = 0.
-void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k, DeformableStep& step);
+void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k,
+                 DeformableStep& step);
 /// f_ext: gravity by nodal masses and the body's external force, N, over all nodes.
 VecX applied_force(const DeformableBody& body, const Vec3& gravity);
 /// D v = α M v + β K(x₀) v over all nodes, N.
@@ -85,6 +85,7 @@ void solve_free_velocity(const DeformableBody& body, DeformableStep& step, Linea
 /// Newton's method with a projected tangent and a line search on the incremental potential, whose gradient is g.
 void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solver, const NewtonSettings& settings);
 /// One sub-step from begin to advance, without contact.
-void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h, LinearSolver& solver, DeformableStep& step);
+void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h,
+                   LinearSolver& solver, DeformableStep& step);
 
 }  // namespace impinge

@@ -43,7 +43,8 @@ class LinearlyImplicitEuler : public DeformableIntegrator {
 }  // namespace
 
 Entry<DeformableIntegrator> deformable_linearly_implicit_euler() {
-  return entry<DeformableIntegrator, LinearlyImplicitEuler>("linearly_implicit_euler", "backward Euler with one Newton iteration (the seed's scheme)");
+  return entry<DeformableIntegrator, LinearlyImplicitEuler>(
+      "linearly_implicit_euler", "backward Euler with one Newton iteration (the seed's scheme)");
 }
 
 }  // namespace impinge

@@ -12,13 +12,16 @@ namespace {
 
 class IncrementalPotential {
  public:
-  IncrementalPotential(DeformableBody& body, const DeformableStep& step) : body_(body), step_(step), applied_(applied_force(body, step.gravity)) {}
+  IncrementalPotential(DeformableBody& body, const DeformableStep& step)
+      : body_(body), step_(step), applied_(applied_force(body, step.gravity)) {}
 
   double value(const VecX& v, double elastic) const {
     VecX inertia;
     const VecX difference = v - step_.v_hat;
     body_.fem.multiply_mass(difference, inertia);
-    return 0.5 * dot(difference, inertia) + step_.tau * (0.5 * dot(v, damping_force(body_, step_, v)) - dot(applied_, v)) + step_.tau / step_.s * elastic;
+    return 0.5 * dot(difference, inertia) +
+           step_.tau * (0.5 * dot(v, damping_force(body_, step_, v)) - dot(applied_, v)) +
+           step_.tau / step_.s * elastic;
   }
   double value(const VecX& v) const { return value(v, body_.fem.energy(step_.position(v))); }
 
@@ -28,7 +31,8 @@ class IncrementalPotential {
     body_.fem.multiply_mass(v - step_.v_hat, inertia);
     body_.fem.multiply_mass(step_.v_hat, momentum);
     const VecX damping = damping_force(body_, step_, v);
-    size = std::max({momentum.norm(), inertia.norm(), step_.tau * damping.norm(), step_.tau * elastic_force.norm(), step_.tau * applied_.norm()});
+    size = std::max({momentum.norm(), inertia.norm(), step_.tau * damping.norm(), step_.tau * elastic_force.norm(),
+                     step_.tau * applied_.norm()});
     return inertia + step_.tau * (damping - elastic_force - applied_);
   }
 
@@ -61,7 +65,8 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
     step.b = step.a * v_free - g;
     // forces are sums of products of stiffness and position, so they can't be told from zero below their rounding
     double largest = 0.0;
-    for (int i = 0; i < body.nodes(); ++i) largest = std::max(largest, k.values[body.fem.pattern()->diagonal[i]].trace());
+    for (int i = 0; i < body.nodes(); ++i)
+      largest = std::max(largest, k.values[body.fem.pattern()->diagonal[i]].trace());
     const double extent = step.start.cwiseAbs().maxCoeff();
     const double rounding = 1e-15 * step.tau * largest * extent * std::sqrt(static_cast<double>(body.nodes()));
     const double potential_rounding = 1e-15 * step.tau / step.s * largest * extent * extent;

@@ -1,5 +1,5 @@
-// Symplectic Euler, the explicit baseline: M v = M v₀ + h (f(x₀) + f_ext − D v₀), x = x₀ + h v. A = M, so contact is cheap; stable
-// only for h < 2/ω_max, ω_max the highest frequency of the mesh (its smallest, stiffest tetrahedron).
+// Symplectic Euler, the explicit baseline: M v = M v₀ + h (f(x₀) + f_ext − D v₀), x = x₀ + h v. A = M, so contact is
+// cheap; stable only for h < 2/ω_max, ω_max the highest frequency of the mesh (its smallest, stiffest tetrahedron).
 #include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
@@ -27,7 +27,8 @@ class SymplecticEuler : public DeformableIntegrator {
     linearize(body, {}, step);
     if (body.fem.mass_kind() == MassKind::consistent) return solve_free_velocity(body, step, solver);
     step.v_star.resize(body.dofs());
-    for (int i = 0; i < body.free_nodes(); ++i) step.v_star.segment<3>(3 * i) = step.b.segment<3>(3 * i) / body.fem.node_mass()[body.free_node()[i]];
+    for (int i = 0; i < body.free_nodes(); ++i)
+      step.v_star.segment<3>(3 * i) = step.b.segment<3>(3 * i) / body.fem.node_mass()[body.free_node()[i]];
   }
 };
 

@@ -17,15 +17,22 @@ void check_shapes(const TetDraft& draft) {
     for (int k = 0; k < 4; ++k)
       for (int l = 0; l < k; ++l)
         if (tet[k] == tet[l])
-          draft.fail(draft.tet_place[t], fmt::format("tetrahedron {} names vertex {} twice", draft.tet_label[t], draft.vertex_label[tet[k]]), "four different vertices are wanted", "remove it or mesh again");
+          draft.fail(
+              draft.tet_place[t],
+              fmt::format("tetrahedron {} names vertex {} twice", draft.tet_label[t], draft.vertex_label[tet[k]]),
+              "four different vertices are wanted", "remove it or mesh again");
     const double volume = tet_volume(mesh, tet);
     double longest_sq = 0.0;
-    for (const auto& [a, b] : kTetEdges) longest_sq = std::max(longest_sq, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).squaredNorm());
+    for (const auto& [a, b] : kTetEdges)
+      longest_sq = std::max(longest_sq, (mesh.vertices[tet[a]] - mesh.vertices[tet[b]]).squaredNorm());
     // the same bound as check_tet_mesh: below it the inverse of the edges is rounding
     if (volume > 1e-13 * longest_sq * std::sqrt(longest_sq)) continue;
     const bool inverted = volume < -1e-13 * longest_sq * std::sqrt(longest_sq);
-    draft.fail(draft.tet_place[t], fmt::format("tetrahedron {} is {} (volume {:.3g})", draft.tet_label[t], inverted ? "inverted" : "flat", volume),
-               "the vertices a, b, c, d need (b - a).((c - a) x (d - a)) > 0", inverted ? "exchange two of its vertices or mesh again" : "remove it or mesh again");
+    draft.fail(
+        draft.tet_place[t],
+        fmt::format("tetrahedron {} is {} (volume {:.3g})", draft.tet_label[t], inverted ? "inverted" : "flat", volume),
+        "the vertices a, b, c, d need (b - a).((c - a) x (d - a)) > 0",
+        inverted ? "exchange two of its vertices or mesh again" : "remove it or mesh again");
   }
 }
 
@@ -43,15 +50,18 @@ void check_faces(const TetDraft& draft) {
       std::sort(face.key.begin(), face.key.end());
       faces.push_back(face);
     }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return std::tie(a.key, a.tet) < std::tie(b.key, b.tet); });
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return std::tie(a.key, a.tet) < std::tie(b.key, b.tet); });
   // report the one whose third tetrahedron stands first in the file
   int worst = -1;
   for (std::size_t i = 2; i < faces.size(); ++i)
     if (faces[i].key == faces[i - 2].key && (worst < 0 || faces[i].tet < faces[worst].tet)) worst = static_cast<int>(i);
   if (worst < 0) return;
-  draft.fail(draft.tet_place[faces[worst].tet],
-             fmt::format("tetrahedron {} is the third at a face of tetrahedra {} and {}", draft.tet_label[faces[worst].tet], draft.tet_label[faces[worst - 2].tet], draft.tet_label[faces[worst - 1].tet]),
-             "at most two may share a face", "remove doubled elements or mesh again");
+  draft.fail(
+      draft.tet_place[faces[worst].tet],
+      fmt::format("tetrahedron {} is the third at a face of tetrahedra {} and {}", draft.tet_label[faces[worst].tet],
+                  draft.tet_label[faces[worst - 2].tet], draft.tet_label[faces[worst - 1].tet]),
+      "at most two may share a face", "remove doubled elements or mesh again");
 }
 
 void handle_unused(TetDraft& draft, bool drop) {
@@ -63,7 +73,8 @@ void handle_unused(TetDraft& draft, bool drop) {
   if (unused == 0) return;
   if (!drop) {
     const auto first = std::find(new_index.begin(), new_index.end(), -1) - new_index.begin();
-    draft.fail(draft.vertex_place[first], fmt::format("vertex {} is in no tetrahedron", draft.vertex_label[first]), "every vertex must be used", "remove it from the file");
+    draft.fail(draft.vertex_place[first], fmt::format("vertex {} is in no tetrahedron", draft.vertex_label[first]),
+               "every vertex must be used", "remove it from the file");
   }
   int next = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -79,7 +90,8 @@ void handle_unused(TetDraft& draft, bool drop) {
 
 }  // namespace
 
-void TetDraft::fail(const FilePlace& at, const std::string& found, const std::string& allowed, const std::string& remedy) const {
+void TetDraft::fail(const FilePlace& at, const std::string& found, const std::string& allowed,
+                    const std::string& remedy) const {
   throw InputError(fmt::format("{}:{}:{}: {}; {}; {}", files.at(at.file), at.line, at.column, found, allowed, remedy));
 }
 

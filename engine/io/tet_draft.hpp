@@ -1,4 +1,5 @@
-// What the readers of volume meshes share: a mesh whose parts know the line they come from, and the checks that make it a body.
+// What the readers of volume meshes share: a mesh whose parts know the line they come from, and the checks that make it
+// a body.
 #pragma once
 
 #include "engine/io/tet_file.hpp"
@@ -10,13 +11,14 @@ struct FilePlace {
 };
 
 struct TetDraft {
-  std::vector<std::string> files;   ///< names for messages
+  std::vector<std::string> files;  ///< names for messages
   TetFile result;
   std::vector<FilePlace> vertex_place, tet_place;
   std::vector<long long> vertex_label, tet_label;  ///< what the file calls them
 
   /// Throws InputError `file:line:column: found; allowed; remedy`.
-  [[noreturn]] void fail(const FilePlace& at, const std::string& found, const std::string& allowed, const std::string& remedy) const;
+  [[noreturn]] void fail(const FilePlace& at, const std::string& found, const std::string& allowed,
+                         const std::string& remedy) const;
 };
 
 /// Checks the draft and hands its mesh over. Vertices in no tetrahedron are dropped with a note, or refused.

@@ -13,14 +13,20 @@ TetFile read_tet_file(const std::filesystem::path& path) {
   if (ending == ".veg") return parse_veg(path.string(), read_file(path, kLargestTetFile), path.parent_path());
   if (ending == ".msh") return parse_msh(path.string(), read_file(path, kLargestTetFile));
   if (ending == ".node" || ending == ".ele") {
-    const std::filesystem::path node = std::filesystem::path(path).replace_extension(".node"), ele = std::filesystem::path(path).replace_extension(".ele");
+    const std::filesystem::path node = std::filesystem::path(path).replace_extension(".node"),
+                                ele = std::filesystem::path(path).replace_extension(".ele");
     for (const auto& part : {node, ele})
       if (!std::filesystem::exists(part))
-        throw InputError(fmt::format("{}: '{}' is not there; a TetGen mesh is a .node and an .ele file of the same name; put both into one folder", path.string(), part.string()));
+        throw InputError(
+            fmt::format("{}: '{}' is not there; a TetGen mesh is a .node and an .ele file of the same name; put both "
+                        "into one folder",
+                        path.string(), part.string()));
     const std::string node_bytes = read_file(node, kLargestTetFile), ele_bytes = read_file(ele, kLargestTetFile);
     return parse_tetgen(node.string(), node_bytes, ele.string(), ele_bytes);
   }
-  throw InputError(fmt::format("{}: the ending '{}' is no volume mesh format; .veg, .node/.ele and .msh are read; convert the file", path.string(), ending));
+  throw InputError(
+      fmt::format("{}: the ending '{}' is no volume mesh format; .veg, .node/.ele and .msh are read; convert the file",
+                  path.string(), ending));
 }
 
 }  // namespace impinge

@@ -1,8 +1,8 @@
 // Co-rotational linear elasticity: the small strain is measured in the frame R of the polar decomposition F = R S, so
 // Ψ = μ ‖S − I‖² + λ/2 tr²(S − I) (Müller and Gross 2004; the seed's choice [Haapaoja16 §2.1]).
 //
-// Its default tangent is the warped R K Rᵀ: positive semidefinite and cheap, without the terms of ∂R/∂x. The exact and the
-// projected one come from the principal stretches: Ψ = μ Σ(σ_i − 1)² + λ/2 (Σσ_i − 3)².
+// Its default tangent is the warped R K Rᵀ: positive semidefinite and cheap, without the terms of ∂R/∂x. The exact and
+// the projected one come from the principal stretches: Ψ = μ Σ(σ_i − 1)² + λ/2 (Σσ_i − 3)².
 #include "engine/geometry/svd3.hpp"
 #include "engine/materials/isotropic.hpp"
 #include "engine/materials/warped.hpp"
@@ -24,7 +24,8 @@ class Corotational : public IsotropicMaterial {
     StretchHessian h;
     h.principal = Mat3::Constant(lambda) + 2.0 * mu * Mat3::Identity();
     h.flip.setConstant(2.0 * mu);
-    for (int k = 0; k < 3; ++k) h.twist[k] = 2.0 * mu + (2.0 * lambda * trace - 4.0 * mu) / twist_denominator(s[(k + 1) % 3] + s[(k + 2) % 3]);
+    for (int k = 0; k < 3; ++k)
+      h.twist[k] = 2.0 * mu + (2.0 * lambda * trace - 4.0 * mu) / twist_denominator(s[(k + 1) % 3] + s[(k + 2) % 3]);
     return h;
   }
 
@@ -61,6 +62,8 @@ class Corotational : public IsotropicMaterial {
 
 }  // namespace
 
-Entry<Material> corotational_material() { return entry<Material, Corotational>("corotational", "linear elasticity in each element's rotated frame"); }
+Entry<Material> corotational_material() {
+  return entry<Material, Corotational>("corotational", "linear elasticity in each element's rotated frame");
+}
 
 }  // namespace impinge

@@ -1,6 +1,6 @@
-// Fixed corotated elasticity (Stomakhin et al. 2012): Ψ = μ Σ(σ_i − 1)² + λ/2 (J − 1)², J = σ_0 σ_1 σ_2. The volume term is that
-// of the true volume, so it holds up under bending and large strain better than the corotational one, and it stays finite
-// through inversion.
+// Fixed corotated elasticity (Stomakhin et al. 2012): Ψ = μ Σ(σ_i − 1)² + λ/2 (J − 1)², J = σ_0 σ_1 σ_2. The volume
+// term is that of the true volume, so it holds up under bending and large strain better than the corotational one, and
+// it stays finite through inversion.
 #include "engine/materials/isotropic.hpp"
 
 namespace impinge {
@@ -38,6 +38,8 @@ class FixedCorotated : public IsotropicMaterial {
 
 }  // namespace
 
-Entry<Material> fixed_corotated_material() { return entry<Material, FixedCorotated>("fixed_corotated", "corotated shear with the true volume change"); }
+Entry<Material> fixed_corotated_material() {
+  return entry<Material, FixedCorotated>("fixed_corotated", "corotated shear with the true volume change");
+}
 
 }  // namespace impinge

@@ -29,7 +29,8 @@ StretchHessian hessian_for(const IsotropicMaterial& material, const Vec3& stretc
 }  // namespace
 
 double twist_denominator(double sum) {
-  // a thousandth: the force itself has a kink at zero (two stretches of opposite sign change places), so no derivative exists
+  // a thousandth: the force itself has a kink at zero (two stretches of opposite sign change places), so no derivative
+  // exists
   constexpr double kSmallest = 1e-3;
   return sum >= 0.0 ? std::max(sum, kSmallest) : std::min(sum, -kSmallest);
 }
@@ -56,8 +57,8 @@ void IsotropicMaterial::response(const TetRest& rest, const Corners& x, Tangent 
   const Mat3 p = svd.u * density_gradient(svd.sigma).asDiagonal() * svd.v.transpose();
   out.force.noalias() = -rest.volume * (p * rest.gradient);
 
-  // in the frames of U and V only few entries of ∂P/∂F differ from zero: H_ij couples the diagonal, and each pair couples
-  // the entries (i, j) and (j, i): `same` with itself, `cross` with the other
+  // in the frames of U and V only few entries of ∂P/∂F differ from zero: H_ij couples the diagonal, and each pair
+  // couples the entries (i, j) and (j, i): `same` with itself, `cross` with the other
   const StretchHessian h = hessian_for(*this, svd.sigma, wanted(tangent) == Tangent::exact);
   Mat3 same = Mat3::Zero(), cross = Mat3::Zero();
   for (int k = 0; k < 3; ++k) {

@@ -1,5 +1,6 @@
-// Materials whose energy density depends on the principal stretches alone, with the generic eigen-system of their second
-// derivative (twists, flips and a 3 × 3 matrix of the stretches), so that a new one is an energy and its derivatives.
+// Materials whose energy density depends on the principal stretches alone, with the generic eigen-system of their
+// second derivative (twists, flips and a 3 × 3 matrix of the stretches), so that a new one is an energy and its
+// derivatives.
 #pragma once
 
 #include "engine/materials/material.hpp"
@@ -9,8 +10,8 @@ namespace impinge {
 /// Second derivative of an energy density in the frame of the stretches. Pair k is of stretches k+1 and k+2 (mod 3).
 struct StretchHessian {
   Mat3 principal;  ///< ∂²Ψ/∂σ_i∂σ_j, Pa
-  Vec3 flip;       ///< (Ψ_i − Ψ_j)/(σ_i − σ_j), or its limit Ψ_ii − Ψ_ij, Pa: eigenvalue of a symmetric shear
-  Vec3 twist;      ///< (Ψ_i + Ψ_j)/(σ_i + σ_j), Pa: eigenvalue of an antisymmetric shear; singular where σ_i + σ_j = 0
+  Vec3 flip;   ///< (Ψ_i − Ψ_j)/(σ_i − σ_j), or its limit Ψ_ii − Ψ_ij, Pa: eigenvalue of a symmetric shear
+  Vec3 twist;  ///< (Ψ_i + Ψ_j)/(σ_i + σ_j), Pa: eigenvalue of an antisymmetric shear; singular where σ_i + σ_j = 0
 };
 
 class IsotropicMaterial : public Material {

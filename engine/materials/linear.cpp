@@ -1,5 +1,5 @@
-// Linear elasticity: small-strain tensor ε = (F + Fᵀ)/2 − I, Ψ = μ ε:ε + λ/2 (tr ε)². Constant stiffness, the cheapest; but it
-// takes a rotation for a strain, so a turning body swells: for small rotations only.
+// Linear elasticity: small-strain tensor ε = (F + Fᵀ)/2 − I, Ψ = μ ε:ε + λ/2 (tr ε)². Constant stiffness, the cheapest;
+// but it takes a rotation for a strain, so a turning body swells: for small rotations only.
 #include "engine/materials/warped.hpp"
 
 namespace impinge {
@@ -33,6 +33,8 @@ class Linear : public Material {
 
 }  // namespace
 
-Entry<Material> linear_material() { return entry<Material, Linear>("linear", "linear elasticity, for small rotations only"); }
+Entry<Material> linear_material() {
+  return entry<Material, Linear>("linear", "linear elasticity, for small rotations only");
+}
 
 }  // namespace impinge

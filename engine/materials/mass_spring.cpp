@@ -1,12 +1,13 @@
 // Springs along the six edges of each tetrahedron, with a volume spring where they alone can't reach Poisson's ratio.
 //
-// Stiffness from E: springs with Σ k l² = C V, spread evenly over all directions, have the energy density C/30 (2 ε:ε + tr²ε) (the
-// mean of n n n n over the sphere), that is μ = λ = C/15 and ν = 1/4. So each of the six gets k = C V/(6 l²), and
+// Stiffness from E: springs with Σ k l² = C V, spread evenly over all directions, have the energy density C/30 (2 ε:ε +
+// tr²ε) (the mean of n n n n over the sphere), that is μ = λ = C/15 and ν = 1/4. So each of the six gets k = C V/(6
+// l²), and
 //   ν <= 1/4: C = 6 E, k = E V/l² (Van Gelder 1998), effective ν = 1/4;
 //   ν > 1/4:  C = 15 μ, and λ − μ is carried by (λ − μ)/2 (J − 1)² (volume springs, Teschner et al. 2004).
-// Edges of a real mesh are not evenly spread, so the measured E differs with direction: along the axes of a lattice of cubes cut
-// into six it is 30 % too high, along those of a body-centred cage 15 % too low. No choice of six numbers mends that; where
-// moduli matter, take another material.
+// Edges of a real mesh are not evenly spread, so the measured E differs with direction: along the axes of a lattice of
+// cubes cut into six it is 30 % too high, along those of a body-centred cage 15 % too low. No choice of six numbers
+// mends that; where moduli matter, take another material.
 #include "engine/materials/material.hpp"
 
 #include <cmath>
@@ -62,7 +63,8 @@ class MassSpring : public Material {
       const Vec3 edge = x.col(a) - x.col(b);
       const double length = edge.norm();
       const Vec3 n = length > 0.0 ? Vec3(edge / length) : Vec3::Zero();
-      // a compressed spring pushes sideways: negative across its direction, dropped where no indefinite tangent is wanted
+      // a compressed spring pushes sideways: negative across its direction, dropped where no indefinite tangent is
+      // wanted
       double across = length > 0.0 ? 1.0 - rest.edge_length[e] / length : 0.0;
       if (!exact) across = std::max(across, 0.0);
       block[e] = spring(rest, e) * ((1.0 - across) * n * n.transpose() + across * Mat3::Identity());
@@ -84,13 +86,16 @@ class MassSpring : public Material {
       const int a = kBlockRow[i], b = kBlockColumn[i];
       out.stiffness[i] += scale * g.col(a) * g.col(b).transpose();
       // ∂²J between corners a and b: x ↦ F (g_b × g_a) as a cross product
-      if (exact && a != b) out.stiffness[i] += scale * dj * cross_matrix(f * Vec3(rest.gradient.col(b)).cross(Vec3(rest.gradient.col(a))));
+      if (exact && a != b)
+        out.stiffness[i] += scale * dj * cross_matrix(f * Vec3(rest.gradient.col(b)).cross(Vec3(rest.gradient.col(a))));
     }
   }
 
  private:
   /// k = C V/(6 l²), N/m.
-  double spring(const TetRest& rest, int e) const { return edge_modulus_ * rest.volume / (rest.edge_length[e] * rest.edge_length[e]); }
+  double spring(const TetRest& rest, int e) const {
+    return edge_modulus_ * rest.volume / (rest.edge_length[e] * rest.edge_length[e]);
+  }
   /// ∂ det F/∂F.
   static Mat3 cofactor(const Mat3& f) {
     Mat3 c;
@@ -111,6 +116,9 @@ class MassSpring : public Material {
 
 }  // namespace
 
-Entry<Material> mass_spring_material() { return entry<Material, MassSpring>("mass_spring", "springs along the edges, volume springs above a Poisson's ratio of 1/4"); }
+Entry<Material> mass_spring_material() {
+  return entry<Material, MassSpring>("mass_spring",
+                                     "springs along the edges, volume springs above a Poisson's ratio of 1/4");
+}
 
 }  // namespace impinge

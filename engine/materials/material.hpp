@@ -1,7 +1,7 @@
 // What a tetrahedron answers to being deformed: energy, nodal forces and their derivative.
 //
-// The seam is one element with its four corners (linear shape functions, so the deformation gradient F is constant in it).
-// Materials with an energy density of F, warped linear ones and springs along the edges all fit behind it.
+// The seam is one element with its four corners (linear shape functions, so the deformation gradient F is constant in
+// it). Materials with an energy density of F, warped linear ones and springs along the edges all fit behind it.
 #pragma once
 
 #include <string>
@@ -18,9 +18,9 @@ using Mat12 = Eigen::Matrix<double, 12, 12>;
 
 /// A tetrahedron before it is deformed.
 struct TetRest {
-  Corners gradient;                  ///< column a: gradient of the shape function of corner a, 1/m; F = Σ x_a gradient_aᵀ
-  double volume = 0.0;               ///< m³, times the filled fraction: all that energy and force are weighted with
-  std::array<double, 6> edge_length; ///< in the order of kTetEdges, m
+  Corners gradient;     ///< column a: gradient of the shape function of corner a, 1/m; F = Σ x_a gradient_aᵀ
+  double volume = 0.0;  ///< m³, times the filled fraction: all that energy and force are weighted with
+  std::array<double, 6> edge_length;  ///< in the order of kTetEdges, m
 };
 
 /// Which derivative of the force is wanted.
@@ -31,21 +31,21 @@ enum class Tangent {
 };
 
 struct MaterialSettings {
-  double young = 1e5;                   ///< Young's modulus E, Pa
-  double poisson = 0.45;                ///< Poisson's ratio, in (−1, 0.5)
-  double extension_threshold = 0.1;     ///< neo_hookean: principal stretch below which ln is continued by its quadratic
-  Tangent tangent = Tangent::automatic; ///< what Tangent::automatic stands for, unless it is automatic itself
+  double young = 1e5;                ///< Young's modulus E, Pa
+  double poisson = 0.45;             ///< Poisson's ratio, in (−1, 0.5)
+  double extension_threshold = 0.1;  ///< neo_hookean: principal stretch below which ln is continued by its quadratic
+  Tangent tangent = Tangent::automatic;  ///< what Tangent::automatic stands for, unless it is automatic itself
 
-  double mu() const { return young / (2.0 * (1.0 + poisson)); }                                   ///< Lamé, Pa
-  double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }   ///< Lamé, Pa
+  double mu() const { return young / (2.0 * (1.0 + poisson)); }                                  ///< Lamé, Pa
+  double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }  ///< Lamé, Pa
 };
 
-/// The answer of one element. The stiffness is symmetric; only its ten blocks on and above the diagonal are kept, in the
-/// order of kBlockRow, kBlockColumn.
+/// The answer of one element. The stiffness is symmetric; only its ten blocks on and above the diagonal are kept, in
+/// the order of kBlockRow, kBlockColumn.
 struct ElementResponse {
-  double energy = 0.0;              ///< J
-  Corners force;                    ///< −∂energy/∂x, N
-  std::array<Mat3, 10> stiffness;   ///< ∂²energy/∂x∂x (or its stand-in), N/m
+  double energy = 0.0;             ///< J
+  Corners force;                   ///< −∂energy/∂x, N
+  std::array<Mat3, 10> stiffness;  ///< ∂²energy/∂x∂x (or its stand-in), N/m
 };
 inline constexpr std::array<int, 10> kBlockRow = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
 inline constexpr std::array<int, 10> kBlockColumn = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};

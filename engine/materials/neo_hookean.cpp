@@ -1,11 +1,17 @@
-// Neo-Hookean elasticity with the classic logarithm, Ψ = μ/2 (Σσ_i² − 3) − μ ln J + λ/2 ln²J, ln J = Σ ln σ_i, safe under
-// inversion: below a threshold stretch (0.1 by default; 0.6 is stiffer under inversion but alters ordinary compression) each
-// ln σ_i is continued by its quadratic Taylor polynomial L, so Ψ is C² and finite for σ <= 0 (the idea of invertible finite elements, Irving et
-// al. 2004).
+// Neo-Hookean elasticity with the classic logarithm, Ψ = μ/2 (Σσ_i² − 3) − μ ln J + λ/2 ln²J, ln J = Σ ln σ_i, safe
+// under inversion: below a threshold stretch (0.1 by default; 0.6 is stiffer under inversion but alters ordinary
+// compression) each ln σ_i is continued by its quadratic Taylor polynomial L, so Ψ is C² and finite for σ <= 0 (the
+// idea of invertible finite elements, Irving et al. 2004).
 //
-// Why the logarithm and not Ψ itself is continued: a quadratic continuation of Ψ in each stretch is unbounded below once the
-// two other stretches exceed about 5, where λ/2 ln²J bends down. With Ψ = μ/2 (Σσ² − 3) − μ ΣL + λ/2 (ΣL)² the energy is bounded
-// below, and the rest shape is its only stationary point: Ψ_i = 0 for all i needs σ_i/L'_i equal for all, which forces σ = 1.
+// Why the logarithm and not Ψ itself is continued: a quadratic continuation of Ψ in each stretch is unbounded below
+// once the two other stretches exceed about 5, where λ/2 ln²J bends down. With Ψ = μ/2 (Σσ² − 3) − μ ΣL + λ/2 (ΣL)² the
+// energy is bounded below, and the rest shape is its only stationary point: Ψ_i = 0 for all i needs σ_i/L'_i equal for
+// all, which forces σ = 1.
+//
+// That holds for one element. A mesh can still be tangled: nodes thrown about by more than some 0.7 of a cell may wind
+// round one another so that no element is inverted and none at rest, and the logarithm is a wall against unwinding.
+// Below that they come back (tests/accuracy/fem_dynamics.cpp); the corotational material, without such a wall, comes
+// back from more.
 #include "engine/materials/isotropic.hpp"
 
 #include <cmath>
@@ -17,7 +23,8 @@ class NeoHookean : public IsotropicMaterial {
  public:
   double density(const Vec3& s) const override {
     const double log_j = logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2]);
-    return 0.5 * settings().mu() * (s.squaredNorm() - 3.0) - settings().mu() * log_j + 0.5 * settings().lambda() * log_j * log_j;
+    return 0.5 * settings().mu() * (s.squaredNorm() - 3.0) - settings().mu() * log_j +
+           0.5 * settings().lambda() * log_j * log_j;
   }
   Vec3 density_gradient(const Vec3& s) const override {
     const Vec3 slope(first(s[0]), first(s[1]), first(s[2]));
@@ -68,6 +75,8 @@ class NeoHookean : public IsotropicMaterial {
 
 }  // namespace
 
-Entry<Material> neo_hookean_material() { return entry<Material, NeoHookean>("neo_hookean", "logarithmic neo-Hookean, safe under inversion"); }
+Entry<Material> neo_hookean_material() {
+  return entry<Material, NeoHookean>("neo_hookean", "logarithmic neo-Hookean, safe under inversion");
+}
 
 }  // namespace impinge

@@ -1,6 +1,6 @@
-// Saint Venant–Kirchhoff: Hooke's law for the Green strain E = (FᵀF − I)/2, in stretches E_i = (σ_i² − 1)/2, Ψ = μ ΣE_i² +
-// λ/2 (ΣE_i)². Right for large rotations, wrong for strong compression: it softens below a stretch of 1/√3 and lets an
-// element collapse and invert (its energy knows σ² only).
+// Saint Venant–Kirchhoff: Hooke's law for the Green strain E = (FᵀF − I)/2, in stretches E_i = (σ_i² − 1)/2, Ψ = μ
+// ΣE_i² + λ/2 (ΣE_i)². Right for large rotations, wrong for strong compression: it softens below a stretch of 1/√3 and
+// lets an element collapse and invert (its energy knows σ² only).
 #include "engine/materials/isotropic.hpp"
 
 namespace impinge {
@@ -37,6 +37,8 @@ class SaintVenantKirchhoff : public IsotropicMaterial {
 
 }  // namespace
 
-Entry<Material> stvk_material() { return entry<Material, SaintVenantKirchhoff>("stvk", "Saint Venant-Kirchhoff: large rotations, moderate strains"); }
+Entry<Material> stvk_material() {
+  return entry<Material, SaintVenantKirchhoff>("stvk", "Saint Venant-Kirchhoff: large rotations, moderate strains");
+}
 
 }  // namespace impinge

@@ -6,7 +6,8 @@
 namespace impinge {
 
 /// Stiffness blocks R K_ab Rᵀ of linear elasticity, K_ab = V (λ g_a g_bᵀ + μ g_b g_aᵀ + μ (g_a·g_b) I).
-inline void warped_stiffness(const TetRest& rest, const Mat3& rotation, double mu, double lambda, ElementResponse& out) {
+inline void warped_stiffness(const TetRest& rest, const Mat3& rotation, double mu, double lambda,
+                             ElementResponse& out) {
   const Corners g = rotation * rest.gradient;
   for (int block = 0; block < 10; ++block) {
     const Vec3 a = g.col(kBlockRow[block]), b = g.col(kBlockColumn[block]);

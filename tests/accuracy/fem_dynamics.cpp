@@ -1,5 +1,5 @@
-// Deformable bodies in motion: Vega FEM's yardstick, orders and damping of the integrators, energy, momentum, recovery from
-// scrambled elements.
+// Deformable bodies in motion: Vega FEM's yardstick, orders and damping of the integrators, energy, momentum, recovery
+// from scrambled elements.
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
@@ -10,11 +10,14 @@ using test::BodyOptions;
 
 namespace {
 
-std::unique_ptr<DeformableIntegrator> integrator(std::string_view name) { return find_entry(deformable_integrators(), name)->make(); }
+std::unique_ptr<DeformableIntegrator> integrator(std::string_view name) {
+  return find_entry(deformable_integrators(), name)->make();
+}
 
 /// Steps a body for `time` seconds and calls `watch` after each step.
 template <class Watch>
-void run(const DeformableIntegrator& scheme, DeformableBody& body, const Vec3& gravity, double h, double time, Watch&& watch, std::string_view solver_name = "conjugate_gradient", double tolerance = 1e-10) {
+void run(const DeformableIntegrator& scheme, DeformableBody& body, const Vec3& gravity, double h, double time,
+         Watch&& watch, std::string_view solver_name = "conjugate_gradient", double tolerance = 1e-10) {
   const auto solver = make_linear_solver(solver_name);
   solver->tolerance = tolerance;
   solver->analyze(*body.free_pattern());
@@ -30,7 +33,9 @@ double vega_tip(const BodyOptions& options, std::string_view solver) {
   DeformableBody body = test::make_body(make_tet_box(Vec3::Ones(), 8, 8, 8), options);
   body.damping = {0.0, 0.01};
   body.hold(test::nodes_where(body, [](const Vec3& p) { return p.x() == 0.0; }));
-  run(*integrator("linearly_implicit_euler"), body, Vec3(0, -9.81, 0), 0.01, 1.0, [](const DeformableStep& step) { REQUIRE(step.converged); }, solver, 1e-8);
+  run(
+      *integrator("linearly_implicit_euler"), body, Vec3(0, -9.81, 0), 0.01, 1.0,
+      [](const DeformableStep& step) { REQUIRE(step.converged); }, solver, 1e-8);
   return body.position[3 * (body.nodes() - 1) + 1] - 1.0;
 }
 
@@ -40,7 +45,8 @@ struct Bar {
   double omega;
 };
 Bar plucked_bar(std::string_view material, double speed, MassKind mass = MassKind::consistent) {
-  DeformableBody body = test::make_body(make_tet_box(Vec3(1, 0.2, 0.2), 10, 2, 2), {.material = material, .young = 1e6, .poisson = 0.3, .mass = mass});
+  DeformableBody body = test::make_body(make_tet_box(Vec3(1, 0.2, 0.2), 10, 2, 2),
+                                        {.material = material, .young = 1e6, .poisson = 0.3, .mass = mass});
   body.hold(test::nodes_where(body, [](const Vec3& p) { return p.x() == 0.0; }));
   const test::Mode mode = test::lowest_mode(body, "simplicial_llt", 80);
   body.velocity = speed * mode.shape / mode.shape.tail<3>().norm();
@@ -57,7 +63,8 @@ TEST_CASE("Vega FEM's clamped cube: the same tip displacement") {
   CHECK(vega_tip({.tangent = Tangent::exact}, "conjugate_gradient") == Approx(-0.115781).epsilon(1e-5));
   CHECK(vega_tip({.mass = MassKind::lumped}, "conjugate_gradient") == Approx(-0.110).epsilon(0.005));
   // with its exact tangent StVK collapses in exactly the way Vega's does
-  CHECK(vega_tip({.material = "stvk", .tangent = Tangent::exact}, "conjugate_gradient") == Approx(-0.925736).epsilon(1e-5));
+  CHECK(vega_tip({.material = "stvk", .tangent = Tangent::exact}, "conjugate_gradient") ==
+        Approx(-0.925736).epsilon(1e-5));
 }
 
 TEST_CASE("backward Euler and Newmark damp a linear vibration by their own formulas") {
@@ -67,14 +74,16 @@ TEST_CASE("backward Euler and Newmark damp a linear vibration by their own formu
     DeformableBody body = start;
     auto scheme = integrator(name);
     scheme->newton.tolerance = 1e-12;
-    run(*scheme, body, Vec3::Zero(), h, 100.0 * h, [](const DeformableStep&) {}, "simplicial_llt");
+    run(
+        *scheme, body, Vec3::Zero(), h, 100.0 * h, [](const DeformableStep&) {}, "simplicial_llt");
     // amplitude a step 1/√(1 + (ωh)²): 0.6080 after 100
     CHECK(std::sqrt(total_energy(body) / energy) == Approx(std::pow(1.0 + 0.01, -50.0)).epsilon(1e-3));
   }
   DeformableBody body = start;
   auto newmark = integrator("newmark");
   newmark->newton.tolerance = 1e-12;
-  run(*newmark, body, Vec3::Zero(), h, 100.0 * h, [](const DeformableStep&) {}, "simplicial_llt");
+  run(
+      *newmark, body, Vec3::Zero(), h, 100.0 * h, [](const DeformableStep&) {}, "simplicial_llt");
   CHECK(total_energy(body) == Approx(energy).epsilon(1e-8));
 }
 
@@ -97,7 +106,8 @@ TEST_CASE("Newmark keeps the energy of a free vibration of finite amplitude; bac
     CHECK(most < 1.01 * energy);
     DeformableBody damped = start;
     run(*integrator("linearly_implicit_euler"), damped, Vec3::Zero(), h, 10.0 * period, [](const DeformableStep&) {});
-    WARN(material << ": energy over 10 periods of 50 steps, Newmark " << least / energy << " to " << most / energy << ", backward Euler leaves " << total_energy(damped) / energy);
+    WARN(material << ": energy over 10 periods of 50 steps, Newmark " << least / energy << " to " << most / energy
+                  << ", backward Euler leaves " << total_energy(damped) / energy);
     // a linear vibration would keep (1 + (2π/50)²)^−500 = 0.04 %
     CHECK(total_energy(damped) < 0.01 * energy);
   }
@@ -112,10 +122,12 @@ TEST_CASE("convergence in time: backward Euler first order, Newmark second") {
     DeformableBody body = start;
     auto scheme = integrator(name);
     scheme->newton.tolerance = 1e-12;
-    run(*scheme, body, Vec3::Zero(), end / steps, end, [](const DeformableStep&) {}, "simplicial_llt");
+    run(
+        *scheme, body, Vec3::Zero(), end / steps, end, [](const DeformableStep&) {}, "simplicial_llt");
     return (body.position - truth).norm();
   };
-  for (const auto& [name, order, coarse] : {std::tuple("linearly_implicit_euler", 1.0, 80), std::tuple("implicit_euler", 1.0, 80), std::tuple("newmark", 2.0, 25)}) {
+  for (const auto& [name, order, coarse] : {std::tuple("linearly_implicit_euler", 1.0, 80),
+                                            std::tuple("implicit_euler", 1.0, 80), std::tuple("newmark", 2.0, 25)}) {
     const double first = error(name, coarse), second = error(name, 2 * coarse);
     CAPTURE(name, first, second);
     CHECK(std::log2(first / second) == Approx(order).margin(0.1));
@@ -126,7 +138,8 @@ TEST_CASE("symplectic Euler is stable below its limit and keeps the energy near;
   DeformableBody body = plucked_bar("corotational", 0.5, MassKind::lumped).body, other = body;
   const double energy = total_energy(body), start = 0.5 / 12.0;
   double worst = 0.0;
-  run(*integrator("symplectic_euler"), body, Vec3::Zero(), 2e-4, 0.5, [&](const DeformableStep&) { worst = std::max(worst, std::abs(total_energy(body) / energy - 1.0)); });
+  run(*integrator("symplectic_euler"), body, Vec3::Zero(), 2e-4, 0.5,
+      [&](const DeformableStep&) { worst = std::max(worst, std::abs(total_energy(body) / energy - 1.0)); });
   CHECK(worst < 0.05);
   run(*integrator("newmark"), other, Vec3::Zero(), 1e-3, 0.5, [](const DeformableStep&) {});
   // after some three periods the two differ by their phase errors, small against the amplitude
@@ -136,7 +149,8 @@ TEST_CASE("symplectic Euler is stable below its limit and keeps the energy near;
 TEST_CASE("a free body keeps its momentum, and falls like a stone") {
   for (const char* name : {"linearly_implicit_euler", "implicit_euler", "newmark", "symplectic_euler"}) {
     CAPTURE(name);
-    DeformableBody body = test::make_body(make_tet_box(Vec3(0.2, 0.2, 0.2), 3, 3, 3), {.material = "neo_hookean", .mass = MassKind::lumped});
+    DeformableBody body = test::make_body(make_tet_box(Vec3(0.2, 0.2, 0.2), 3, 3, 3),
+                                          {.material = "neo_hookean", .mass = MassKind::lumped});
     body.damping = {0.0, name == std::string("symplectic_euler") ? 1e-4 : 0.01};
     test::Random random(71);
     for (int i = 0; i < body.nodes(); ++i) {
@@ -146,7 +160,8 @@ TEST_CASE("a free body keeps its momentum, and falls like a stone") {
     const Vec3 p0 = body.momentum(), c0 = body.center_of_mass();
     const double h = name == std::string("symplectic_euler") ? 2e-4 : 0.005;
     const int steps = static_cast<int>(std::lround(0.4 / h));
-    run(*integrator(name), body, Vec3(0, -9.81, 0), h, 0.4, [](const DeformableStep&) {}, "simplicial_llt");
+    run(
+        *integrator(name), body, Vec3(0, -9.81, 0), h, 0.4, [](const DeformableStep&) {}, "simplicial_llt");
     const double m = body.fem.total_mass();
     CHECK((body.momentum() - p0 - m * Vec3(0, -9.81 * 0.4, 0)).norm() < 1e-6 * p0.norm());
     // discrete path of the scheme: Euler h²/2 n(n+1), Newmark exact
@@ -159,15 +174,18 @@ TEST_CASE("held nodes move as they are told, in every scheme") {
   for (const auto& entry : deformable_integrators()) {
     CAPTURE(std::string(entry.name));
     for (const MassKind mass : {MassKind::lumped, MassKind::consistent}) {
-      DeformableBody body = test::make_body(make_tet_box(Vec3(1, 0.2, 0.2), 5, 1, 1), {.young = 1e6, .poisson = 0.3, .mass = mass});
+      DeformableBody body =
+          test::make_body(make_tet_box(Vec3(1, 0.2, 0.2), 5, 1, 1), {.young = 1e6, .poisson = 0.3, .mass = mass});
       const bool is_explicit = entry.name == "symplectic_euler";
       body.damping = {0.0, is_explicit ? 1e-4 : 0.1};
       const auto all = test::nodes_where(body, [](const Vec3& p) { return p.x() == 0.0; });
       body.hold(all);
       for (const int i : all) body.set_held_velocity(i, Vec3(0, 0.5, 0));
       const auto scheme = entry.make();
-      run(*scheme, body, Vec3::Zero(), is_explicit ? 5e-4 : 0.02, 4.0, [](const DeformableStep& s) { REQUIRE(s.converged); });
-      for (const int i : all) CHECK(body.position[3 * i + 1] == Approx(body.fem.rest().vertices[i].y() + 2.0).epsilon(1e-9));
+      run(*scheme, body, Vec3::Zero(), is_explicit ? 5e-4 : 0.02, 4.0,
+          [](const DeformableStep& s) { REQUIRE(s.converged); });
+      for (const int i : all)
+        CHECK(body.position[3 * i + 1] == Approx(body.fem.rest().vertices[i].y() + 2.0).epsilon(1e-9));
       if (is_explicit) continue;  // damping enough to end the swing is beyond its stability
       // the swing has ended: the whole bar follows at the same speed, undeformed
       for (int i = 0; i < body.nodes(); ++i) CHECK(body.velocity[3 * i + 1] == Approx(0.5).margin(0.01));
@@ -202,11 +220,14 @@ TEST_CASE("one Newton iteration of implicit_euler from Δq = 0 is the linearly i
 }
 
 TEST_CASE("scrambled, flattened and collapsed elements return to rest") {
-  // all nodes moved at random by up to 0.6 of a cell (a third of the elements inverted), or pressed to a point, a plane, a line
+  // all nodes moved at random by up to 0.6 of a cell (a third of the elements inverted), or pressed to a point, a
+  // plane, a line
   for (int shape = 0; shape < 6; ++shape) {
     CAPTURE(shape);
     const double size = 0.2, cell = size / 3.0;
-    DeformableBody body = test::make_body(make_tet_box(Vec3::Constant(size), 3, 3, 3), {.material = "neo_hookean", .young = 1e5, .poisson = 0.45, .mass = MassKind::lumped});
+    DeformableBody body =
+        test::make_body(make_tet_box(Vec3::Constant(size), 3, 3, 3),
+                        {.material = "neo_hookean", .young = 1e5, .poisson = 0.45, .mass = MassKind::lumped});
     body.damping = {1.0, 0.02};
     test::Random random(72 + shape);
     for (int i = 0; i < body.nodes(); ++i) {
@@ -218,7 +239,9 @@ TEST_CASE("scrambled, flattened and collapsed elements return to rest") {
       body.position.segment<3>(3 * i) = p;
     }
     if (shape < 3) CHECK(body.smallest_volume_ratio() < -0.5);
-    run(*integrator("implicit_euler"), body, Vec3::Zero(), 0.05, 20.0, [&](const DeformableStep&) { REQUIRE(body.position.allFinite()); }, "simplicial_llt");
+    run(
+        *integrator("implicit_euler"), body, Vec3::Zero(), 0.05, 20.0,
+        [&](const DeformableStep&) { REQUIRE(body.position.allFinite()); }, "simplicial_llt");
     CHECK(body.smallest_volume_ratio() > 0.999);
     CHECK(test::distance_from_rest(body) < 1e-6 * size);
   }

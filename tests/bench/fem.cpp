@@ -66,8 +66,9 @@ void vega_steps() {
         scheme->advance(body, step, step.v_star);
       }
       const double total = now_ms() - start;
-      std::printf("vega cube,%s,%d,%zu,%.6f,%.2f,%.2f,%.1f\n", std::string(entry.name).c_str(), body.nodes(), body.fem.elements().size(),
-                  body.position[3 * (body.nodes() - 1) + 1] - 1.0, total / 100.0, assembly / 100.0, iterations / 100.0);
+      std::printf("vega cube,%s,%d,%zu,%.6f,%.2f,%.2f,%.1f\n", std::string(entry.name).c_str(), body.nodes(),
+                  body.fem.elements().size(), body.position[3 * (body.nodes() - 1) + 1] - 1.0, total / 100.0,
+                  assembly / 100.0, iterations / 100.0);
     }
 }
 
@@ -95,7 +96,8 @@ void solves(int largest) {
         x.setZero(b.size());
         report = solver->solve(b, x);
       });
-      std::printf("solve,%s,%d,%.2f,%.2f,%.2f,%d,%.1e\n", std::string(entry.name).c_str(), body.dofs(), analyze, factor, solve, report.iterations, (b - step.a * x).norm() / b.norm());
+      std::printf("solve,%s,%d,%.2f,%.2f,%.2f,%d,%.1e\n", std::string(entry.name).c_str(), body.dofs(), analyze, factor,
+                  solve, report.iterations, (b - step.a * x).norm() / b.norm());
       std::fflush(stdout);
     }
   }

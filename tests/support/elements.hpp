@@ -27,7 +27,8 @@ inline Element random_element(Random& random, double size = 0.1) {
   }
 }
 
-inline std::unique_ptr<Material> make_material(std::string_view name, double young = 1e5, double poisson = 0.4, Tangent tangent = Tangent::automatic) {
+inline std::unique_ptr<Material> make_material(std::string_view name, double young = 1e5, double poisson = 0.4,
+                                               Tangent tangent = Tangent::automatic) {
   std::unique_ptr<Material> material = find_entry(materials(), name)->make();
   MaterialSettings settings;
   settings.young = young;

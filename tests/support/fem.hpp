@@ -39,9 +39,11 @@ inline void shake_inside(TetMesh& mesh, const Vec3& size, double amount, std::ui
   }
 }
 
-/// Equilibrium of the free nodes under `force` (over all nodes, N), by Newton's method from the present position, each step
-/// halved while the energy rises. `pinned` (3 node + axis) components keep their position. Returns the last residual, N.
-inline double solve_static(DeformableBody& body, const VecX& force, std::string_view solver_name = "simplicial_llt", int most = 60, double tolerance = 1e-10, const std::vector<int>& pinned = {}) {
+/// Equilibrium of the free nodes under `force` (over all nodes, N), by Newton's method from the present position, each
+/// step halved while the energy rises. `pinned` (3 node + axis) components keep their position. Returns the last
+/// residual, N.
+inline double solve_static(DeformableBody& body, const VecX& force, std::string_view solver_name = "simplicial_llt",
+                           int most = 60, double tolerance = 1e-10, const std::vector<int>& pinned = {}) {
   const auto solver = make_linear_solver(solver_name);
   solver->tolerance = 1e-12;
   solver->max_iterations = 100000;
@@ -59,7 +61,8 @@ inline double solve_static(DeformableBody& body, const VecX& force, std::string_
     if (residual <= tolerance * std::max(f.norm(), 1e-12)) break;
     fill_system(body, 0.0, 0.0, 1.0, &k, step);
     // a diagonal entry this large leaves a pinned component where it is
-    for (const int c : pinned) step.a.values[body.free_pattern()->diagonal[body.free_index()[c / 3]]](c % 3, c % 3) *= 1e20;
+    for (const int c : pinned)
+      step.a.values[body.free_pattern()->diagonal[body.free_index()[c / 3]]](c % 3, c % 3) *= 1e20;
     if (solver->factorize(step.a) != SolveStatus::ok) return 1e300;
     VecX d = VecX::Zero(body.dofs());
     solver->solve(g, d);
@@ -115,14 +118,20 @@ inline Mode lowest_mode(DeformableBody& body, std::string_view solver_name = "si
 inline double distance_from_rest(const DeformableBody& body) {
   const Vec3 center = body.center_of_mass();
   Vec3 rest_center = Vec3::Zero();
-  for (int i = 0; i < body.nodes(); ++i) rest_center += body.fem.node_mass()[i] * body.fem.rest().vertices[i] / body.fem.total_mass();
+  for (int i = 0; i < body.nodes(); ++i)
+    rest_center += body.fem.node_mass()[i] * body.fem.rest().vertices[i] / body.fem.total_mass();
   Mat3 covariance = Mat3::Zero();
-  for (int i = 0; i < body.nodes(); ++i) covariance += body.fem.node_mass()[i] * (Vec3(body.position.segment<3>(3 * i)) - center) * (body.fem.rest().vertices[i] - rest_center).transpose();
+  for (int i = 0; i < body.nodes(); ++i)
+    covariance += body.fem.node_mass()[i] * (Vec3(body.position.segment<3>(3 * i)) - center) *
+                  (body.fem.rest().vertices[i] - rest_center).transpose();
   Eigen::JacobiSVD<Mat3> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 turn = svd.matrixU() * svd.matrixV().transpose();
   if (turn.determinant() < 0.0) turn = svd.matrixU() * Vec3(1, 1, -1).asDiagonal() * svd.matrixV().transpose();
   double largest = 0.0;
-  for (int i = 0; i < body.nodes(); ++i) largest = std::max(largest, (Vec3(body.position.segment<3>(3 * i)) - center - turn * (body.fem.rest().vertices[i] - rest_center)).norm());
+  for (int i = 0; i < body.nodes(); ++i)
+    largest = std::max(
+        largest,
+        (Vec3(body.position.segment<3>(3 * i)) - center - turn * (body.fem.rest().vertices[i] - rest_center)).norm());
   return largest;
 }
 

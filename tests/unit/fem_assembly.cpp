@@ -95,9 +95,12 @@ TEST_CASE("both mass matrices weigh the body, and the consistent one integrates 
       for (int k = 0; k < 4; ++k) x[k] = body.fem.rest().vertices[t[k]].x();
       truth += 0.5 * 800.0 * tet_volume(body.fem.rest(), t) * (x.squaredNorm() + x.sum() * x.sum()) / 20.0;
     }
-    for (int i = 0; i < body.nodes(); ++i) body.velocity.segment<3>(3 * i) = Vec3(body.fem.rest().vertices[i].x(), 0, 0);
-    if (kind == MassKind::consistent) CHECK(body.kinetic_energy() == Approx(truth).epsilon(1e-12));
-    else CHECK(body.kinetic_energy() > truth);
+    for (int i = 0; i < body.nodes(); ++i)
+      body.velocity.segment<3>(3 * i) = Vec3(body.fem.rest().vertices[i].x(), 0, 0);
+    if (kind == MassKind::consistent)
+      CHECK(body.kinetic_energy() == Approx(truth).epsilon(1e-12));
+    else
+      CHECK(body.kinetic_energy() > truth);
   }
 }
 
@@ -105,7 +108,8 @@ TEST_CASE("filled fractions weigh mass and stiffness alike") {
   const TetMesh mesh = irregular();
   std::vector<double> half(mesh.tets.size(), 0.5);
   std::shared_ptr<const Material> material = test::make_material("stvk");
-  FemAssembly full(mesh, {{material, 1000.0}}, MassKind::lumped), part(mesh, {{material, 1000.0}}, MassKind::lumped, {}, half);
+  FemAssembly full(mesh, {{material, 1000.0}}, MassKind::lumped),
+      part(mesh, {{material, 1000.0}}, MassKind::lumped, {}, half);
   DeformableBody body(full);
   const VecX x = deformed(body, 56);
   CHECK(part.energy(x) == Approx(0.5 * full.energy(x)));
@@ -116,7 +120,8 @@ TEST_CASE("elements may differ in material, and materials may change") {
   const TetMesh mesh = irregular();
   std::vector<int> which(mesh.tets.size(), 0);
   for (std::size_t e = 0; e < which.size(); e += 2) which[e] = 1;
-  std::shared_ptr<const Material> soft = test::make_material("corotational", 1e4), hard = test::make_material("corotational", 1e6);
+  std::shared_ptr<const Material> soft = test::make_material("corotational", 1e4),
+                                  hard = test::make_material("corotational", 1e6);
   FemAssembly mixed(mesh, {{soft, 500.0}, {hard, 1500.0}}, MassKind::lumped, which);
   FemAssembly all_soft(mesh, {{soft, 500.0}}, MassKind::lumped), all_hard(mesh, {{hard, 1500.0}}, MassKind::lumped);
   const VecX x = deformed(DeformableBody(all_soft), 57);

@@ -31,7 +31,8 @@ BlockMatrix random_matrix(int cells, std::uint64_t seed, double shift = 1.0) {
 MatX dense(const BlockMatrix& a) {
   MatX m = MatX::Zero(a.rows(), a.rows());
   for (int i = 0; i < a.pattern->rows; ++i)
-    for (int k = a.pattern->begin[i]; k < a.pattern->begin[i + 1]; ++k) m.block<3, 3>(3 * i, 3 * a.pattern->column[k]) = a.values[k];
+    for (int k = a.pattern->begin[i]; k < a.pattern->begin[i + 1]; ++k)
+      m.block<3, 3>(3 * i, 3 * a.pattern->column[k]) = a.values[k];
   return m;
 }
 
@@ -71,7 +72,8 @@ TEST_CASE("a sub-pattern is the rows and columns that stay") {
   const MatX whole = dense(a), part = dense(b);
   for (int i = 0; i < a.pattern->rows; ++i)
     for (int j = 0; j < a.pattern->rows; ++j)
-      if (index[i] >= 0 && index[j] >= 0) CHECK((part.block<3, 3>(3 * index[i], 3 * index[j]) - whole.block<3, 3>(3 * i, 3 * j)).norm() == 0.0);
+      if (index[i] >= 0 && index[j] >= 0)
+        CHECK((part.block<3, 3>(3 * index[i], 3 * index[j]) - whole.block<3, 3>(3 * i, 3 * j)).norm() == 0.0);
 }
 
 TEST_CASE("every linear solver agrees with a dense one, for one and for many right-hand sides") {

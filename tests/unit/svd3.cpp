@@ -33,7 +33,8 @@ TEST_CASE("singular values of random, degenerate and inverted matrices") {
     check_svd(f);
     check_svd(f * std::pow(10.0, random.in(-150, 150)));
     const Mat3 u = random.rotation(), v = random.rotation();
-    for (const Vec3& s : {Vec3(1, 1, 1), Vec3(1, 1, -1), Vec3(2, 1, 0), Vec3(1, 0, 0), Vec3(1, 1e-9, -1e-12), Vec3(3, 3, 1e-30), Vec3(2, 1, -1)}) {
+    for (const Vec3& s : {Vec3(1, 1, 1), Vec3(1, 1, -1), Vec3(2, 1, 0), Vec3(1, 0, 0), Vec3(1, 1e-9, -1e-12),
+                          Vec3(3, 3, 1e-30), Vec3(2, 1, -1)}) {
       check_svd(u * s.asDiagonal() * v.transpose());
       const Svd3 svd = rotation_svd(u * s.asDiagonal() * v.transpose());
       CHECK((svd.sigma - s).norm() < 1e-14 * s.norm());

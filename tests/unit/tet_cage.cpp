@@ -14,11 +14,13 @@ namespace {
 
 double volume_of(const TriangleMesh& mesh) {
   double sum = 0.0;
-  for (const Triangle& t : mesh.triangles) sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
+  for (const Triangle& t : mesh.triangles)
+    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
   return sum;
 }
 
-/// Part of a tetrahedron where a linear function with these corner values is positive: Σ d_i³/Π(d_i − d_j) over positive d_i.
+/// Part of a tetrahedron where a linear function with these corner values is positive: Σ d_i³/Π(d_i − d_j) over
+/// positive d_i.
 double positive_part(const Vec4& d) {
   double sum = 0.0;
   for (int i = 0; i < 4; ++i) {
@@ -70,7 +72,8 @@ TEST_CASE("rays through a sphere, a torus and a dented body find the volume insi
 }
 
 TEST_CASE("a cage takes closed surfaces of all kinds at any resolution") {
-  for (const TriangleMesh& mesh : {test::icosphere(3), test::bumpy_sphere(4), test::torus(1.0, 0.25, 40, 20), test::box(Vec3(1, 0.3, 0.05)), test::bumpy_torus(60, 30)})
+  for (const TriangleMesh& mesh : {test::icosphere(3), test::bumpy_sphere(4), test::torus(1.0, 0.25, 40, 20),
+                                   test::box(Vec3(1, 0.3, 0.05)), test::bumpy_torus(60, 30)})
     for (const int cells : {1, 2, 5, 12}) {
       CAPTURE(cells);
       const TetCage cage = make_tet_cage(mesh, {.cells = cells});

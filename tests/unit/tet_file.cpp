@@ -89,7 +89,10 @@ TEST_CASE("files are found by their ending and read from disk") {
 }
 
 TEST_CASE(".veg materials, sets and regions") {
-  const std::string text = kVertices + "*ELEMENTS\nTETS\n1 4 0\n1 1 2 3 4\n*MATERIAL unused one\nENU, 900, 1e5, 0.3\n*SET half\n1,\n*MATERIAL soft\nMOONEYRIVLIN 1100 1 2 3\n*MATERIAL\tbone\nORTHOTROPIC_N1G1, 1200, 1,2,3, 0.1, 5\n*REGION\nallElements, unusedone\n*REGION\n half , soft\n";
+  const std::string text = kVertices +
+                           "*ELEMENTS\nTETS\n1 4 0\n1 1 2 3 4\n*MATERIAL unused one\nENU, 900, 1e5, 0.3\n*SET "
+                           "half\n1,\n*MATERIAL soft\nMOONEYRIVLIN 1100 1 2 3\n*MATERIAL\tbone\nORTHOTROPIC_N1G1, "
+                           "1200, 1,2,3, 0.1, 5\n*REGION\nallElements, unusedone\n*REGION\n half , soft\n";
   const TetFile file = parse_veg("m.veg", text, ".");
   REQUIRE(file.materials.size() == 3);
   CHECK(file.materials[0].name == "unusedone");
@@ -114,7 +117,8 @@ TEST_CASE(".veg includes") {
   folder.write("vertices.txt", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
   folder.write("nested.txt", "*INCLUDE list.txt\n");
   folder.write("list.txt", "1\n");
-  const std::string good = "*VERTICES\n*INCLUDE vertices.txt\n" + kTet + "*SET s\n*INCLUDE nested.txt\n*MATERIAL m\nENU 1 1 0\n*REGION\ns,m\n";
+  const std::string good = "*VERTICES\n*INCLUDE vertices.txt\n" + kTet +
+                           "*SET s\n*INCLUDE nested.txt\n*MATERIAL m\nENU 1 1 0\n*REGION\ns,m\n";
   CHECK(read_tet_file(folder.write("good.veg", good)).mesh.tets.size() == 1);
   const std::string place = (folder / "bad.veg").string();
   const auto refuse = [&](const std::string& text, const std::string& at, const std::string& part) {
@@ -185,8 +189,11 @@ TEST_CASE("each damaged .veg file gives one located error") {
       {"m.veg:12:1:", "wanted", kVeg + "*REGION\nallElements\n"},
       {"m.veg:1:1:", "CR alone", "*VERTICES\r4 3 0 0\r1 0 0 0\r"},
       {"m.veg:1:1:", "not text", std::string("\0\1\2\3", 4) + kVeg},
-      {"m.veg:7:1:", "in no tetrahedron", replaced(replaced(kVeg, "4 3 0 0", "5 3 0 0"), "*ELEMENTS", "5 1 1 1\n*ELEMENTS")},
-      {"m.veg:12:1:", "third", "*VERTICES\n4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n*ELEMENTS\nTET\n3 4 0\n1 1 2 3 4\n2 1 2 3 4\n3 1 2 3 4\n"},
+      {"m.veg:7:1:", "in no tetrahedron",
+       replaced(replaced(kVeg, "4 3 0 0", "5 3 0 0"), "*ELEMENTS", "5 1 1 1\n*ELEMENTS")},
+      {"m.veg:12:1:", "third",
+       "*VERTICES\n4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n*ELEMENTS\nTET\n3 4 0\n1 1 2 3 4\n2 1 2 3 4\n3 1 2 3 "
+       "4\n"},
   };
   for (const Case& c : cases) check_refused(c.place, c.part, [&] { parse_veg("m.veg", c.text, "."); });
 }
@@ -224,11 +231,17 @@ TEST_CASE("each damaged TetGen pair gives one located error") {
 }
 
 TEST_CASE("each damaged .msh file gives one located error") {
-  const std::string a = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n9 0 0 1\n$EndNodes\n$Elements\n1\n1 4 2 0 0 1 2 3 9\n$EndElements\n";
-  const std::string b = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
+  const std::string a =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n9 0 0 1\n$EndNodes\n$Elements\n1\n1 "
+      "4 2 0 0 1 2 3 9\n$EndElements\n";
+  const std::string b =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 "
+      "1\n$EndNodes\n$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
   CHECK(parse_msh("m.msh", a).mesh.tets.size() == 1);
   CHECK(parse_msh("m.msh", b).mesh.tets.size() == 1);
-  const auto refuse = [](const char* place, const char* part, const std::string& text) { check_refused(place, part, [&] { parse_msh("m.msh", text); }); };
+  const auto refuse = [](const char* place, const char* part, const std::string& text) {
+    check_refused(place, part, [&] { parse_msh("m.msh", text); });
+  };
   refuse("m.msh:1:1:", "empty", "");
   refuse("m.msh:1:1:", "$MeshFormat", a.substr(35));
   refuse("m.msh:2:1:", "4.0", replaced(a, "2.2", "4.0"));
@@ -251,14 +264,17 @@ TEST_CASE("each damaged .msh file gives one located error") {
   refuse("m.msh:14:1:", "$EndElements", replaced(a, "9\n$EndE", "9\n2 4 2 0 0 1 2 3 9\n$EndE"));
   refuse("m.msh:14:1:", "$Elements", a.substr(0, a.find("$Elements")) + "$Foo\n\n$EndFoo\n");
   refuse("m.msh:15:1:", "second $Nodes", a + "$Nodes\n0\n$EndNodes\n");
-  refuse("m.msh:4:1:", "before $Nodes", replaced(a, a.substr(a.find("$Nodes"), a.find("$Elements") - a.find("$Nodes")), ""));
+  refuse("m.msh:4:1:", "before $Nodes",
+         replaced(a, a.substr(a.find("$Nodes"), a.find("$Elements") - a.find("$Nodes")), ""));
   refuse("m.msh:15:1:", "'stray'", a + "stray\n");
   refuse("m.msh:14:5:", "4 nodes", replaced(b, "1 4 1 4", "1 5 1 4"));
   refuse("m.msh:19:9:", "1 elements", replaced(b, "$Elements\n1 1 1 1", "$Elements\n1 7 1 1"));
   refuse("m.msh:6:1:", "dimension 4", replaced(b, "3 1 0 4", "4 1 0 4"));
   refuse("m.msh:5:1:", "room", replaced(b, "1 4 1 4", "99999999 4 1 4"));
   // parametric nodes are legal: a parameter a dimension follows each position
-  const TetFile parametric = parse_msh("m.msh", replaced(replaced(b, "3 1 0 4", "1 1 1 4"), "0 0 0\n1 0 0\n0 1 0\n0 0 1", "0 0 0 .5\n1 0 0 .5\n0 1 0 .5\n0 0 1 .5"));
+  const TetFile parametric =
+      parse_msh("m.msh", replaced(replaced(b, "3 1 0 4", "1 1 1 4"), "0 0 0\n1 0 0\n0 1 0\n0 0 1",
+                                  "0 0 0 .5\n1 0 0 .5\n0 1 0 .5\n0 0 1 .5"));
   CHECK(parametric.mesh.vertices[3] == Vec3(0, 0, 1));
 }
 
@@ -276,7 +292,8 @@ TEST_CASE("meshes of other programs are read") {
   CHECK(turtle.materials.size() == 2);
   CHECK(std::count(turtle.element_material.begin(), turtle.element_material.end(), 0) > 0);
   CHECK(std::count(turtle.element_material.begin(), turtle.element_material.end(), 1) > 0);
-  for (const char* name : {"mat20x20.msh", "sphere1K.msh", "tet-pyramid.msh", "torus.msh", "erleben/spike.msh", "test_2.2_ascii.msh", "test_4.1_ascii.msh"}) {
+  for (const char* name : {"mat20x20.msh", "sphere1K.msh", "tet-pyramid.msh", "torus.msh", "erleben/spike.msh",
+                           "test_2.2_ascii.msh", "test_4.1_ascii.msh"}) {
     CAPTURE(name);
     try {
       const TetFile file = read_tet_file(folder / name);
@@ -286,6 +303,8 @@ TEST_CASE("meshes of other programs are read") {
       CHECK(std::string(name).substr(0, 5) == "test_");
     }
   }
-  check_refused((folder / "vega/beam3/beam3.veg").string() + ":", "cubes", [&] { read_tet_file(folder / "vega/beam3/beam3.veg"); });
-  check_refused((folder / "test_2.2_bin.msh").string() + ":2:5:", "binary", [&] { read_tet_file(folder / "test_2.2_bin.msh"); });
+  check_refused((folder / "vega/beam3/beam3.veg").string() + ":", "cubes",
+                [&] { read_tet_file(folder / "vega/beam3/beam3.veg"); });
+  check_refused((folder / "test_2.2_bin.msh").string() + ":2:5:", "binary",
+                [&] { read_tet_file(folder / "test_2.2_bin.msh"); });
 }

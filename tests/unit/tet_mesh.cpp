@@ -28,7 +28,8 @@ TEST_CASE("a tetrahedral box fills its box and has its closed surface outside") 
   const TriangleMesh surface{mesh.vertices, boundary_triangles(mesh)};
   CHECK(surface.triangles.size() == 4 * (3 * 4 + 4 * 5 + 5 * 3));
   double volume = 0.0;
-  for (const Triangle& t : surface.triangles) volume += surface.vertices[t[0]].dot(surface.vertices[t[1]].cross(surface.vertices[t[2]])) / 6.0;
+  for (const Triangle& t : surface.triangles)
+    volume += surface.vertices[t[0]].dot(surface.vertices[t[1]].cross(surface.vertices[t[2]])) / 6.0;
   CHECK(volume == Approx(6.0));
   CHECK(make_topology(surface).is_closed());
   // Vega's yardstick mesh: all six tetrahedra of a cell share the diagonal from its lowest to its highest corner
@@ -41,7 +42,8 @@ TEST_CASE("a tetrahedral box fills its box and has its closed surface outside") 
 TEST_CASE("the boundary of an irregular mesh encloses the volume of its tetrahedra") {
   const TetMesh mesh = shaken_box();
   double volume = 0.0;
-  for (const Triangle& t : boundary_triangles(mesh)) volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
+  for (const Triangle& t : boundary_triangles(mesh))
+    volume += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]])) / 6.0;
   CHECK(volume == Approx(total_volume(mesh)).epsilon(1e-12));
 }
 
@@ -56,9 +58,11 @@ TEST_CASE("what keeps tetrahedra from being a body is named") {
   CHECK_THAT(problem([](TetMesh& m) { m.tets.clear(); }), Contains("no tetrahedra"));
   CHECK_THAT(problem([](TetMesh& m) { m.tets[3][1] = 99; }), Contains("vertex 100 in tetrahedron 4"));
   CHECK_THAT(problem([](TetMesh& m) { m.tets[3][1] = m.tets[3][2]; }), Contains("twice in tetrahedron 4"));
-  CHECK_THAT(problem([](TetMesh& m) { m.vertices[5].x() = std::numeric_limits<double>::quiet_NaN(); }), Contains("not finite at vertex 6"));
+  CHECK_THAT(problem([](TetMesh& m) { m.vertices[5].x() = std::numeric_limits<double>::quiet_NaN(); }),
+             Contains("not finite at vertex 6"));
   CHECK_THAT(problem([](TetMesh& m) { std::swap(m.tets[7][0], m.tets[7][1]); }), Contains("inverted tetrahedron 8"));
-  CHECK_THAT(problem([](TetMesh& m) { m.tets.push_back(m.tets[0]), m.tets.push_back(m.tets[0]); }), Contains("1, 49 and 50"));
+  CHECK_THAT(problem([](TetMesh& m) { m.tets.push_back(m.tets[0]), m.tets.push_back(m.tets[0]); }),
+             Contains("1, 49 and 50"));
   CHECK_THAT(problem([](TetMesh& m) { m.vertices.emplace_back(5, 5, 5); }), Contains("vertex 28 in no tetrahedron"));
   CHECK_THAT(problem([](TetMesh& m) { m.vertices[m.tets[2][1]] = m.vertices[m.tets[2][0]]; }), Contains("flat"));
 }
@@ -83,7 +87,8 @@ TEST_CASE("points are embedded where they are, and follow an affine motion exact
     if (i % 5 == 0) w[0] = 0.0;
     if (i % 25 == 0) w = Vec4(0, 0, 1, 0);
     w /= w.sum();
-    points.push_back(w[0] * mesh.vertices[t[0]] + w[1] * mesh.vertices[t[1]] + w[2] * mesh.vertices[t[2]] + w[3] * mesh.vertices[t[3]]);
+    points.push_back(w[0] * mesh.vertices[t[0]] + w[1] * mesh.vertices[t[1]] + w[2] * mesh.vertices[t[2]] +
+                     w[3] * mesh.vertices[t[3]]);
   }
   const Embedding embedding = embed(mesh, points);
   CHECK(embedding.outside == 0);
