@@ -1,0 +1,99 @@
+#include "engine/bodies/deformable_body.hpp"
+
+#include <limits>
+
+#include "engine/core/error.hpp"
+
+namespace impinge {
+
+DeformableBody::DeformableBody(FemAssembly assembly) : fem(std::move(assembly)) {
+  const int n = fem.nodes();
+  position.resize(3 * n);
+  for (int i = 0; i < n; ++i) position.segment<3>(3 * i) = fem.rest().vertices[i];
+  velocity.setZero(3 * n);
+  acceleration.setZero(3 * n);
+  external_force.setZero(3 * n);
+  hold({});
+}
+
+void DeformableBody::hold(std::span<const int> held) {
+  const int n = nodes();
+  free_index_.assign(n, 0);
+  for (const int i : held) {
+    IMPINGE_ASSERT(i >= 0 && i < n);
+    free_index_[i] = -1;
+  }
+  free_node_.clear();
+  for (int i = 0; i < n; ++i)
+    if (free_index_[i] == 0) {
+      free_index_[i] = static_cast<int>(free_node_.size());
+      free_node_.push_back(i);
+    } else {
+      velocity.segment<3>(3 * i).setZero();
+      acceleration.segment<3>(3 * i).setZero();
+    }
+  held_velocity_.setZero(3 * n);
+  acceleration_known = false;
+  free_pattern_ = std::make_shared<BlockPattern>(sub_pattern(*fem.pattern(), free_index_, free_source_));
+}
+
+void DeformableBody::set_held_velocity(int node, const Vec3& v) {
+  IMPINGE_ASSERT(node >= 0 && node < nodes() && is_held(node));
+  held_velocity_.segment<3>(3 * node) = v;
+}
+
+VecX DeformableBody::gather_free(const VecX& all) const {
+  VecX free(dofs());
+  for (int i = 0; i < free_nodes(); ++i) free.segment<3>(3 * i) = all.segment<3>(3 * free_node_[i]);
+  return free;
+}
+
+void DeformableBody::scatter_free(const VecX& free, VecX& all) const {
+  for (int i = 0; i < free_nodes(); ++i) all.segment<3>(3 * free_node_[i]) = free.segment<3>(3 * i);
+}
+
+double DeformableBody::kinetic_energy() const {
+  VecX momenta;
+  fem.multiply_mass(velocity, momenta);
+  return 0.5 * dot(velocity, momenta);
+}
+
+double DeformableBody::potential_energy(const Vec3& gravity) const {
+  double sum = 0.0;
+  for (int i = 0; i < nodes(); ++i) sum -= fem.node_mass()[i] * gravity.dot(position.segment<3>(3 * i));
+  return sum;
+}
+
+Vec3 DeformableBody::momentum() const {
+  VecX momenta;
+  fem.multiply_mass(velocity, momenta);
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < nodes(); ++i) sum += momenta.segment<3>(3 * i);
+  return sum;
+}
+
+Vec3 DeformableBody::angular_momentum() const {
+  VecX momenta;
+  fem.multiply_mass(velocity, momenta);
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < nodes(); ++i) sum += Vec3(position.segment<3>(3 * i)).cross(Vec3(momenta.segment<3>(3 * i)));
+  return sum;
+}
+
+Vec3 DeformableBody::center_of_mass() const {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < nodes(); ++i) sum += fem.node_mass()[i] * position.segment<3>(3 * i);
+  return sum / fem.total_mass();
+}
+
+double DeformableBody::smallest_volume_ratio() const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < fem.elements().size(); ++e) {
+    Corners x;
+    for (int k = 0; k < 4; ++k) x.col(k) = position.segment<3>(3 * fem.rest().tets[e][k]);
+    smallest = std::min(smallest, deformation_gradient(fem.elements()[e], x).determinant());
+  }
+  return smallest;
+}
+
+}  // namespace impinge

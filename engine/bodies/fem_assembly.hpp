@@ -1,0 +1,77 @@
+// A tetrahedral body's energy, forces, stiffness and mass, summed over its elements into a pattern that is made once.
+//
+// Elements are evaluated in parallel, each into its own slot; nodes and blocks then add up what concerns them in order
+// of elements. So the sums don't depend on the number of threads. (Colouring needs no slots but at least 24 passes, the
+// number of tetrahedra round a node, each with poor locality.)
+#pragma once
+
+#include <memory>
+
+#include "engine/core/block_matrix.hpp"
+#include "engine/geometry/tet_mesh.hpp"
+#include "engine/materials/material.hpp"
+
+namespace impinge {
+
+enum class MassKind { lumped, consistent };
+
+/// What some of a body's tetrahedra are made of.
+struct FemMaterial {
+  std::shared_ptr<const Material> elastic;
+  double density = 1000.0;  ///< kg/m³
+};
+
+class FemAssembly {
+ public:
+  /// rest: checked by check_tet_mesh. element_material: index into `materials` of each tetrahedron, or empty for all 0.
+  /// fraction: how much of each tetrahedron is filled, in (0, 1], or empty for all 1; it weighs mass and stiffness.
+  FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass, std::vector<int> element_material = {},
+              std::vector<double> fraction = {});
+
+  const TetMesh& rest() const { return rest_; }
+  int nodes() const { return static_cast<int>(rest_.vertices.size()); }
+  const std::vector<TetRest>& elements() const { return elements_; }
+  const Material& material(int element) const { return *materials_[element_material_[element]].elastic; }
+  const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
+  /// Exchanges a material between steps; its index is that of the constructor's list. Mass follows the density.
+  void set_material(int index, FemMaterial material);
+
+  // positions x, forces f: node by node x, y, z; metres, newtons
+  /// Elastic energy, J.
+  double energy(const VecX& x);
+  /// Elastic force f = −∂energy/∂x; returns the energy.
+  double forces(const VecX& x, VecX& f);
+  /// The same, and the stiffness −∂f/∂x (or the stand-in that `tangent` names) into k, whose pattern is pattern().
+  double stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k);
+
+  /// Mass of each node, kg: a quarter of each tetrahedron round it. Row sums of either mass matrix; what gravity acts
+  /// on.
+  const std::vector<double>& node_mass() const { return node_mass_; }
+  /// The chosen mass matrix: one number a block of the pattern, kg (the block is that times the identity).
+  const std::vector<double>& block_mass() const { return block_mass_; }
+  MassKind mass_kind() const { return mass_kind_; }
+  double total_mass() const;
+  /// y = M x.
+  void multiply_mass(const VecX& x, VecX& y) const;
+
+ private:
+  void make_mass();
+  Corners corners(const VecX& x, int element) const;
+  double total_energy() const;
+  void gather_forces(VecX& f) const;
+
+  TetMesh rest_;
+  std::vector<FemMaterial> materials_;
+  std::vector<int> element_material_;
+  std::vector<TetRest> elements_;
+  MassKind mass_kind_;
+  std::shared_ptr<const BlockPattern> pattern_;
+  std::vector<double> node_mass_, block_mass_;
+
+  // what each node, and each block on or above the diagonal, adds up: codes in order of elements
+  std::vector<int> node_begin_, node_code_;    // code: 4 element + corner
+  std::vector<int> block_begin_, block_code_;  // code: 32 element + 2 block + (1 if transposed)
+  std::vector<ElementResponse> slot_;
+};
+
+}  // namespace impinge

@@ -1,0 +1,107 @@
+#include "engine/integrators/deformable_integrator.hpp"
+
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace impinge {
+
+VecX applied_force(const DeformableBody& body, const Vec3& gravity) {
+  VecX f = body.external_force;
+  for (int i = 0; i < body.nodes(); ++i) f.segment<3>(3 * i) += body.fem.node_mass()[i] * gravity;
+  return f;
+}
+
+VecX with_held(const DeformableBody& body, const VecX& free) {
+  VecX all = body.held_velocity();
+  body.scatter_free(free, all);
+  return all;
+}
+
+VecX damping_force(const DeformableBody& body, const DeformableStep& step, const VecX& v) {
+  VecX d = VecX::Zero(v.size()), part;
+  if (body.damping.alpha != 0.0) {
+    body.fem.multiply_mass(v, part);
+    d += body.damping.alpha * part;
+  }
+  if (body.damping.beta != 0.0) {
+    multiply(step.stiffness, v, part);
+    d += body.damping.beta * part;
+  }
+  return d;
+}
+
+void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step) {
+  step.start = body.position;
+  // held nodes move by h times their prescribed velocity, whatever s is
+  for (int i = 0; i < body.nodes(); ++i)
+    if (body.is_held(i))
+      step.offset.segment<3>(3 * i) = (step.time_step - step.s) * body.held_velocity().segment<3>(3 * i);
+  if (with_stiffness) {
+    if (step.stiffness.pattern != body.fem.pattern()) step.stiffness = BlockMatrix(body.fem.pattern());
+    body.fem.stiffness(body.position, Tangent::automatic, step.force, step.stiffness);
+  } else {
+    body.fem.forces(body.position, step.force);
+  }
+  step.newton_iterations = step.linear_iterations = 0;
+  step.residual = 0.0;
+  step.converged = true;
+  step.linear_status = SolveStatus::ok;
+}
+
+void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k,
+                 DeformableStep& step) {
+  if (step.a.pattern != body.free_pattern()) step.a = BlockMatrix(body.free_pattern());
+  const std::vector<int>& source = body.free_source();
+  const std::vector<double>& block_mass = body.fem.block_mass();
+  parallel_for(source.size(), 4096, [&](std::size_t i) {
+    Mat3& a = step.a.values[i];
+    a.setZero();
+    if (start != 0.0) a += start * step.stiffness.values[source[i]];
+    if (now != 0.0) a += now * k->values[source[i]];
+    a.diagonal().array() += mass * block_mass[source[i]];
+  });
+}
+
+void solve_free_velocity(const DeformableBody& body, DeformableStep& step, LinearSolver& solver) {
+  step.linear_status = solver.factorize(step.a);
+  step.v_star = body.gather_free(body.velocity);
+  if (step.linear_status == SolveStatus::ok) {
+    const SolveReport report = solver.solve(step.b, step.v_star);
+    step.linear_status = report.status;
+    step.linear_iterations += report.iterations;
+    step.residual = report.residual;
+  }
+  step.converged = step.linear_status == SolveStatus::ok;
+}
+
+void DeformableIntegrator::linearize(DeformableBody& body, const VecX& v, DeformableStep& step) const {
+  const VecX all = with_held(body, v);
+  VecX force, g;
+  if (step.tangent.pattern != body.fem.pattern()) step.tangent = BlockMatrix(body.fem.pattern());
+  body.fem.stiffness(step.position(all), Tangent::projected, force, step.tangent);
+  body.fem.multiply_mass(all - step.v_hat, g);
+  g += step.tau * (damping_force(body, step, all) - force - applied_force(body, step.gravity));
+  const RayleighDamping& d = body.damping;
+  fill_system(body, 1.0 + step.tau * d.alpha, step.tau * d.beta, step.tau * step.s, &step.tangent, step);
+  step.b = step.a * v - body.gather_free(g);
+}
+
+void DeformableIntegrator::free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const {
+  newton_solve(body, step, solver, newton);
+}
+
+void DeformableIntegrator::advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const {
+  const VecX all = with_held(body, v);
+  body.position = step.position(all);
+  body.velocity = all;
+  body.acceleration_known = false;
+}
+
+void advance_alone(const DeformableIntegrator& integrator, DeformableBody& body, const Vec3& gravity, double h,
+                   LinearSolver& solver, DeformableStep& step) {
+  integrator.begin(body, gravity, h, step);
+  integrator.free_velocity(body, step, solver);
+  integrator.advance(body, step, step.v_star);
+}
+
+}  // namespace impinge

@@ -1,0 +1,85 @@
+// What a tetrahedron answers to being deformed: energy, nodal forces and their derivative.
+//
+// The seam is one element with its four corners (linear shape functions, so the deformation gradient F is constant in
+// it). Materials with an energy density of F, warped linear ones and springs along the edges all fit behind it.
+#pragma once
+
+#include <string>
+
+#include "engine/core/registry.hpp"
+#include "engine/core/types.hpp"
+
+namespace impinge {
+
+/// Columns are the corners' positions, metres (or forces, newtons).
+using Corners = Eigen::Matrix<double, 3, 4>;
+/// Corner by corner x, y, z.
+using Mat12 = Eigen::Matrix<double, 12, 12>;
+
+/// A tetrahedron before it is deformed.
+struct TetRest {
+  Corners gradient;     ///< column a: gradient of the shape function of corner a, 1/m; F = Σ x_a gradient_aᵀ
+  double volume = 0.0;  ///< m³, times the filled fraction: all that energy and force are weighted with
+  std::array<double, 6> edge_length;  ///< in the order of kTetEdges, m
+};
+
+/// Which derivative of the force is wanted.
+enum class Tangent {
+  automatic,  ///< what the material recommends for a linearly implicit step; positive semidefinite
+  exact,      ///< −∂f/∂x to rounding; may be indefinite
+  projected   ///< the exact one with negative eigenvalues of the element set to zero (never indefinite)
+};
+
+struct MaterialSettings {
+  double young = 1e5;                ///< Young's modulus E, Pa
+  double poisson = 0.45;             ///< Poisson's ratio, in (−1, 0.5)
+  double extension_threshold = 0.1;  ///< neo_hookean: principal stretch below which ln is continued by its quadratic
+  Tangent tangent = Tangent::automatic;  ///< what Tangent::automatic stands for, unless it is automatic itself
+
+  double mu() const { return young / (2.0 * (1.0 + poisson)); }                                  ///< Lamé, Pa
+  double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }  ///< Lamé, Pa
+};
+
+/// The answer of one element. The stiffness is symmetric; only its ten blocks on and above the diagonal are kept, in
+/// the order of kBlockRow, kBlockColumn.
+struct ElementResponse {
+  double energy = 0.0;             ///< J
+  Corners force;                   ///< −∂energy/∂x, N
+  std::array<Mat3, 10> stiffness;  ///< ∂²energy/∂x∂x (or its stand-in), N/m
+};
+inline constexpr std::array<int, 10> kBlockRow = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
+inline constexpr std::array<int, 10> kBlockColumn = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
+
+class Material {
+ public:
+  virtual ~Material() = default;
+  virtual void configure(const MaterialSettings& settings) { settings_ = settings; }
+  const MaterialSettings& settings() const { return settings_; }
+
+  /// J.
+  virtual double energy(const TetRest& rest, const Corners& x) const = 0;
+  /// Energy and force only; the stiffness of `out` is left as it was.
+  virtual void force(const TetRest& rest, const Corners& x, ElementResponse& out) const = 0;
+  /// Energy, force and stiffness.
+  virtual void response(const TetRest& rest, const Corners& x, Tangent tangent, ElementResponse& out) const = 0;
+
+ protected:
+  /// The request with `automatic` replaced by the setting; still automatic if the setting leaves it to the material.
+  Tangent wanted(Tangent tangent) const { return tangent == Tangent::automatic ? settings_.tangent : tangent; }
+
+ private:
+  MaterialSettings settings_;
+};
+
+const Registry<Material>& materials();
+
+/// Rest data of a tetrahedron of positive volume; `fraction` of it is filled.
+TetRest make_tet_rest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double fraction = 1.0);
+
+/// F = Σ x_a gradient_aᵀ.
+inline Mat3 deformation_gradient(const TetRest& rest, const Corners& x) { return x * rest.gradient.transpose(); }
+
+/// The ten blocks as a whole matrix.
+Mat12 full_stiffness(const ElementResponse& response);
+
+}  // namespace impinge

@@ -1,0 +1,82 @@
+// Neo-Hookean elasticity with the classic logarithm, Ψ = μ/2 (Σσ_i² − 3) − μ ln J + λ/2 ln²J, ln J = Σ ln σ_i, safe
+// under inversion: below a threshold stretch (0.1 by default; 0.6 is stiffer under inversion but alters ordinary
+// compression) each ln σ_i is continued by its quadratic Taylor polynomial L, so Ψ is C² and finite for σ <= 0 (the
+// idea of invertible finite elements, Irving et al. 2004).
+//
+// Why the logarithm and not Ψ itself is continued: a quadratic continuation of Ψ in each stretch is unbounded below
+// once the two other stretches exceed about 5, where λ/2 ln²J bends down. With Ψ = μ/2 (Σσ² − 3) − μ ΣL + λ/2 (ΣL)² the
+// energy is bounded below, and the rest shape is its only stationary point: Ψ_i = 0 for all i needs σ_i/L'_i equal for
+// all, which forces σ = 1.
+//
+// That holds for one element. A mesh can still be tangled: nodes thrown about by more than some 0.7 of a cell may wind
+// round one another so that no element is inverted and none at rest, and the logarithm is a wall against unwinding.
+// Below that they come back (tests/accuracy/fem_dynamics.cpp); the corotational material, without such a wall, comes
+// back from more.
+#include "engine/materials/isotropic.hpp"
+
+#include <cmath>
+
+namespace impinge {
+namespace {
+
+class NeoHookean : public IsotropicMaterial {
+ public:
+  double density(const Vec3& s) const override {
+    const double log_j = logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2]);
+    return 0.5 * settings().mu() * (s.squaredNorm() - 3.0) - settings().mu() * log_j +
+           0.5 * settings().lambda() * log_j * log_j;
+  }
+  Vec3 density_gradient(const Vec3& s) const override {
+    const Vec3 slope(first(s[0]), first(s[1]), first(s[2]));
+    return settings().mu() * s + log_weight(s) * slope;
+  }
+  StretchHessian density_hessian(const Vec3& s) const override {
+    const double mu = settings().mu(), lambda = settings().lambda(), weight = log_weight(s);
+    const Vec3 slope(first(s[0]), first(s[1]), first(s[2]));
+    StretchHessian h;
+    h.principal = lambda * slope * slope.transpose();
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      h.principal(k, k) += mu + weight * second(s[k]);
+      h.flip[k] = mu + weight * slope_quotient(s[i], s[j]);
+      h.twist[k] = mu + weight * (slope[i] + slope[j]) / twist_denominator(s[i] + s[j]);
+    }
+    return h;
+  }
+
+ private:
+  double log_weight(const Vec3& s) const {
+    return settings().lambda() * (logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2])) - settings().mu();
+  }
+  double logarithm(double s) const {
+    const double e = settings().extension_threshold;
+    if (s >= e) return std::log(s);
+    const double d = s / e - 1.0;
+    return std::log(e) + d - 0.5 * d * d;
+  }
+  double first(double s) const {
+    const double e = settings().extension_threshold;
+    return s >= e ? 1.0 / s : (2.0 - s / e) / e;
+  }
+  double second(double s) const {
+    const double t = std::max(s, settings().extension_threshold);
+    return -1.0 / (t * t);
+  }
+  /// (L'(a) − L'(b))/(a − b) without the subtraction.
+  double slope_quotient(double a, double b) const {
+    const double e = settings().extension_threshold;
+    if (a < b) std::swap(a, b);
+    if (b >= e) return -1.0 / (a * b);
+    if (a <= e) return -1.0 / (e * e);
+    const double above = a - e, below = e - b;
+    return -(above / (e * a) + below / (e * e)) / (above + below);
+  }
+};
+
+}  // namespace
+
+Entry<Material> neo_hookean_material() {
+  return entry<Material, NeoHookean>("neo_hookean", "logarithmic neo-Hookean, safe under inversion");
+}
+
+}  // namespace impinge
