@@ -9,7 +9,6 @@
 // Contact adds Jᵀλ to b and reads its gap from x₀ + Δq(v).
 #pragma once
 
-
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/core/linear_solver.hpp"
 
