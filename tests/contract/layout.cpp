@@ -30,7 +30,7 @@ std::vector<fs::path> sources() {
 /// The floor of a folder; folders of one floor don't include each other, except what `shared` below allows.
 const std::map<std::string, int>& floors() {
   static const std::map<std::string, int> map = {
-      {"engine/core", 0},        {"engine/geometry", 1},   {"engine/bodies", 2},       {"engine/materials", 2}, {"engine/broadphase", 4},
+      {"engine/core", 0},        {"engine/geometry", 1},   {"engine/materials", 2},    {"engine/bodies", 3}, {"engine/broadphase", 4},
       {"engine/narrowphase", 4}, {"engine/integrators", 4}, {"engine/contact", 4},      {"engine/lcp", 5},       {"engine/response", 6},
       {"engine/world", 7},       {"engine/io", 8},          {"viewer/image", 9},        {"viewer/draw", 9},      {"viewer/gl", 10},
       {"viewer/layers", 11},     {"viewer/panels", 12},     {"viewer/present", 13},     {"viewer/controller", 14}, {"viewer/app", 15}};
