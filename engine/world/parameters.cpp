@@ -23,7 +23,7 @@ void Parameters::bind(ParameterSet& set) {
   set.add("simulation.substeps", simulation.substeps, {1, 1000, true}, "", "Sub-steps of a frame.");
   set.add("simulation.gravity", simulation.gravity, {-1e4, 1e4}, "m/s²", "Acceleration of every dynamic body.");
   set.add("simulation.integrator", simulation.integrator, names_of(integrators()), "Time integration; all are alike for rigid bodies, where A = M.");
-  set.add("simulation.sleeping", simulation.sleeping, "Whether groups at rest are put to sleep and cost nothing until they are touched.");
+  set.add("simulation.sleeping", simulation.sleeping, "Whether groups at rest are put to sleep: they cost nothing, and have no contacts in figures and pictures, until they are touched.");
   set.add("simulation.sleep_speed", simulation.sleep_speed, {0.0, 10.0, true}, "m/s", "A body whose every point is slower than this counts as resting.");
   set.add("simulation.sleep_time", simulation.sleep_time, {0.0, 1000.0}, "s", "How long a whole group must rest before it sleeps.");
   set.add("contact.points", contact.points, {"intersection", "proximity"},

@@ -1,11 +1,13 @@
 // impinge run
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 
+#include "engine/core/error.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
@@ -50,6 +52,34 @@ class Progress {
   bool shown_ = false;
 };
 
+/// What a run must not keep to its table: solves that ended at the iteration cap.
+struct Convergence {
+  std::int64_t solves = 0;
+  int frames = 0, worst_frame = 0;
+  double worst = 0.0;  // m/s
+  void add(const FrameStats& stats) {
+    solves += stats.unconverged;
+    frames += stats.unconverged > 0;
+    if (stats.unconverged > 0 && stats.residual > worst) worst = stats.residual, worst_frame = stats.frame;
+  }
+  void report() const {
+    if (solves == 0) return;
+    fmt::print("note:     {} group solve{} in {} frame{} stopped at lcp.max_iterations; the largest residual was {:.2g} m/s in frame {}\n", solves,
+               solves == 1 ? "" : "s", frames, frames == 1 ? "" : "s", worst, worst_frame);
+  }
+};
+
+/// Before anything is simulated: a film that could not be written at the end.
+void check_video_path(const std::filesystem::path& video) {
+  const std::filesystem::path folder = std::filesystem::absolute(video).parent_path();
+  static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
+  if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
+    throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(), fmt::join(kEndings, ", ")));
+  // the run's own folder may come into being with the run
+  if (!std::filesystem::is_directory(folder) && !std::filesystem::is_directory(folder.parent_path()))
+    throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another", video.string(), folder.string()));
+}
+
 // the path of the sheet
 std::string write_contact_sheet(const std::filesystem::path& out, int last_frame) {
   std::vector<std::filesystem::path> frames;
@@ -74,8 +104,13 @@ int run_command(const Arguments& arguments) {
   Progress progress;
   RunWatcher watcher;
   watcher.interrupted = &g_interrupted;
-  if (!arguments.quiet && isatty(STDERR_FILENO))
-    watcher.frame = [&](const FrameStats& stats, int last_frame) { progress.show(stats, last_frame); };
+  if (!arguments.video.empty()) check_video_path(arguments.video);
+  const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
+  Convergence convergence;
+  watcher.frame = [&](const FrameStats& stats, int last_frame) {
+    convergence.add(stats);
+    if (shows_progress) progress.show(stats, last_frame);
+  };
   watcher.message = [&](const std::string& line) {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
@@ -88,6 +123,7 @@ int run_command(const Arguments& arguments) {
   const bool filmed = !sheet.empty() && !arguments.video.empty() && write_video(arguments, result.frames_per_second);
   if (arguments.quiet) return result.exit_code();
 
+  convergence.report();
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options.images && result.last_frame >= 0) fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);
   fmt::print("figures:  {}/stats.csv ({} frames)\n", options.out.string(), result.last_frame + 1);

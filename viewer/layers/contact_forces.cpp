@@ -45,7 +45,7 @@ Layer contact_forces_layer() {
           "Contact forces with friction; a normal's length is the bodies' mean weight.",
           false,
           draw,
-          {{LegendRow::arrow, role::kForce, "contact force"}}};
+          {{LegendRow::arrow, role::kForce, "contact force on A (on B if A is fixed)"}}};
 }
 
 }  // namespace impinge

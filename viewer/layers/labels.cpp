@@ -1,4 +1,4 @@
-// The moving bodies' names, above them.
+// The moving bodies' names, in their middle: above it a name would stand on the next body of a stack.
 #include "viewer/layers/all.hpp"
 
 namespace impinge {
@@ -7,9 +7,7 @@ namespace {
 void draw(const LayerContext& context, DrawList& list) {
   for (const BodyRecord& body : context.record.bodies) {
     if (body.kind == BodyKind::fixed || body.bounds.is_empty()) continue;
-    Vec3 top = body.bounds.center();
-    top.y() = body.bounds.max.y();
-    list.labels.push_back({top, std::string(body.name), role::kInk});
+    list.labels.push_back({body.bounds.center(), std::string(body.name), role::kInk});
   }
 }
 
