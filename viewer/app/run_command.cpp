@@ -70,13 +70,14 @@ struct Convergence {
 };
 
 /// Before anything is simulated: a film that could not be written at the end.
-void check_video_path(const std::filesystem::path& video) {
-  const std::filesystem::path folder = std::filesystem::absolute(video).parent_path();
+void check_video_path(const std::filesystem::path& video, const std::filesystem::path& out) {
+  const std::filesystem::path folder = std::filesystem::absolute(video).lexically_normal().parent_path();
   static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
   if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
     throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(), fmt::join(kEndings, ", ")));
-  // the run's own folder may come into being with the run
-  if (!std::filesystem::is_directory(folder) && !std::filesystem::is_directory(folder.parent_path()))
+  // the run's own folder comes into being with the run
+  const bool is_own = folder == (std::filesystem::absolute(out) / "").lexically_normal().parent_path();
+  if (!is_own && !std::filesystem::is_directory(folder))
     throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another", video.string(), folder.string()));
 }
 
@@ -104,7 +105,7 @@ int run_command(const Arguments& arguments) {
   Progress progress;
   RunWatcher watcher;
   watcher.interrupted = &g_interrupted;
-  if (!arguments.video.empty()) check_video_path(arguments.video);
+  if (!arguments.video.empty()) check_video_path(arguments.video, options.out);
   const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
   Convergence convergence;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
