@@ -258,3 +258,21 @@ TEST_CASE("a rolling ball: from sliding to rolling, and down an incline (AT-05, 
   const double t = 2.0 * 7.0 / (7.0 * 0.2 * 9.81), x = 12.0 * 49.0 / (49.0 * 0.2 * 9.81);
   CHECK(world.bodies()[1].pose.position.x() == Approx(x + 5.0 * (1.5 - t)).epsilon(2e-3));
 }
+
+TEST_CASE("a stack of mesh boxes stands on a mesh floor") {
+  World world;
+  world.parameters.simulation.sleeping = false;
+  BodyDescription floor = dynamic_body("floor", make_box_mesh(Vec3(2, 0.5, 2)), Vec3(0, -0.5, 0));
+  floor.kind = BodyKind::fixed;
+  world.add_body(floor);
+  for (int i = 0; i < 5; ++i) world.add_body(dynamic_body("box" + std::to_string(i), make_box_mesh(Vec3::Constant(0.5)), Vec3(0.01 * i, i + 0.5, 0)));
+  world.start();
+  double deepest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    world.step();
+    deepest = std::max(deepest, world.record().stats.max_penetration);
+  }
+  for (int i = 0; i < 5; ++i) CHECK((world.bodies()[i + 1].pose.position - Vec3(0.01 * i, i + 0.5, 0)).norm() < 1e-4);
+  CHECK(deepest < 1e-5);
+  CHECK(fastest(world) < 1e-6);
+}

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <algorithm>
 
 #include "viewer/panels/panels.hpp"
@@ -23,6 +24,7 @@ std::string grouped(std::int64_t number) {
 
 std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   const FrameStats& s = record.stats;
+  const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.kind == BodyKind::dynamic; });
   std::vector<Row> rows = {
       {"frame", grouped(s.frame)},
       {"time", fmt::format("{:.4f} s", s.time)},
@@ -33,7 +35,7 @@ std::vector<Row> rows_of(const StepRecord& record, bool timings) {
       {"penetration", fmt::format("{:.4f} mm", 1e3 * s.max_penetration)},
       {"iterations", grouped(s.lcp_iterations)},
       {"residual", s.residual > 0.0 ? fmt::format("{:.1e} m/s", s.residual) : "0 m/s"},
-      {"asleep", fmt::format("{} of {}", s.asleep, s.bodies)},
+      {"asleep", fmt::format("{} of {}", s.asleep, dynamic)},
   };
   if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), kWarning});
   if (timings)
