@@ -44,11 +44,7 @@ void World::publish(bool solved) {
   if (!solved) {
     s.contacts.clear();
     for (const Collision& c : s.detection.collisions) s.contacts.push_back(unsolved(c, bodies_, parameters));
-    std::vector<std::pair<int, int>> ends;
-    for (const Collision& c : s.detection.collisions) ends.emplace_back(c.body_a, c.body_b);
-    std::vector<char> joins;
-    for (const RigidBody& body : bodies_) joins.push_back(body.is_dynamic());
-    s.groups = make_groups(ends, joins);
+    s.make_collision_groups(bodies_);
     for (std::size_t g = 0; g < s.groups.size(); ++g)
       for (int c : s.groups[g].contacts) s.contacts[c].group = static_cast<int>(g);
   }

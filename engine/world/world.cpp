@@ -66,6 +66,14 @@ void World::Stages::select(const Parameters& p) {
   if (lcp_name != p.lcp.method) lcp = make_named(lcp_solvers(), lcp_name = p.lcp.method);
 }
 
+void World::Stages::make_collision_groups(std::span<const RigidBody> bodies) {
+  std::vector<std::pair<int, int>> ends;
+  for (const Collision& c : detection.collisions) ends.emplace_back(c.body_a, c.body_b);
+  std::vector<char> joins;
+  for (const RigidBody& body : bodies) joins.push_back(body.is_dynamic());
+  groups = make_groups(ends, joins);
+}
+
 void World::start() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (std::size_t j = i + 1; j < bodies_.size(); ++j)
@@ -117,11 +125,7 @@ void World::substep(double h) {
   {
     const StageTimer timer(times.assemble_ms);
     // 7 match with the last sub-step, 8 groups
-    std::vector<std::pair<int, int>> ends;
-    for (const Collision& c : s.detection.collisions) ends.emplace_back(c.body_a, c.body_b);
-    std::vector<char> joins;
-    for (const RigidBody& body : bodies_) joins.push_back(body.is_dynamic());
-    s.groups = make_groups(ends, joins);
+    s.make_collision_groups(bodies_);
   }
 
   s.contacts.clear();

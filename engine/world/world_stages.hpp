@@ -36,6 +36,8 @@ struct World::Stages {
   FrameStats frame_stats;                 // sums and maxima over the frame's sub-steps
 
   void select(const Parameters& parameters);
+  /// Groups of what detection found last.
+  void make_collision_groups(std::span<const RigidBody> bodies);
 };
 
 }  // namespace impinge
