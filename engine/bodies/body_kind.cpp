@@ -7,6 +7,7 @@ const char* kind_name(BodyKind kind) {
     case BodyKind::fixed: return "static";
     case BodyKind::scripted: return "scripted";
     case BodyKind::dynamic: return "dynamic";
+    case BodyKind::deformable: return "deformable";
   }
   return "";
 }

@@ -31,6 +31,10 @@ double farthest_point(const Shape& shape) {
 void RigidBody::update_world_vertices() {
   const auto* mesh = std::get_if<MeshPointer>(&shape);
   if (mesh == nullptr) return;
+  if (soft) {
+    interpolate(soft->embedding, soft->fem.fem.rest(), soft->fem.position, world_vertices);
+    return;
+  }
   const std::vector<Vec3>& local = (*mesh)->mesh.vertices;
   world_vertices.resize(local.size());
   for (std::size_t i = 0; i < local.size(); ++i) world_vertices[i] = pose.apply(local[i]);
@@ -53,6 +57,14 @@ RigidBody make_rigid_body(const BodyDescription& description) {
   body.restitution = description.restitution.value_or(-1.0);
   body.self_collision = description.self_collision;
 
+  if (body.is_deformable()) {
+    const Pose file{rotation_from_degrees(description.rotation), description.position};
+    body.soft = std::make_unique<SoftBody>(make_soft_body(*description.soft, file, description.velocity, description.angular_velocity));
+    body.mean_edge = mean_edge_length(std::get<MeshPointer>(body.shape)->mesh);
+    body.update_world_vertices();
+    body.soft->surface_velocity.assign(body.world_vertices.size(), description.velocity);
+    return body;
+  }
   const bool is_plane = std::holds_alternative<Plane>(body.shape);
   if (is_plane && body.is_dynamic())
     throw InputError("a dynamic body is a plane, which has no mass; a plane is static or scripted; use a box");

@@ -5,6 +5,7 @@
 
 #include "engine/bodies/motion.hpp"
 #include "engine/bodies/shape.hpp"
+#include "engine/bodies/soft_body.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/bodies/body_kind.hpp"
 
@@ -25,6 +26,7 @@ struct BodyDescription {
   std::vector<MotionKey> motion;        ///< scripted only
   std::optional<double> friction, restitution;
   bool self_collision = false;
+  std::shared_ptr<const SoftDescription> soft;  ///< deformable only
 };
 
 struct RigidBody {
@@ -53,9 +55,12 @@ struct RigidBody {
   double restitution = -1.0;          ///< -1: the scene's contact.restitution
   bool self_collision = false;
 
-  std::vector<Vec3> world_vertices;   ///< of a mesh at `pose`
+  std::vector<Vec3> world_vertices;   ///< of a mesh at `pose`, or of a deformable body's surface
+  std::unique_ptr<SoftBody> soft;     ///< of a deformable body; its pose is the identity then
 
   bool is_dynamic() const { return kind == BodyKind::dynamic; }
+  bool is_deformable() const { return kind == BodyKind::deformable; }
+  bool has_freedom() const { return is_dynamic() || is_deformable(); }
   Mat3 world_inertia() const { return pose.rotation * inertia * pose.rotation.transpose(); }
   Mat3 world_inertia_inverse() const { return pose.rotation * inertia_inverse * pose.rotation.transpose(); }
   Vec3 angular_velocity() const {

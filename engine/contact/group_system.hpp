@@ -1,7 +1,8 @@
 // One collision group as a system of equations: A by body, J by contact, the free velocity v* and the rows' bounds.
 #pragma once
 
-#include "engine/core/types.hpp"
+#include "engine/core/block_matrix.hpp"
+#include "engine/core/linear_solver.hpp"
 
 namespace impinge {
 
@@ -13,13 +14,36 @@ struct BodyBlock {
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
 };
 
-/// Rows (n, t1, t2) of J for one contact. Both bodies act at one common point, or impulses would not keep angular
-/// momentum. A row is [ d^T  (r_A x d)^T  -d^T  -(r_B x d)^T ] for each direction d. [Haapaoja16 Eq. 4.11]
+/// A deformable body's part of A over its free nodes. Contact is written on the position increment Δq(v) = s v + d
+/// (SPEC §1), so rows see the displacement velocity Δq/Δt: `velocity` is (s v* + d)/Δt and a change Δv counts s/Δt times.
+struct SoftBlock {
+  const BlockMatrix* a = nullptr;        ///< kg
+  LinearSolver* solver = nullptr;        ///< analyzed with a's pattern; factorized when a response asks for it
+  VecX velocity;                         ///< 3 x free nodes, m/s
+  double scale = 1.0;                    ///< s/Δt
+};
+
+struct NodeWeight {
+  int node = -1;                         ///< free node of the deformable body
+  double weight = 0.0;
+};
+
+/// One body of a contact: a rigid body by its lever arm, a deformable one by the nodes that carry the point, or neither:
+/// a body without freedom, whose motion is in ContactRows::surface.
+struct ContactSide {
+  int rigid = -1;                        ///< index into GroupSystem::bodies
+  int soft = -1;                         ///< index into GroupSystem::soft
+  Vec3 arm = Vec3::Zero();               ///< rigid: from the centre of mass to the common point
+  std::vector<NodeWeight> nodes;         ///< deformable; held nodes are left out
+};
+
+/// Rows (n, t1, t2) of J for one contact. Two rigid bodies act at one common point, or impulses would not keep angular
+/// momentum. A row is [ d^T  (r_A x d)^T  -d^T  -(r_B x d)^T ] for each direction d [Haapaoja16 Eq. 4.11]; for a deformable
+/// body it is w_j d^T at each node j.
 struct ContactRows {
-  int a = -1, b = -1;              ///< index into GroupSystem::bodies, -1: the body has no degree of freedom
+  ContactSide a, b;
   Mat3 directions = Mat3::Zero();  ///< rows n^T, t1^T, t2^T
-  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< from the centre of mass to the common point
-  Vec3 surface = Vec3::Zero();     ///< what bodies without freedom add to J v (their given velocity), along the rows
+  Vec3 surface = Vec3::Zero();     ///< what prescribed motion (bodies without freedom, held nodes) adds to J v, along the rows
   double gap = 0.0;                ///< g0, metres
   double bound = 0.0;              ///< J v >= bound along n, m/s
   double friction = 0.0;           ///< 0: the contact has no tangential rows
@@ -27,12 +51,18 @@ struct ContactRows {
 
 struct GroupSystem {
   std::vector<BodyBlock> bodies;
+  std::vector<SoftBlock> soft;
   std::vector<ContactRows> contacts;
   std::vector<Vec3> lambda;        ///< in: where to start; out: impulses (n, t1, t2), N·s
-  std::vector<Vec3> delta_velocity, delta_angular_velocity;  ///< out: Δv = A⁻¹ J^T λ by body
+  std::vector<Vec3> delta_velocity, delta_angular_velocity;  ///< out: Δv = A⁻¹ J^T λ by rigid body
+  std::vector<VecX> soft_delta;    ///< out: the same by deformable body, over its free nodes
 
-  /// J v of contact i for the bodies' velocities plus `delta`s scaled by 0 or 1.
+  /// J v of contact i for the bodies' velocities, with or without the Δv.
   Vec3 contact_velocity(std::size_t i, bool with_delta) const;
+  /// J^T λ on the free nodes of one deformable body, kg·m/s.
+  VecX soft_impulse(int body, const std::vector<Vec3>& impulses) const;
+  /// Zero Δv of the right sizes.
+  void clear_delta();
 };
 
 }  // namespace impinge

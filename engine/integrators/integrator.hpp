@@ -1,22 +1,11 @@
-// Time integration: how a body gets its free velocity v* and how a velocity moves its pose. [Haapaoja16 §2.1]
+// The list of time integrators. Each says what A v = b and Δq(v) are for a deformable body; for rigid bodies, where A = M
+// and b = M v + Δt f, all of them are the same map (rigid_motion.hpp).
 #pragma once
 
-#include <span>
-
-#include "engine/bodies/rigid_body.hpp"
-#include "engine/core/registry.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
 
-class Integrator {
- public:
-  virtual ~Integrator() = default;
-  /// Solves A v* = b without contacts, in place, for every dynamic body that is awake. gravity: m/s², time_step: s.
-  virtual void free_velocity(std::span<RigidBody> bodies, const Vec3& gravity, double time_step) const = 0;
-  /// q <- q (+) Δt G v for every dynamic body that is awake.
-  virtual void advance(std::span<RigidBody> bodies, double time_step) const = 0;
-};
-
-const Registry<Integrator>& integrators();
+inline const Registry<DeformableIntegrator>& integrators() { return deformable_integrators(); }
 
 }  // namespace impinge

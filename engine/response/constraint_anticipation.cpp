@@ -1,26 +1,46 @@
 // Full constraint anticipation, CA [Haapaoja16 §4.1.2]: v = v* + Δv, Δv = A⁻¹ J^T λ, λ from the cone problem with
 // W = J A⁻¹ J^T and q = J v* - bound. Exact up to the LCP solver's tolerance. For rigid bodies A⁻¹ is six numbers a body,
-// so W stays factored.
+// so W stays factored; a deformable body's A is factorized once for all its contacts and W is dense.
+#include "engine/response/assembled_delassus.hpp"
+#include "engine/response/factored_delassus.hpp"
 #include "engine/response/response.hpp"
-#include "engine/response/rigid_delassus.hpp"
 
 namespace impinge {
 namespace {
 
 class ConstraintAnticipation : public Response {
  public:
-  ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const LcpSettings& settings) const override {
-    RigidDelassus w(group);
-    ConeProblem problem{&w, {}, {}};
-    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-      Vec3 q = group.contact_velocity(i, false);
-      q.x() -= group.contacts[i].bound;
-      problem.q.push_back(q);
-      problem.mu.push_back(group.contacts[i].friction);
+  ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const override {
+    group.clear_delta();
+    ConeProblem problem = make_cone_problem(group);
+    if (group.soft.empty()) {
+      FactoredDelassus w(group);
+      problem.w = &w;
+      const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
+      w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps
+      return {result.iterations, 0, result.reason != StopReason::iteration_cap};
     }
-    const LcpResult result = solver.solve(problem, settings, group.lambda);
-    w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps
+    AssembledDelassus w(group);
+    problem.w = &w;
+    const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
+    apply_impulses(group);
     return {result.iterations, 0, result.reason != StopReason::iteration_cap};
+  }
+
+ private:
+  /// Δv = A⁻¹ J^T λ with the factorizations that W was made with.
+  static void apply_impulses(GroupSystem& group) {
+    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+      const Vec3 force = group.contacts[i].directions.transpose() * group.lambda[i];
+      for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)}) {
+        if (side->rigid < 0) continue;
+        const BodyBlock& block = group.bodies[side->rigid];
+        group.delta_velocity[side->rigid] += sign * block.inverse_mass * force;
+        group.delta_angular_velocity[side->rigid] += sign * (block.inverse_inertia * side->arm.cross(force));
+      }
+    }
+    for (int s = 0; s < static_cast<int>(group.soft.size()); ++s)
+      group.soft[s].solver->solve(group.soft_impulse(s, group.lambda), group.soft_delta[s]);
   }
 };
 

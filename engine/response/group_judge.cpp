@@ -1,5 +1,6 @@
 #include "engine/response/group_judge.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "engine/lcp/residual.hpp"
@@ -13,19 +14,26 @@ GroupVerdict judge_group(const GroupSystem& group) {
     const ContactRows& rows = group.contacts[i];
     const Vec3 force = rows.directions.transpose() * group.lambda[i];
     Mat3 w = Mat3::Zero();
-    const auto side = [&](int body, const Vec3& arm, double sign) {
-      if (body < 0) return;
-      const BodyBlock& block = group.bodies[body];
-      impulse[body] += sign * force;
-      turn[body] += sign * arm.cross(force);
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) {
-          const Vec3 dr = rows.directions.row(r), dc = rows.directions.row(c);
-          w(r, c) += block.inverse_mass * dr.dot(dc) + arm.cross(dr).dot(block.inverse_inertia * arm.cross(dc));
-        }
+    const auto add = [&](const ContactSide& side, double sign) {
+      if (side.rigid >= 0) {
+        const BodyBlock& block = group.bodies[side.rigid];
+        impulse[side.rigid] += sign * force;
+        turn[side.rigid] += sign * side.arm.cross(force);
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) {
+            const Vec3 dr = rows.directions.row(r), dc = rows.directions.row(c);
+            w(r, c) += block.inverse_mass * dr.dot(dc) + side.arm.cross(dr).dot(block.inverse_inertia * side.arm.cross(dc));
+          }
+      }
+      for (const NodeWeight& n : side.nodes) {  // the natural map needs a scale only: the nodes' own blocks serve
+        const BlockMatrix& a = *group.soft[side.soft].a;
+        w += group.soft[side.soft].scale * n.weight * n.weight * rows.directions * a.values[a.pattern->diagonal[n.node]].inverse() *
+             rows.directions.transpose();
+      }
     };
-    side(rows.a, rows.arm_a, 1.0);
-    side(rows.b, rows.arm_b, -1.0);
+    add(rows.a, 1.0);
+    add(rows.b, -1.0);
+    if (w(0, 0) <= 0.0) continue;  // both points are held: nothing can respond
     Vec3 u = group.contact_velocity(i, true);
     u.x() -= rows.bound;
     const double r = natural_map(w, u, group.lambda[i], rows.friction);
@@ -38,6 +46,12 @@ GroupVerdict judge_group(const GroupSystem& group) {
     const BodyBlock& block = group.bodies[b];
     verdict.momentum = std::max({verdict.momentum, (group.delta_velocity[b] - block.inverse_mass * impulse[b]).norm(),
                                  (group.delta_angular_velocity[b] - block.inverse_inertia * turn[b]).norm()});
+  }
+  for (std::size_t s = 0; s < group.soft.size(); ++s) {  // A Δv - J^T λ by node, as the velocity that its own block makes of it
+    const BlockMatrix& a = *group.soft[s].a;
+    const VecX r = a * group.soft_delta[s] - group.soft_impulse(static_cast<int>(s), group.lambda);
+    for (int i = 0; i < a.pattern->rows; ++i)
+      verdict.momentum = std::max(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
   return verdict;
 }

@@ -7,7 +7,7 @@ namespace impinge {
 
 struct GroupVerdict {
   double natural_map = 0.0;  ///< m/s, as in lcp/residual.hpp, with u = J (v* + Δv) - bound
-  double momentum = 0.0;     ///< max |Δv - A⁻¹ J^T λ| over bodies, m/s
+  double momentum = 0.0;     ///< max |Δv - A⁻¹ J^T λ| over rigid bodies, |D⁻¹ (A Δv - J^T λ)| over nodes, m/s
   int worst = -1;            ///< contact of the largest natural map
   double residual() const { return natural_map > momentum ? natural_map : momentum; }
 };

@@ -6,6 +6,14 @@
 
 namespace impinge {
 
+struct ResponseSettings {
+  LcpSettings lcp;
+  // of responses with an outer loop
+  std::string form = "accelerated";  ///< or "seed": the printed scheme
+  std::string stop = "residual";     ///< or "change": the seed's 5 % rule
+  int max_outer_iterations = 2000;
+};
+
 struct ResponseResult {
   int iterations = 0;        ///< of the LCP solver
   int outer_iterations = 0;  ///< of an outer loop, where the method has one
@@ -16,9 +24,12 @@ class Response {
  public:
   virtual ~Response() = default;
   /// Fills group.lambda and the Δv of its bodies such that the rows' bounds hold.
-  virtual ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const LcpSettings& settings) const = 0;
+  virtual ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const = 0;
 };
 
 const Registry<Response>& responses();
+
+/// q = J v* - bound and mu of the group's contacts; w is left to the caller.
+ConeProblem make_cone_problem(const GroupSystem& group);
 
 }  // namespace impinge

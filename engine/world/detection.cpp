@@ -10,18 +10,21 @@ namespace impinge {
 namespace {
 
 bool is_moving(const RigidBody& body) {
+  if (body.is_deformable()) return true;
   if (body.is_dynamic()) return !body.asleep;
   return body.kind == BodyKind::scripted && !(body.velocity.isZero(0.0) && body.scripted_angular_velocity.isZero(0.0));
 }
 
 /// Whether the pair can give a contact that anything responds to.
 bool is_wanted(const RigidBody& a, const RigidBody& b) {
-  return (a.is_dynamic() || b.is_dynamic()) && (is_moving(a) || is_moving(b));
+  return (a.has_freedom() || b.has_freedom()) && (is_moving(a) || is_moving(b));
 }
 
 /// The box a body fills during the sub-step, plus half the activation distance.
 Aabb swept_bounds(const Collider& collider, double radius, double activation, double time_step) {
   Aabb box = collider.bounds;
+  for (std::size_t i = 0; i < collider.vertex_velocities.size(); ++i)
+    box.include(Vec3(collider.vertices[i] + time_step * collider.vertex_velocities[i]));
   const Vec3 shift = time_step * collider.velocity;
   box.min += shift.cwiseMin(0.0);
   box.max += shift.cwiseMax(0.0);
@@ -63,25 +66,36 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
     c.pose = body.pose;
     c.vertices = body.world_vertices;
     c.bounds = body.bounds();
-    c.velocity = body.velocity;
-    c.angular_velocity = body.angular_velocity();
+    c.velocity = body.soft ? Vec3::Zero() : body.velocity;
+    c.angular_velocity = body.soft ? Vec3::Zero() : body.angular_velocity();
+    c.vertex_velocities = body.soft ? std::span<const Vec3>(body.soft->surface_velocity) : std::span<const Vec3>();
     c.self_collision = body.self_collision;
     c.mean_edge = body.mean_edge;
     boxes_[i] = proximity ? swept_bounds(c, body.radius, activation, time_step) : c.bounds;
   }
   broad_->find(boxes_, box_pairs_);
+  const auto speed = [&](std::size_t i) {
+    double fastest = colliders_[i].velocity.norm() + colliders_[i].angular_velocity.norm() * bodies[i].radius;
+    for (const Vec3& v : colliders_[i].vertex_velocities) fastest = std::max(fastest, v.norm());
+    return fastest;
+  };
 
   pairs.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].soft && bodies[i].self_collision) pairs.push_back({static_cast<int>(i), static_cast<int>(i), activation});
   for (const auto& [a, b] : box_pairs_) {
     if (!is_wanted(bodies[a], bodies[b])) continue;
     // how far the surfaces can approach in the sub-step widens the search; for meshes by one edge length at most, since the
     // triangles in reach grow with its square: what is faster overlaps a little and is pushed out
-    const double approach = time_step * ((colliders_[a].velocity - colliders_[b].velocity).norm() +
-                                         colliders_[a].angular_velocity.norm() * bodies[a].radius +
-                                         colliders_[b].angular_velocity.norm() * bodies[b].radius);
+    const double approach = bodies[a].soft || bodies[b].soft
+                                ? time_step * (speed(a) + speed(b))
+                                : time_step * ((colliders_[a].velocity - colliders_[b].velocity).norm() +
+                                               colliders_[a].angular_velocity.norm() * bodies[a].radius +
+                                               colliders_[b].angular_velocity.norm() * bodies[b].radius);
     const double margin = proximity ? activation + std::min(approach, std::max(bodies[a].mean_edge, bodies[b].mean_edge)) : 0.0;
     pairs.push_back({a, b, margin});
   }
+  std::sort(pairs.begin(), pairs.end());
 }
 
 void Detection::find_collisions(const Parameters& parameters, double time_step) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/distance.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
@@ -31,44 +32,124 @@ double pair_friction(const RigidBody& a, const RigidBody& b, const Parameters& p
   return std::sqrt(of(a) * of(b));
 }
 
-GroupSystem make_group_system(std::span<const RigidBody> bodies, std::span<const Twist> before, const CollisionGroup& group,
-                              std::span<const Collision> collisions, const Parameters& parameters, double time_step) {
+Vec3 triangle_weights(const RigidBody& body, int triangle, const Vec3& point) {
+  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  const Vec3 &a = body.world_vertices[t[0]], &b = body.world_vertices[t[1]], &c = body.world_vertices[t[2]];
+  const Vec3 e0 = b - a, e1 = c - a, x = closest_on_triangle(point, {a, b, c}).point - a;
+  const double d00 = e0.dot(e0), d01 = e0.dot(e1), d11 = e1.dot(e1), d20 = x.dot(e0), d21 = x.dot(e1);
+  const double denominator = d00 * d11 - d01 * d01;
+  if (!(denominator > 0.0)) return Vec3::Unit(0);
+  const double v = (d11 * d20 - d01 * d21) / denominator, w = (d00 * d21 - d01 * d20) / denominator;
+  return {1.0 - v - w, v, w};
+}
+
+namespace {
+
+/// Nodes and weights of a point of a deformable surface, every node once.
+std::vector<NodeWeight> carrying_nodes(const RigidBody& body, int triangle, const Vec3& point) {
+  const Vec3 corner = triangle_weights(body, triangle, point);
+  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  std::vector<NodeWeight> list;
+  for (int k = 0; k < 3; ++k) {
+    if (corner[k] == 0.0) continue;
+    const Tet& tet = body.soft->nodes_of(t[k]);
+    for (int n = 0; n < 4; ++n) {
+      const double weight = corner[k] * body.soft->embedding.weight[t[k]][n];
+      if (weight == 0.0) continue;
+      const auto at = std::find_if(list.begin(), list.end(), [&](const NodeWeight& w) { return w.node == tet[n]; });
+      if (at == list.end())
+        list.push_back({tet[n], weight});
+      else
+        at->weight += weight;
+    }
+  }
+  return list;
+}
+
+/// A body in contact with itself: one side carries the difference of both, since they may share nodes.
+void merge_sides(ContactRows& rows) {
+  for (const NodeWeight& n : rows.b.nodes) {
+    const auto at = std::find_if(rows.a.nodes.begin(), rows.a.nodes.end(), [&](const NodeWeight& w) { return w.node == n.node; });
+    if (at == rows.a.nodes.end())
+      rows.a.nodes.push_back({n.node, -n.weight});
+    else
+      at->weight -= n.weight;
+  }
+  rows.b.nodes.clear();
+  rows.b.soft = -1;
+  std::erase_if(rows.a.nodes, [](const NodeWeight& n) { return std::abs(n.weight) < 1e-12; });
+}
+
+Vec3 interpolated(const std::vector<NodeWeight>& nodes, const VecX& values) {
+  Vec3 sum = Vec3::Zero();
+  for (const NodeWeight& n : nodes) sum += n.weight * values.segment<3>(3 * n.node);
+  return sum;
+}
+
+}  // namespace
+
+GroupSystem make_group_system(std::span<const RigidBody> bodies, std::span<const Twist> before, std::span<const std::unique_ptr<SoftStep>> soft,
+                              CollisionGroup& group, std::span<const Collision> collisions, const Parameters& parameters,
+                              double time_step) {
   GroupSystem system;
+  std::vector<int> kept;
   std::vector<int> local(bodies.size(), -1);
   for (int b : group.bodies) {
-    local[b] = static_cast<int>(system.bodies.size());
-    system.bodies.push_back({1.0 / bodies[b].mass, bodies[b].world_inertia_inverse(), bodies[b].velocity, bodies[b].angular_velocity()});
+    if (bodies[b].soft) {
+      local[b] = static_cast<int>(system.soft.size());
+      const SoftStep& s = *soft[b];
+      system.soft.push_back({&s.step.a, s.direct.get(), bodies[b].soft->fem.gather_free(s.displacement_velocity), s.step.s / time_step});
+    } else {
+      local[b] = static_cast<int>(system.bodies.size());
+      system.bodies.push_back({1.0 / bodies[b].mass, bodies[b].world_inertia_inverse(), bodies[b].velocity, bodies[b].angular_velocity()});
+    }
   }
   system.contacts.reserve(group.contacts.size());
   for (int c : group.contacts) {
     const Collision& collision = collisions[c];
-    const RigidBody& a = bodies[collision.body_a];
-    const RigidBody& b = bodies[collision.body_b];
     const Vec3 common = 0.5 * (collision.point_a + collision.point_b);
     ContactRows rows;
-    rows.a = local[collision.body_a];
-    rows.b = local[collision.body_b];
     const Vec3 t1 = tangent1(collision.normal);
     rows.directions << collision.normal.transpose(), t1.transpose(), collision.normal.cross(t1).transpose();
-    rows.arm_a = common - a.pose.position;
-    rows.arm_b = common - b.pose.position;
-    const auto velocity_of = [&](const Vec3& v, const Vec3& w, const RigidBody& body) { return Vec3(v + w.cross(common - body.pose.position)); };
-    if (rows.a < 0) rows.surface += rows.directions * velocity_of(a.velocity, a.angular_velocity(), a);
-    if (rows.b < 0) rows.surface -= rows.directions * velocity_of(b.velocity, b.angular_velocity(), b);
+    Vec3 velocity_before = Vec3::Zero();
+    const auto fill = [&](int index, int triangle, const Vec3& point, double sign, ContactSide& side) {
+      const RigidBody& body = bodies[index];
+      if (body.soft) {
+        // both rows of a deformable contact act at the surface point itself: it is what moves with the nodes
+        const std::vector<NodeWeight> nodes = carrying_nodes(body, triangle, point);
+        velocity_before += sign * interpolated(nodes, soft[index]->velocity_before);
+        side.soft = local[index];
+        for (const NodeWeight& n : nodes) {
+          const int free = body.soft->fem.free_index()[n.node];
+          if (free >= 0)
+            side.nodes.push_back({free, n.weight});
+          else
+            rows.surface += sign * n.weight * rows.directions * soft[index]->displacement_velocity.segment<3>(3 * n.node);
+        }
+        return;
+      }
+      side.arm = common - body.pose.position;
+      side.rigid = body.is_dynamic() ? local[index] : -1;
+      velocity_before += sign * (before[index].linear + before[index].angular.cross(side.arm));
+      if (side.rigid < 0) rows.surface += sign * rows.directions * (body.velocity + body.angular_velocity().cross(side.arm));
+    };
+    fill(collision.body_a, collision.triangle_a, collision.point_a, 1.0, rows.a);
+    fill(collision.body_b, collision.triangle_b, collision.point_b, -1.0, rows.b);
+    if (rows.a.soft >= 0 && rows.a.soft == rows.b.soft) merge_sides(rows);
+    const bool responds = rows.a.rigid >= 0 || rows.b.rigid >= 0 || !rows.a.nodes.empty() || !rows.b.nodes.empty();
+    if (!responds) continue;
+    kept.push_back(c);
     rows.gap = collision.gap;
+    const RigidBody &a = bodies[collision.body_a], &b = bodies[collision.body_b];
     rows.friction = pair_friction(a, b, parameters);
-    system.contacts.push_back(rows);
-
+    system.contacts.push_back(std::move(rows));
     const double free_velocity = system.contact_velocity(system.contacts.size() - 1, false).x();
-    const Twist& ta = before[collision.body_a];
-    const Twist& tb = before[collision.body_b];
-    const double velocity_before = collision.normal.dot(velocity_of(ta.linear, ta.angular, a) - velocity_of(tb.linear, tb.angular, b));
-    system.contacts.back().bound =
-        row_bound(collision.gap, free_velocity, velocity_before, pair_restitution(a, b, parameters), parameters, time_step);
+    system.contacts.back().bound = row_bound(collision.gap, free_velocity, collision.normal.dot(velocity_before),
+                                             pair_restitution(a, b, parameters), parameters, time_step);
   }
+  group.contacts = std::move(kept);
   system.lambda.assign(system.contacts.size(), Vec3::Zero());
-  system.delta_velocity.assign(system.bodies.size(), Vec3::Zero());
-  system.delta_angular_velocity.assign(system.bodies.size(), Vec3::Zero());
+  system.clear_delta();
   return system;
 }
 
@@ -80,6 +161,7 @@ bool needs_push_out(const GroupSystem& system, const Parameters& parameters) {
 GroupSystem make_push_out_system(const GroupSystem& solved, const Parameters& parameters, double time_step) {
   GroupSystem push = solved;
   for (BodyBlock& body : push.bodies) body.velocity.setZero(), body.angular_velocity.setZero();
+  for (SoftBlock& block : push.soft) block.velocity.setZero();
   for (std::size_t i = 0; i < push.contacts.size(); ++i) {
     ContactRows& rows = push.contacts[i];
     const double gap_after = rows.gap + time_step * solved.contact_velocity(i, true).x();

@@ -2,9 +2,18 @@
 
 namespace impinge {
 
-Ledger make_ledger(std::span<const RigidBody> bodies, const Vec3& gravity) {
+Ledger make_ledger(std::span<RigidBody> bodies, const Vec3& gravity) {
   Ledger sum;
-  for (const RigidBody& body : bodies) {
+  for (RigidBody& body : bodies) {
+    if (body.soft) {
+      DeformableBody& fem = body.soft->fem;
+      sum.kinetic += fem.kinetic_energy();
+      sum.elastic += fem.elastic_energy();
+      sum.potential += fem.potential_energy(gravity);
+      sum.momentum += fem.momentum();
+      sum.angular_momentum += fem.angular_momentum();
+      continue;
+    }
     if (!body.is_dynamic()) continue;
     const Vec3 p = body.mass * body.velocity;
     sum.kinetic += 0.5 * p.dot(body.velocity) + 0.5 * body.angular_momentum.dot(body.angular_velocity());

@@ -16,13 +16,20 @@ std::vector<std::string> names_of(const Registry<Interface>& registry) {
   return names;
 }
 
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names = names_of(linear_solvers());
+  names.insert(names.begin(), "automatic");
+  return names;
+}
+
 }  // namespace
 
 void Parameters::bind(ParameterSet& set) {
   set.add("simulation.frame_time", simulation.frame_time, {1e-6, 10.0, true}, "s", "Length of a frame; a sub-step is frame_time / substeps.");
   set.add("simulation.substeps", simulation.substeps, {1, 1000, true}, "", "Sub-steps of a frame.");
   set.add("simulation.gravity", simulation.gravity, {-1e4, 1e4}, "m/s²", "Acceleration of every dynamic body.");
-  set.add("simulation.integrator", simulation.integrator, names_of(integrators()), "Time integration; all are alike for rigid bodies, where A = M.");
+  set.add("simulation.integrator", simulation.integrator, names_of(integrators()), "Time integration of deformable bodies; all are alike for rigid ones, where A = M.");
+  set.add("simulation.linear_solver", simulation.linear_solver, solver_names(), "Solver of a deformable body's system; automatic: by size and right-hand sides.");
   set.add("simulation.sleeping", simulation.sleeping, "Whether groups at rest are put to sleep: they cost nothing, and have no contacts in figures and pictures, until they are touched.");
   set.add("simulation.sleep_speed", simulation.sleep_speed, {0.0, 10.0, true}, "m/s", "A body whose every point is slower than this counts as resting.");
   set.add("simulation.sleep_time", simulation.sleep_time, {0.0, 1000.0}, "s", "How long a whole group must rest before it sleeps.");
@@ -39,6 +46,9 @@ void Parameters::bind(ParameterSet& set) {
   set.add("broad_phase.method", broad_phase.method, names_of(broad_phases()), "Which bodies may touch.");
   set.add("narrow_phase.method", narrow_phase.method, names_of(narrow_phases()), "Which triangles of two meshes touch.");
   set.add("response.method", response.method, names_of(responses()), "How contacts change velocities.");
+  set.add("response.form", response.form, {"accelerated", "seed"}, "iterative_constraint_anticipation: the convergent form, or the one that the seed prints.");
+  set.add("response.stop", response.stop, {"residual", "change"}, "Its stop rule: a true residual (lcp.tolerance), or the seed's change of less than 5 %.");
+  set.add("response.max_iterations", response.max_iterations, {1, 1000000, true}, "", "Its outer iterations at most for a group and sub-step.");
   set.add("lcp.method", lcp.method, names_of(lcp_solvers()), "Solver of the cone complementarity problem.");
   set.add("lcp.tolerance", lcp.tolerance, {1e-15, 1.0, true}, "", "Natural-map residual to reach, relative to the largest right-hand side.");
   set.add("lcp.max_iterations", lcp.max_iterations, {0, 10000000, true}, "", "Sweeps at most for a group and sub-step.");

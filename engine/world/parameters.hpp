@@ -14,6 +14,7 @@ struct Parameters {
     bool sleeping = true;
     double sleep_speed = 1e-4;
     double sleep_time = 0.5;
+    std::string linear_solver = "automatic";
     double time_step() const { return frame_time / substeps; }  ///< Δt of every formula
   } simulation;
   struct Contact {
@@ -31,7 +32,12 @@ struct Parameters {
   };
   Named broad_phase{"sweep_and_prune"};
   Named narrow_phase{"spatial_hash"};
-  Named response{"constraint_anticipation"};
+  struct Response {
+    std::string method = "constraint_anticipation";
+    std::string form = "accelerated";
+    std::string stop = "residual";
+    int max_iterations = 2000;
+  } response;
   struct Lcp {
     std::string method = "projected_gauss_seidel";
     double tolerance = 1e-8;

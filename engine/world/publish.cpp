@@ -12,8 +12,8 @@ namespace {
 SolvedContact unsolved(const Collision& c, const std::vector<RigidBody>& bodies, const Parameters& parameters) {
   SolvedContact contact;
   contact.collision = c;
-  contact.local_a = bodies[c.body_a].pose.apply_inverse(c.point_a);
-  contact.local_b = bodies[c.body_b].pose.apply_inverse(c.point_b);
+  contact.local_a = attach_point(bodies[c.body_a], c.triangle_a, c.point_a);
+  contact.local_b = attach_point(bodies[c.body_b], c.triangle_b, c.point_b);
   contact.local_normal = c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation.transpose() * c.normal) : c.normal;
   contact.friction = pair_friction(bodies[c.body_a], bodies[c.body_b], parameters);
   return contact;
@@ -24,8 +24,8 @@ ContactRecord carried(const SolvedContact& contact, const std::vector<RigidBody>
   ContactRecord record;
   record.body_a = c.body_a, record.body_b = c.body_b;
   record.triangle_a = c.triangle_a, record.triangle_b = c.triangle_b;
-  record.point_a = bodies[c.body_a].pose.apply(contact.local_a);
-  record.point_b = bodies[c.body_b].pose.apply(contact.local_b);
+  record.point_a = carry_point(bodies[c.body_a], c.triangle_a, contact.local_a);
+  record.point_b = carry_point(bodies[c.body_b], c.triangle_b, contact.local_b);
   record.normal = c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation * contact.local_normal) : c.normal;
   record.gap = record.normal.dot(record.point_a - record.point_b);
   record.gap0 = c.gap;
@@ -38,6 +38,16 @@ ContactRecord carried(const SolvedContact& contact, const std::vector<RigidBody>
 }
 
 }  // namespace
+
+Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world) {
+  return body.soft ? triangle_weights(body, triangle, world) : body.pose.apply_inverse(world);
+}
+
+Vec3 carry_point(const RigidBody& body, int triangle, const Vec3& local) {
+  if (!body.soft) return body.pose.apply(local);
+  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  return local.x() * body.world_vertices[t[0]] + local.y() * body.world_vertices[t[1]] + local.z() * body.world_vertices[t[2]];
+}
 
 void World::publish(bool solved) {
   Stages& s = *stages_;
@@ -62,6 +72,7 @@ void World::publish(bool solved) {
     r.velocity = body.velocity;
     r.angular_velocity = body.angular_velocity();
     r.mass = body.mass;
+    r.soft = body.soft ? &body.soft->fem : nullptr;
     r.asleep = body.asleep;
     record_.bodies.push_back(r);
   }
@@ -84,7 +95,7 @@ void World::publish(bool solved) {
   stats.bodies = static_cast<int>(bodies_.size());
   stats.dofs = stats.asleep = 0;
   for (const RigidBody& body : bodies_) {
-    stats.dofs += body.is_dynamic() ? 6 : 0;
+    stats.dofs += body.is_dynamic() ? 6 : body.soft ? body.soft->fem.dofs() : 0;
     stats.asleep += body.asleep ? 1 : 0;
   }
   stats.broad_pairs = static_cast<std::int64_t>(record_.broad_pairs.size());
@@ -95,6 +106,7 @@ void World::publish(bool solved) {
   for (const ContactRecord& c : record_.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
   const Ledger ledger = make_ledger(bodies_, parameters.simulation.gravity);
   stats.kinetic = ledger.kinetic;
+  stats.elastic = ledger.elastic;
   stats.potential = ledger.potential;
   stats.momentum = ledger.momentum;
   stats.angular_momentum = ledger.angular_momentum;

@@ -12,6 +12,11 @@ void World::save(ByteWriter& out) const {
     out.put(body.pose.position), out.put(body.pose.rotation);
     out.put(body.velocity), out.put(body.angular_momentum), out.put(body.scripted_angular_velocity);
     out.put(body.asleep), out.put(body.rest_time), out.put(body.island);
+    if (!body.soft) continue;
+    const DeformableBody& fem = body.soft->fem;
+    out.put(fem.acceleration_known);
+    for (const VecX* x : {&fem.position, &fem.velocity, &fem.acceleration})
+      for (Eigen::Index i = 0; i < x->size(); ++i) out.put((*x)[i]);
   }
   stages_->cache.save(out);
   stages_->sleeping.save(out);
@@ -25,6 +30,13 @@ void World::restore(ByteReader& in) {
     body.pose.position = in.get_vec3(), body.pose.rotation = in.get_mat3();
     body.velocity = in.get_vec3(), body.angular_momentum = in.get_vec3(), body.scripted_angular_velocity = in.get_vec3();
     body.asleep = in.get<bool>(), body.rest_time = in.get<double>(), body.island = in.get<int>();
+    if (body.soft) {
+      DeformableBody& fem = body.soft->fem;
+      fem.acceleration_known = in.get<bool>();
+      for (VecX* x : {&fem.position, &fem.velocity, &fem.acceleration})
+        for (Eigen::Index i = 0; i < x->size(); ++i) (*x)[i] = in.get<double>();
+      interpolate(body.soft->embedding, fem.fem.rest(), fem.velocity, body.soft->surface_velocity);
+    }
     body.update_world_vertices();
   }
   stages_->cache.restore(in);

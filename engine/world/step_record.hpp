@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/bodies/body_kind.hpp"
+#include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/shape.hpp"
 #include "engine/contact/collision.hpp"
 #include "engine/core/profile.hpp"
@@ -24,6 +25,7 @@ struct BodyRecord {
   double mass = 0.0;               ///< kg; 0 for static and scripted
   bool asleep = false;
   int group = -1;                  ///< collision group of the last sub-step, -1: none
+  const DeformableBody* soft = nullptr;  ///< of a deformable body: its tetrahedra, nodes, held nodes
 };
 
 enum class ContactState : std::uint8_t { open, stick, slip };

@@ -42,6 +42,12 @@ ContactState state_of(const Vec3& lambda, double friction) {
 constexpr double kLargest = 1e12;  // metres, m/s: beyond this nothing is resolved and squares overflow soon
 
 void check_finite(const RigidBody& body, int frame, int group) {
+  if (body.soft) {
+    if (body.soft->fem.position.allFinite() && body.soft->fem.position.cwiseAbs().maxCoeff() < kLargest && body.soft->fem.velocity.allFinite()) return;
+    throw DivergenceError(fmt::format("frame {}, group {}, body '{}': a node's position or velocity is no longer a finite number below {:g}; use more "
+                                      "sub-steps, or a more stable material or integrator",
+                                      frame, group, body.name, kLargest));
+  }
   const bool fine = body.pose.position.cwiseAbs().maxCoeff() < kLargest && body.velocity.cwiseAbs().maxCoeff() < kLargest &&
                     body.angular_momentum.allFinite() && body.pose.rotation.allFinite();
   if (fine) return;
@@ -61,6 +67,10 @@ RigidBody& World::add_body(const BodyDescription& description) {
 }
 
 void World::Stages::select(const Parameters& p) {
+  if (linear_solver_name != p.simulation.linear_solver) {
+    linear_solver_name = p.simulation.linear_solver;
+    soft.clear();  // solvers are made with the name
+  }
   if (integrator_name != p.simulation.integrator) integrator = make_named(integrators(), integrator_name = p.simulation.integrator);
   if (response_name != p.response.method) response = make_named(responses(), response_name = p.response.method);
   if (lcp_name != p.lcp.method) lcp = make_named(lcp_solvers(), lcp_name = p.lcp.method);
@@ -70,14 +80,14 @@ void World::Stages::make_collision_groups(std::span<const RigidBody> bodies) {
   std::vector<std::pair<int, int>> ends;
   for (const Collision& c : detection.collisions) ends.emplace_back(c.body_a, c.body_b);
   std::vector<char> joins;
-  for (const RigidBody& body : bodies) joins.push_back(body.is_dynamic());
+  for (const RigidBody& body : bodies) joins.push_back(body.has_freedom());
   groups = make_groups(ends, joins);
 }
 
 void World::start() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (std::size_t j = i + 1; j < bodies_.size(); ++j)
-      if ((bodies_[i].is_dynamic() || bodies_[j].is_dynamic()) && !is_pair_supported(bodies_[i].shape, bodies_[j].shape))
+      if ((bodies_[i].has_freedom() || bodies_[j].has_freedom()) && !is_pair_supported(bodies_[i].shape, bodies_[j].shape))
         throw InputError(fmt::format("bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test", bodies_[i].name,
                                      shape_name(bodies_[i].shape), bodies_[j].name, shape_name(bodies_[j].shape)));
   frame_ = 0;
@@ -112,11 +122,12 @@ void World::substep(double h) {
 
   // 3, 4 external forces, A v* = b
   s.before.resize(bodies_.size());
-  const auto free_velocity = [&](std::span<RigidBody> bodies) { s.integrator->free_velocity(bodies, parameters.simulation.gravity, h); };
   {
     const StageTimer timer(times.integrate_ms);
     for (std::size_t i = 0; i < bodies_.size(); ++i) s.before[i] = {bodies_[i].velocity, bodies_[i].angular_velocity()};
-    free_velocity(bodies_);
+    for (RigidBody& body : bodies_)
+      if (body.is_dynamic() && !body.asleep) apply_gravity(body, parameters.simulation.gravity, h);
+    free_soft_velocity(h);
   }
 
   // 5, 6 detection; a collision with a sleeper wakes its island, which may touch more
@@ -132,16 +143,17 @@ void World::substep(double h) {
   std::vector<ContactCache::Item> solved;
   std::vector<std::pair<int, int>> supports;
   for (const ContactCache::Item& item : s.cache.items())  // sleepers keep their impulses for the day they wake
-    if ((bodies_[item.body_a].asleep || !bodies_[item.body_a].is_dynamic()) && (bodies_[item.body_b].asleep || !bodies_[item.body_b].is_dynamic()))
+    if ((bodies_[item.body_a].asleep || !bodies_[item.body_a].has_freedom()) && (bodies_[item.body_b].asleep || !bodies_[item.body_b].has_freedom()))
       solved.push_back(item);
   std::vector<Twist> push(bodies_.size());
+  std::vector<VecX> soft_push(bodies_.size());
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
-    const CollisionGroup& group = s.groups[g];
+    CollisionGroup& group = s.groups[g];
     // 9 Jacobian and group system
     GroupSystem system;
     {
       const StageTimer timer(times.assemble_ms);
-      system = make_group_system(bodies_, s.before, group, s.detection.collisions, parameters, h);
+      system = make_group_system(bodies_, s.before, s.soft, group, s.detection.collisions, parameters, h);
       if (parameters.contact.warm_start)
         for (std::size_t i = 0; i < group.contacts.size(); ++i) {
           const Collision& c = s.detection.collisions[group.contacts[i]];
@@ -151,7 +163,8 @@ void World::substep(double h) {
         }
     }
     // 10 response
-    const LcpSettings settings{parameters.lcp.tolerance, parameters.lcp.max_iterations};
+    const ResponseSettings settings{{parameters.lcp.tolerance, parameters.lcp.max_iterations}, parameters.response.form, parameters.response.stop,
+                                    parameters.response.max_iterations};
     {
       const StageTimer timer(times.response_ms);
       const ResponseResult result = s.response->solve(system, *s.lcp, settings);
@@ -164,15 +177,30 @@ void World::substep(double h) {
       if (needs_push_out(system, parameters)) {
         GroupSystem recovery = make_push_out_system(system, parameters, h);
         // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
-        s.frame_stats.lcp_iterations += s.response->solve(recovery, *s.lcp, {1e-3, parameters.lcp.max_iterations}).iterations;
-        for (std::size_t k = 0; k < group.bodies.size(); ++k)
-          push[group.bodies[k]] = {h * recovery.delta_velocity[k], h * recovery.delta_angular_velocity[k]};
+        ResponseSettings loose = settings;
+        loose.lcp.tolerance = 1e-3;
+        s.frame_stats.lcp_iterations += s.response->solve(recovery, *s.lcp, loose).iterations;
+        int rigid = 0, deformable = 0;
+        for (int b : group.bodies) {
+          if (bodies_[b].soft) {
+            soft_push[b] = h * recovery.soft[deformable].scale * recovery.soft_delta[deformable];
+            ++deformable;
+          } else {
+            push[b] = {h * recovery.delta_velocity[rigid], h * recovery.delta_angular_velocity[rigid]};
+            ++rigid;
+          }
+        }
       }
     }
-    for (std::size_t k = 0; k < group.bodies.size(); ++k) {
-      RigidBody& body = bodies_[group.bodies[k]];
-      body.velocity += system.delta_velocity[k];
-      body.angular_momentum += body.world_inertia() * system.delta_angular_velocity[k];
+    int rigid = 0, deformable = 0;
+    for (int b : group.bodies) {
+      RigidBody& body = bodies_[b];
+      if (body.soft) {
+        s.soft[b]->step.v_star += system.soft_delta[deformable++];
+        continue;
+      }
+      body.velocity += system.delta_velocity[rigid];
+      body.angular_momentum += body.world_inertia() * system.delta_angular_velocity[rigid++];
     }
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
       const Collision& c = s.detection.collisions[group.contacts[i]];
@@ -181,7 +209,7 @@ void World::substep(double h) {
       for (const auto& [dynamic, other] : {std::pair(c.body_a, c.body_b), std::pair(c.body_b, c.body_a)})
         if (bodies_[other].kind == BodyKind::scripted) supports.emplace_back(dynamic, other);
       const double mu = system.contacts[i].friction;
-      s.contacts.push_back({c, bodies_[c.body_a].pose.apply_inverse(c.point_a), bodies_[c.body_b].pose.apply_inverse(c.point_b), c.normal,
+      s.contacts.push_back({c, attach_point(bodies_[c.body_a], c.triangle_a, c.point_a), attach_point(bodies_[c.body_b], c.triangle_b, c.point_b), c.normal,
                             lambda, mu, state_of(lambda, mu), static_cast<int>(g)});
       if (c.normal_owner >= 0) s.contacts.back().local_normal = bodies_[c.normal_owner].pose.rotation.transpose() * c.normal;
     }
@@ -190,7 +218,16 @@ void World::substep(double h) {
 
   // 11 integrate
   const StageTimer timer(times.integrate_ms);
-  s.integrator->advance(bodies_, h);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    RigidBody& body = bodies_[i];
+    if (body.is_dynamic() && !body.asleep) advance_rigid(body, h);
+    if (!body.soft) continue;
+    s.integrator->advance(body.soft->fem, s.soft[i]->step, s.soft[i]->step.v_star);
+    if (soft_push[i].size() == 0) continue;
+    VecX displacement = VecX::Zero(body.soft->fem.position.size());
+    body.soft->fem.scatter_free(soft_push[i], displacement);
+    body.soft->fem.position += displacement;
+  }
   for (const CollisionGroup& group : s.groups) {
     // a displacement changes x × p: where a group is free of the rest of the world, its spin takes the difference, so that
     // recovery from overlap keeps angular momentum too
@@ -213,12 +250,37 @@ void World::substep(double h) {
   for (std::size_t g = 0; g < s.groups.size(); ++g)
     for (int b : s.groups[g].bodies) group_of[b] = static_cast<int>(g);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].is_dynamic() || bodies_[i].asleep) continue;
+    if (!bodies_[i].has_freedom() || bodies_[i].asleep) continue;
     check_finite(bodies_[i], frame_, group_of[i]);
     bodies_[i].update_world_vertices();
   }
   if (parameters.simulation.sleeping)
     s.sleeping.update(bodies_, s.groups, supports, parameters.simulation.sleep_speed, parameters.simulation.sleep_time, h);
+}
+
+void World::free_soft_velocity(double h) {
+  Stages& s = *stages_;
+  s.soft.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!bodies_[i].soft) continue;
+    SoftBody& soft = *bodies_[i].soft;
+    if (!s.soft[i]) {
+      s.soft[i] = std::make_unique<SoftStep>();
+      s.soft[i]->iterative = make_linear_solver(s.linear_solver_name, soft.fem.dofs(), 1);
+      s.soft[i]->direct = make_linear_solver(s.linear_solver_name, soft.fem.dofs(), 100);
+      s.soft[i]->iterative->analyze(*soft.fem.free_pattern());
+      s.soft[i]->direct->analyze(*soft.fem.free_pattern());
+    }
+    SoftStep& step = *s.soft[i];
+    step.velocity_before = soft.fem.velocity;
+    s.integrator->begin(soft.fem, parameters.simulation.gravity, h, step.step);
+    s.integrator->free_velocity(soft.fem, step.step, *step.iterative);
+    if (step.step.linear_status == SolveStatus::not_finite || step.step.linear_status == SolveStatus::not_positive_definite)
+      throw DivergenceError(fmt::format("frame {}, body '{}': its system matrix is {}; use more sub-steps or a softer material", frame_, bodies_[i].name,
+                                        step.step.linear_status == SolveStatus::not_finite ? "not finite" : "not positive definite"));
+    step.displacement_velocity = (step.step.s * with_held(soft.fem, step.step.v_star) + step.step.offset) / h;
+    interpolate(soft.embedding, soft.fem.fem.rest(), step.displacement_velocity, soft.surface_velocity);
+  }
 }
 
 void World::detect(double h) {
@@ -230,7 +292,7 @@ void World::detect(double h) {
     if (!s.sleeping.wake_touched(bodies_, s.detection.collisions)) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i)  // the woken fall freely like all others in this sub-step
       if (was_asleep[i] && !bodies_[i].asleep)
-        s.integrator->free_velocity(std::span(&bodies_[i], 1), parameters.simulation.gravity, h);
+        apply_gravity(bodies_[i], parameters.simulation.gravity, h);
   }
 }
 

@@ -51,6 +51,7 @@ class World {
  private:
   struct Stages;  // the algorithms in use and their working memory
   void substep(double time_step);
+  void free_soft_velocity(double time_step);
   void detect(double time_step);
   void publish(bool solved);
 

@@ -14,7 +14,8 @@ namespace impinge {
 /// A contact of the last sub-step in the coordinates of its bodies, so that its points can be carried to any later pose.
 struct SolvedContact {
   Collision collision;
-  Vec3 local_a = Vec3::Zero(), local_b = Vec3::Zero(), local_normal = Vec3::Zero();
+  Vec3 local_a = Vec3::Zero(), local_b = Vec3::Zero();  // in the body's frame; of a deformable body: weights of the triangle
+  Vec3 local_normal = Vec3::Zero();
   Vec3 lambda = Vec3::Zero();
   double friction = 0.0;
   ContactState state = ContactState::open;
@@ -25,11 +26,13 @@ struct World::Stages {
   Detection detection;
   ContactCache cache;
   Sleeping sleeping;
-  std::unique_ptr<Integrator> integrator;
+  std::unique_ptr<DeformableIntegrator> integrator;
   std::unique_ptr<Response> response;
   std::unique_ptr<LcpSolver> lcp;
   std::string integrator_name, response_name, lcp_name;
   std::vector<Twist> before;              // velocities at the start of the sub-step
+  std::vector<std::unique_ptr<SoftStep>> soft;  // a slot a body; null: not deformable
+  std::string linear_solver_name;
   std::vector<CollisionGroup> groups;
   std::vector<SolvedContact> contacts;
   std::uint64_t settings_seen = 0;        // hash of what parameters_changed compares with
@@ -39,5 +42,9 @@ struct World::Stages {
   /// Groups of what detection found last.
   void make_collision_groups(std::span<const RigidBody> bodies);
 };
+
+/// A point of a body's surface in coordinates that move with it, and back.
+Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world);
+Vec3 carry_point(const RigidBody& body, int triangle, const Vec3& local);
 
 }  // namespace impinge

@@ -6,7 +6,7 @@
 #include "engine/lcp/residual.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/response.hpp"
-#include "engine/response/rigid_delassus.hpp"
+#include "engine/response/factored_delassus.hpp"
 #include "tests/support/dense_delassus.hpp"
 #include "tests/support/random.hpp"
 
@@ -176,11 +176,11 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
   }
   for (int c = 0; c < 12; ++c) {
     ContactRows rows;
-    rows.a = random.below(4);
-    rows.b = c % 3 == 0 ? -1 : (rows.a + 1 + random.below(3)) % 4;
+    rows.a.rigid = random.below(4);
+    rows.b.rigid = c % 3 == 0 ? -1 : (rows.a.rigid + 1 + random.below(3)) % 4;
     rows.directions = random.rotation();
-    rows.arm_a = random.vector();
-    rows.arm_b = random.vector();
+    rows.a.arm = random.vector();
+    rows.b.arm = random.vector();
     rows.friction = c % 2 ? 0.4 : 0.0;
     rows.bound = 0.1 * random.sym();
     group.contacts.push_back(rows);
@@ -196,14 +196,14 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
     for (int k = 0; k < 3; ++k) {
       const ContactRows& rows = group.contacts[c];
       const Vec3 d = rows.directions.row(k);
-      j.block<1, 3>(3 * c + k, 6 * rows.a) += d.transpose();
-      j.block<1, 3>(3 * c + k, 6 * rows.a + 3) += rows.arm_a.cross(d).transpose();
-      if (rows.b < 0) continue;
-      j.block<1, 3>(3 * c + k, 6 * rows.b) -= d.transpose();
-      j.block<1, 3>(3 * c + k, 6 * rows.b + 3) -= rows.arm_b.cross(d).transpose();
+      j.block<1, 3>(3 * c + k, 6 * rows.a.rigid) += d.transpose();
+      j.block<1, 3>(3 * c + k, 6 * rows.a.rigid + 3) += rows.a.arm.cross(d).transpose();
+      if (rows.b.rigid < 0) continue;
+      j.block<1, 3>(3 * c + k, 6 * rows.b.rigid) -= d.transpose();
+      j.block<1, 3>(3 * c + k, 6 * rows.b.rigid + 3) -= rows.b.arm.cross(d).transpose();
     }
   const MatX w = j * inverse * j.transpose();
-  RigidDelassus factored(group);
+  FactoredDelassus factored(group);
   std::vector<Vec3> lambda;
   VecX stacked(36);
   for (int c = 0; c < 12; ++c) {
@@ -221,7 +221,7 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
   // every response: the judge, which builds neither W nor q, agrees that Δv = A⁻¹ J^T λ and that the contacts hold
   for (const auto& e : responses()) {
     GroupSystem copy = group;
-    const ResponseResult result = e.make()->solve(copy, *lcp_solvers().front().make(), {1e-12, 100000});
+    const ResponseResult result = e.make()->solve(copy, *lcp_solvers().front().make(), {.lcp = {1e-12, 100000}});
     CHECK(result.converged);
     const GroupVerdict verdict = judge_group(copy);
     CHECK(verdict.natural_map < 1e-10);

@@ -14,7 +14,9 @@ double penetration(const Shape& a, const Vec3& xa, const Vec3& ra, const Shape& 
   BodyDescription da = dynamic_body("a", a, xa), db = dynamic_body("b", b, xb);
   da.rotation = ra;
   if (std::holds_alternative<Plane>(b)) db.kind = BodyKind::fixed;
-  const std::vector<RigidBody> bodies = {make_rigid_body(da), make_rigid_body(db)};
+  std::vector<RigidBody> bodies;
+  bodies.push_back(make_rigid_body(da));
+  bodies.push_back(make_rigid_body(db));
   const OverlapVerdict verdict = judge_overlap(bodies);
   if (crossings) *crossings = verdict.intersections;
   return verdict.penetration;

@@ -1,0 +1,16 @@
+#include "engine/response/response.hpp"
+
+namespace impinge {
+
+ConeProblem make_cone_problem(const GroupSystem& group) {
+  ConeProblem problem;
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    Vec3 q = group.contact_velocity(i, false);
+    q.x() -= group.contacts[i].bound;
+    problem.q.push_back(q);
+    problem.mu.push_back(group.contacts[i].friction);
+  }
+  return problem;
+}
+
+}  // namespace impinge
