@@ -1,6 +1,7 @@
 // One collision group as a system of equations: A by body, J by contact, the free velocity v* and the rows' bounds.
 #pragma once
 
+#include "engine/contact/row_kind.hpp"
 #include "engine/core/block_matrix.hpp"
 #include "engine/core/linear_solver.hpp"
 
@@ -19,6 +20,7 @@ struct BodyBlock {
 struct SoftBlock {
   const BlockMatrix* a = nullptr;        ///< kg
   LinearSolver* solver = nullptr;        ///< analyzed with a's pattern; factorized when a response asks for it
+  bool is_diagonal = false;              ///< a has nothing beside its diagonal blocks (explicit schemes, lumped mass)
   VecX velocity;                         ///< 3 x free nodes, m/s
   double scale = 1.0;                    ///< s/Δt
 };
@@ -41,12 +43,14 @@ struct ContactSide {
 /// momentum. A row is [ d^T  (r_A x d)^T  -d^T  -(r_B x d)^T ] for each direction d [Haapaoja16 Eq. 4.11]; for a deformable
 /// body it is w_j d^T at each node j.
 struct ContactRows {
+  RowKind kind = RowKind::contact;
   ContactSide a, b;
   Mat3 directions = Mat3::Zero();  ///< rows n^T, t1^T, t2^T
   Vec3 surface = Vec3::Zero();     ///< what prescribed motion (bodies without freedom, held nodes) adds to J v, along the rows
   double gap = 0.0;                ///< g0, metres
   double bound = 0.0;              ///< J v >= bound along n, m/s
-  double friction = 0.0;           ///< 0: the contact has no tangential rows
+  double friction = 0.0;           ///< 0: a contact without tangential rows
+  bool has_one_row() const { return kind == RowKind::sliding || (kind == RowKind::contact && friction == 0.0); }
 };
 
 struct GroupSystem {

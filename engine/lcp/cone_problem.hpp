@@ -1,8 +1,10 @@
 // The complementarity problem as data: all that a solver in this folder sees.
 //   u = W λ + q,   K_mu ∋ λ_i  ⊥  u_i + mu_i |u_iT| n ∈ K_mu*   for each contact i.
+// Attachments and sliding constraints are equations in the same system: u = 0, or u_n = 0, with λ free.
 // Contacts without friction (mu = 0) have one row, 0 <= λ_n ⊥ u_n >= 0; their tangential entries are never touched.
 #pragma once
 
+#include "engine/contact/row_kind.hpp"
 #include "engine/core/types.hpp"
 
 namespace impinge {
@@ -26,6 +28,10 @@ struct ConeProblem {
   Delassus* w = nullptr;
   std::vector<Vec3> q;     ///< m/s
   std::vector<double> mu;  ///< per contact
+  std::vector<RowKind> kind;  ///< per contact; empty: all RowKind::contact
+  RowKind kind_of(std::size_t i) const { return kind.empty() ? RowKind::contact : kind[i]; }
+  /// Whether contact i has its normal row only.
+  bool has_one_row(std::size_t i) const { return kind_of(i) == RowKind::sliding || (kind_of(i) == RowKind::contact && mu[i] == 0.0); }
 };
 
 }  // namespace impinge

@@ -2,6 +2,7 @@
 // true cone) with the others held. [Haapaoja16 §4.2], block form [Jean99]. Cost of a sweep: linear in the contacts for a
 // factored W. For a tower of two boxes with mass ratio r the error shrinks by r/(1+r) a sweep: slow, not wrong. Sweeps that
 // alternate in direction were tried: on that tower they take twice as many, since the contact at the turn is solved twice.
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "engine/contact/friction_cone.hpp"
@@ -17,7 +18,7 @@ class ProjectedGaussSeidel : public LcpSolver {
     const std::size_t n = problem.q.size();
     double scale = 0.0;
     for (std::size_t i = 0; i < n; ++i)
-      scale = std::max(scale, problem.mu[i] == 0.0 ? std::abs(problem.q[i].x()) : problem.q[i].norm());
+      scale = std::max(scale, problem.has_one_row(i) ? std::abs(problem.q[i].x()) : problem.q[i].norm());
     const double tolerance = settings.tolerance * scale;
 
     LcpResult result;
@@ -42,11 +43,16 @@ class ProjectedGaussSeidel : public LcpSolver {
   static double relax(const ConeProblem& problem, std::size_t i, std::vector<Vec3>& lambda) {
     Delassus& w = *problem.w;
     const double mu = problem.mu[i];
-    const bool normal_only = mu == 0.0;
+    const RowKind kind = problem.kind_of(i);
+    const bool normal_only = problem.has_one_row(i);
     const Mat3& w_ii = w.diagonal(i);
     const Vec3 u = w.row(i, normal_only) + problem.q[i];
     Vec3 next;
-    if (normal_only) {
+    if (kind == RowKind::attachment) {
+      next = lambda[i] - Vec3(w_ii.completeOrthogonalDecomposition().solve(u));
+    } else if (kind == RowKind::sliding) {
+      next = {lambda[i].x() - u.x() / w_ii(0, 0), 0.0, 0.0};
+    } else if (normal_only) {
       next = {std::max(0.0, lambda[i].x() - u.x() / w_ii(0, 0)), 0.0, 0.0};
     } else {
       next = solve_one_contact(w_ii, u - w_ii * lambda[i], mu);
@@ -61,8 +67,8 @@ class ProjectedGaussSeidel : public LcpSolver {
   static double natural_residual(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
     double worst = 0.0;
     for (std::size_t i = 0; i < problem.q.size(); ++i) {
-      const Vec3 u = problem.w->row(i, problem.mu[i] == 0.0) + problem.q[i];
-      worst = std::max(worst, natural_map(problem.w->diagonal(i), u, lambda[i], problem.mu[i]));
+      const Vec3 u = problem.w->row(i, problem.has_one_row(i)) + problem.q[i];
+      worst = std::max(worst, natural_map(problem.kind_of(i), problem.w->diagonal(i), u, lambda[i], problem.mu[i]));
     }
     return worst;
   }

@@ -18,4 +18,7 @@ Residual judge(const ConeProblem& problem, const std::vector<Vec3>& lambda);
 /// The natural-map residual of one contact, m/s.
 double natural_map(const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu);
 
+/// The same for rows of any kind: of an equation it is what is left of u, m/s.
+double natural_map(RowKind kind, const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu);
+
 }  // namespace impinge

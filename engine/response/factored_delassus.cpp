@@ -27,7 +27,7 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
 void FactoredDelassus::begin(const std::vector<Vec3>& lambda) {
   group_.clear_delta();
   for (std::size_t i = 0; i < lambda.size(); ++i)
-    if (!lambda[i].isZero(0.0)) change(i, lambda[i], group_.contacts[i].friction == 0.0);
+    if (!lambda[i].isZero(0.0)) change(i, lambda[i], group_.contacts[i].has_one_row());
 }
 
 Vec3 FactoredDelassus::row(std::size_t i, bool normal_only) const {
