@@ -15,14 +15,16 @@ struct BodyBlock {
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
 };
 
-/// A deformable body's part of A over its free nodes. Contact is written on the position increment Δq(v) = s v + d
-/// (SPEC §1), so rows see the displacement velocity Δq/Δt: `velocity` is (s v* + d)/Δt and a change Δv counts s/Δt times.
+/// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions move by
+/// Δq(v) = s v + d (SPEC §1): where a scheme's Δq is not Δt v (Newmark), what overlap is left after the velocities is
+/// pushed out in the same sub-step, which sees displacement velocities Δq/Δt.
 struct SoftBlock {
   const BlockMatrix* a = nullptr;        ///< kg
   LinearSolver* solver = nullptr;        ///< analyzed with a's pattern; factorized when a response asks for it
   bool is_diagonal = false;              ///< a has nothing beside its diagonal blocks (explicit schemes, lumped mass)
-  VecX velocity;                         ///< 3 x free nodes, m/s
-  double scale = 1.0;                    ///< s/Δt
+  VecX velocity;                         ///< v*, 3 x free nodes, m/s
+  VecX displacement_velocity;            ///< (s v* + d)/Δt, m/s
+  double displacement_scale = 1.0;       ///< s/Δt
 };
 
 struct NodeWeight {
@@ -63,6 +65,8 @@ struct GroupSystem {
 
   /// J v of contact i for the bodies' velocities, with or without the Δv.
   Vec3 contact_velocity(std::size_t i, bool with_delta) const;
+  /// J Δq(v)/Δt of contact i with the Δv: how fast the gap changes over the sub-step.
+  Vec3 displacement_velocity(std::size_t i) const;
   /// J^T λ on the free nodes of one deformable body, kg·m/s.
   VecX soft_impulse(int body, const std::vector<Vec3>& impulses) const;
   /// Zero Δv of the right sizes.

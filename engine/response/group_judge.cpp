@@ -27,7 +27,7 @@ GroupVerdict judge_group(const GroupSystem& group) {
       }
       for (const NodeWeight& n : side.nodes) {  // the natural map needs a scale only: the nodes' own blocks serve
         const BlockMatrix& a = *group.soft[side.soft].a;
-        w += group.soft[side.soft].scale * n.weight * n.weight * rows.directions * a.values[a.pattern->diagonal[n.node]].inverse() *
+        w += n.weight * n.weight * rows.directions * a.values[a.pattern->diagonal[n.node]].inverse() *
              rows.directions.transpose();
       }
     };

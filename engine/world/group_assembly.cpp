@@ -184,7 +184,7 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
       const SoftStep& s = *view.soft[b];
       const DeformableBody& fem = bodies[b].soft->fem;
       const bool diagonal = view.is_explicit && fem.fem.mass_kind() == MassKind::lumped;
-      system.soft.push_back({&s.step.a, s.direct.get(), diagonal, fem.gather_free(s.displacement_velocity), s.step.s / view.time_step});
+      system.soft.push_back({&s.step.a, s.direct.get(), diagonal, s.step.v_star, fem.gather_free(s.displacement_velocity), s.step.s / view.time_step});
     } else {
       local[b] = static_cast<int>(system.bodies.size());
       system.bodies.push_back({1.0 / bodies[b].mass, bodies[b].world_inertia_inverse(), bodies[b].velocity, bodies[b].angular_velocity()});
@@ -212,9 +212,17 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
   return system;
 }
 
-bool needs_push_out(const GroupSystem& system, const Parameters& parameters) {
-  return parameters.contact.push_out == "split" && parameters.contact.max_push_out > 0.0 &&
-         std::any_of(system.contacts.begin(), system.contacts.end(), [&](const ContactRows& c) { return c.kind == RowKind::contact && c.gap < -push_out_slop(parameters); });
+bool needs_push_out(const GroupSystem& solved, const Parameters& parameters, double time_step) {
+  if (parameters.contact.push_out != "split" || parameters.contact.max_push_out <= 0.0) return false;
+  // rows whose positions move by Δt v leave no overlap that wasn't there; others (Newmark) are asked
+  const bool all_move = std::all_of(solved.soft.begin(), solved.soft.end(), [](const SoftBlock& b) { return b.displacement_scale == 1.0; });
+  for (std::size_t i = 0; i < solved.contacts.size(); ++i) {
+    const ContactRows& c = solved.contacts[i];
+    if (c.kind != RowKind::contact) continue;
+    const double gap = all_move ? c.gap : std::min(c.gap, c.gap + time_step * solved.displacement_velocity(i).x());
+    if (gap < -push_out_slop(parameters)) return true;
+  }
+  return false;
 }
 
 GroupSystem make_push_out_system(const GroupSystem& solved, const Parameters& parameters, double time_step) {
@@ -228,7 +236,7 @@ GroupSystem make_push_out_system(const GroupSystem& solved, const Parameters& pa
       rows.surface.setZero();
       continue;
     }
-    const double gap_after = rows.gap + time_step * solved.contact_velocity(i, true).x();
+    const double gap_after = rows.gap + time_step * solved.displacement_velocity(i).x();
     rows.surface.setZero();
     rows.friction = 0.0;
     // an overlap is measured after the velocities have moved the bodies: separation that they bring is not added twice

@@ -41,8 +41,8 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group);
 /// Where on a body's surface a point of a triangle is: weights of the triangle's corners.
 Vec3 triangle_weights(const RigidBody& body, int triangle, const Vec3& point);
 
-/// Whether any contact of the group overlaps enough to be pushed out.
-bool needs_push_out(const GroupSystem& system, const Parameters& parameters);
+/// Whether any contact of the group overlaps, or will after the sub-step, enough to be pushed out.
+bool needs_push_out(const GroupSystem& solved, const Parameters& parameters, double time_step);
 
 /// The same group as a frictionless problem on pseudo-velocities from rest, solved after the velocities: overlapping
 /// contacts separate by their overlap (at most max_push_out), the others may approach by no more than what is left of

@@ -95,7 +95,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
 }
 
 void World::push_out(const GroupSystem& solved, const CollisionGroup& group, double h) {
-  if (!needs_push_out(solved, parameters)) return;
+  if (!needs_push_out(solved, parameters, h)) return;
   Stages& s = *stages_;
   const StageTimer timer(s.frame_stats.times.response_ms);
   GroupSystem recovery = make_push_out_system(solved, parameters, h);
@@ -107,8 +107,7 @@ void World::push_out(const GroupSystem& solved, const CollisionGroup& group, dou
   int rigid = 0, soft = 0;
   for (int b : group.bodies) {
     if (bodies_[b].soft) {
-      s.soft_push[b] = h * recovery.soft[soft].scale * recovery.soft_delta[soft];
-      ++soft;
+      s.soft_push[b] = h * recovery.soft_delta[soft++];
     } else {
       s.push[b] = {h * recovery.delta_velocity[rigid], h * recovery.delta_angular_velocity[rigid]};
       ++rigid;
@@ -124,6 +123,7 @@ void World::take_group(const GroupSystem& system, int g) {
     RigidBody& body = bodies_[b];
     if (body.soft) {
       s.soft[b]->step.v_star += system.soft_delta[soft++];
+      s.soft[b]->touched = true;
       continue;
     }
     body.velocity += system.delta_velocity[rigid];

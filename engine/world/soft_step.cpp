@@ -34,6 +34,7 @@ void SoftStep::find_displacement_velocity(RigidBody& body) {
 void SoftStep::begin(RigidBody& body, const DeformableIntegrator& integrator, const Vec3& gravity, double h, int frame) {
   DeformableBody& fem = body.soft->fem;
   velocity_before = fem.velocity;
+  touched = false;
   integrator.begin(fem, gravity, h, step);
   integrator.free_velocity(fem, step, *iterative);
   check_solved(step, body, frame);

@@ -10,6 +10,7 @@ struct SoftStep {
   DeformableStep step;
   std::unique_ptr<LinearSolver> iterative;  ///< for the one right-hand side of v*
   std::unique_ptr<LinearSolver> direct;     ///< for the many of contact
+  bool touched = false;                     ///< contact or attachments gave it an impulse in this sub-step
   VecX velocity_before;                     ///< over all nodes, m/s
   VecX displacement_velocity;               ///< (s v* + d)/Δt over all nodes, m/s: what contact and detection see
 

@@ -203,6 +203,9 @@ void World::integrate(double h) {
       fem.scatter_free(s.soft_push[i], displacement);
       fem.position += displacement;
     }
+    // Newmark's accelerations are those of the elastic forces alone: contact acts at the end of the step [Kane99], or a
+    // body that lands would bounce back with the speed it came with
+    if (s.soft[i]->touched) fem.acceleration_known = false;
     body.velocity = fem.momentum() / body.mass;
   }
   for (const CollisionGroup& group : s.groups) {
