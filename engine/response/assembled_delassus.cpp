@@ -61,24 +61,21 @@ void AssembledDelassus::add_soft(const GroupSystem& group, int body) {
   if (parts.empty()) return;
   if (block.solver->factorize(*block.a) != SolveStatus::ok)
     throw DivergenceError("the system matrix of a deformable body is not positive definite");
-  // right-hand sides in slabs: memory stays at n x 96 however many contacts there are
-  constexpr std::size_t kSlab = 32;
-  for (std::size_t begin = 0; begin < parts.size(); begin += kSlab) {
-    const std::size_t count = std::min(kSlab, parts.size() - begin);
-    MatX rhs = MatX::Zero(block.velocity.size(), static_cast<Eigen::Index>(3 * count)), x;
-    for (std::size_t j = 0; j < count; ++j) {
-      const Part& p = parts[begin + j];
-      for (const NodeWeight& n : p.side->nodes)
-        rhs.block<3, 3>(3 * n.node, 3 * static_cast<Eigen::Index>(j)) += p.sign * n.weight * group.contacts[p.contact].directions.transpose();
-    }
-    block.solver->solve_many(rhs, x);
-    for (const Part& p : parts)
-      for (std::size_t j = 0; j < count; ++j) {
-        Mat3 at = Mat3::Zero();
-        for (const NodeWeight& n : p.side->nodes) at += n.weight * x.block<3, 3>(3 * n.node, 3 * static_cast<Eigen::Index>(j));
-        w_.block<3, 3>(3 * p.contact, 3 * parts[begin + j].contact) += p.sign * group.contacts[p.contact].directions * at;
-      }
-  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < parts.size(); ++j)
+    for (const NodeWeight& n : parts[j].side->nodes)
+      for (int d = 0; d < 3; ++d)
+        for (int k = 0; k < 3; ++k)
+          entries.emplace_back(3 * n.node + k, static_cast<int>(3 * j) + d, parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(d, k));
+  SparseColumns rows(block.velocity.size(), static_cast<Eigen::Index>(3 * parts.size()));  // Jᵀ
+  rows.setFromTriplets(entries.begin(), entries.end());
+  MatX w;
+  const SolveStatus status = block.solver->gram(rows, w).status;
+  if (status == SolveStatus::not_finite || status == SolveStatus::not_positive_definite)
+    throw DivergenceError("the system matrix of a deformable body is not positive definite");
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      w_.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) += w.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
 }
 
 void AssembledDelassus::begin(const std::vector<Vec3>& lambda) {
