@@ -41,18 +41,19 @@ const Registry<LinearSolver>& linear_solvers() {
   return list;
 }
 
-// Measured by tests/bench/fem.cpp (lattice solid of 6 tetrahedra a cell, K + m/Δt², E 1e5, Δt 0.01 s, one thread, ms;
-// CG to 1e-8 from zero, the others to rounding):
-//   unknowns   CG solve   CHOLMOD factor / solve   Eigen factor / solve
-//      882       0.17         3.7 / 0.05               2.9 / 0.11
-//    3,630       1.1          27 / 0.32                 79 / 1.1
-//    9,450       4.1          99 / 2.4                1021 / 8.3
-//   26,460        17         504 / 16                    –
-//   56,862        89        2039 / 42                    –
-// So CG solves 20 to 60 right-hand sides before a CHOLMOD factorization has paid, and Eigen's never pays for itself
-// beyond a thousand unknowns unless it serves hundreds. But a direct solve is exact, which the contact forces of
-// constraint anticipation want, and CG's iterations grow with √E: with 24 and more right-hand sides the factorization
-// is taken.
+// Measured by tests/bench/linear_solvers.cpp (lattice solid of 6 tetrahedra a cell, K + m/Δt², Δt 0.01 s, one thread,
+// ms; CG to 1e-8 from zero at E 1e5, the others to rounding; W of 100 contacts side by side: by half solves, and by
+// whole ones):
+//   unknowns   CG solve   CHOLMOD factor / solve / W (whole)   Eigen factor / solve / W (whole)
+//      882       0.17         5 / 0.05 /  –                        3.0 / 0.12 /  –
+//    3,630       1.1         40 / 0.34 / 12 (55)                    81 / 1.2 /  78 (268)
+//    9,450       4.0         99 / 2.9  / 16 (180)                 1140 / 8.5 / 368 (2261)
+//   26,460        18        504 / 16                                 –
+//   56,862        89       2039 / 42                                 –
+// At E 1e7 CG takes six times as long. So CG solves 20 to 60 right-hand sides of soft bodies before a CHOLMOD
+// factorization has paid, and Eigen's pays beyond a few thousand unknowns only where it serves hundreds. But a direct
+// solve is exact, which the contact forces of constraint anticipation want, W then costs next to nothing beside the
+// factorization, and CG's iterations grow with √E: with 24 and more right-hand sides the factorization is taken.
 std::string_view automatic_linear_solver(int unknowns, int right_hand_sides) {
   constexpr int kFewRightHandSides = 24;
   if (right_hand_sides < kFewRightHandSides) return "conjugate_gradient";

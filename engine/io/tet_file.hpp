@@ -1,4 +1,4 @@
-// Volume meshes from files: Vega .veg, TetGen .node/.ele, Gmsh .msh (2.2 and 4.1, ASCII).
+// Volume meshes from files: Vega .veg, TetGen .node/.ele, Gmsh .msh (2.2 and 4.1, text and binary).
 //
 // Every problem is one InputError `file:line:column: found; allowed; remedy`. What is accepted is a body: finite
 // coordinates, positive volumes, at most two tetrahedra at a face, every vertex used (TetGen and Gmsh files may hold

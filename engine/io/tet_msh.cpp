@@ -1,8 +1,12 @@
-// Gmsh's .msh, ASCII, versions 2.2 and 4.1. Read word by word, not line by line: writers put line ends where they like.
+// Gmsh's .msh, versions 2.2 and 4.1, as text or binary. Text is read word by word, not line by line: writers put line
+// ends where they like. A place in binary data is told as the last text line and the bytes since its start.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <unordered_map>
 
 #include "engine/core/error.hpp"
@@ -50,6 +54,9 @@ constexpr ElementType kTypes[] = {{1, 2, "line"},
                                   {3, 35, "fourth-order tetrahedron"},
                                   {3, 56, "fifth-order tetrahedron"}};
 constexpr int kTetrahedron = 4;
+
+/// How a whole number is stored in binary data.
+enum class Stored { int32, size64 };
 
 class MshReader {
  public:
@@ -129,15 +136,51 @@ class MshReader {
            "mend or export the file again");
     return value;
   }
-  long long integer(const char* what) { return number<long long>(what); }
-  long long count(const char* what) {
-    const long long n = integer(what);
+
+  /// Binary data begins after the end of the present line.
+  void begin_data() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\r')) ++at_;
+    if (at_ >= text_.size() || text_[at_] != '\n')
+      fail("a line that goes on", "binary data starts on a new line", "export the file again");
+    ++at_;
+    ++next_line_;
+    line_start_ = at_;
+    in_data_ = true;
+  }
+  template <class Number>
+  Number raw(const char* what) {
+    line_ = next_line_;
+    column_ = static_cast<int>(std::min<std::size_t>(at_ - line_start_ + 1, std::numeric_limits<int>::max()));
+    std::array<char, sizeof(Number)> bytes;
+    if (text_.size() - at_ < bytes.size())
+      fail("the file ends early", fmt::format("{} should follow", what), "export the file again");
+    std::copy_n(text_.data() + at_, bytes.size(), bytes.begin());
+    if (swap_) std::reverse(bytes.begin(), bytes.end());
+    at_ += bytes.size();
+    Number value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+  double real(const char* what) {
+    if (!in_data_) return number<double>(what);
+    const double value = raw<double>(what);
+    if (!std::isfinite(value))
+      fail(fmt::format("{}", value), fmt::format("{} should be a finite number", what), "export the file again");
+    return value;
+  }
+  long long integer(const char* what, Stored stored = Stored::int32) {
+    if (!in_data_) return number<long long>(what);
+    return stored == Stored::int32 ? raw<std::int32_t>(what) : raw<std::int64_t>(what);
+  }
+  long long count(const char* what, Stored stored = Stored::int32) {
+    const long long n = integer(what, stored);
     if (n < 0 || n > kMostTets || static_cast<std::uint64_t>(n) > text_.size())
       fail(fmt::format("{} as {}", n, what), "at least 0 and no more than the file has room for",
            "export the file again");
     return n;
   }
   void need_end(std::string_view section) {
+    in_data_ = false;
     if (!next()) fail("the file ends early", fmt::format("{} should follow", section), "export the file again");
     if (word_ != section)
       fail(quoted(word_), fmt::format("{} should follow", section), "mend the counts or export the file again");
@@ -145,6 +188,10 @@ class MshReader {
   void skip_section() {
     const FilePlace start = here();
     const std::string name(word_), end = "$End" + name.substr(1);
+    if (binary_) {
+      at_ = std::min(text_.find(end, at_), text_.size());
+      if (next()) return;
+    }
     while (next())
       if (word_ == end) return;
     draft_.fail(start, fmt::format("section {} does not end", impinge::quoted(name)), fmt::format("{} closes it", end),
@@ -159,10 +206,18 @@ class MshReader {
            "save it with -format msh41 or msh22");
     legacy_ = version == "2.2";
     const long long type = integer("the file type");
-    if (type == 1) fail("a binary file", "ASCII files are read", "save it without -bin");
-    if (type != 0) fail(fmt::format("file type {}", type), "0 (ASCII) is read", "export the file again");
+    binary_ = type == 1;
+    if (type != 0 && type != 1)
+      fail(fmt::format("file type {}", type), "0 (text) and 1 (binary) are read", "export the file again");
     const long long size = integer("the data size");
     if (size != 8) fail(fmt::format("data size {}", size), "8 (double) is read", "export the file again");
+    if (binary_) {
+      begin_data();
+      const auto one = raw<std::int32_t>("the number 1");
+      swap_ = one == 1 << 24;
+      if (one != 1 && !swap_)
+        fail(fmt::format("{} to tell the order of bytes", one), "1 is allowed", "export the file again");
+    }
     need_end("$EndMeshFormat");
   }
 
@@ -174,12 +229,13 @@ class MshReader {
     draft_.vertex_label.push_back(tag);
   }
   void read_position() {
-    const double x = number<double>("x"), y = number<double>("y"), z = number<double>("z");
+    const double x = real("x"), y = real("y"), z = real("z");
     draft_.result.mesh.vertices.emplace_back(x, y, z);
   }
 
   void read_nodes_2() {
     const long long n = count("the number of nodes");
+    if (binary_) begin_data();
     for (long long i = 0; i < n; ++i) {
       const long long tag = integer("a node's tag");
       add_node(tag, here());
@@ -189,24 +245,26 @@ class MshReader {
   }
 
   void read_nodes_4() {
-    const long long blocks = count("the number of blocks"), total = count("the number of nodes");
-    integer("the smallest tag");
-    integer("the largest tag");
+    if (binary_) begin_data();
+    const long long blocks = count("the number of blocks", Stored::size64),
+                    total = count("the number of nodes", Stored::size64);
+    integer("the smallest tag", Stored::size64);
+    integer("the largest tag", Stored::size64);
     for (long long b = 0; b < blocks; ++b) {
       const long long dimension = integer("an entity's dimension");
       if (dimension < 0 || dimension > 3)
         fail(fmt::format("dimension {}", dimension), "0 to 3 are allowed", "export the file again");
       integer("an entity's tag");
       const long long parametric = integer("whether nodes are parametric");
-      const long long n = count("the number of nodes in a block");
+      const long long n = count("the number of nodes in a block", Stored::size64);
       for (long long i = 0; i < n; ++i) {
-        const long long tag = integer("a node's tag");
+        const long long tag = integer("a node's tag", Stored::size64);
         add_node(tag, here());
       }
       for (long long i = 0; i < n; ++i) {
         read_position();
         if (parametric != 0)
-          for (long long k = 0; k < dimension; ++k) number<double>("a node's parameter");
+          for (long long k = 0; k < dimension; ++k) real("a node's parameter");
       }
     }
     if (static_cast<long long>(draft_.vertex_place.size()) != total)
@@ -229,7 +287,7 @@ class MshReader {
   void read_element(long long tag, long long type, const ElementType& t, const FilePlace& place) {
     Tet tet{};
     for (int k = 0; k < t.nodes; ++k) {
-      const long long node = integer("an element's node");
+      const long long node = integer("an element's node", legacy_ ? Stored::int32 : Stored::size64);
       const auto found = index_.find(node);
       if (found == index_.end())
         fail(fmt::format("node {}", node), "it is in no $Nodes section", "export the file again");
@@ -244,6 +302,7 @@ class MshReader {
 
   void read_elements_2() {
     const long long n = count("the number of elements");
+    if (binary_) return read_element_blocks_2(n);
     for (long long i = 0; i < n; ++i) {
       const long long tag = integer("an element's number");
       const FilePlace place = here();
@@ -256,19 +315,41 @@ class MshReader {
     need_end("$EndElements");
   }
 
+  /// Binary 2.2: elements of one type and number of tags follow one header.
+  void read_element_blocks_2(long long n) {
+    begin_data();
+    for (long long read = 0; read < n;) {
+      const long long type = integer("an element's type");
+      const ElementType& t = element_type(type);
+      const long long follow = count("the number of elements in a block"), tags = count("an element's number of tags");
+      if (follow == 0 || follow > n - read)
+        fail(fmt::format("a block of {} elements", follow), fmt::format("{} are left", n - read),
+             "export the file again");
+      for (long long i = 0; i < follow; ++i, ++read) {
+        const long long tag = integer("an element's number");
+        const FilePlace place = here();
+        for (long long k = 0; k < tags; ++k) integer("an element's tag");
+        read_element(tag, type, t, place);
+      }
+    }
+    need_end("$EndElements");
+  }
+
   void read_elements_4() {
-    const long long blocks = count("the number of blocks"), total = count("the number of elements");
-    integer("the smallest tag");
-    integer("the largest tag");
+    if (binary_) begin_data();
+    const long long blocks = count("the number of blocks", Stored::size64),
+                    total = count("the number of elements", Stored::size64);
+    integer("the smallest tag", Stored::size64);
+    integer("the largest tag", Stored::size64);
     long long read = 0;
     for (long long b = 0; b < blocks; ++b) {
       integer("an entity's dimension");
       integer("an entity's tag");
       const long long type = integer("an element type");
       const ElementType& t = element_type(type);
-      const long long n = count("the number of elements in a block");
+      const long long n = count("the number of elements in a block", Stored::size64);
       for (long long i = 0; i < n; ++i, ++read) {
-        const long long tag = integer("an element's tag");
+        const long long tag = integer("an element's tag", Stored::size64);
         const FilePlace place = here();
         read_element(tag, type, t, place);
       }
@@ -282,7 +363,9 @@ class MshReader {
   std::string_view text_, word_;
   std::size_t at_ = 0, line_start_ = 0;
   int next_line_ = 1, line_ = 1, column_ = 1;
-  bool legacy_ = false;
+  bool legacy_ = false;   // 2.2
+  bool binary_ = false, swap_ = false;
+  bool in_data_ = false;  // between the text of a binary file
   long long triangles_ = 0;
   std::unordered_map<long long, int> index_;
 };

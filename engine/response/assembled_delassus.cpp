@@ -1,6 +1,5 @@
 #include "engine/response/assembled_delassus.hpp"
 
-#include <Eigen/SparseCore>
 #include <algorithm>
 
 #include "engine/core/error.hpp"
@@ -62,19 +61,21 @@ void AssembledDelassus::add_soft(const GroupSystem& group, int body) {
   if (parts.empty()) return;
   if (block.solver->factorize(*block.a) != SolveStatus::ok)
     throw DivergenceError("the system matrix of a deformable body is not positive definite");
-  SparseColumns columns(block.velocity.size(), static_cast<Eigen::Index>(3 * parts.size()));
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < parts.size(); ++j)
     for (const NodeWeight& n : parts[j].side->nodes)
-      for (int row = 0; row < 3; ++row)
-        for (int axis = 0; axis < 3; ++axis)
-          entries.emplace_back(3 * n.node + axis, static_cast<int>(3 * j) + row, parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(row, axis));
-  columns.setFromTriplets(entries.begin(), entries.end());
+      for (int d = 0; d < 3; ++d)
+        for (int k = 0; k < 3; ++k)
+          entries.emplace_back(3 * n.node + k, static_cast<int>(3 * j) + d, parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(d, k));
+  SparseColumns rows(block.velocity.size(), static_cast<Eigen::Index>(3 * parts.size()));  // Jᵀ
+  rows.setFromTriplets(entries.begin(), entries.end());
   MatX w;
-  block.solver->gram(columns, w);
-  for (std::size_t j = 0; j < parts.size(); ++j)
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      w_.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) += w.block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j));
+  const SolveStatus status = block.solver->gram(rows, w).status;
+  if (status == SolveStatus::not_finite || status == SolveStatus::not_positive_definite)
+    throw DivergenceError("the system matrix of a deformable body is not positive definite");
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      w_.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) += w.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
 }
 
 void AssembledDelassus::begin(const std::vector<Vec3>& lambda) {

@@ -1,7 +1,7 @@
 // Linear solves of deformable bodies by route: analysis, factorization, one right-hand side, and W = J A⁻¹ Jᵀ of contacts
 // on the surface, by whole solves and by half ones. Lattice solids clamped at z = 0, K + m/Δt² (lumped, ν 0.3, ρ 1000,
 // Δt 0.01 s). Prints CSV; processor time of one thread, ms.
-// usage: bench_linear_solvers [largest lattice, cells a side (default 26; from 100 on Eigen's takes part in all)]
+// usage: bench_linear_solvers [largest lattice, cells a side (default 26; from 100 on Eigen's takes part in all)] [smallest]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -116,11 +116,12 @@ void measure(std::string_view route, const System& system, double young) {
 
 int main(int argc, char** argv) {
   set_thread_count(1);
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 26;
+  const int largest = argc > 1 ? std::atoi(argv[1]) : 26, smallest = argc > 2 ? std::atoi(argv[2]) : 0;
   std::printf("solve,route,young,dofs,analyze_ms,factor_ms,solve_ms,iterations,relative_residual\n");
   std::printf("gram,route,young,dofs,contacts,half_solves_ms,whole_solves_ms,relative_difference\n");
   for (const int cells : {6, 10, 14, 20, 26}) {
     if (cells > largest) break;
+    if (cells < smallest) continue;
     for (const double young : {1e5, 1e7}) {
       const System system = lattice_system(cells, young);
       for (const auto& entry : linear_solvers()) {

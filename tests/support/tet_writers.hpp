@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+
 #include "engine/geometry/tet_mesh.hpp"
 
 namespace impinge::test {
@@ -64,6 +69,70 @@ inline std::string msh41_text(const TetMesh& mesh) {
     s += fmt::format("{} {} {} {} {}\n", i + 2, t[0] + 1, t[1] + 1, t[2] + 1, t[3] + 1);
   }
   return s + "$EndElements\n";
+}
+
+/// Appends the bytes of a number, in the other order where `swapped`.
+template <class Number>
+void put(std::string& s, Number value, bool swapped) {
+  std::array<char, sizeof(Number)> bytes;
+  std::memcpy(bytes.data(), &value, sizeof value);
+  if (swapped) std::reverse(bytes.begin(), bytes.end());
+  s.append(bytes.data(), bytes.size());
+}
+
+/// As msh22_text, binary: a block of one triangle, then two blocks of tetrahedra.
+inline std::string msh22_binary(const TetMesh& mesh, bool swapped = false) {
+  std::string s = "$MeshFormat\n2.2 1 8\n";
+  const auto whole = [&](int value) { put<std::int32_t>(s, value, swapped); };
+  whole(1);
+  s += fmt::format("\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"a body\"\n$EndPhysicalNames\n$Nodes\n{}\n",
+                   mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    whole(static_cast<int>(10 * i + 7));
+    for (int k = 0; k < 3; ++k) put(s, mesh.vertices[i][k], swapped);
+  }
+  s += fmt::format("$EndNodes\n$Elements\n{}\n", mesh.tets.size() + 1);
+  for (const int value : {2, 1, 2, 1, 0, 1, 7, 17, 27}) whole(value);
+  const std::size_t half = mesh.tets.size() / 2;
+  for (const auto& [from, to] : {std::pair(std::size_t{0}, half), std::pair(half, mesh.tets.size())}) {
+    for (const int value : {4, static_cast<int>(to - from), 2}) whole(value);
+    for (std::size_t i = from; i < to; ++i) {
+      for (const int value : {static_cast<int>(i + 2), 1, 1}) whole(value);
+      for (const int corner : mesh.tets[i]) whole(10 * corner + 7);
+    }
+  }
+  return s + "\n$EndElements\n";
+}
+
+/// As msh41_text, binary, the private section too.
+inline std::string msh41_binary(const TetMesh& mesh, bool swapped = false) {
+  std::string s = "$MeshFormat\n4.1 1 8\n";
+  const auto whole = [&](int value) { put<std::int32_t>(s, value, swapped); };
+  const auto large = [&](std::size_t value) { put<std::uint64_t>(s, value, swapped); };
+  const std::size_t n = mesh.vertices.size(), tets = mesh.tets.size();
+  whole(1);
+  s += "\n$EndMeshFormat\n$Nodes\n";
+  for (const std::size_t value : {std::size_t{2}, n, std::size_t{1}, n}) large(value);
+  for (const int value : {0, 1, 0}) whole(value);
+  large(0);
+  for (const int value : {3, 1, 0}) whole(value);
+  large(n);
+  for (std::size_t i = 0; i < n; ++i) large(i + 1);
+  for (const Vec3& v : mesh.vertices)
+    for (int k = 0; k < 3; ++k) put(s, v[k], swapped);
+  s += "\n$EndNodes\n$Surface\n";
+  for (const int value : {10, 36, 0x0a0d, 3}) whole(value);  // bytes that look like line ends and a section
+  s += "\n$EndSurface\n$Elements\n";
+  for (const std::size_t value : {std::size_t{2}, tets + 1, std::size_t{1}, tets + 1}) large(value);
+  for (const int value : {2, 1, 2}) whole(value);
+  for (const std::size_t value : {1, 1, 1, 2, 3}) large(value);
+  for (const int value : {3, 1, 4}) whole(value);
+  large(tets);
+  for (std::size_t i = 0; i < tets; ++i) {
+    large(i + 2);
+    for (const int corner : mesh.tets[i]) large(static_cast<std::size_t>(corner) + 1);
+  }
+  return s + "\n$EndElements\n";
 }
 
 }  // namespace impinge::test

@@ -65,6 +65,10 @@ TEST_CASE("volume meshes come back from every format as they were written") {
   }
   check_same(parse_msh("m.msh", test::msh22_text(mesh)), mesh);
   check_same(parse_msh("m.msh", test::msh41_text(mesh)), mesh);
+  for (const bool swapped : {false, true}) {
+    check_same(parse_msh("m.msh", test::msh22_binary(mesh, swapped)), mesh);
+    check_same(parse_msh("m.msh", test::msh41_binary(mesh, swapped)), mesh);
+  }
   const std::string crlf = [&] {
     std::string out;
     for (const char c : test::veg_text(mesh)) out += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -246,7 +250,8 @@ TEST_CASE("each damaged .msh file gives one located error") {
   refuse("m.msh:1:1:", "$MeshFormat", a.substr(35));
   refuse("m.msh:2:1:", "4.0", replaced(a, "2.2", "4.0"));
   refuse("m.msh:2:1:", "'1'", replaced(a, "2.2", "1"));
-  refuse("m.msh:2:5:", "binary", replaced(a, "2.2 0 8", "2.2 1 8"));
+  refuse("m.msh:2:5:", "file type 2", replaced(a, "2.2 0 8", "2.2 2 8"));
+  refuse("m.msh:3:1:", "order of bytes", replaced(a, "2.2 0 8", "2.2 1 8"));
   refuse("m.msh:2:7:", "data size 4", replaced(a, "2.2 0 8", "2.2 0 4"));
   refuse("m.msh:11:1:", "'$Data' does not end", replaced(a, "$Elements\n", "$Data\n"));
   refuse("m.msh:10:1:", "x should follow", replaced(a, "9 0 0 1\n", "9\n"));
@@ -278,6 +283,45 @@ TEST_CASE("each damaged .msh file gives one located error") {
   CHECK(parametric.mesh.vertices[3] == Vec3(0, 0, 1));
 }
 
+TEST_CASE("each damaged binary .msh file gives one located error") {
+  const TetMesh mesh = make_tet_box(Vec3::Ones(), 1, 1, 1);
+  for (const std::string& whole : {test::msh22_binary(mesh), test::msh41_binary(mesh), test::msh22_binary(mesh, true)}) {
+    const std::size_t end = whole.rfind("$EndElements");
+    // cut anywhere before the last word
+    for (std::size_t length = 0; length < end + 12; ++length)
+      check_refused("m.msh:", ";", [&] { parse_msh("m.msh", std::string_view(whole).substr(0, length)); });
+    // a byte changed anywhere: refused or read, never more
+    test::Random random(3);
+    int refused = 0;
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(256.0 * random.u());
+      try {
+        parse_msh("m.msh", damaged);
+      } catch (const InputError& error) {
+        ++refused;
+        CHECK(std::string(error.what()).substr(0, 6) == "m.msh:");
+      }
+    }
+    CHECK(refused > 50);
+  }
+  const auto refuse = [](const char* part, std::string text, std::size_t at, char byte) {
+    text[at] = byte;
+    check_refused("m.msh:", part, [&] { parse_msh("m.msh", text); });
+  };
+  const std::string a = test::msh22_binary(mesh), b = test::msh41_binary(mesh);
+  const std::size_t nodes = a.find("$Nodes\n8\n") + 9, elements = a.find("$Elements\n7\n") + 12;
+  refuse("node 7 a second time", a, nodes + 28, 7);
+  std::string infinite = a;
+  infinite[nodes + 10] = '\xf0';
+  refuse("finite", infinite, nodes + 11, '\x7f');
+  refuse("hexahedron", a, elements + 36, 5);
+  refuse("a block of 100 elements", a, elements + 40, 100);
+  refuse("node 8", a, elements + 48 + 12, 8);
+  refuse("$EndNodes", a, a.find("$EndNodes"), '!');
+  refuse("room", b, b.find("$Nodes\n") + 7 + 9, '\x7f');
+}
+
 TEST_CASE("meshes of other programs are read") {
   const std::filesystem::path folder = std::filesystem::path(test::shared_file("meshes/cube.msh")).parent_path();
   if (folder.empty()) {
@@ -305,6 +349,7 @@ TEST_CASE("meshes of other programs are read") {
   }
   check_refused((folder / "vega/beam3/beam3.veg").string() + ":", "cubes",
                 [&] { read_tet_file(folder / "vega/beam3/beam3.veg"); });
-  check_refused((folder / "test_2.2_bin.msh").string() + ":2:5:", "binary",
-                [&] { read_tet_file(folder / "test_2.2_bin.msh"); });
+  // binary; both hold two quadrangles and no tetrahedron, which is found after all of it was read
+  for (const char* name : {"test_2.2_bin.msh", "test_4.1_bin.msh"})
+    check_refused((folder / name).string() + ":", "surface-only mesh", [&] { read_tet_file(folder / name); });
 }
