@@ -4,9 +4,15 @@
 namespace impinge {
 
 Entry<LcpSolver> projected_gauss_seidel_solver();
+Entry<LcpSolver> nonsmooth_nonlinear_conjugate_gradient_solver();
+
+std::string_view name_of(StopReason reason) {
+  constexpr std::string_view kNames[] = {"converged", "stagnated", "iteration cap", "trivial", "refused"};
+  return kNames[static_cast<int>(reason)];
+}
 
 const Registry<LcpSolver>& lcp_solvers() {
-  static const Registry<LcpSolver> list = {projected_gauss_seidel_solver()};
+  static const Registry<LcpSolver> list = {projected_gauss_seidel_solver(), nonsmooth_nonlinear_conjugate_gradient_solver()};
   return list;
 }
 

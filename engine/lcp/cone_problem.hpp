@@ -3,6 +3,7 @@
 // Contacts without friction (mu = 0) have one row, 0 <= λ_n ⊥ u_n >= 0; their tangential entries are never touched.
 #pragma once
 
+#include "engine/contact/friction_cone.hpp"
 #include "engine/core/types.hpp"
 
 namespace impinge {
@@ -20,12 +21,25 @@ class Delassus {
   virtual Vec3 row(std::size_t i, bool normal_only) const = 0;
   /// λ_i += delta.
   virtual void change(std::size_t i, const Vec3& delta, bool normal_only) = 0;
+
+  // Whole products and copies, for methods that go by more than one contact at a time. By default they are made of the
+  // functions above; an operator that can do better overrides them.
+
+  /// y = W x. The present λ becomes x.
+  virtual void apply(const std::vector<Vec3>& x, std::vector<Vec3>& y);
+  /// W written out, 3 contacts x 3 contacts. Changes the present λ.
+  virtual MatX dense();
 };
 
 struct ConeProblem {
   Delassus* w = nullptr;
   std::vector<Vec3> q;     ///< m/s
   std::vector<double> mu;  ///< per contact
+  FrictionLaw law = FrictionLaw::cone;
 };
+
+/// The scalar rows that a problem has, contact by contact: index 3 i + k of row k of contact i; contacts without friction
+/// have only k = 0.
+std::vector<int> rows_of(const ConeProblem& problem);
 
 }  // namespace impinge
