@@ -5,6 +5,8 @@ namespace impinge {
 
 Entry<LcpSolver> projected_gauss_seidel_solver();
 Entry<LcpSolver> nonsmooth_nonlinear_conjugate_gradient_solver();
+Entry<LcpSolver> interior_point_solver();
+Entry<LcpSolver> semismooth_newton_solver();
 
 std::string_view name_of(StopReason reason) {
   constexpr std::string_view kNames[] = {"converged", "stagnated", "iteration cap", "trivial", "refused"};
@@ -12,7 +14,7 @@ std::string_view name_of(StopReason reason) {
 }
 
 const Registry<LcpSolver>& lcp_solvers() {
-  static const Registry<LcpSolver> list = {projected_gauss_seidel_solver(), nonsmooth_nonlinear_conjugate_gradient_solver()};
+  static const Registry<LcpSolver> list = {projected_gauss_seidel_solver(), nonsmooth_nonlinear_conjugate_gradient_solver(), interior_point_solver(), semismooth_newton_solver()};
   return list;
 }
 
