@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
-#include <algorithm>
+#include <limits>
 
 namespace impinge {
 

@@ -2,9 +2,9 @@
 // (minus the gradient), and steps are made conjugate by Fletcher and Reeves' rule. Costs a sweep and one more product an iteration.
 //
 // The momentum may carry λ out of its cones; the sweep that follows brings it back, so only what a sweep left is handed out.
-// Where the sweeps' steps stop shrinking, or a run of conjugate steps has become worse than the sweep it started from, the
-// direction is dropped: then the method is Gauss-Seidel.
+// Where the sweeps' steps grow the direction is dropped: then the method is Gauss-Seidel.
 #include <algorithm>
+#include <limits>
 
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
@@ -20,7 +20,7 @@ class NonsmoothNonlinearConjugateGradient : public LcpSolver {
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
     std::vector<Vec3> before, direction(n, Vec3::Zero()), step(n);
-    double size_before = 0.0;
+    double size_before = std::numeric_limits<double>::infinity();  // so that the first step is taken as it is
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       before = lambda;
       const double change = gauss_seidel_sweep(problem, lambda);
@@ -32,11 +32,10 @@ class NonsmoothNonlinearConjugateGradient : public LcpSolver {
         step[i] = lambda[i] - before[i];
         size += step[i].dot(problem.w->diagonal(i) * step[i]);  // an energy: units of contacts with unlike masses agree
       }
-      const double beta = sweep == 1 ? 2.0 : size / size_before;
+      const double beta = size / size_before;
       size_before = size;
       if (beta > 1.0) {
-        direction = step;
-        if (sweep > 1) std::fill(direction.begin(), direction.end(), Vec3::Zero());
+        std::fill(direction.begin(), direction.end(), Vec3::Zero());
         continue;
       }
       for (std::size_t i = 0; i < n; ++i) {

@@ -18,10 +18,10 @@ namespace {
 
 constexpr int kFirstSweeps = 3, kRescueSweeps = 5;  // Gauss-Seidel, to begin with and where Newton fails
 constexpr int kHalvings = 7;
-constexpr std::size_t kMemory = 5;                  // steps that a new one is compared with
-constexpr double kSmallest = 1e-12, kLargest = 0.1; // α
+constexpr std::size_t kMemory = 10;                 // steps that a new one is compared with
+constexpr double kSmallest = 1e-12, kLargest = 1.0; // α
 constexpr double kFirstFactor = 10.0;               // α over the relative residual
-constexpr int kPatience = 300;                      // steps without a better residual before giving up
+constexpr int kPatience = 500;                      // steps without a better residual before giving up
 constexpr std::size_t kMostContacts = 6000;         // W written out takes 2.6 GB then
 
 class Search {
