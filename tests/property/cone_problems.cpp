@@ -107,7 +107,6 @@ void check_problems(int count, std::uint64_t seed) {
     if (kind > 0) CHECK(t.slip > count / 3);
     CHECK(t.unique > t.problems / 8);
     CHECK(t.two_solutions == 0);
-    INFO("counted");
   }
 }
 

@@ -123,10 +123,9 @@ int step_command(const Arguments& arguments) {
     std::fflush(stdout);
   }
   for (const std::string& line : left_out) fmt::print("{}\n", line);
-  if (!outcomes.empty()) {
-    const Outcome& best = *std::min_element(outcomes.begin(), outcomes.end(), [](const Outcome& l, const Outcome& r) { return l.residual.siconos < r.residual.siconos; });
-    fmt::print("smallest residual: {}, {}\n", best.method, regimes(problem, best.lambda));
-  }
+  if (outcomes.empty()) throw InputError(fmt::format("{}: no chosen solver applies; see impinge list lcp_solvers; choose others for --lcp", arguments.a));
+  const Outcome& best = *std::min_element(outcomes.begin(), outcomes.end(), [](const Outcome& l, const Outcome& r) { return l.residual.siconos < r.residual.siconos; });
+  fmt::print("smallest residual: {}, {}\n", best.method, regimes(problem, best.lambda));
   fmt::print("residual: by Siconos' definition; natural map: relative to the largest |q|, with the contact where it is worst\n");
   if (!arguments.out.empty()) write_outcomes(arguments.out, problem, outcomes);
   return 0;
