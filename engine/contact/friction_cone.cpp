@@ -16,6 +16,22 @@ Vec3 project_to_cone(const Vec3& z, double mu) {
   return {n, z.y() * scale, z.z() * scale};
 }
 
+Vec3 project_to_pyramid(const Vec3& z, double mu) {
+  if (mu == 0.0) return {std::max(z.x(), 0.0), 0.0, 0.0};
+  // t_k = clamp(z_k, ±mu n); the slope of the squared distance in n, n - z_n - mu Σ max(0, |z_k| - mu n), rises with n
+  const double small = std::min(std::abs(z.y()), std::abs(z.z())), large = std::max(std::abs(z.y()), std::abs(z.z()));
+  double n = z.x();  // no side is clamped
+  if (mu * n < large) n = (z.x() + mu * large) / (1.0 + mu * mu);
+  if (mu * n < small) n = (z.x() + mu * (large + small)) / (1.0 + 2.0 * mu * mu);
+  n = std::max(n, 0.0);
+  return {n, std::clamp(z.y(), -mu * n, mu * n), std::clamp(z.z(), -mu * n, mu * n)};
+}
+
+double cone_violation(const Vec3& lambda, double mu, FrictionLaw law) {
+  const double t = law == FrictionLaw::cone ? std::hypot(lambda.y(), lambda.z()) : std::max(std::abs(lambda.y()), std::abs(lambda.z()));
+  return std::max({0.0, -lambda.x(), t - mu * lambda.x()});
+}
+
 Vec3 project_to_dual_cone(const Vec3& z, double mu) { return z + project_to_cone(-z, mu); }  // Moreau
 
 Vec3 solve_one_contact(const Mat3& w, const Vec3& b, double mu) {

@@ -4,6 +4,7 @@
 // Contacts without friction (mu = 0) have one row, 0 <= λ_n ⊥ u_n >= 0; their tangential entries are never touched.
 #pragma once
 
+#include "engine/contact/friction_cone.hpp"
 #include "engine/contact/row_kind.hpp"
 #include "engine/core/types.hpp"
 
@@ -22,6 +23,14 @@ class Delassus {
   virtual Vec3 row(std::size_t i, bool normal_only) const = 0;
   /// λ_i += delta.
   virtual void change(std::size_t i, const Vec3& delta, bool normal_only) = 0;
+
+  // Whole products and copies, for methods that go by more than one contact at a time. By default they are made of the
+  // functions above; an operator that can do better overrides them.
+
+  /// y = W x. The present λ becomes x.
+  virtual void apply(const std::vector<Vec3>& x, std::vector<Vec3>& y);
+  /// W written out, 3 contacts x 3 contacts. Changes the present λ.
+  virtual MatX dense();
 };
 
 struct ConeProblem {
@@ -32,6 +41,20 @@ struct ConeProblem {
   RowKind kind_of(std::size_t i) const { return kind.empty() ? RowKind::contact : kind[i]; }
   /// Whether contact i has its normal row only.
   bool has_one_row(std::size_t i) const { return kind_of(i) == RowKind::sliding || (kind_of(i) == RowKind::contact && mu[i] == 0.0); }
+  FrictionLaw law = FrictionLaw::cone;
+
+  /// Nearest λ to z that contact i may have: in its cone; for an equation any.
+  Vec3 nearest(std::size_t i, const Vec3& z) const {
+    if (kind_of(i) == RowKind::attachment) return z;
+    if (kind_of(i) == RowKind::sliding) return {z.x(), 0.0, 0.0};
+    return project(z, mu[i], law);
+  }
+  /// What is complementary to λ_i: u_hat of a contact, u of an equation.
+  Vec3 shifted(std::size_t i, const Vec3& u) const { return kind_of(i) == RowKind::contact ? de_saxce(u, mu[i], law) : u; }
 };
+
+/// The scalar rows that a problem has, contact by contact: index 3 i + k of row k of contact i; contacts without friction
+/// have only k = 0.
+std::vector<int> rows_of(const ConeProblem& problem);
 
 }  // namespace impinge

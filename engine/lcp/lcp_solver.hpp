@@ -2,20 +2,31 @@
 #pragma once
 
 #include "engine/core/registry.hpp"
-#include "engine/lcp/cone_problem.hpp"
+#include "engine/lcp/residual.hpp"
 
 namespace impinge {
 
-enum class StopReason { converged, iteration_cap, trivial };
+enum class StopReason {
+  converged,      ///< the judge's residual is within the tolerance
+  stagnated,      ///< the method can get no nearer: no step lowers the residual, or rounding hides it
+  iteration_cap,  ///< max_iterations were made
+  trivial,        ///< there was nothing to solve
+  refused         ///< the problem is not of the method's kind (applies() says why); λ is as it came
+};
+
+std::string_view name_of(StopReason reason);
 
 struct LcpSettings {
-  double tolerance = 1e-8;    ///< natural-map residual relative to max |q| (m/s)
+  double tolerance = 1e-8;  ///< of the relative residual that `measure` names
   int max_iterations = 1000;
+  Measure measure = Measure::natural_map;
+  std::vector<double>* history = nullptr;  ///< if given, gets the relative residual before the first and after each iteration
 };
 
 struct LcpResult {
   int iterations = 0;
   StopReason reason = StopReason::trivial;
+  bool solved() const { return reason == StopReason::converged || reason == StopReason::trivial; }
 };
 
 class LcpSolver {
@@ -23,6 +34,8 @@ class LcpSolver {
   virtual ~LcpSolver() = default;
   /// Improves `lambda` (in: start, out: answer, N·s; entry i lies in its cone).
   virtual LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const = 0;
+  /// Why the method can't solve this problem; "" if it can. What it can't solve it refuses.
+  virtual std::string applies(const ConeProblem&) const { return ""; }
 };
 
 const Registry<LcpSolver>& lcp_solvers();

@@ -18,13 +18,13 @@ class ConstraintAnticipation : public Response {
       problem.w = &w;
       const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
       w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps
-      return {result.iterations, 0, result.reason != StopReason::iteration_cap};
+      return {result.iterations, 0, result.solved()};
     }
     AssembledDelassus w(group);
     problem.w = &w;
     const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
     apply_impulses(group);
-    return {result.iterations, 0, result.reason != StopReason::iteration_cap};
+    return {result.iterations, 0, result.solved()};
   }
 
  private:

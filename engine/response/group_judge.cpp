@@ -36,7 +36,9 @@ GroupVerdict judge_group(const GroupSystem& group) {
     if (w(0, 0) <= 0.0) continue;  // both points are held: nothing can respond
     Vec3 u = group.contact_velocity(i, true);
     u.x() -= rows.bound;
-    const double r = natural_map(rows.kind, w, u, group.lambda[i], rows.friction);
+    const double r = rows.kind == RowKind::attachment ? u.norm()
+                     : rows.kind == RowKind::sliding  ? std::abs(u.x())
+                                                      : natural_map(w, u, group.lambda[i], rows.friction);
     if (!(r <= verdict.natural_map)) {
       verdict.natural_map = r;
       verdict.worst = static_cast<int>(i);

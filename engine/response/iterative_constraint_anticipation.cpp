@@ -126,7 +126,7 @@ class IterativeConstraintAnticipation : public Response {
       } else {
         result.converged = momentum <= settings.lcp.tolerance && contact_residual(group, base, w, x) <= settings.lcp.tolerance * scale;
       }
-      if (x.empty()) result.converged = solved.reason != StopReason::iteration_cap;
+      if (x.empty()) result.converged = solved.solved();
       if (result.converged || x.empty()) break;  // D = A for rigid bodies: one step is all
     }
     w.begin(group.lambda);

@@ -26,6 +26,28 @@ TEST_CASE("the cone projection is the nearest point of the cone") {
   }
 }
 
+TEST_CASE("the pyramid's projection is its nearest point, and the shift makes box friction a complementarity") {
+  Random random(3);
+  for (int i = 0; i < 2000; ++i) {
+    const double mu = random.in(0.0, 2.0);
+    const Vec3 z = random.vector() * 3.0;
+    const Vec3 p = project_to_pyramid(z, mu);
+    CHECK(cone_violation(p, mu, FrictionLaw::pyramid) <= 1e-12);
+    for (int k = 0; k < 20; ++k) {
+      const double n = random.in(0.0, 3.0);
+      const Vec3 point(n, mu * n * random.sym(), mu * n * random.sym());
+      CHECK((z - p).dot(point - p) <= 1e-12);
+    }
+    // sliding: each tangent at its bound against its velocity, u_n = 0; sticking: u = 0; open: u_n >= 0
+    const double n = random.in(0.1, 2.0);
+    const Vec3 u(0.0, random.sym(), random.sym()), slip(n, u.y() > 0 ? -mu * n : mu * n, u.z() > 0 ? -mu * n : mu * n);
+    CHECK(natural_map(Mat3::Identity(), u, slip, mu, FrictionLaw::pyramid) == Approx(0.0).margin(1e-13));
+    CHECK(natural_map(Mat3::Identity(), Vec3::Zero(), p, mu, FrictionLaw::pyramid) == Approx(0.0).margin(1e-13));
+    CHECK(natural_map(Mat3::Identity(), Vec3(random.u(), u.y(), u.z()), Vec3::Zero(), mu, FrictionLaw::pyramid) == Approx(0.0).margin(1e-13));
+    if (mu > 0.01) CHECK(natural_map(Mat3::Identity(), u, Vec3(n, -slip.y(), slip.z()), mu, FrictionLaw::pyramid) > 1e-4 * std::abs(u.y()) * mu * n);
+  }
+}
+
 TEST_CASE("one contact is solved exactly: take-off, stick and slip") {
   Random random(2);
   int open = 0, stick = 0, slip = 0;

@@ -14,9 +14,9 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list"};
-const std::vector<std::string> kReserved = {"debug", "step", "sweep", "test", "compare", "verify"};
-const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--freeze", "--ids"}}, {"diff", {"--update"}}};
+const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step"};
+const std::vector<std::string> kReserved = {"debug", "sweep", "test", "compare", "verify"};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--freeze", "--ids"}}, {"diff", {"--update"}}, {"step", {"--response"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
@@ -69,7 +69,27 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, const s
   return fmt::format("command line: {}; see impinge{} --help for what is allowed; mend the line", text, command == &app ? "" : " " + command->get_name());
 }
 
+double real(const std::string& text, const char* what, double low, double high) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high))
+    refuse(fmt::format("{} is '{}'", what, text), fmt::format("a number from {} to {} is wanted", low, high), "change it");
+  return value;
+}
+
+std::vector<std::string> words_between_commas(const std::string& text, const char* what) {
+  std::vector<std::string> list;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end == begin) refuse(fmt::format("{} is '{}'", what, text), "names with commas between them are wanted", "write them without gaps");
+    list.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return list;
+}
+
 struct Raw {
+  std::string lcp, step_tolerance, max_iterations;
   std::string size, frames, threads, tolerance, export_format;
   std::string scene, script, out;
   bool no_images = false;
@@ -84,6 +104,9 @@ void take_raw(const Raw& raw, Arguments& arguments) {
   if (!raw.frames.empty()) options.frames = whole(raw.frames, "--frames", 0, 100'000'000);
   if (!raw.threads.empty()) arguments.threads = whole(raw.threads, "--threads", 1, 4096);
   if (!raw.tolerance.empty()) arguments.tolerance = whole(raw.tolerance, "--tolerance", 0, 255);
+  if (!raw.lcp.empty()) arguments.lcp = words_between_commas(raw.lcp, "--lcp");
+  if (!raw.step_tolerance.empty()) arguments.step_tolerance = real(raw.step_tolerance, "--tolerance", 1e-16, 1.0);
+  if (!raw.max_iterations.empty()) arguments.max_iterations = whole(raw.max_iterations, "--max-iterations", 1, 100'000'000);
   if (!raw.export_format.empty()) {
     if (raw.export_format != "ply") refuse(fmt::format("--export is '{}'", raw.export_format), "ply is wanted", "write --export ply");
     options.export_ply = true;
@@ -149,6 +172,13 @@ Arguments parse_arguments(int count, const char* const* words) {
 
   CLI::App* names = app.add_subcommand("list", "parameters, layers and algorithms there are");
   names->add_option("TOPIC", arguments.a, "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|cases")->required();
+
+  CLI::App* step = app.add_subcommand("step", "solve a published friction-contact problem with every method, and compare them");
+  step->add_option("FILE", arguments.a, "problem as Siconos writes it in plain text (W, q, mu)")->required();
+  step->add_option("--lcp", raw.lcp, "solvers to run, with commas between them (default: all that apply; see impinge list lcp_solvers)");
+  step->add_option("--tolerance", raw.step_tolerance, "residual to reach, by Siconos' definition (default: 1e-8)");
+  step->add_option("--max-iterations", raw.max_iterations, "iterations at most (default: 2000)");
+  step->add_option("--out", arguments.out, "folder for methods.csv, solution_METHOD.csv and residual_METHOD.csv");
 
   try {
     app.parse(count, words);

@@ -9,16 +9,19 @@
 namespace impinge {
 
 struct Arguments {
-  enum Kind { run, replay, diff, check, info, list, print };
+  enum Kind { run, replay, diff, check, info, list, step, print };
   Kind kind = print;
   std::string text;             ///< of print: help or version
   RunOptions run_options;       ///< run; check and info use scene and overrides
   std::string video;            ///< run: file, "" for none
   int threads = 0;              ///< 0: as many as the machine has cores
   bool quiet = false;
-  std::string a, b;             ///< diff: the two sides; replay: a is the folder; list: a is the topic
-  std::string out, mask;        ///< diff
+  std::string a, b;             ///< diff: the two sides; replay: a is the folder; list: a is the topic; step: a is the file
+  std::string out, mask;        ///< diff; step: out
   int tolerance = 3;            ///< diff, of 255
+  std::vector<std::string> lcp;  ///< step: names of solvers, empty for all
+  double step_tolerance = 1e-8;  ///< step: relative residual
+  int max_iterations = 2000;     ///< step
 };
 
 /// Throws InputError with one message about the first thing that is wrong.

@@ -12,5 +12,6 @@ int diff_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
 int list_command(const Arguments& arguments);
+int step_command(const Arguments& arguments);
 
 }  // namespace impinge

@@ -1,0 +1,80 @@
+#include "engine/lcp/newton_system.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <limits>
+
+namespace impinge {
+
+namespace {
+
+constexpr Eigen::Index kSparseRows = 300;   // below this a dense factorization is quicker whatever the pattern
+constexpr double kSparseFill = 0.15;        // share of W that is not 0
+
+}  // namespace
+
+struct NewtonSystem::Factors {
+  Eigen::PartialPivLU<MatX> dense;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> sparse;
+  bool singular = false;
+};
+
+NewtonSystem::NewtonSystem(const ConeProblem& problem) : rows_(rows_of(problem)), w_(problem.w->dense()), factors_(std::make_unique<Factors>()) {
+  const auto nonzero = static_cast<double>((w_.array() != 0.0).count());
+  sparse_ = w_.rows() >= kSparseRows && nonzero < kSparseFill * static_cast<double>(w_.size());
+}
+
+NewtonSystem::~NewtonSystem() = default;
+
+void NewtonSystem::factorize(std::span<const Mat3> a, std::span<const Mat3> b, const std::vector<char>& kept) {
+  a_.assign(a.begin(), a.end());
+  kept_.clear(), known_.clear();
+  for (const int row : rows_) (kept[row / 3] ? kept_ : known_).push_back(row);
+  const auto n = static_cast<Eigen::Index>(kept_.size());
+  if (n == 0) return;
+  // row r of A W + B: A_i mixes the rows of its own contact only
+  const auto value = [&](int r, int c) {
+    const int i = r / 3;
+    double sum = r / 3 == c / 3 ? b[i](r % 3, c % 3) : 0.0;
+    for (int k = 0; k < 3; ++k) sum += a[i](r % 3, k) * w_(3 * i + k, c);
+    return sum;
+  };
+  if (!sparse_) {
+    MatX m(n, n);
+    for (Eigen::Index c = 0; c < n; ++c)
+      for (Eigen::Index r = 0; r < n; ++r) m(r, c) = value(kept_[r], kept_[c]);
+    factors_->dense.compute(m);
+    return;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index c = 0; c < n; ++c)
+    for (Eigen::Index r = 0; r < n; ++r)
+      if (const double v = value(kept_[r], kept_[c]); v != 0.0) entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
+  Eigen::SparseMatrix<double> m(n, n);
+  m.setFromTriplets(entries.begin(), entries.end());
+  factors_->sparse.compute(m);
+  factors_->singular = factors_->sparse.info() != Eigen::Success;
+}
+
+void NewtonSystem::solve(const VecX& b, VecX& x) const {
+  x = VecX::Zero(b.size());
+  for (const int row : known_) x[row] = b[row];
+  const auto n = static_cast<Eigen::Index>(kept_.size());
+  if (n == 0) return;
+  VecX rest(n);
+  const VecX carried = known_.empty() ? VecX() : VecX(w_ * x);
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const int row = kept_[r], i = row / 3;
+    rest[r] = b[row];
+    if (!known_.empty())
+      for (int k = 0; k < 3; ++k) rest[r] -= a_[i](row % 3, k) * carried[3 * i + k];
+  }
+  VecX y;
+  if (!sparse_) y = factors_->dense.solve(rest);
+  else if (factors_->singular) y = VecX::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  else y = factors_->sparse.solve(rest);
+  for (Eigen::Index r = 0; r < n; ++r) x[kept_[r]] = y[r];
+}
+
+}  // namespace impinge
