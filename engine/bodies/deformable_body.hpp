@@ -35,6 +35,7 @@ class DeformableBody {
   /// Holds these nodes (and no others): their degrees of freedom leave the system. They keep their velocity's part zero
   /// until set_held_velocity. Throws InternalError on an index out of range.
   void hold(std::span<const int> nodes);
+  const Vec3& rest_position(int node) const { return fem.rest().vertices[node]; }  ///< metres
   bool is_held(int node) const { return free_index_[node] < 0; }
   /// Velocity that a held node is moved with in the coming sub-steps, m/s.
   void set_held_velocity(int node, const Vec3& velocity);

@@ -14,6 +14,11 @@ namespace {
 constexpr std::size_t kElementsPerTask = 64;
 constexpr std::size_t kNodesPerTask = 256;
 
+/// Half the modulus of confined compression: what is let go yields to no load that its own material would stand.
+double unwinding_modulus(const Material& material) {
+  return material.settings().mu() + 0.5 * material.settings().lambda();
+}
+
 }  // namespace
 
 FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass,
@@ -112,6 +117,16 @@ Corners FemAssembly::corners(const VecX& x, int element) const {
   return c;
 }
 
+int FemAssembly::release_tangles(const VecX& x) {
+  std::vector<char> may(elements_.size());
+  for (std::size_t e = 0; e < may.size(); ++e) may[e] = material(static_cast<int>(e)).unwinds();
+  if (std::find(may.begin(), may.end(), 1) == may.end()) {
+    unwinding_.clear();
+    return 0;
+  }
+  return unwinding_.find(rest_, elements_, may, x);
+}
+
 double FemAssembly::total_energy() const {
   double sum = 0.0;
   for (const ElementResponse& slot : slot_) sum += slot.energy;
@@ -120,7 +135,10 @@ double FemAssembly::total_energy() const {
 
 double FemAssembly::energy(const VecX& x) {
   parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
-    slot_[e].energy = material(static_cast<int>(e)).energy(elements_[e], corners(x, static_cast<int>(e)));
+    const Material& m = material(static_cast<int>(e));
+    const Corners c = corners(x, static_cast<int>(e));
+    slot_[e].energy = unwinding_.lets_go(e) ? unwinding_.energy(elements_[e], c, e, unwinding_modulus(m))
+                                            : m.energy(elements_[e], c);
   });
   return total_energy();
 }
@@ -137,7 +155,12 @@ void FemAssembly::gather_forces(VecX& f) const {
 
 double FemAssembly::forces(const VecX& x, VecX& f) {
   parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
-    material(static_cast<int>(e)).force(elements_[e], corners(x, static_cast<int>(e)), slot_[e]);
+    const Material& m = material(static_cast<int>(e));
+    const Corners c = corners(x, static_cast<int>(e));
+    if (unwinding_.lets_go(e))
+      unwinding_.force(elements_[e], c, e, unwinding_modulus(m), slot_[e]);
+    else
+      m.force(elements_[e], c, slot_[e]);
   });
   gather_forces(f);
   return total_energy();
@@ -146,7 +169,12 @@ double FemAssembly::forces(const VecX& x, VecX& f) {
 double FemAssembly::stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k) {
   IMPINGE_ASSERT(k.pattern == pattern_);
   parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
-    material(static_cast<int>(e)).response(elements_[e], corners(x, static_cast<int>(e)), tangent, slot_[e]);
+    const Material& m = material(static_cast<int>(e));
+    const Corners c = corners(x, static_cast<int>(e));
+    if (unwinding_.lets_go(e))
+      unwinding_.response(elements_[e], c, e, unwinding_modulus(m), slot_[e]);
+    else
+      m.response(elements_[e], c, tangent, slot_[e]);
   });
   gather_forces(f);
   parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "engine/bodies/unwinding.hpp"
 #include "engine/core/block_matrix.hpp"
 #include "engine/geometry/tet_mesh.hpp"
 #include "engine/materials/material.hpp"
@@ -35,6 +36,10 @@ class FemAssembly {
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
   /// Exchanges a material between steps; its index is that of the constructor's list. Mass follows the density.
   void set_material(int index, FemMaterial material);
+
+  /// Looks at x for tangles and lets the elements round them go, those whose material unwinds() (bodies/unwinding.hpp).
+  /// That stays so until the next call; integrators call it when they open a step. Returns how many elements it are.
+  int release_tangles(const VecX& x);
 
   // positions x, forces f: node by node x, y, z; metres, newtons
   /// Elastic energy, J.
@@ -72,6 +77,7 @@ class FemAssembly {
   std::vector<int> node_begin_, node_code_;    // code: 4 element + corner
   std::vector<int> block_begin_, block_code_;  // code: 32 element + 2 block + (1 if transposed)
   std::vector<ElementResponse> slot_;
+  Unwinding unwinding_;
 };
 
 }  // namespace impinge

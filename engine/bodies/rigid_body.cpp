@@ -59,7 +59,13 @@ RigidBody make_rigid_body(const BodyDescription& description) {
 
   if (body.is_deformable()) {
     const Pose file{rotation_from_degrees(description.rotation), description.position};
-    body.soft = std::make_unique<SoftBody>(make_soft_body(*description.soft, file, description.velocity, description.angular_velocity));
+    try {
+      body.soft = std::make_unique<SoftBody>(make_soft_body(*description.soft, file, description.velocity, description.angular_velocity));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("body '{}': {}", body.name, error.what()));
+    }
+    body.mass = body.soft->fem.fem.total_mass();
+    body.velocity = description.velocity;
     body.mean_edge = mean_edge_length(std::get<MeshPointer>(body.shape)->mesh);
     body.update_world_vertices();
     body.soft->surface_velocity.assign(body.world_vertices.size(), description.velocity);

@@ -13,6 +13,7 @@ std::vector<CollisionGroup> make_groups(std::span<const std::pair<int, int>> con
   };
   std::vector<char> touched(joins.size(), 0);
   for (const auto& [a, b] : contacts) {
+    if (a < 0 || b < 0) continue;
     if (joins[a]) touched[a] = 1;
     if (joins[b]) touched[b] = 1;
     if (!joins[a] || !joins[b]) continue;
@@ -33,6 +34,7 @@ std::vector<CollisionGroup> make_groups(std::span<const std::pair<int, int>> con
   }
   for (int c = 0; c < static_cast<int>(contacts.size()); ++c) {
     const auto& [a, b] = contacts[c];
+    if (a < 0 || b < 0) continue;
     const int body = joins[a] ? a : (joins[b] ? b : -1);
     if (body >= 0) groups[group_of[root(body)]].contacts.push_back(c);
   }

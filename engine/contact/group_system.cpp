@@ -2,28 +2,42 @@
 
 namespace impinge {
 
-Vec3 GroupSystem::contact_velocity(std::size_t i, bool with_delta) const {
-  const ContactRows& rows = contacts[i];
+namespace {
+
+/// J of contact i times the rigid bodies' velocities and what `node_velocity(side, node)` says of deformable ones.
+template <class NodeVelocity>
+Vec3 row_velocity(const GroupSystem& group, std::size_t i, bool with_delta, NodeVelocity node_velocity) {
+  const ContactRows& rows = group.contacts[i];
   Vec3 relative = Vec3::Zero();
   const auto add = [&](const ContactSide& side, double sign) {
     if (side.rigid >= 0) {
-      Vec3 v = bodies[side.rigid].velocity, w = bodies[side.rigid].angular_velocity;
+      Vec3 v = group.bodies[side.rigid].velocity, w = group.bodies[side.rigid].angular_velocity;
       if (with_delta) {
-        v += delta_velocity[side.rigid];
-        w += delta_angular_velocity[side.rigid];
+        v += group.delta_velocity[side.rigid];
+        w += group.delta_angular_velocity[side.rigid];
       }
       relative += sign * (v + w.cross(side.arm));
     }
-    for (const NodeWeight& n : side.nodes) {
-      const SoftBlock& block = soft[side.soft];
-      Vec3 v = block.velocity.segment<3>(3 * n.node);
-      if (with_delta) v += block.scale * soft_delta[side.soft].segment<3>(3 * n.node);
-      relative += sign * n.weight * v;
-    }
+    for (const NodeWeight& n : side.nodes) relative += sign * n.weight * node_velocity(side.soft, n.node);
   };
   add(rows.a, 1.0);
   add(rows.b, -1.0);
   return rows.directions * relative + rows.surface;
+}
+
+}  // namespace
+
+Vec3 GroupSystem::contact_velocity(std::size_t i, bool with_delta) const {
+  return row_velocity(*this, i, with_delta, [&](int body, int node) {
+    const Vec3 v = soft[body].velocity.segment<3>(3 * node);
+    return with_delta ? Vec3(v + soft_delta[body].segment<3>(3 * node)) : v;
+  });
+}
+
+Vec3 GroupSystem::displacement_velocity(std::size_t i) const {
+  return row_velocity(*this, i, true, [&](int body, int node) {
+    return Vec3(soft[body].displacement_velocity.segment<3>(3 * node) + soft[body].displacement_scale * soft_delta[body].segment<3>(3 * node));
+  });
 }
 
 VecX GroupSystem::soft_impulse(int body, const std::vector<Vec3>& impulses) const {

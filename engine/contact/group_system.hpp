@@ -1,6 +1,7 @@
 // One collision group as a system of equations: A by body, J by contact, the free velocity v* and the rows' bounds.
 #pragma once
 
+#include "engine/contact/row_kind.hpp"
 #include "engine/core/block_matrix.hpp"
 #include "engine/core/linear_solver.hpp"
 
@@ -14,13 +15,16 @@ struct BodyBlock {
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
 };
 
-/// A deformable body's part of A over its free nodes. Contact is written on the position increment Δq(v) = s v + d
-/// (SPEC §1), so rows see the displacement velocity Δq/Δt: `velocity` is (s v* + d)/Δt and a change Δv counts s/Δt times.
+/// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions move by
+/// Δq(v) = s v + d (SPEC §1): where a scheme's Δq is not Δt v (Newmark), what overlap is left after the velocities is
+/// pushed out in the same sub-step, which sees displacement velocities Δq/Δt.
 struct SoftBlock {
   const BlockMatrix* a = nullptr;        ///< kg
   LinearSolver* solver = nullptr;        ///< analyzed with a's pattern; factorized when a response asks for it
-  VecX velocity;                         ///< 3 x free nodes, m/s
-  double scale = 1.0;                    ///< s/Δt
+  bool is_diagonal = false;              ///< a has nothing beside its diagonal blocks (explicit schemes, lumped mass)
+  VecX velocity;                         ///< v*, 3 x free nodes, m/s
+  VecX displacement_velocity;            ///< (s v* + d)/Δt, m/s
+  double displacement_scale = 1.0;       ///< s/Δt
 };
 
 struct NodeWeight {
@@ -41,12 +45,14 @@ struct ContactSide {
 /// momentum. A row is [ d^T  (r_A x d)^T  -d^T  -(r_B x d)^T ] for each direction d [Haapaoja16 Eq. 4.11]; for a deformable
 /// body it is w_j d^T at each node j.
 struct ContactRows {
+  RowKind kind = RowKind::contact;
   ContactSide a, b;
   Mat3 directions = Mat3::Zero();  ///< rows n^T, t1^T, t2^T
   Vec3 surface = Vec3::Zero();     ///< what prescribed motion (bodies without freedom, held nodes) adds to J v, along the rows
   double gap = 0.0;                ///< g0, metres
   double bound = 0.0;              ///< J v >= bound along n, m/s
-  double friction = 0.0;           ///< 0: the contact has no tangential rows
+  double friction = 0.0;           ///< 0: a contact without tangential rows
+  bool has_one_row() const { return kind == RowKind::sliding || (kind == RowKind::contact && friction == 0.0); }
 };
 
 struct GroupSystem {
@@ -59,6 +65,8 @@ struct GroupSystem {
 
   /// J v of contact i for the bodies' velocities, with or without the Δv.
   Vec3 contact_velocity(std::size_t i, bool with_delta) const;
+  /// J Δq(v)/Δt of contact i with the Δv: how fast the gap changes over the sub-step.
+  Vec3 displacement_velocity(std::size_t i) const;
   /// J^T λ on the free nodes of one deformable body, kg·m/s.
   VecX soft_impulse(int body, const std::vector<Vec3>& impulses) const;
   /// Zero Δv of the right sizes.

@@ -127,6 +127,7 @@ LowerTriangle::LowerTriangle(const BlockPattern& p) : matrix_(3 * p.rows, 3 * p.
     for (int c = 0; c < 3; ++c) outer[3 * j + c + 1] = outer[3 * j + c] + (3 - c) + 3 * below;
   }
   matrix_.resizeNonZeros(outer.back());
+  std::fill_n(matrix_.valuePtr(), outer.back(), 0.0);
   std::copy(outer.begin(), outer.end(), matrix_.outerIndexPtr());
   int* inner = matrix_.innerIndexPtr();
   for (int j = 0; j < p.rows; ++j)
@@ -137,19 +138,27 @@ LowerTriangle::LowerTriangle(const BlockPattern& p) : matrix_(3 * p.rows, 3 * p.
     }
 }
 
-void LowerTriangle::refill(const BlockMatrix& a) {
+bool LowerTriangle::refill(const BlockMatrix& a) {
   const BlockPattern& p = *a.pattern;
   IMPINGE_ASSERT(matrix_.rows() == a.rows());
+  std::vector<char> changed(p.rows, 0);
   const auto fill = [&](std::size_t j) {
+    bool differs = false;
     for (int c = 0; c < 3; ++c) {
       double* out = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * j + c];
-      for (int r = c; r < 3; ++r) *out++ = a.values[p.diagonal[j]](r, c);
+      const auto put = [&](double value) {
+        differs = differs || !(*out == value);
+        *out++ = value;
+      };
+      for (int r = c; r < 3; ++r) put(a.values[p.diagonal[j]](r, c));
       // block (i, j) below the diagonal is the transpose of (j, i)
       for (int k = p.diagonal[j] + 1; k < p.begin[j + 1]; ++k)
-        for (int r = 0; r < 3; ++r) *out++ = a.values[k](c, r);
+        for (int r = 0; r < 3; ++r) put(a.values[k](c, r));
     }
+    changed[j] = differs;
   };
   parallel_for(p.rows, kRowsPerTask, fill);
+  return std::find(changed.begin(), changed.end(), 1) != changed.end();
 }
 
 }  // namespace impinge

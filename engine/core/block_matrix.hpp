@@ -51,8 +51,8 @@ double dot(const VecX& x, const VecX& y);
 class LowerTriangle {
  public:
   explicit LowerTriangle(const BlockPattern& pattern);
-  /// Writes the numbers of `a`, whose pattern must be the one this was made with.
-  void refill(const BlockMatrix& a);
+  /// Writes the numbers of `a`, whose pattern must be the one this was made with. False if they were there already.
+  bool refill(const BlockMatrix& a);
   const Eigen::SparseMatrix<double>& matrix() const { return matrix_; }
 
  private:

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "engine/core/error.hpp"
-#include "engine/core/linear_solver.hpp"
+#include "engine/core/supernodal_gram.hpp"
 
 namespace impinge {
 namespace {
@@ -19,13 +19,19 @@ class Cholmod : public LinearSolver {
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
     llt_.analyzePattern(lower_->matrix());
+    factored_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
     IMPINGE_ASSERT(lower_.has_value());
     // CHOLMOD reports success on NaN and then answers NaN
-    if (!a.all_finite()) return status_ = SolveStatus::not_finite;
-    lower_->refill(a);
+    if (!a.all_finite()) {
+      factored_ = false;
+      return status_ = SolveStatus::not_finite;
+    }
+    if (!lower_->refill(a) && factored_) return status_;
     llt_.factorize(lower_->matrix());
+    factored_ = true;
+    ++factorizations;
     return status_ = llt_.info() == Eigen::Success ? SolveStatus::ok : SolveStatus::not_positive_definite;
   }
   SolveReport solve(const VecX& b, VecX& x) override {
@@ -38,11 +44,22 @@ class Cholmod : public LinearSolver {
     x = llt_.solve(b);
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
+  SolveReport gram(const SparseColumns& b, MatX& w) override {
+    if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    supernodal_gram(llt_.factor(), b, w);
+    return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
+  }
 
  private:
+  /// Eigen's wrapper, with a look at the factor itself.
+  struct Factorization : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> {
+    const cholmod_factor& factor() const { return *m_cholmodFactor; }
+  };
+
   std::optional<LowerTriangle> lower_;
-  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> llt_;
+  Factorization llt_;
   SolveStatus status_ = SolveStatus::ok;
+  bool factored_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "engine/core/linear_solver.hpp"
 
+#include <algorithm>
+
 #include "engine/core/error.hpp"
 
 namespace impinge {
@@ -9,6 +11,24 @@ Entry<LinearSolver> simplicial_llt_solver();
 #ifdef IMPINGE_CHOLMOD
 Entry<LinearSolver> cholmod_solver();
 #endif
+
+SolveReport LinearSolver::gram(const SparseColumns& b, MatX& w) {
+  constexpr Eigen::Index kSlab = 96;  // columns at a time: memory stays in bounds however many there are
+  w.resize(b.cols(), b.cols());
+  SolveReport worst;
+  for (Eigen::Index begin = 0; begin < b.cols(); begin += kSlab) {
+    const Eigen::Index count = std::min(kSlab, b.cols() - begin);
+    MatX x;
+    const SolveReport report = solve_many(MatX(b.middleCols(begin, count)), x);
+    worst.iterations = std::max(worst.iterations, report.iterations);
+    worst.residual = std::max(worst.residual, report.residual);
+    if (report.status != SolveStatus::ok) worst.status = report.status;
+    if (x.rows() != b.rows()) return worst;
+    w.middleCols(begin, count) = b.transpose() * x;
+  }
+  w = 0.5 * (w + MatX(w.transpose()));
+  return worst;
+}
 
 const Registry<LinearSolver>& linear_solvers() {
   static const Registry<LinearSolver> list = {

@@ -20,21 +20,29 @@ struct SolveReport {
   double residual = 0.0;  ///< ‖b − A x‖/‖b‖ as the iteration knows it; 0 for a direct solver
 };
 
+/// Few entries a column, in compressed columns.
+using SparseColumns = Eigen::SparseMatrix<double>;
+
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
   /// Whatever depends on the pattern only. Must come before factorize, and again when the pattern changes.
   virtual void analyze(const BlockPattern& pattern) = 0;
-  /// Takes the numbers of A, whose lifetime must span the solves that follow.
+  /// Takes the numbers of A, whose lifetime must span the solves that follow. A factorization is made only if they
+  /// differ from the last ones.
   virtual SolveStatus factorize(const BlockMatrix& a) = 0;
   /// x = A⁻¹ b. What x holds on entry (if it has b's size) starts an iterative solver.
   virtual SolveReport solve(const VecX& b, VecX& x) = 0;
   /// X = A⁻¹ B, column by column or at once; X gets B's size. The worst column's report.
   virtual SolveReport solve_many(const MatX& b, MatX& x) = 0;
+  /// W = Bᵀ A⁻¹ B, exactly symmetric, for sparse columns (contacts: a few nodes each). A factorization needs half of a
+  /// solve for each, and only where a column reaches; other solvers go by solve_many.
+  virtual SolveReport gram(const SparseColumns& b, MatX& w);
 
   /// ‖b − A x‖ <= tolerance ‖b‖ ends an iteration.
   double tolerance = 1e-8;
   int max_iterations = 10000;
+  int factorizations = 0;  ///< numeric ones made so far; 0 for an iterative solver
 };
 
 /// `conjugate_gradient`, `simplicial_llt` and, where it was compiled in, `cholmod`.

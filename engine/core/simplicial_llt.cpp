@@ -14,12 +14,18 @@ class SimplicialLlt : public LinearSolver {
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
     llt_.analyzePattern(lower_->matrix());
+    factored_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
     IMPINGE_ASSERT(lower_.has_value());
-    if (!a.all_finite()) return status_ = SolveStatus::not_finite;
-    lower_->refill(a);
+    if (!a.all_finite()) {
+      factored_ = false;
+      return status_ = SolveStatus::not_finite;
+    }
+    if (!lower_->refill(a) && factored_) return status_;
     llt_.factorize(lower_->matrix());
+    factored_ = true;
+    ++factorizations;
     return status_ = llt_.info() == Eigen::Success ? SolveStatus::ok : SolveStatus::not_positive_definite;
   }
   SolveReport solve(const VecX& b, VecX& x) override {
@@ -32,11 +38,22 @@ class SimplicialLlt : public LinearSolver {
     x = llt_.solve(b);
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
+  /// Y = L⁻¹ P B takes as much memory as B would as a dense matrix.
+  SolveReport gram(const SparseColumns& b, MatX& w) override {
+    if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    MatX y = llt_.permutationP() * MatX(b);
+    llt_.matrixL().solveInPlace(y);
+    w.setZero(b.cols(), b.cols());
+    w.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose());
+    w.triangularView<Eigen::StrictlyUpper>() = w.transpose();
+    return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
+  }
 
  private:
   std::optional<LowerTriangle> lower_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> llt_;
   SolveStatus status_ = SolveStatus::ok;
+  bool factored_ = false;
 };
 
 }  // namespace

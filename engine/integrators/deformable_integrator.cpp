@@ -32,6 +32,7 @@ VecX damping_force(const DeformableBody& body, const DeformableStep& step, const
 
 void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step) {
   step.start = body.position;
+  body.fem.release_tangles(body.position);
   // held nodes move by h times their prescribed velocity, whatever s is
   for (int i = 0; i < body.nodes(); ++i)
     if (body.is_held(i))

@@ -60,6 +60,8 @@ class DeformableIntegrator {
   virtual void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const;
   /// Whether free_velocity iterates to the root of g, so that contact has to be solved in each of its iterations.
   virtual bool is_newton() const { return false; }
+  /// Whether A = M: with lumped mass its blocks stand alone.
+  virtual bool is_explicit() const { return false; }
 
   NewtonSettings newton;
   double newmark_beta = 0.25, newmark_gamma = 0.5;

@@ -30,6 +30,7 @@ class SymplecticEuler : public DeformableIntegrator {
     for (int i = 0; i < body.free_nodes(); ++i)
       step.v_star.segment<3>(3 * i) = step.b.segment<3>(3 * i) / body.fem.node_mass()[body.free_node()[i]];
   }
+  bool is_explicit() const override { return true; }
 };
 
 }  // namespace

@@ -87,6 +87,10 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
     out += "\n[[body]]\n";
     for (const TomlEntry& entry : body.entries) out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
   }
+  for (const TomlNode& attachment : scene.attachments) {
+    out += "\n[[attachment]]\n";
+    for (const TomlEntry& entry : attachment.entries) out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
+  }
   return out;
 }
 

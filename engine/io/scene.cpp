@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/run_record.hpp"
+#include "engine/io/scene_attachments.hpp"
 #include "engine/io/scene_body.hpp"
 #include "engine/io/scene_overrides.hpp"
 #include "engine/io/scene_values.hpp"
@@ -25,7 +26,7 @@ bool has_rows_below(const ParameterSet& rows, const std::string& path) {
 
 [[noreturn]] void refuse_key(const ParameterSet& rows, const TomlEntry& entry, const std::string& path) {
   if (entry.value.kind == TomlNode::table && path.find('.') == std::string::npos) {
-    std::vector<std::string> tables = {"body", "scene"};
+    std::vector<std::string> tables = {"body", "attachment", "scene"};
     for (const Parameter& row : rows.all()) {
       const std::string table = row.path.substr(0, row.path.find('.'));
       if (std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
@@ -77,6 +78,20 @@ void read_bodies(const TomlNode& list, Scene& scene, SurfaceFiles& surfaces, Wor
   }
 }
 
+void read_attachments(const TomlNode& list, Scene& scene, World& world) {
+  if (list.kind != TomlNode::array)
+    refuse(list.place, fmt::format("attachment is {}", toml_kind_name(list)), "[[attachment]] tables are wanted", "write [[attachment]]");
+  for (const TomlNode& table : list.items) {
+    const AttachmentDescription attachment = read_attachment(table, static_cast<int>(scene.attachments.size()));
+    try {
+      world.add_attachment(attachment);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", table.place, error.what()));
+    }
+    scene.attachments.push_back(table);
+  }
+}
+
 }  // namespace
 
 bool Scene::has(std::string_view parameter) const { return std::find(given.begin(), given.end(), parameter) != given.end(); }
@@ -94,7 +109,7 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
     scene.folder = scene.run->folder;
   }
   TomlNode parameters = root;
-  std::erase_if(parameters.entries, [](const TomlEntry& entry) { return entry.key == "body" || entry.key == "run" || entry.key == "scene"; });
+  std::erase_if(parameters.entries, [](const TomlEntry& entry) { return entry.key == "body" || entry.key == "attachment" || entry.key == "run" || entry.key == "scene"; });
   read_parameters(parameters, "", rows, scene);
   if (const TomlEntry* table = root.find("scene")) {
     check_keys(scene_table(table->value, "scene"), "scene", {"allow_outside_files"});
@@ -102,6 +117,7 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
   }
   SurfaceFiles surfaces(scene.folder, scene.allow_outside_files);
   if (const TomlEntry* bodies = root.find("body")) read_bodies(bodies->value, scene, surfaces, world);
+  if (const TomlEntry* attachments = root.find("attachment")) read_attachments(attachments->value, scene, world);
   scene.surfaces = surfaces.files();
   if (const TomlEntry* run = root.find("run")) check_surface_hashes(run->value, scene.surfaces);
   world.bind_bodies(rows);

@@ -26,6 +26,7 @@ struct Scene {
   std::filesystem::path folder;      ///< surfaces are relative to it
   bool allow_outside_files = false;
   std::vector<TomlNode> bodies;      ///< as given, overrides applied
+  std::vector<TomlNode> attachments; ///< as given
   std::vector<SurfaceFile> surfaces;
   std::vector<std::string> given;    ///< paths of the parameters that the file or an override names
   std::optional<RunRecord> run;      ///< of a run.toml

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
+#include "engine/io/scene_motion.hpp"
+#include "engine/io/scene_soft.hpp"
 #include "engine/io/scene_values.hpp"
 
 namespace impinge {
@@ -14,18 +16,17 @@ constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6}, kSpeed{-1e6, 1e6}, kTime{
 constexpr double kMostLength = 1e6, kMostScale = 1e6, kMostDensity = 1e9, kMostMass = 1e15;
 
 const std::vector<std::string> kKeys = {"name",     "kind",     "shape",            "surface", "scale",    "material",    "mass",          "position",
-                                        "rotation", "velocity", "angular_velocity", "motion",  "friction", "restitution", "self_collision"};
+                                        "rotation", "velocity", "angular_velocity", "motion",  "friction", "restitution", "self_collision",
+                                        "volume",   "fixed"};
 
 BodyKind read_kind(const TomlNode& table, const std::string& what) {
   const TomlEntry* entry = table.find("kind");
-  if (entry == nullptr) refuse(table.place, what + " has no kind", "static, scripted or dynamic is wanted", "add kind = \"dynamic\"");
+  if (entry == nullptr) refuse(table.place, what + " has no kind", "static, scripted, dynamic or deformable is wanted", "add kind = \"dynamic\"");
   const std::string& word = scene_text(entry->value, what + ".kind");
-  for (const BodyKind kind : {BodyKind::fixed, BodyKind::scripted, BodyKind::dynamic})
+  for (const BodyKind kind : {BodyKind::fixed, BodyKind::scripted, BodyKind::dynamic, BodyKind::deformable})
     if (word == kind_name(kind)) return kind;
-  if (word == "deformable")
-    refuse(entry->value.place, what + ".kind is \"deformable\", which is not part of this version", "static, scripted or dynamic is allowed", "make it dynamic");
-  const std::string near = nearest_word(word, {"static", "scripted", "dynamic"});
-  refuse(entry->value.place, fmt::format("{}.kind is {}", what, toml_string(word)), "static, scripted or dynamic is allowed",
+  const std::string near = nearest_word(word, {"static", "scripted", "dynamic", "deformable"});
+  refuse(entry->value.place, fmt::format("{}.kind is {}", what, toml_string(word)), "static, scripted, dynamic or deformable is allowed",
          near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
 }
 
@@ -46,6 +47,36 @@ double read_size(const TomlNode& table, const char* key, const std::string& what
   if (entry == nullptr) refuse(table.place, fmt::format("{} has no {}", what, key), fmt::format("{} = a length in metres is wanted", key), "add it");
   return scene_positive(entry->value, what + "." + key, kMostLength);
 }
+
+void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
+  scene_table(node, what);
+  if (body.kind == BodyKind::deformable) return;  // scene_soft.cpp
+  for (const char* key : {"model", "young", "poisson", "damping", "damping_alpha", "damping_beta", "mass", "extension_threshold"})
+    if (const TomlEntry* entry = node.find(key))
+      refuse(entry->place, fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)), "allowed: density",
+             "make it deformable, or remove it");
+  check_keys(node, what, {"density"});
+  if (const TomlEntry* density = node.find("density")) body.density = scene_positive(density->value, what + ".density", kMostDensity);
+}
+
+// what has no meaning for the body's kind is refused: taken and ignored it would mislead
+void check_kind(const TomlNode& table, const std::string& what, const BodyDescription& body) {
+  const TomlEntry* motion = table.find("motion");
+  if (body.kind == BodyKind::scripted && motion == nullptr) refuse(table.place, what + " is scripted and has no motion", "key frames are wanted", "add motion = [ ... ], or make it static");
+  if (body.kind != BodyKind::scripted && motion != nullptr)
+    refuse(motion->place, fmt::format("{} is {} and has a motion", what, kind_name(body.kind)), "scripted bodies have one", "make it scripted, or remove motion");
+  if (body.kind != BodyKind::dynamic && body.kind != BodyKind::deformable) {
+    for (const char* key : {"velocity", "angular_velocity"}) {
+      const TomlEntry* entry = table.find(key);
+      if (entry != nullptr && !(key[0] == 'v' ? body.velocity : body.angular_velocity).isZero(0.0))
+        refuse(entry->place, fmt::format("{} is {} and has a {}", what, kind_name(body.kind), key), "dynamic and deformable bodies have one", "make it dynamic, or remove it");
+    }
+  }
+  if (body.kind == BodyKind::dynamic && std::holds_alternative<Plane>(body.shape))
+    refuse(table.find("shape")->value.place, what + " is dynamic and a plane, which has no mass", "a plane is static or scripted", "use a box");
+}
+
+}  // namespace
 
 Shape read_shape(const TomlNode& node, const std::string& what, double scale) {
   scene_table(node, what);
@@ -73,54 +104,6 @@ Shape read_shape(const TomlNode& node, const std::string& what, double scale) {
   return Box{scale * 0.5 * lengths};
 }
 
-void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
-  scene_table(node, what);
-  for (const char* key : {"model", "young", "poisson", "damping", "mass"})
-    if (const TomlEntry* entry = node.find(key))
-      refuse(entry->place, fmt::format("{}.{} belongs to deformable bodies, which are not part of this version", what, key), "allowed: density", "remove it");
-  check_keys(node, what, {"density"});
-  if (const TomlEntry* density = node.find("density")) body.density = scene_positive(density->value, what + ".density", kMostDensity);
-}
-
-std::vector<MotionKey> read_motion(const TomlNode& node, const std::string& what, const BodyDescription& body) {
-  if (node.kind != TomlNode::array || node.items.empty())
-    refuse(node.place, what + " has no key frames", "[ { time = s, position = [x, y, z], rotation = [x, y, z] }, ... ] is wanted", "add at least one");
-  std::vector<MotionKey> keys;
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    const std::string name = fmt::format("{}[{}]", what, i);
-    const TomlNode& table = scene_table(node.items[i], name);
-    check_keys(table, name, {"time", "position", "rotation"});
-    const TomlEntry* time = table.find("time");
-    if (time == nullptr) refuse(table.place, name + " has no time", "time = seconds is wanted", "add it");
-    MotionKey key{scene_real(time->value, name + ".time", kTime), body.position, body.rotation};
-    if (const TomlEntry* entry = table.find("position")) key.position = scene_vector(entry->value, name + ".position", kLength);
-    if (const TomlEntry* entry = table.find("rotation")) key.rotation = scene_vector(entry->value, name + ".rotation", kAngle);
-    if (!keys.empty() && !(key.time > keys.back().time))
-      refuse(time->value.place, fmt::format("{}.time is {} after {}", name, shortest(key.time), shortest(keys.back().time)), "times must increase", "sort the key frames");
-    keys.push_back(key);
-  }
-  return keys;
-}
-
-// what has no meaning for the body's kind is refused: taken and ignored it would mislead
-void check_kind(const TomlNode& table, const std::string& what, const BodyDescription& body) {
-  const TomlEntry* motion = table.find("motion");
-  if (body.kind == BodyKind::scripted && motion == nullptr) refuse(table.place, what + " is scripted and has no motion", "key frames are wanted", "add motion = [ ... ], or make it static");
-  if (body.kind != BodyKind::scripted && motion != nullptr)
-    refuse(motion->place, fmt::format("{} is {} and has a motion", what, kind_name(body.kind)), "scripted bodies have one", "make it scripted, or remove motion");
-  if (body.kind != BodyKind::dynamic) {
-    for (const char* key : {"velocity", "angular_velocity"}) {
-      const TomlEntry* entry = table.find(key);
-      if (entry != nullptr && !(key[0] == 'v' ? body.velocity : body.angular_velocity).isZero(0.0))
-        refuse(entry->place, fmt::format("{} is {} and has a {}", what, kind_name(body.kind), key), "dynamic bodies have one", "make it dynamic, or remove it");
-    }
-  }
-  if (body.kind == BodyKind::dynamic && std::holds_alternative<Plane>(body.shape))
-    refuse(table.find("shape")->value.place, what + " is dynamic and a plane, which has no mass", "a plane is static or scripted", "use a box");
-}
-
-}  // namespace
-
 bool is_body_name(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
   if (name.empty() || !is_letter(name[0])) return false;
@@ -139,10 +122,12 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
     refuse(name->value.place, fmt::format("{} as a body's name", toml_string(body.name)), "letters, digits, _ and - are allowed, a letter or _ first", "rename it");
   const std::string what = "body." + body.name;
   body.kind = read_kind(table, what);
-  for (const char* key : {"volume", "fixed"})
-    if (const TomlEntry* entry = table.find(key))
-      refuse(entry->place, fmt::format("{}.{} belongs to deformable bodies, which are not part of this version", what, key), "rigid bodies are", "remove it");
   check_keys(table, what, kKeys);
+  if (body.kind != BodyKind::deformable)
+    for (const char* key : {"volume", "fixed"})
+      if (const TomlEntry* entry = table.find(key))
+        refuse(entry->place, fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
+               "kind = \"deformable\" has it", "make it deformable, or remove it");
 
   const auto with = [&](const char* key, auto&& read) {
     if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
@@ -161,11 +146,16 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   if (const TomlEntry* material = table.find("material"); body.mass && material != nullptr && material->value.find("density") != nullptr)
     refuse(table.find("mass")->place, what + " has a mass and a density", "one of them is wanted", "remove one");
 
+  if (body.kind == BodyKind::deformable) {
+    check_kind(table, what, body);
+    read_soft_body(table, what, scale, surfaces, body);
+    return body;
+  }
   const TomlEntry *shape = table.find("shape"), *surface = table.find("surface");
   if (shape == nullptr && surface == nullptr) refuse(table.place, what + " has no shape", "shape = { ... } or surface = \"file\" is wanted", "add one");
   if (shape != nullptr && surface != nullptr) refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
   if (shape != nullptr) body.shape = read_shape(shape->value, what + ".shape", scale);
-  with("motion", [&](const TomlNode& node, const std::string& key) { body.motion = read_motion(node, key, body); });
+  with("motion", [&](const TomlNode& node, const std::string& key) { body.motion = read_motion(node, key, body.position, body.rotation); });
   if (surface == nullptr) {
     check_kind(table, what, body);
     return body;

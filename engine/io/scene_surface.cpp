@@ -66,6 +66,15 @@ MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
   return surface;
 }
 
+std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, const std::string& what) {
+  const fs::path path = find(node, what);
+  std::shared_ptr<const TetFile>& volume = volumes_[node.string];
+  if (volume != nullptr) return volume;
+  volume = std::make_shared<TetFile>(read_tet_file(path));
+  files_.push_back({node.string, hash_bytes(read_file(path, std::uint64_t{4} << 30)), volume->mesh.vertices.size(), volume->mesh.tets.size(), 0});
+  return volume;
+}
+
 MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, double scale) {
   const fs::path path = find(node, what);
   MeshPointer& surface = unscaled_[node.string];

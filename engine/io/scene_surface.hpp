@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/bodies/shape.hpp"
+#include "engine/io/tet_file.hpp"
 #include "engine/io/toml.hpp"
 
 namespace impinge {
@@ -25,6 +26,9 @@ class SurfaceFiles {
   /// the node, or in the file where its text is at fault.
   MeshPointer load(const TomlNode& node, const std::string& what, double scale);
 
+  /// The volume mesh of the file that `node` names, unscaled.
+  std::shared_ptr<const TetFile> load_volume(const TomlNode& node, const std::string& what);
+
   const std::vector<SurfaceFile>& files() const { return files_; }  ///< in order of first use
 
  private:
@@ -34,6 +38,7 @@ class SurfaceFiles {
   std::filesystem::path folder_;
   bool allow_outside_ = false;
   std::vector<SurfaceFile> files_;
+  std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
   std::map<std::string, MeshPointer> unscaled_;                    // by name
   std::map<std::pair<std::string, double>, MeshPointer> scaled_;   // by name and scale
 };

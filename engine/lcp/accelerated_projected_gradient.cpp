@@ -22,7 +22,7 @@ class Descent {
       : problem_(problem), settings_(settings), lambda_(lambda), n_(lambda.size()), shift_(n_, 0.0), w_lambda_(n_), u_(n_), next_(n_), w_next_(n_) {
     for (std::size_t i = 0; i < n_; ++i) {
       const Mat3& d = problem.w->diagonal(i);
-      const double size = problem.mu[i] == 0.0 ? d(0, 0) : d.trace() / 3.0;
+      const double size = problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
       scale_.push_back(size > 0.0 ? size : 1.0);
     }
   }
@@ -35,7 +35,7 @@ class Descent {
     double theta = 1.0, step = 1.0;
     for (int k = 1; k <= settings_.max_iterations; ++k) {
       for (;;) {
-        for (std::size_t i = 0; i < n_; ++i) next_[i] = project(y[i] - step / scale_[i] * gradient(i, w_y[i]), problem_.mu[i], problem_.law);
+        for (std::size_t i = 0; i < n_; ++i) next_[i] = problem_.nearest(i, y[i] - step / scale_[i] * gradient(i, w_y[i]));
         apply(next_, w_next_);
         double curve = 0.0, model = 0.0;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -70,12 +70,12 @@ class Descent {
   void apply(const std::vector<Vec3>& x, std::vector<Vec3>& y) {
     problem_.w->apply(x, y);
     for (std::size_t i = 0; i < n_; ++i)
-      if (problem_.mu[i] == 0.0) y[i].tail<2>().setZero();
+      if (problem_.has_one_row(i)) y[i].tail<2>().setZero();
   }
   Vec3 gradient(std::size_t i, const Vec3& product) const {
     Vec3 g = product + problem_.q[i];
     g.x() += shift_[i];
-    if (problem_.mu[i] == 0.0) g.tail<2>().setZero();
+    if (problem_.has_one_row(i)) g.tail<2>().setZero();
     return g;
   }
   bool measure() {
@@ -89,12 +89,12 @@ class Descent {
     double worst = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       const Vec3 z = lambda_[i] - gradient(i, w_lambda_[i]) / scale_[i];
-      worst = std::max(worst, scale_[i] * (lambda_[i] - project(z, problem_.mu[i], problem_.law)).norm());
+      worst = std::max(worst, scale_[i] * (lambda_[i] - problem_.nearest(i, z)).norm());
     }
     return worst / std::max(velocity_scale(problem_), 1e-300);
   }
   void move_shift() {
-    for (std::size_t i = 0; i < n_; ++i) shift_[i] = problem_.mu[i] == 0.0 ? 0.0 : de_saxce(u_[i], problem_.mu[i], problem_.law).x() - u_[i].x();
+    for (std::size_t i = 0; i < n_; ++i) shift_[i] = problem_.dual(i, u_[i]).x() - u_[i].x();
   }
 
   const ConeProblem& problem_;

@@ -1,5 +1,6 @@
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -23,12 +24,17 @@ Vec3 relax_rows(const Mat3& w, Vec3 u, const Vec3& lambda, double mu) {
 double relax_contact(const ConeProblem& problem, std::size_t i, std::vector<Vec3>& lambda) {
   Delassus& w = *problem.w;
   const double mu = problem.mu[i];
-  const bool normal_only = mu == 0.0;
+  const RowKind kind = problem.kind_of(i);
+  const bool normal_only = problem.has_one_row(i);
   const Mat3& w_ii = w.diagonal(i);
-  if (!(w_ii(0, 0) > 0.0)) return 0.0;  // both bodies are held
+  if (problem.is_held(i)) return 0.0;
   const Vec3 u = w.row(i, normal_only) + problem.q[i];
   Vec3 next;
-  if (normal_only) {
+  if (kind == RowKind::attachment) {
+    next = lambda[i] - Vec3(w_ii.completeOrthogonalDecomposition().solve(u));
+  } else if (kind == RowKind::sliding) {
+    next = {lambda[i].x() - u.x() / w_ii(0, 0), 0.0, 0.0};
+  } else if (normal_only) {
     next = {std::max(0.0, lambda[i].x() - u.x() / w_ii(0, 0)), 0.0, 0.0};
   } else if (problem.law == FrictionLaw::pyramid) {
     next = relax_rows(w_ii, u, lambda[i], mu);
@@ -50,7 +56,7 @@ double gauss_seidel_sweep(const ConeProblem& problem, std::vector<Vec3>& lambda)
 
 void velocities(const ConeProblem& problem, std::vector<Vec3>& u) {
   u.resize(problem.q.size());
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] = problem.w->row(i, problem.mu[i] == 0.0) + problem.q[i];
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = problem.w->row(i, problem.has_one_row(i)) + problem.q[i];
 }
 
 SweepStop::SweepStop(const ConeProblem& problem, const LcpSettings& settings)

@@ -43,7 +43,7 @@ class NonsmoothNonlinearConjugateGradient : public LcpSolver {
         direction[i] = momentum + step[i];
         if (momentum.isZero(0.0)) continue;
         lambda[i] += momentum;
-        problem.w->change(i, momentum, problem.mu[i] == 0.0);
+        problem.w->change(i, momentum, problem.has_one_row(i));
       }
     }
     return {settings.max_iterations, StopReason::iteration_cap};

@@ -29,9 +29,9 @@ class Search {
   Search(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda)
       : problem_(problem), settings_(settings), lambda_(lambda), n_(lambda.size()), system_(problem), u_(n_), trial_(n_), a_(n_), b_(n_), kept_(n_) {
     for (std::size_t i = 0; i < n_; ++i) {
-      rho_.push_back(alart_curnier_scale(problem.w->diagonal(i), problem.mu[i]));
+      rho_.push_back(alart_curnier_scale(problem, i));
       const Mat3& d = problem.w->diagonal(i);
-      scale_.push_back(problem.mu[i] == 0.0 ? d(0, 0) : d.trace() / 3.0);
+      scale_.push_back(problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0);
     }
   }
 
@@ -54,7 +54,7 @@ class Search {
       }
       factor_ = kFirstFactor;
       merits_.clear();
-      for (std::size_t i = 0; i < n_; ++i) lambda_[i] = project(lambda_[i], problem_.mu[i], problem_.law);
+      for (std::size_t i = 0; i < n_; ++i) lambda_[i] = problem_.nearest(i, lambda_[i]);
       for (int k = 0; k < kRescueSweeps && iterations_ < settings_.max_iterations; ++k)
         if (sweep()) return finish(StopReason::converged);
     }
@@ -72,7 +72,7 @@ class Search {
   /// The residual of λ brought into its cones; keeps the best.
   bool measure() {
     std::vector<Vec3> inside(n_);
-    for (std::size_t i = 0; i < n_; ++i) inside[i] = project(lambda_[i], problem_.mu[i], problem_.law);
+    for (std::size_t i = 0; i < n_; ++i) inside[i] = problem_.nearest(i, lambda_[i]);
     problem_.w->begin(inside);
     velocities(problem_, u_);
     residual_ = relative_residual(problem_, u_, inside, settings_.measure);
@@ -98,7 +98,7 @@ class Search {
     velocities(problem_, u_);
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const Vec3 f = alart_curnier_value(u_[i], lambda[i], problem_.mu[i], problem_.law, rho_[i]);
+      const Vec3 f = alart_curnier_value(problem_, i, u_[i], lambda[i], rho_[i]);
       if (rho_[i].x() > 0.0) sum += f.x() * f.x() / (rho_[i].x() * rho_[i].x());
       if (rho_[i].y() > 0.0) sum += f.tail<2>().squaredNorm() / (rho_[i].y() * rho_[i].y());
     }
@@ -111,7 +111,7 @@ class Search {
     alpha_ = std::clamp(factor_ * residual_, kSmallest, kLargest);
     VecX f(static_cast<Eigen::Index>(3 * n_)), d;
     for (std::size_t i = 0; i < n_; ++i) {
-      const AlartCurnier e = alart_curnier(u_[i], lambda_[i], problem_.mu[i], problem_.law, rho_[i]);
+      const AlartCurnier e = alart_curnier(problem_, i, u_[i], lambda_[i], rho_[i]);
       a_[i] = e.by_u;
       b_[i] = e.by_lambda + alpha_ * scale_[i] * e.by_u;
       kept_[i] = !e.open;

@@ -1,6 +1,6 @@
 // Fixed corotated elasticity (Stomakhin et al. 2012): Ψ = μ Σ(σ_i − 1)² + λ/2 (J − 1)², J = σ_0 σ_1 σ_2. The volume
 // term is that of the true volume, so it holds up under bending and large strain better than the corotational one, and
-// it stays finite through inversion.
+// it stays finite through inversion. Tangles, which that term would hold together, are let go (bodies/unwinding.hpp).
 #include "engine/materials/isotropic.hpp"
 
 namespace impinge {
@@ -8,6 +8,7 @@ namespace {
 
 class FixedCorotated : public IsotropicMaterial {
  public:
+  bool unwinds() const override { return true; }
   double density(const Vec3& s) const override {
     const double dj = s.prod() - 1.0;
     return settings().mu() * (s - Vec3::Ones()).squaredNorm() + 0.5 * settings().lambda() * dj * dj;

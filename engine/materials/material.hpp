@@ -63,6 +63,10 @@ class Material {
   /// Energy, force and stiffness.
   virtual void response(const TetRest& rest, const Corners& x, Tangent tangent, ElementResponse& out) const = 0;
 
+  /// Whether elements in a tangle are let go until they are free of it (bodies/unwinding.hpp): for materials that are
+  /// meant to survive inversion and would hold a tangle together.
+  virtual bool unwinds() const { return false; }
+
  protected:
   /// The request with `automatic` replaced by the setting; still automatic if the setting leaves it to the material.
   Tangent wanted(Tangent tangent) const { return tangent == Tangent::automatic ? settings_.tangent : tangent; }

@@ -8,10 +8,10 @@
 // energy is bounded below, and the rest shape is its only stationary point: Ψ_i = 0 for all i needs σ_i/L'_i equal for
 // all, which forces σ = 1.
 //
-// That holds for one element. A mesh can still be tangled: nodes thrown about by more than some 0.7 of a cell may wind
-// round one another so that no element is inverted and none at rest, and the logarithm is a wall against unwinding.
-// Below that they come back (tests/accuracy/fem_dynamics.cpp); the corotational material, without such a wall, comes
-// back from more.
+// That holds for one element. A mesh can still be tangled: nodes thrown about may wind round one another so that no
+// element is inverted and none at rest, and the logarithm is a wall against unwinding. So elements in a tangle are let
+// go until they are free of it (bodies/unwinding.hpp); then nodes placed anywhere at all come back
+// (tests/accuracy/fem_dynamics.cpp).
 #include "engine/materials/isotropic.hpp"
 
 #include <cmath>
@@ -21,6 +21,7 @@ namespace {
 
 class NeoHookean : public IsotropicMaterial {
  public:
+  bool unwinds() const override { return true; }
   double density(const Vec3& s) const override {
     const double log_j = logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2]);
     return 0.5 * settings().mu() * (s.squaredNorm() - 3.0) - settings().mu() * log_j +

@@ -76,7 +76,7 @@ void AssembledDelassus::add_soft(const GroupSystem& group, int body) {
       for (std::size_t j = 0; j < count; ++j) {
         Mat3 at = Mat3::Zero();
         for (const NodeWeight& n : p.side->nodes) at += n.weight * x.block<3, 3>(3 * n.node, 3 * static_cast<Eigen::Index>(j));
-        w_.block<3, 3>(3 * p.contact, 3 * parts[begin + j].contact) += block.scale * p.sign * group.contacts[p.contact].directions * at;
+        w_.block<3, 3>(3 * p.contact, 3 * parts[begin + j].contact) += p.sign * group.contacts[p.contact].directions * at;
       }
   }
 }

@@ -9,6 +9,7 @@ ConeProblem make_cone_problem(const GroupSystem& group) {
     q.x() -= group.contacts[i].bound;
     problem.q.push_back(q);
     problem.mu.push_back(group.contacts[i].friction);
+    problem.kind.push_back(group.contacts[i].kind);
   }
   return problem;
 }

@@ -16,7 +16,7 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
         diagonal_[i] += block.inverse_mass * (rows.directions * rows.directions.transpose()) + out.arm * out.angular;
       }
       for (const NodeWeight& n : side.nodes)
-        diagonal_[i] += group.soft[side.soft].scale * n.weight * n.weight *
+        diagonal_[i] += n.weight * n.weight *
                         (rows.directions * (*node_inverse_)[side.soft][n.node] * rows.directions.transpose());
     };
     add(rows.a, 1.0, sides_[i][0]);
@@ -27,7 +27,7 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
 void FactoredDelassus::begin(const std::vector<Vec3>& lambda) {
   group_.clear_delta();
   for (std::size_t i = 0; i < lambda.size(); ++i)
-    if (!lambda[i].isZero(0.0)) change(i, lambda[i], group_.contacts[i].friction == 0.0);
+    if (!lambda[i].isZero(0.0)) change(i, lambda[i], group_.contacts[i].has_one_row());
 }
 
 Vec3 FactoredDelassus::row(std::size_t i, bool normal_only) const {
@@ -43,7 +43,7 @@ Vec3 FactoredDelassus::row(std::size_t i, bool normal_only) const {
         turned += rigid.arm * w;
     }
     for (const NodeWeight& n : side.nodes)
-      relative += sign * group_.soft[side.soft].scale * n.weight * group_.soft_delta[side.soft].segment<3>(3 * n.node);
+      relative += sign * n.weight * group_.soft_delta[side.soft].segment<3>(3 * n.node);
   };
   add(rows.a, 1.0, sides_[i][0]);
   add(rows.b, -1.0, sides_[i][1]);

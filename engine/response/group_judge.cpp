@@ -27,7 +27,7 @@ GroupVerdict judge_group(const GroupSystem& group) {
       }
       for (const NodeWeight& n : side.nodes) {  // the natural map needs a scale only: the nodes' own blocks serve
         const BlockMatrix& a = *group.soft[side.soft].a;
-        w += group.soft[side.soft].scale * n.weight * n.weight * rows.directions * a.values[a.pattern->diagonal[n.node]].inverse() *
+        w += n.weight * n.weight * rows.directions * a.values[a.pattern->diagonal[n.node]].inverse() *
              rows.directions.transpose();
       }
     };
@@ -36,7 +36,7 @@ GroupVerdict judge_group(const GroupSystem& group) {
     if (w(0, 0) <= 0.0) continue;  // both points are held: nothing can respond
     Vec3 u = group.contact_velocity(i, true);
     u.x() -= rows.bound;
-    const double r = natural_map(w, u, group.lambda[i], rows.friction);
+    const double r = natural_map(rows.kind, w, u, group.lambda[i], rows.friction);
     if (!(r <= verdict.natural_map)) {
       verdict.natural_map = r;
       verdict.worst = static_cast<int>(i);

@@ -140,7 +140,7 @@ class IterativeConstraintAnticipation : public Response {
     Vec3 relative = Vec3::Zero();
     for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)})
       for (const NodeWeight& n : side->nodes)
-        relative += sign * group.soft[side->soft].scale * n.weight * delta[side->soft].segment<3>(3 * n.node);
+        relative += sign * n.weight * delta[side->soft].segment<3>(3 * n.node);
     return group.contacts[i].directions * relative;
   }
 

@@ -22,6 +22,7 @@ void World::bind_bodies(ParameterSet& set) {
     };
     real("friction", {-1.0, 100.0}, "", "Coulomb coefficient; -1: the scene's contact.friction.", &RigidBody::friction);
     real("restitution", {-1.0, 1.0}, "", "Restitution; -1: the scene's contact.restitution.", &RigidBody::restitution);
+    if (bodies_[i].soft) bind_soft_body(set, static_cast<int>(i), path);
     if (!bodies_[i].is_dynamic()) continue;
     const auto vector = [&](const char* name, const char* unit, double limit, const char* doc, auto get, auto put) {
       set.add({path + name, ParameterKind::vector3, unit, {-limit, limit}, {}, doc, ParameterValue(Vec3(get(body()))),
@@ -42,6 +43,43 @@ void World::bind_bodies(ParameterSet& set) {
            [](RigidBody& b, const Vec3& v) { b.velocity = v; });
     vector("angular_velocity", "rad/s", 1e6, "Angular velocity, world axes.", [](const RigidBody& b) { return b.angular_velocity(); },
            [](RigidBody& b, const Vec3& w) { b.angular_momentum = b.world_inertia() * w; });
+  }
+}
+
+void World::bind_soft_body(ParameterSet& set, int index, const std::string& path) {
+  const auto soft = [this, index]() -> SoftBody& { return *bodies_[index].soft; };
+  const auto changed = [this] { stages_->sleeping.wake_all(bodies_); };
+  const auto elastic = [&](const char* name, Range range, const char* unit, const char* doc, double MaterialSettings::*member) {
+    set.add({path + name, ParameterKind::real, unit, range, {}, doc, soft().material->settings().*member,
+             [soft, member] { return ParameterValue(soft().material->settings().*member); },
+             [soft, member, changed](const ParameterValue& v) {
+               MaterialSettings settings = soft().material->settings();
+               settings.*member = std::get<double>(v);
+               soft().material->configure(settings);
+               changed();
+             }});
+  };
+  elastic("material.young", {1e-3, 1e15, true}, "Pa", "Young's modulus.", &MaterialSettings::young);
+  elastic("material.poisson", {0.0, 0.4999}, "", "Poisson's ratio.", &MaterialSettings::poisson);
+  const auto damping = [&](const char* name, double high, const char* unit, const char* doc, double RayleighDamping::*member) {
+    set.add({path + name, ParameterKind::real, unit, {0.0, high, true}, {}, doc, soft().fem.damping.*member,
+             [soft, member] { return ParameterValue(soft().fem.damping.*member); },
+             [soft, member, changed](const ParameterValue& v) {
+               soft().fem.damping.*member = std::get<double>(v);
+               changed();
+             }});
+  };
+  damping("material.damping_alpha", 1e6, "1/s", "Rayleigh damping in proportion to mass.", &RayleighDamping::alpha);
+  damping("material.damping_beta", 1e3, "s", "Rayleigh damping in proportion to stiffness.", &RayleighDamping::beta);
+  for (std::size_t r = 0; r < soft().held.size(); ++r) {
+    const auto region = [soft, r]() -> HeldRegion& { return soft().held[r]; };
+    set.add({path + "fixed_" + std::to_string(r) + ".displacement", ParameterKind::vector3, "m", {-kFar, kFar}, {},
+             "Where held nodes of this region are moved to, from where they would be: reached evenly by the end of the frame.", ParameterValue(region().wanted),
+             [region] { return ParameterValue(region().wanted); },
+             [region, changed](const ParameterValue& v) {
+               region().wanted = std::get<Vec3>(v);
+               changed();
+             }});
   }
 }
 

@@ -10,8 +10,7 @@ namespace impinge {
 namespace {
 
 bool is_moving(const RigidBody& body) {
-  if (body.is_deformable()) return true;
-  if (body.is_dynamic()) return !body.asleep;
+  if (body.has_freedom()) return !body.asleep;
   return body.kind == BodyKind::scripted && !(body.velocity.isZero(0.0) && body.scripted_angular_velocity.isZero(0.0));
 }
 
@@ -82,7 +81,7 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
 
   pairs.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].soft && bodies[i].self_collision) pairs.push_back({static_cast<int>(i), static_cast<int>(i), activation});
+    if (bodies[i].soft && bodies[i].self_collision && !bodies[i].asleep) pairs.push_back({static_cast<int>(i), static_cast<int>(i), activation});
   for (const auto& [a, b] : box_pairs_) {
     if (!is_wanted(bodies[a], bodies[b])) continue;
     // how far the surfaces can approach in the sub-step widens the search; for meshes by one edge length at most, since the

@@ -54,9 +54,11 @@ void World::publish(bool solved) {
   if (!solved) {
     s.contacts.clear();
     for (const Collision& c : s.detection.collisions) s.contacts.push_back(unsolved(c, bodies_, parameters));
-    s.make_collision_groups(bodies_);
+    s.make_collision_groups(bodies_, attachments_);
+    s.attachment_impulse.assign(attachments_.size(), Vec3::Zero());
     for (std::size_t g = 0; g < s.groups.size(); ++g)
-      for (int c : s.groups[g].contacts) s.contacts[c].group = static_cast<int>(g);
+      for (int c : s.groups[g].contacts)
+        if (c < static_cast<int>(s.contacts.size())) s.contacts[c].group = static_cast<int>(g);
   }
 
   record_.bodies.clear();
@@ -72,7 +74,11 @@ void World::publish(bool solved) {
     r.velocity = body.velocity;
     r.angular_velocity = body.angular_velocity();
     r.mass = body.mass;
-    r.soft = body.soft ? &body.soft->fem : nullptr;
+    if (body.soft) {
+      r.soft = &body.soft->fem;
+      r.embedding = &body.soft->embedding;
+      r.pose.position = r.file_pose.position = body.soft->fem.center_of_mass();
+    }
     r.asleep = body.asleep;
     record_.bodies.push_back(r);
   }
@@ -85,6 +91,11 @@ void World::publish(bool solved) {
   record_.triangle_pairs = s.detection.triangle_pairs;
   record_.contacts.clear();
   for (const SolvedContact& contact : s.contacts) record_.contacts.push_back(carried(contact, bodies_));
+  record_.attachments.clear();
+  for (std::size_t i = 0; i < attachments_.size(); ++i) {
+    const Attachment& a = attachments_[i];
+    record_.attachments.push_back({a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), s.attachment_impulse[i]});
+  }
   record_.gravity = parameters.simulation.gravity;
   record_.frame_time = parameters.simulation.frame_time;
 

@@ -9,8 +9,8 @@ namespace impinge {
 void Sleeping::update(std::span<RigidBody> bodies, std::span<const CollisionGroup> groups, std::span<const std::pair<int, int>> supports,
                       double speed, double time, double time_step) {
   for (RigidBody& body : bodies) {
-    if (!body.is_dynamic() || body.asleep) continue;
-    const double fastest = body.velocity.norm() + body.angular_velocity().norm() * body.radius;
+    if (!body.has_freedom() || body.asleep) continue;
+    const double fastest = body.soft ? body.soft->fastest_node() : body.velocity.norm() + body.angular_velocity().norm() * body.radius;
     body.rest_time = fastest <= speed ? body.rest_time + time_step : 0.0;
   }
   for (const CollisionGroup& group : groups) {
@@ -22,6 +22,7 @@ void Sleeping::update(std::span<RigidBody> bodies, std::span<const CollisionGrou
       bodies[b].island = island;
       bodies[b].velocity.setZero();
       bodies[b].angular_momentum.setZero();
+      if (bodies[b].soft) bodies[b].soft->fem.velocity.setZero();
       for (const auto& [dynamic, scripted] : supports)
         if (dynamic == b) supports_.emplace_back(island, scripted);
     }
@@ -40,11 +41,11 @@ bool Sleeping::wake_island(std::span<RigidBody> bodies, int island) {
   return woke;
 }
 
-bool Sleeping::wake_touched(std::span<RigidBody> bodies, std::span<const Collision> collisions) {
+bool Sleeping::wake_touched(std::span<RigidBody> bodies, std::span<const std::pair<int, int>> touching) {
   bool woke = false;
-  for (const Collision& c : collisions)
-    for (int b : {c.body_a, c.body_b})
-      if (bodies[b].asleep) {
+  for (const auto& [first, second] : touching)
+    for (int b : {first, second})
+      if (b >= 0 && bodies[b].asleep) {
         const int island = bodies[b].island;
         woke = wake_island(bodies, island) || woke;
         std::erase_if(supports_, [&](const auto& s) { return s.first == island; });

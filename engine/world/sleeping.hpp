@@ -20,7 +20,7 @@ class Sleeping {
   void update(std::span<RigidBody> bodies, std::span<const CollisionGroup> groups, std::span<const std::pair<int, int>> supports,
               double speed, double time, double time_step);
   /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
-  bool wake_touched(std::span<RigidBody> bodies, std::span<const Collision> collisions);
+  bool wake_touched(std::span<RigidBody> bodies, std::span<const std::pair<int, int>> touching);
   bool wake_moved_supports(std::span<RigidBody> bodies);
   void wake_all(std::span<RigidBody> bodies);
 

@@ -15,6 +15,7 @@ void World::save(ByteWriter& out) const {
     if (!body.soft) continue;
     const DeformableBody& fem = body.soft->fem;
     out.put(fem.acceleration_known);
+    for (const HeldRegion& region : body.soft->held) out.put(region.displacement), out.put(region.wanted);
     for (const VecX* x : {&fem.position, &fem.velocity, &fem.acceleration})
       for (Eigen::Index i = 0; i < x->size(); ++i) out.put((*x)[i]);
   }
@@ -33,6 +34,7 @@ void World::restore(ByteReader& in) {
     if (body.soft) {
       DeformableBody& fem = body.soft->fem;
       fem.acceleration_known = in.get<bool>();
+      for (HeldRegion& region : body.soft->held) region.displacement = in.get_vec3(), region.wanted = in.get_vec3();
       for (VecX* x : {&fem.position, &fem.velocity, &fem.acceleration})
         for (Eigen::Index i = 0; i < x->size(); ++i) (*x)[i] = in.get<double>();
       interpolate(body.soft->embedding, fem.fem.rest(), fem.velocity, body.soft->surface_velocity);

@@ -9,6 +9,7 @@
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/shape.hpp"
 #include "engine/contact/collision.hpp"
+#include "engine/geometry/embedding.hpp"
 #include "engine/core/profile.hpp"
 
 namespace impinge {
@@ -25,7 +26,8 @@ struct BodyRecord {
   double mass = 0.0;               ///< kg; 0 for static and scripted
   bool asleep = false;
   int group = -1;                  ///< collision group of the last sub-step, -1: none
-  const DeformableBody* soft = nullptr;  ///< of a deformable body: its tetrahedra, nodes, held nodes
+  const DeformableBody* soft = nullptr;  ///< of a deformable body: its tetrahedra, nodes, held nodes; its pose is its centre's
+  const Embedding* embedding = nullptr;  ///< of its surface
 };
 
 enum class ContactState : std::uint8_t { open, stick, slip };
@@ -46,6 +48,13 @@ struct ContactRecord {
 
 /// t1 = normalised e x n with e the first world axis of smallest |n·e|; t2 = n x t1.
 Vec3 tangent1(const Vec3& normal);
+
+struct AttachmentRecord {
+  std::string_view name;
+  int body_a = -1, body_b = -1;      ///< -1: the world
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
+  Vec3 impulse = Vec3::Zero();       ///< on A, in the last sub-step, N·s
+};
 
 struct FrameStats {
   int frame = 0;
@@ -68,6 +77,7 @@ struct StepRecord {
   std::vector<BodyPair> broad_pairs;      ///< what the broad phase let through
   std::vector<TrianglePair> triangle_pairs;
   std::vector<ContactRecord> contacts;
+  std::vector<AttachmentRecord> attachments;
   std::vector<std::vector<int>> groups;   ///< body indices of each collision group, ascending
   Vec3 gravity = Vec3::Zero();
   double frame_time = 0.0;

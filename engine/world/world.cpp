@@ -8,7 +8,6 @@
 #include "engine/core/archive.hpp"
 #include "engine/integrators/rigid_motion.hpp"
 #include "engine/narrowphase/primitive.hpp"
-#include "engine/response/group_judge.hpp"
 #include "engine/world/world_stages.hpp"
 
 namespace impinge {
@@ -33,12 +32,6 @@ void place_scripted(std::span<RigidBody> bodies, double time) {
   }
 }
 
-ContactState state_of(const Vec3& lambda, double friction) {
-  if (lambda.x() <= 0.0) return ContactState::open;
-  // the solver puts sliding contacts on the cone to rounding; frictionless contacts slide
-  return std::hypot(lambda.y(), lambda.z()) >= friction * lambda.x() * (1.0 - 1e-9) ? ContactState::slip : ContactState::stick;
-}
-
 constexpr double kLargest = 1e12;  // metres, m/s: beyond this nothing is resolved and squares overflow soon
 
 void check_finite(const RigidBody& body, int frame, int group) {
@@ -54,6 +47,13 @@ void check_finite(const RigidBody& body, int frame, int group) {
   throw DivergenceError(fmt::format("frame {}, group {}, body '{}': position or velocity is no longer a finite number below {:g}; use more "
                                     "sub-steps, or smaller velocities and forces",
                                     frame, group, body.name, kLargest));
+}
+
+bool is_moving_body(std::span<const RigidBody> bodies, int b) {
+  if (b < 0) return false;
+  const RigidBody& body = bodies[b];
+  if (body.has_freedom()) return !body.asleep;
+  return body.kind == BodyKind::scripted && !(body.velocity.isZero(0.0) && body.scripted_angular_velocity.isZero(0.0));
 }
 
 }  // namespace
@@ -76,13 +76,23 @@ void World::Stages::select(const Parameters& p) {
   if (lcp_name != p.lcp.method) lcp = make_named(lcp_solvers(), lcp_name = p.lcp.method);
 }
 
-void World::Stages::make_collision_groups(std::span<const RigidBody> bodies) {
+void World::Stages::make_collision_groups(std::span<const RigidBody> bodies, std::span<const Attachment> attachments) {
   std::vector<std::pair<int, int>> ends;
   for (const Collision& c : detection.collisions) ends.emplace_back(c.body_a, c.body_b);
+  const auto awake = [&](int b) { return b >= 0 && bodies[b].has_freedom() && !bodies[b].asleep; };
+  for (const Attachment& a : attachments) {
+    const int first = awake(a.a.body) ? a.a.body : a.b.body;
+    if (awake(first))
+      ends.emplace_back(first, first == a.a.body && a.b.body >= 0 ? a.b.body : first);
+    else
+      ends.emplace_back(-1, -1);
+  }
   std::vector<char> joins;
   for (const RigidBody& body : bodies) joins.push_back(body.has_freedom());
   groups = make_groups(ends, joins);
 }
+
+void World::add_attachment(const AttachmentDescription& description) { attachments_.push_back(make_attachment(description, bodies_)); }
 
 void World::start() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -107,27 +117,42 @@ void World::step() {
   {
     const StageTimer timer(stats.times.step_ms);
     const double h = parameters.simulation.time_step();
-    for (int s = 0; s < parameters.simulation.substeps; ++s) substep(h);
+    for (int left = parameters.simulation.substeps; left > 0; --left) substep(h, left);
   }
   publish(true);
 }
 
-void World::substep(double h) {
+void World::free_velocity(int index, double h) {
+  Stages& s = *stages_;
+  RigidBody& body = bodies_[index];
+  if (body.asleep || !body.has_freedom()) return;
+  if (!body.soft) return apply_gravity(body, parameters.simulation.gravity, h);
+  if (!s.soft[index]) {
+    s.soft[index] = std::make_unique<SoftStep>();
+    s.soft[index]->choose_solvers(body.soft->fem, s.linear_solver_name);
+  }
+  s.soft[index]->begin(body, *s.integrator, parameters.simulation.gravity, h, frame_);
+}
+
+void World::substep(double h, int left) {
   Stages& s = *stages_;
   StageTimes& times = s.frame_stats.times;
   // 2 begin
   s.select(parameters);
   drive_scripted(bodies_, time_, h);
+  for (RigidBody& body : bodies_)
+    if (body.soft) body.soft->drive_held(time_, h, 1.0 / left);
   s.sleeping.wake_moved_supports(bodies_);
 
   // 3, 4 external forces, A v* = b
   s.before.resize(bodies_.size());
+  s.soft.resize(bodies_.size());
   {
     const StageTimer timer(times.integrate_ms);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) s.before[i] = {bodies_[i].velocity, bodies_[i].angular_velocity()};
-    for (RigidBody& body : bodies_)
-      if (body.is_dynamic() && !body.asleep) apply_gravity(body, parameters.simulation.gravity, h);
-    free_soft_velocity(h);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      s.before[i] = {bodies_[i].velocity, bodies_[i].angular_velocity()};
+      free_velocity(static_cast<int>(i), h);
+    }
   }
 
   // 5, 6 detection; a collision with a sleeper wakes its island, which may touch more
@@ -136,112 +161,69 @@ void World::substep(double h) {
   {
     const StageTimer timer(times.assemble_ms);
     // 7 match with the last sub-step, 8 groups
-    s.make_collision_groups(bodies_);
+    s.make_collision_groups(bodies_, attachments_);
   }
 
   s.contacts.clear();
-  std::vector<ContactCache::Item> solved;
-  std::vector<std::pair<int, int>> supports;
-  for (const ContactCache::Item& item : s.cache.items())  // sleepers keep their impulses for the day they wake
-    if ((bodies_[item.body_a].asleep || !bodies_[item.body_a].has_freedom()) && (bodies_[item.body_b].asleep || !bodies_[item.body_b].has_freedom()))
-      solved.push_back(item);
-  std::vector<Twist> push(bodies_.size());
-  std::vector<VecX> soft_push(bodies_.size());
-  for (std::size_t g = 0; g < s.groups.size(); ++g) {
-    CollisionGroup& group = s.groups[g];
-    // 9 Jacobian and group system
-    GroupSystem system;
-    {
-      const StageTimer timer(times.assemble_ms);
-      system = make_group_system(bodies_, s.before, s.soft, group, s.detection.collisions, parameters, h);
-      if (parameters.contact.warm_start)
-        for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-          const Collision& c = s.detection.collisions[group.contacts[i]];
-          Vec3 start = system.contacts[i].directions * s.cache.find(c.body_a, c.body_b, c.feature);
-          if (system.contacts[i].friction == 0.0) start.tail<2>().setZero();
-          system.lambda[i] = start.x() > 0.0 ? start : Vec3::Zero();
-        }
-    }
-    // 10 response
-    const ResponseSettings settings{{parameters.lcp.tolerance, parameters.lcp.max_iterations}, parameters.response.form, parameters.response.stop,
-                                    parameters.response.max_iterations};
-    {
-      const StageTimer timer(times.response_ms);
-      const ResponseResult result = s.response->solve(system, *s.lcp, settings);
-      s.frame_stats.lcp_iterations += result.iterations;
-      s.frame_stats.outer_iterations += result.outer_iterations;
-      if (!result.converged) ++s.frame_stats.unconverged;
-      // 12 (in part) the judge sees the group while its system stands
-      const GroupVerdict verdict = judge_group(system);
-      if (!(verdict.residual() <= s.frame_stats.residual)) s.frame_stats.residual = verdict.residual();
-      if (needs_push_out(system, parameters)) {
-        GroupSystem recovery = make_push_out_system(system, parameters, h);
-        // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
-        ResponseSettings loose = settings;
-        loose.lcp.tolerance = 1e-3;
-        s.frame_stats.lcp_iterations += s.response->solve(recovery, *s.lcp, loose).iterations;
-        int rigid = 0, deformable = 0;
-        for (int b : group.bodies) {
-          if (bodies_[b].soft) {
-            soft_push[b] = h * recovery.soft[deformable].scale * recovery.soft_delta[deformable];
-            ++deformable;
-          } else {
-            push[b] = {h * recovery.delta_velocity[rigid], h * recovery.delta_angular_velocity[rigid]};
-            ++rigid;
-          }
-        }
-      }
-    }
-    int rigid = 0, deformable = 0;
-    for (int b : group.bodies) {
-      RigidBody& body = bodies_[b];
-      if (body.soft) {
-        s.soft[b]->step.v_star += system.soft_delta[deformable++];
-        continue;
-      }
-      body.velocity += system.delta_velocity[rigid];
-      body.angular_momentum += body.world_inertia() * system.delta_angular_velocity[rigid++];
-    }
-    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-      const Collision& c = s.detection.collisions[group.contacts[i]];
-      const Vec3& lambda = system.lambda[i];
-      if (!lambda.isZero(0.0)) solved.push_back({c.body_a, c.body_b, c.feature, system.contacts[i].directions.transpose() * lambda});
-      for (const auto& [dynamic, other] : {std::pair(c.body_a, c.body_b), std::pair(c.body_b, c.body_a)})
-        if (bodies_[other].kind == BodyKind::scripted) supports.emplace_back(dynamic, other);
-      const double mu = system.contacts[i].friction;
-      s.contacts.push_back({c, attach_point(bodies_[c.body_a], c.triangle_a, c.point_a), attach_point(bodies_[c.body_b], c.triangle_b, c.point_b), c.normal,
-                            lambda, mu, state_of(lambda, mu), static_cast<int>(g)});
-      if (c.normal_owner >= 0) s.contacts.back().local_normal = bodies_[c.normal_owner].pose.rotation.transpose() * c.normal;
-    }
+  s.solved.clear();
+  s.supports.clear();
+  s.attachment_impulse.assign(attachments_.size(), Vec3::Zero());
+  s.push.assign(bodies_.size(), {});
+  s.soft_push.assign(bodies_.size(), {});
+  for (const ContactCache::Item& item : s.cache.items()) {  // sleepers keep their impulses for the day they wake
+    const auto rests = [&](int b) { return b < 0 || bodies_[b].asleep || !bodies_[b].has_freedom(); };
+    if (rests(item.body_a) && rests(item.body_b)) s.solved.push_back(item);
   }
-  s.cache.assign(std::move(solved));
+  for (std::size_t g = 0; g < s.groups.size(); ++g) {
+    // 9 Jacobian and group system, 10 response
+    const GroupSystem system = solve_group(s.groups[g], h);
+    push_out(system, s.groups[g], h);
+    take_group(system, static_cast<int>(g));
+  }
+  s.cache.assign(std::move(s.solved));
 
   // 11 integrate
   const StageTimer timer(times.integrate_ms);
+  integrate(h);
+  if (parameters.simulation.sleeping)
+    s.sleeping.update(bodies_, s.groups, s.supports, parameters.simulation.sleep_speed, parameters.simulation.sleep_time, h);
+}
+
+void World::integrate(double h) {
+  Stages& s = *stages_;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     RigidBody& body = bodies_[i];
-    if (body.is_dynamic() && !body.asleep) advance_rigid(body, h);
+    if (body.asleep) continue;
+    if (body.is_dynamic()) advance_rigid(body, h);
     if (!body.soft) continue;
-    s.integrator->advance(body.soft->fem, s.soft[i]->step, s.soft[i]->step.v_star);
-    if (soft_push[i].size() == 0) continue;
-    VecX displacement = VecX::Zero(body.soft->fem.position.size());
-    body.soft->fem.scatter_free(soft_push[i], displacement);
-    body.soft->fem.position += displacement;
+    DeformableBody& fem = body.soft->fem;
+    s.integrator->advance(fem, s.soft[i]->step, s.soft[i]->step.v_star);
+    if (s.soft_push[i].size() > 0) {
+      VecX displacement = VecX::Zero(fem.position.size());
+      fem.scatter_free(s.soft_push[i], displacement);
+      fem.position += displacement;
+    }
+    // Newmark's accelerations are those of the elastic forces alone: contact acts at the end of the step [Kane99], or a
+    // body that lands would bounce back with the speed it came with
+    if (s.soft[i]->touched) fem.acceleration_known = false;
+    body.velocity = fem.momentum() / body.mass;
   }
   for (const CollisionGroup& group : s.groups) {
     // a displacement changes x × p: where a group is free of the rest of the world, its spin takes the difference, so that
     // recovery from overlap keeps angular momentum too
-    const bool closed = std::all_of(group.contacts.begin(), group.contacts.end(), [&](int c) {
+    const auto is_free = [&](int c) {
+      if (c >= static_cast<int>(s.detection.collisions.size())) return false;
       return bodies_[s.detection.collisions[c].body_a].is_dynamic() && bodies_[s.detection.collisions[c].body_b].is_dynamic();
-    });
+    };
+    const bool closed = std::all_of(group.contacts.begin(), group.contacts.end(), is_free);
     double mass = 0.0;
     Vec3 mean = Vec3::Zero();
     for (int b : group.bodies) mass += bodies_[b].mass, mean += bodies_[b].mass * bodies_[b].velocity;
     mean /= mass;
     for (int b : group.bodies) {
-      if (push[b].linear.isZero(0.0) && push[b].angular.isZero(0.0)) continue;
-      displace_rigid(bodies_[b], push[b].linear, push[b].angular);
-      if (closed) bodies_[b].angular_momentum -= push[b].linear.cross(bodies_[b].mass * (bodies_[b].velocity - mean));
+      if (s.push[b].linear.isZero(0.0) && s.push[b].angular.isZero(0.0)) continue;
+      displace_rigid(bodies_[b], s.push[b].linear, s.push[b].angular);
+      if (closed) bodies_[b].angular_momentum -= s.push[b].linear.cross(bodies_[b].mass * (bodies_[b].velocity - mean));
     }
   }
   time_ += h;
@@ -254,45 +236,21 @@ void World::substep(double h) {
     check_finite(bodies_[i], frame_, group_of[i]);
     bodies_[i].update_world_vertices();
   }
-  if (parameters.simulation.sleeping)
-    s.sleeping.update(bodies_, s.groups, supports, parameters.simulation.sleep_speed, parameters.simulation.sleep_time, h);
-}
-
-void World::free_soft_velocity(double h) {
-  Stages& s = *stages_;
-  s.soft.resize(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].soft) continue;
-    SoftBody& soft = *bodies_[i].soft;
-    if (!s.soft[i]) {
-      s.soft[i] = std::make_unique<SoftStep>();
-      s.soft[i]->iterative = make_linear_solver(s.linear_solver_name, soft.fem.dofs(), 1);
-      s.soft[i]->direct = make_linear_solver(s.linear_solver_name, soft.fem.dofs(), 100);
-      s.soft[i]->iterative->analyze(*soft.fem.free_pattern());
-      s.soft[i]->direct->analyze(*soft.fem.free_pattern());
-    }
-    SoftStep& step = *s.soft[i];
-    step.velocity_before = soft.fem.velocity;
-    s.integrator->begin(soft.fem, parameters.simulation.gravity, h, step.step);
-    s.integrator->free_velocity(soft.fem, step.step, *step.iterative);
-    if (step.step.linear_status == SolveStatus::not_finite || step.step.linear_status == SolveStatus::not_positive_definite)
-      throw DivergenceError(fmt::format("frame {}, body '{}': its system matrix is {}; use more sub-steps or a softer material", frame_, bodies_[i].name,
-                                        step.step.linear_status == SolveStatus::not_finite ? "not finite" : "not positive definite"));
-    step.displacement_velocity = (step.step.s * with_held(soft.fem, step.step.v_star) + step.step.offset) / h;
-    interpolate(soft.embedding, soft.fem.fem.rest(), step.displacement_velocity, soft.surface_velocity);
-  }
 }
 
 void World::detect(double h) {
   Stages& s = *stages_;
   for (;;) {
     s.detection.run(bodies_, parameters, h, s.frame_stats.times);
+    std::vector<std::pair<int, int>> ends;
+    for (const Collision& c : s.detection.collisions) ends.emplace_back(c.body_a, c.body_b);
+    for (const Attachment& a : attachments_)
+      if (is_moving_body(bodies_, a.a.body) || is_moving_body(bodies_, a.b.body)) ends.emplace_back(a.a.body, a.b.body);
     std::vector<char> was_asleep;
     for (const RigidBody& body : bodies_) was_asleep.push_back(body.asleep);
-    if (!s.sleeping.wake_touched(bodies_, s.detection.collisions)) return;
+    if (!s.sleeping.wake_touched(bodies_, ends)) return;
     for (std::size_t i = 0; i < bodies_.size(); ++i)  // the woken fall freely like all others in this sub-step
-      if (was_asleep[i] && !bodies_[i].asleep)
-        apply_gravity(bodies_[i], parameters.simulation.gravity, h);
+      if (was_asleep[i] && !bodies_[i].asleep) free_velocity(static_cast<int>(i), h);
   }
 }
 

@@ -3,13 +3,15 @@
 
 #include <memory>
 
-#include "engine/bodies/rigid_body.hpp"
+#include "engine/world/attachments.hpp"
 #include "engine/world/parameters.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
 
 class ByteReader;
+struct CollisionGroup;
+struct GroupSystem;
 class ByteWriter;
 
 class World {
@@ -23,6 +25,8 @@ class World {
 
   /// Adds a body before start(). Throws InputError (without a place) where the body can't be made.
   RigidBody& add_body(const BodyDescription& description);
+  /// Joins two points after the bodies were added. Throws InputError (without a place) where it can't.
+  void add_attachment(const AttachmentDescription& description);
   std::vector<RigidBody>& bodies() { return bodies_; }
   const std::vector<RigidBody>& bodies() const { return bodies_; }
 
@@ -50,12 +54,18 @@ class World {
 
  private:
   struct Stages;  // the algorithms in use and their working memory
-  void substep(double time_step);
-  void free_soft_velocity(double time_step);
+  void bind_soft_body(ParameterSet& set, int body, const std::string& path);
+  void substep(double time_step, int left);
+  void free_velocity(int body, double time_step);
+  GroupSystem solve_group(CollisionGroup& group, double time_step);
+  void push_out(const GroupSystem& solved, const CollisionGroup& group, double time_step);
+  void take_group(const GroupSystem& system, int group);
+  void integrate(double time_step);
   void detect(double time_step);
   void publish(bool solved);
 
   std::vector<RigidBody> bodies_;
+  std::vector<Attachment> attachments_;
   std::unique_ptr<Stages> stages_;
   StepRecord record_;
   int frame_ = 0;

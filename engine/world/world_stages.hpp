@@ -35,12 +35,20 @@ struct World::Stages {
   std::string linear_solver_name;
   std::vector<CollisionGroup> groups;
   std::vector<SolvedContact> contacts;
+  std::vector<Vec3> attachment_impulse;   // on body A, N·s, of the last sub-step
+  std::vector<ContactCache::Item> solved; // what the cache will hold after this sub-step
+  std::vector<std::pair<int, int>> supports;  // (dynamic, scripted) that touch
+  std::vector<Twist> push;                // displacements that recover overlap, by rigid body
+  std::vector<VecX> soft_push;            // and by deformable body, over its free nodes; empty: none
   std::uint64_t settings_seen = 0;        // hash of what parameters_changed compares with
   FrameStats frame_stats;                 // sums and maxima over the frame's sub-steps
 
   void select(const Parameters& parameters);
-  /// Groups of what detection found last.
-  void make_collision_groups(std::span<const RigidBody> bodies);
+  /// Groups of what detection found last, and of the attachments.
+  void make_collision_groups(std::span<const RigidBody> bodies, std::span<const Attachment> attachments);
+  /// What the impulse of a group's contact is remembered by.
+  ContactCache::Item cache_key(std::span<const Attachment> attachments, int contact) const;
+  void warm_start(std::span<const Attachment> attachments, const CollisionGroup& group, GroupSystem& system) const;
 };
 
 /// A point of a body's surface in coordinates that move with it, and back.

@@ -104,13 +104,13 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   check_scene(replaced(scene, "position = [0, 2, 0]", "mass = nan"), "11:8", "greater than 0");
   check_scene(replaced(scene, "position = [0, 2, 0]", "scale = -2"), "11:9", "greater than 0");
   check_scene(replaced(scene, "position = [0, 2, 0]", "material = { density = 1e999 }"), "11:24", "greater than 0 and at most");
-  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { young = 1e5 }"), "11:14", "not part of this version");
+  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { young = 1e5 }"), "11:14", "belongs to deformable bodies");
   check_scene(replaced(scene, "position = [0, 2, 0]", "friction = -0.5"), "11:12", "[0, 100]");
   check_scene(replaced(scene, "position = [0, 2, 0]", "motion = [ { time = 0 } ]"), "11:1", "scripted bodies have one");
   check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"scripted\""), "7:1", "has no motion");
   check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"scripted\"\nmotion = [ { time = 1 }, { time = 1 } ]"), "10:35", "times must increase");
   check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"dynamik\""), "9:8", "did you mean 'dynamic'?");
-  check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"deformable\""), "9:8", "not part of this version");
+  check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"deformable\""), "7:1", "has no volume");
   check_scene(replaced(scene, "kind = \"static\"", "kind = \"dynamic\""), "6:9", "a plane is static or scripted");
   check_scene(replaced(scene, "name = \"crate\"", "name = \"floor\""), "8:8", "names must differ");
   check_scene(replaced(scene, "name = \"crate\"", "name = \"a crate\""), "8:8", "rename it");

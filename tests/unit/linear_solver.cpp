@@ -102,6 +102,74 @@ TEST_CASE("every linear solver agrees with a dense one, for one and for many rig
   }
 }
 
+TEST_CASE("every linear solver makes the same W = Bᵀ A⁻¹ B as a dense one") {
+  const BlockMatrix a = random_matrix(5, 12);
+  const Eigen::LLT<MatX> truth(dense(a));
+  test::Random random(13);
+  // contacts on four nodes each, a column that is empty, one that is full, and two alike
+  for (const int columns : {1, 40, 130}) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < columns; ++j) {
+      if (j == 3) continue;
+      if (j == 5) {
+        for (int i = 0; i < a.rows(); ++i) entries.emplace_back(i, j, random.sym());
+        continue;
+      }
+      for (int k = 0; k < 12; ++k)
+        entries.emplace_back(static_cast<int>(random.u() * a.rows()), j, j == 7 ? 1.0 : random.sym());
+    }
+    SparseColumns b(a.rows(), columns);
+    b.setFromTriplets(entries.begin(), entries.end());
+    const MatX expected = MatX(b).transpose() * truth.solve(MatX(b));
+    for (const auto& entry : linear_solvers()) {
+      CAPTURE(std::string(entry.name), columns);
+      const auto solver = entry.make();
+      solver->tolerance = 1e-13;
+      solver->analyze(*a.pattern);
+      REQUIRE(solver->factorize(a) == SolveStatus::ok);
+      MatX w = MatX::Ones(2, 5);
+      CHECK(solver->gram(b, w).status == SolveStatus::ok);
+      REQUIRE((w.rows() == columns && w.cols() == columns));
+      CHECK((w - expected).norm() < 1e-11 * expected.norm());
+      CHECK((w.array() == w.transpose().array()).all());
+      MatX none;
+      CHECK(solver->gram(SparseColumns(a.rows(), 0), none).status == SolveStatus::ok);
+      CHECK(none.size() == 0);
+    }
+  }
+}
+
+TEST_CASE("a factorization is made only when the matrix has changed") {
+  const BlockMatrix a = random_matrix(3, 14), other = random_matrix(3, 15);
+  BlockMatrix broken = a;
+  broken.values[1](0, 2) = std::numeric_limits<double>::infinity();
+  const VecX b = random_vector(a.rows(), 16);
+  for (const auto& entry : linear_solvers()) {
+    if (entry.name == "conjugate_gradient") continue;
+    CAPTURE(std::string(entry.name));
+    const auto solver = entry.make();
+    solver->analyze(*a.pattern);
+    int expected = 0;
+    const auto check = [&](const BlockMatrix& m, bool again) {
+      const BlockMatrix copy = m;  // the numbers count, not where they are
+      REQUIRE(solver->factorize(copy) == SolveStatus::ok);
+      VecX x;
+      solver->solve(b, x);
+      CHECK((m * x - b).norm() < 1e-9 * b.norm());
+      CHECK(solver->factorizations == (expected += again));
+    };
+    check(a, true);
+    check(a, false);
+    check(other, true);
+    check(a, true);
+    CHECK(solver->factorize(broken) == SolveStatus::not_finite);
+    check(a, true);
+    check(a, false);
+    solver->analyze(*a.pattern);
+    check(a, true);
+  }
+}
+
 TEST_CASE("every linear solver says so when a matrix is indefinite or not finite") {
   BlockMatrix a = random_matrix(2, 8);
   const VecX b = random_vector(a.rows(), 9);

@@ -1,0 +1,152 @@
+// Stages 9 and 10 of a sub-step for one group: its system, the response, and what follows from the impulses.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/response/group_judge.hpp"
+#include "engine/world/world_stages.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr std::uint64_t kAttachmentFeature = std::uint64_t{1} << 63;  // no pair of features has this bit
+
+ContactState state_of(const Vec3& lambda, double friction) {
+  if (lambda.x() <= 0.0) return ContactState::open;
+  // the solver puts sliding contacts on the cone to rounding; frictionless contacts slide
+  return std::hypot(lambda.y(), lambda.z()) >= friction * lambda.x() * (1.0 - 1e-9) ? ContactState::slip : ContactState::stick;
+}
+
+}  // namespace
+
+ContactCache::Item World::Stages::cache_key(std::span<const Attachment> attachments, int contact) const {
+  const int collisions = static_cast<int>(detection.collisions.size());
+  if (contact < collisions) {
+    const Collision& c = detection.collisions[contact];
+    return {c.body_a, c.body_b, c.feature, Vec3::Zero()};
+  }
+  const Attachment& a = attachments[contact - collisions];
+  return {a.a.body, a.b.body, kAttachmentFeature | static_cast<std::uint64_t>(contact - collisions), Vec3::Zero()};
+}
+
+void World::Stages::warm_start(std::span<const Attachment> attachments, const CollisionGroup& group, GroupSystem& system) const {
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const ContactCache::Item key = cache_key(attachments, group.contacts[i]);
+    const ContactRows& rows = system.contacts[i];
+    Vec3 start = rows.directions * cache.find(key.body_a, key.body_b, key.feature);
+    if (rows.has_one_row()) start.tail<2>().setZero();
+    system.lambda[i] = rows.kind == RowKind::contact && start.x() <= 0.0 ? Vec3(Vec3::Zero()) : start;
+  }
+}
+
+GroupSystem World::solve_group(CollisionGroup& group, double h) {
+  Stages& s = *stages_;
+  StageTimes& times = s.frame_stats.times;
+  const SubstepView view{bodies_, s.before, s.soft, s.detection.collisions, attachments_, parameters, h, s.integrator->is_explicit()};
+  const ResponseSettings settings{{parameters.lcp.tolerance, parameters.lcp.max_iterations}, parameters.response.form, parameters.response.stop,
+                                  parameters.response.max_iterations};
+  GroupSystem system;
+  std::vector<Vec3> start;
+  const auto solve = [&] {
+    {
+      const StageTimer timer(times.assemble_ms);
+      system = make_group_system(view, group);
+      if (!start.empty())
+        system.lambda = start;
+      else if (parameters.contact.warm_start)
+        s.warm_start(attachments_, group, system);
+    }
+    const StageTimer timer(times.response_ms);
+    const ResponseResult result = s.response->solve(system, *s.lcp, settings);
+    s.frame_stats.lcp_iterations += result.iterations;
+    s.frame_stats.outer_iterations += result.outer_iterations;
+    return result.converged;
+  };
+  bool converged = solve();
+
+  // Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows
+  const NewtonSettings& newton = s.integrator->newton;
+  bool at_root = !s.integrator->is_newton() || system.soft.empty();
+  for (int iteration = 0; !at_root && iteration < newton.max_iterations; ++iteration) {
+    {
+      const StageTimer timer(times.assemble_ms);
+      double residual = 0.0;
+      int k = 0;
+      for (int b : group.bodies) {
+        if (!bodies_[b].soft) continue;
+        const VecX v = s.soft[b]->step.v_star + system.soft_delta[k];
+        residual = std::max(residual, s.soft[b]->relinearize(bodies_[b], *s.integrator, v, system.soft_impulse(k, system.lambda)));
+        ++k;
+      }
+      at_root = residual <= newton.tolerance;
+      if (at_root) break;
+      for (int b : group.bodies)
+        if (bodies_[b].soft) s.soft[b]->resolve(bodies_[b], frame_);
+    }
+    start = system.lambda;
+    converged = solve();
+  }
+  if (!converged || !at_root) ++s.frame_stats.unconverged;
+
+  // 12 (in part) the judge sees the group while its system stands
+  const StageTimer timer(times.response_ms);
+  const GroupVerdict verdict = judge_group(system);
+  if (!(verdict.residual() <= s.frame_stats.residual)) s.frame_stats.residual = verdict.residual();
+  return system;
+}
+
+void World::push_out(const GroupSystem& solved, const CollisionGroup& group, double h) {
+  if (!needs_push_out(solved, parameters, h)) return;
+  Stages& s = *stages_;
+  const StageTimer timer(s.frame_stats.times.response_ms);
+  GroupSystem recovery = make_push_out_system(solved, parameters, h);
+  // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
+  const ResponseSettings loose{{1e-3, parameters.lcp.max_iterations}, "accelerated", "residual", parameters.response.max_iterations};
+  const ResponseResult result = s.response->solve(recovery, *s.lcp, loose);
+  s.frame_stats.lcp_iterations += result.iterations;
+  s.frame_stats.outer_iterations += result.outer_iterations;
+  int rigid = 0, soft = 0;
+  for (int b : group.bodies) {
+    if (bodies_[b].soft) {
+      s.soft_push[b] = h * recovery.soft_delta[soft++];
+    } else {
+      s.push[b] = {h * recovery.delta_velocity[rigid], h * recovery.delta_angular_velocity[rigid]};
+      ++rigid;
+    }
+  }
+}
+
+void World::take_group(const GroupSystem& system, int g) {
+  Stages& s = *stages_;
+  const CollisionGroup& group = s.groups[g];
+  int rigid = 0, soft = 0;
+  for (int b : group.bodies) {
+    RigidBody& body = bodies_[b];
+    if (body.soft) {
+      s.soft[b]->step.v_star += system.soft_delta[soft++];
+      s.soft[b]->touched = true;
+      continue;
+    }
+    body.velocity += system.delta_velocity[rigid];
+    body.angular_momentum += body.world_inertia() * system.delta_angular_velocity[rigid++];
+  }
+  const int collisions = static_cast<int>(s.detection.collisions.size());
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const Vec3& lambda = system.lambda[i];
+    ContactCache::Item item = s.cache_key(attachments_, group.contacts[i]);
+    item.impulse = system.contacts[i].directions.transpose() * lambda;
+    if (!lambda.isZero(0.0)) s.solved.push_back(item);
+    for (const auto& [dynamic, other] : {std::pair(item.body_a, item.body_b), std::pair(item.body_b, item.body_a)})
+      if (other >= 0 && bodies_[other].kind == BodyKind::scripted) s.supports.emplace_back(dynamic, other);
+    if (group.contacts[i] >= collisions) {
+      s.attachment_impulse[group.contacts[i] - collisions] = item.impulse;
+      continue;
+    }
+    const Collision& c = s.detection.collisions[group.contacts[i]];
+    const double mu = system.contacts[i].friction;
+    s.contacts.push_back({c, attach_point(bodies_[c.body_a], c.triangle_a, c.point_a), attach_point(bodies_[c.body_b], c.triangle_b, c.point_b), c.normal,
+                          lambda, mu, state_of(lambda, mu), g});
+    if (c.normal_owner >= 0) s.contacts.back().local_normal = bodies_[c.normal_owner].pose.rotation.transpose() * c.normal;
+  }
+}
+
+}  // namespace impinge
