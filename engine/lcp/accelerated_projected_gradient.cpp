@@ -94,7 +94,7 @@ class Descent {
     return worst / std::max(velocity_scale(problem_), 1e-300);
   }
   void move_shift() {
-    for (std::size_t i = 0; i < n_; ++i) shift_[i] = problem_.has_one_row(i) || problem_.kind_of(i) != RowKind::contact ? 0.0 : de_saxce(u_[i], problem_.mu[i], problem_.law).x() - u_[i].x();
+    for (std::size_t i = 0; i < n_; ++i) shift_[i] = problem_.dual(i, u_[i]).x() - u_[i].x();
   }
 
   const ConeProblem& problem_;

@@ -5,13 +5,22 @@
 
 namespace impinge {
 
-Vec2 alart_curnier_scale(const Mat3& w_ii, double mu) {
+Vec2 alart_curnier_scale(const ConeProblem& problem, std::size_t i) {
+  const Mat3& w_ii = problem.w->diagonal(i);
   const auto inverse = [](double w) { return w > 0.0 ? 1.0 / w : 0.0; };
-  return {inverse(w_ii(0, 0)), mu == 0.0 ? 0.0 : inverse(0.5 * (w_ii(1, 1) + w_ii(2, 2)))};
+  return {inverse(w_ii(0, 0)), problem.has_one_row(i) ? 0.0 : inverse(0.5 * (w_ii(1, 1) + w_ii(2, 2)))};
 }
 
-AlartCurnier alart_curnier(const Vec3& u, const Vec3& lambda, double mu, FrictionLaw law, const Vec2& rho) {
+AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho) {
+  const double mu = problem.mu[i];
   AlartCurnier e{lambda, Mat3::Zero(), Mat3::Identity(), true};
+  if (problem.kind_of(i) != RowKind::contact && !problem.is_held(i)) {
+    e.value = Vec3(rho.x(), rho.y(), rho.y()).cwiseProduct(u);  // ρ_t is 0 where there are no tangential rows
+    e.by_u.diagonal() << rho.x(), rho.y(), rho.y();
+    e.by_lambda.diagonal() << 0.0, rho.y() > 0.0 ? 0.0 : 1.0, rho.y() > 0.0 ? 0.0 : 1.0;
+    e.open = false;
+    return e;
+  }
   const double z_n = lambda.x() - rho.x() * u.x();
   if (mu == 0.0) e.value.tail<2>().setZero();
   if (!(z_n > 0.0)) return e;
@@ -22,7 +31,7 @@ AlartCurnier alart_curnier(const Vec3& u, const Vec3& lambda, double mu, Frictio
   if (mu == 0.0) return e;
   const Vec2 z = lambda.tail<2>() - rho.y() * u.tail<2>();
   const double bound = mu * z_n, size = z.norm();
-  if (law == FrictionLaw::pyramid) {
+  if (problem.law == FrictionLaw::pyramid) {
     for (int k = 0; k < 2; ++k) {
       const int row = k + 1;
       if (std::abs(z[k]) <= bound) {  // sticks along this tangent
@@ -52,12 +61,14 @@ AlartCurnier alart_curnier(const Vec3& u, const Vec3& lambda, double mu, Frictio
   return e;
 }
 
-Vec3 alart_curnier_value(const Vec3& u, const Vec3& lambda, double mu, FrictionLaw law, const Vec2& rho) {
+Vec3 alart_curnier_value(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho) {
+  const double mu = problem.mu[i];
+  if (problem.kind_of(i) != RowKind::contact && !problem.is_held(i)) return Vec3(rho.x(), rho.y(), rho.y()).cwiseProduct(u);
   const double z_n = std::max(0.0, lambda.x() - rho.x() * u.x());
   if (mu == 0.0) return {lambda.x() - z_n, 0.0, 0.0};
   Vec2 z = lambda.tail<2>() - rho.y() * u.tail<2>();
   const double bound = mu * z_n;
-  if (law == FrictionLaw::pyramid) z = z.cwiseMax(-bound).cwiseMin(bound);
+  if (problem.law == FrictionLaw::pyramid) z = z.cwiseMax(-bound).cwiseMin(bound);
   else if (const double size = z.norm(); size > bound) z *= bound / size;
   return {lambda.x() - z_n, lambda.y() - z.x(), lambda.z() - z.y()};
 }

@@ -14,11 +14,12 @@ struct AlartCurnier {
 };
 
 /// ρ of the normal row and of the tangential ones, kg: the inverse of W_ii's diagonal.
-Vec2 alart_curnier_scale(const Mat3& w_ii, double mu);
+Vec2 alart_curnier_scale(const ConeProblem& problem, std::size_t i);
 
-AlartCurnier alart_curnier(const Vec3& u, const Vec3& lambda, double mu, FrictionLaw law, const Vec2& rho);
+/// Of contact i with its u and λ. Rows that are equations ask for ρ u = 0.
+AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho);
 
 /// `value` alone.
-Vec3 alart_curnier_value(const Vec3& u, const Vec3& lambda, double mu, FrictionLaw law, const Vec2& rho);
+Vec3 alart_curnier_value(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho);
 
 }  // namespace impinge

@@ -22,6 +22,24 @@ MatX Delassus::dense() {
   return w;
 }
 
+Vec3 ConeProblem::nearest(std::size_t i, const Vec3& z) const {
+  switch (kind_of(i)) {
+    case RowKind::attachment: return z;
+    case RowKind::sliding: return {z.x(), 0.0, 0.0};
+    case RowKind::contact: break;
+  }
+  return project(z, mu[i], law);
+}
+
+Vec3 ConeProblem::dual(std::size_t i, const Vec3& u) const {
+  if (has_one_row(i)) return {u.x(), 0.0, 0.0};
+  return kind_of(i) == RowKind::attachment ? u : de_saxce(u, mu[i], law);
+}
+
+double ConeProblem::violation(std::size_t i, const Vec3& lambda) const {
+  return kind_of(i) == RowKind::contact ? cone_violation(lambda, mu[i], law) : 0.0;
+}
+
 std::vector<int> rows_of(const ConeProblem& problem) {
   std::vector<int> rows;
   for (int i = 0; i < static_cast<int>(problem.q.size()); ++i)

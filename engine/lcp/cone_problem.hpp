@@ -38,23 +38,24 @@ struct ConeProblem {
   std::vector<Vec3> q;     ///< m/s
   std::vector<double> mu;  ///< per contact
   std::vector<RowKind> kind;  ///< per contact; empty: all RowKind::contact
+  FrictionLaw law = FrictionLaw::cone;
+
   RowKind kind_of(std::size_t i) const { return kind.empty() ? RowKind::contact : kind[i]; }
   /// Whether contact i has its normal row only.
   bool has_one_row(std::size_t i) const { return kind_of(i) == RowKind::sliding || (kind_of(i) == RowKind::contact && mu[i] == 0.0); }
-  FrictionLaw law = FrictionLaw::cone;
+  /// Whether an impulse of contact i can't move anything: both bodies are held.
+  bool is_held(std::size_t i) const { return !(has_one_row(i) ? w->diagonal(i)(0, 0) > 0.0 : w->diagonal(i).trace() > 0.0); }
 
-  /// Nearest λ to z that contact i may have: in its cone; for an equation any.
-  Vec3 nearest(std::size_t i, const Vec3& z) const {
-    if (kind_of(i) == RowKind::attachment) return z;
-    if (kind_of(i) == RowKind::sliding) return {z.x(), 0.0, 0.0};
-    return project(z, mu[i], law);
-  }
-  /// What is complementary to λ_i: u_hat of a contact, u of an equation.
-  Vec3 shifted(std::size_t i, const Vec3& u) const { return kind_of(i) == RowKind::contact ? de_saxce(u, mu[i], law) : u; }
+  /// The nearest λ_i to z that contact i allows: its cone, or where λ is free all of its rows.
+  Vec3 nearest(std::size_t i, const Vec3& z) const;
+  /// What is complementary to λ_i: û = u + mu |u_T| n of the rows that there are, or of an equation what must be 0.
+  Vec3 dual(std::size_t i, const Vec3& u) const;
+  /// How far λ_i is from what is allowed, N·s.
+  double violation(std::size_t i, const Vec3& lambda) const;
 };
 
-/// The scalar rows that a problem has, contact by contact: index 3 i + k of row k of contact i; contacts without friction
-/// have only k = 0.
+/// The scalar rows that a problem has, contact by contact: index 3 i + k of row k of contact i; contacts of one row have
+/// only k = 0.
 std::vector<int> rows_of(const ConeProblem& problem);
 
 }  // namespace impinge

@@ -27,7 +27,7 @@ double relax_contact(const ConeProblem& problem, std::size_t i, std::vector<Vec3
   const RowKind kind = problem.kind_of(i);
   const bool normal_only = problem.has_one_row(i);
   const Mat3& w_ii = w.diagonal(i);
-  if (!(w_ii(0, 0) > 0.0)) return 0.0;  // both bodies are held
+  if (problem.is_held(i)) return 0.0;
   const Vec3 u = w.row(i, normal_only) + problem.q[i];
   Vec3 next;
   if (kind == RowKind::attachment) {

@@ -178,7 +178,7 @@ class Pivoting : public LcpSolver {
 
   std::string applies(const ConeProblem& problem) const override {
     for (std::size_t i = 0; i < problem.q.size(); ++i)
-      if (problem.kind_of(i) != RowKind::contact) return "it has attachments or sliding constraints";
+      if (problem.kind_of(i) != RowKind::contact) return "attachments and sliding constraints are equations; it solves complementarity only";
     if (problem.law == FrictionLaw::cone && std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return mu != 0.0; }))
       return "a friction cone is not linear; it solves problems without friction or with the pyramid";
     const std::size_t rows = rows_of(problem).size();

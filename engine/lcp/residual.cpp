@@ -30,13 +30,19 @@ double natural_map(const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double m
   return (lambda - project(lambda - rho * de_saxce(u, mu, law), mu, law)).norm() / rho;
 }
 
-double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda) {
-  switch (problem.kind_of(i)) {
+double natural_map(RowKind kind, const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu) {
+  switch (kind) {
     case RowKind::attachment: return u.norm();
     case RowKind::sliding: return std::abs(u.x());
     case RowKind::contact: break;
   }
-  return natural_map(problem.w->diagonal(i), u, lambda, problem.mu[i], problem.law);
+  return natural_map(w_ii, u, lambda, mu);
+}
+
+double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda) {
+  const Mat3& w_ii = problem.w->diagonal(i);
+  if (problem.kind_of(i) == RowKind::contact) return natural_map(w_ii, u, lambda, problem.mu[i], problem.law);
+  return problem.is_held(i) ? 0.0 : natural_map(problem.kind_of(i), w_ii, u, lambda, problem.mu[i]);
 }
 
 double velocity_scale(const ConeProblem& problem) {
@@ -57,10 +63,9 @@ double relative_residual(const ConeProblem& problem, const std::vector<Vec3>& u,
   }
   double error = 0.0, size_q = 0.0, size_u = 0.0, size_lambda = 0.0;
   for (std::size_t i = 0; i < u.size(); ++i) {
-    const Vec3 u_i = rows_there(problem, i, u[i]), z = lambda[i] - problem.shifted(i, u_i);
-    error += (lambda[i] - problem.nearest(i, z)).squaredNorm();
+    error += (lambda[i] - problem.nearest(i, lambda[i] - problem.dual(i, u[i]))).squaredNorm();
     size_q += rows_there(problem, i, problem.q[i]).squaredNorm();
-    size_u += u_i.squaredNorm();
+    size_u += rows_there(problem, i, u[i]).squaredNorm();
     size_lambda += lambda[i].squaredNorm();
   }
   return ratio(std::sqrt(error), std::sqrt(std::max({size_q, size_u, size_lambda})));
@@ -72,16 +77,14 @@ Residual judge(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
   std::vector<Vec3> u(problem.q.size());
   double impulse = 0.0;
   for (std::size_t i = 0; i < problem.q.size(); ++i) {
-    const double mu = problem.mu[i];
     u[i] = problem.w->row(i, problem.has_one_row(i)) + problem.q[i];
     const double r = natural_map(problem, i, u[i], lambda[i]);
     if (!(r <= result.natural_map)) {
       result.natural_map = r;
       result.worst = static_cast<int>(i);
     }
-    if (problem.kind_of(i) != RowKind::contact) continue;
-    take(result.product, std::abs(lambda[i].dot(de_saxce(rows_there(problem, i, u[i]), mu, problem.law))), i);
-    take(result.cone, cone_violation(lambda[i], mu, problem.law), i);
+    if (problem.kind_of(i) == RowKind::contact) take(result.product, std::abs(lambda[i].dot(problem.dual(i, u[i]))), i);
+    take(result.cone, problem.violation(i, lambda[i]), i);
     impulse = std::max(impulse, lambda[i].norm());
   }
   result.map = {result.natural_map, ratio(result.natural_map, velocity_scale(problem)), result.worst};

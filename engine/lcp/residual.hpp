@@ -32,8 +32,12 @@ enum class Measure { natural_map, siconos };
 /// Residual of (problem, lambda). Calls problem.w->begin(lambda).
 Residual judge(const ConeProblem& problem, const std::vector<Vec3>& lambda);
 
-/// The natural-map residual of one contact, m/s. 0 where W_ii = 0: both bodies are held, nothing can respond.
+/// The natural-map residual of contact i for its u, m/s; of an equation what is left of u. 0 where W_ii = 0: both bodies are held, nothing can respond.
+double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda);
+
+/// The same, of one contact by itself.
 double natural_map(const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu, FrictionLaw law = FrictionLaw::cone);
+double natural_map(RowKind kind, const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu);
 
 /// The same of contact i of a problem, for rows of any kind: of an equation it is what is left of u, m/s.
 double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda);

@@ -29,7 +29,7 @@ class Search {
   Search(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda)
       : problem_(problem), settings_(settings), lambda_(lambda), n_(lambda.size()), system_(problem), u_(n_), trial_(n_), a_(n_), b_(n_), kept_(n_) {
     for (std::size_t i = 0; i < n_; ++i) {
-      rho_.push_back(alart_curnier_scale(problem.w->diagonal(i), problem.kind_of(i) == RowKind::attachment ? 1.0 : problem.mu[i]));
+      rho_.push_back(alart_curnier_scale(problem, i));
       const Mat3& d = problem.w->diagonal(i);
       scale_.push_back(problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0);
     }
@@ -92,25 +92,13 @@ class Search {
     return {iterations_, reason};
   }
 
-  /// u = 0 of an attachment, u_n = 0 of a sliding constraint, scaled like a contact's.
-  AlartCurnier equation(std::size_t i) const {
-    AlartCurnier e{Vec3::Zero(), Mat3::Zero(), Mat3::Identity(), false};
-    for (int k = 0; k < (problem_.kind_of(i) == RowKind::attachment ? 3 : 1); ++k) {
-      const double rho = k == 0 ? rho_[i].x() : rho_[i].y();
-      e.value[k] = rho * u_[i][k];
-      e.by_u(k, k) = rho;
-      e.by_lambda(k, k) = 0.0;
-    }
-    return e;
-  }
-
   /// ‖F‖² in velocities, at λ.
   double merit(const std::vector<Vec3>& lambda) {
     problem_.w->begin(lambda);
     velocities(problem_, u_);
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
-      const Vec3 f = problem_.kind_of(i) == RowKind::contact ? alart_curnier_value(u_[i], lambda[i], problem_.mu[i], problem_.law, rho_[i]) : equation(i).value;
+      const Vec3 f = alart_curnier_value(problem_, i, u_[i], lambda[i], rho_[i]);
       if (rho_[i].x() > 0.0) sum += f.x() * f.x() / (rho_[i].x() * rho_[i].x());
       if (rho_[i].y() > 0.0) sum += f.tail<2>().squaredNorm() / (rho_[i].y() * rho_[i].y());
     }
@@ -123,8 +111,7 @@ class Search {
     alpha_ = std::clamp(factor_ * residual_, kSmallest, kLargest);
     VecX f(static_cast<Eigen::Index>(3 * n_)), d;
     for (std::size_t i = 0; i < n_; ++i) {
-      const AlartCurnier e =
-          problem_.kind_of(i) == RowKind::contact ? alart_curnier(u_[i], lambda_[i], problem_.mu[i], problem_.law, rho_[i]) : equation(i);
+      const AlartCurnier e = alart_curnier(problem_, i, u_[i], lambda_[i], rho_[i]);
       a_[i] = e.by_u;
       b_[i] = e.by_lambda + alpha_ * scale_[i] * e.by_u;
       kept_[i] = !e.open;

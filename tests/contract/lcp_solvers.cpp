@@ -165,6 +165,33 @@ TEST_CASE("every LCP solver: contradicting constraints end in a flagged, finite 
   }
 }
 
+TEST_CASE("every LCP solver: attachments and sliding constraints hold as equations beside contacts") {
+  for (const auto& e : lcp_solvers()) {
+    CAPTURE(e.name);
+    const auto solver = e.make();
+    Random random(26);
+    for (int trial = 0; trial < 20; ++trial) {
+      RandomProblem p(random, 9, 30, 0.1, 0.4);
+      for (int i = 0; i < 9; ++i) p.problem.kind.push_back(i % 3 == 0 ? RowKind::attachment : i % 3 == 1 ? RowKind::sliding : RowKind::contact);
+      if (!solver->applies(p.problem).empty()) continue;
+      std::vector<Vec3> lambda(9, Vec3::Zero());
+      const LcpResult result = solver->solve(p.problem, {1e-11, 50000}, lambda);
+      CAPTURE(trial, result.iterations, name_of(result.reason));
+      REQUIRE(result.reason == StopReason::converged);
+      VecX stacked(27);
+      for (int i = 0; i < 9; ++i) stacked.segment<3>(3 * i) = lambda[i];
+      const VecX u = p.w.matrix() * stacked;
+      for (int i = 0; i < 9; ++i) {
+        const Vec3 at = u.segment<3>(3 * i) + p.problem.q[i];
+        if (i % 3 == 0) CHECK(at.norm() < 1e-10);
+        if (i % 3 == 1) CHECK(std::abs(at.x()) < 1e-10);
+        if (i % 3 == 1) CHECK(lambda[i].tail<2>().isZero(0.0));
+        if (i % 3 == 2) CHECK(natural_map(p.w.diagonal(i), at, lambda[i], 0.4) < 1e-10);
+      }
+    }
+  }
+}
+
 TEST_CASE("every LCP solver: the history holds the relative residual before the first and after each iteration") {
   for (const auto& e : lcp_solvers()) {
     CAPTURE(e.name);
