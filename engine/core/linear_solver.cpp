@@ -48,8 +48,8 @@ const Registry<LinearSolver>& linear_solvers() {
 //      882       0.17         5 / 0.05 /  –                        3.0 / 0.12 /  –
 //    3,630       1.1         40 / 0.34 / 12 (55)                    81 / 1.2 /  78 (268)
 //    9,450       4.0         99 / 2.9  / 16 (180)                 1140 / 8.5 / 368 (2261)
-//   26,460        18        504 / 16                                 –
-//   56,862        89       2039 / 42                                 –
+//   26,460        17        765 / 16   / 57 (751)                    –
+//   56,862        86       2003 / 42   / 172 (2044)                  –
 // At E 1e7 CG takes six times as long. So CG solves 20 to 60 right-hand sides of soft bodies before a CHOLMOD
 // factorization has paid, and Eigen's pays beyond a few thousand unknowns only where it serves hundreds. But a direct
 // solve is exact, which the contact forces of constraint anticipation want, W then costs next to nothing beside the
