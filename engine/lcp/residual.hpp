@@ -39,9 +39,6 @@ double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, con
 double natural_map(const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu, FrictionLaw law = FrictionLaw::cone);
 double natural_map(RowKind kind, const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu);
 
-/// The same of contact i of a problem, for rows of any kind: of an equation it is what is left of u, m/s.
-double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda);
-
 /// What natural maps are relative to: max |q|, of the rows that there are.
 double velocity_scale(const ConeProblem& problem);
 
