@@ -62,6 +62,51 @@ const std::vector<Baseline>& baselines() {
          scene.add("ball", BodyKind::dynamic, Sphere{0.5}, {0, 0.5, 0});
          return painted(scene.record(), settings_with({"meshes"}), 160, 90);
        }},
+      {"soft_meshes", [] { return painted(soft_record(), settings_with({"meshes", "contacts", "contact_forces"})); }},
+      {"soft_wireframe", [] { return painted(soft_record(), settings_with({"meshes", "wireframe", "attachments"})); }},
+      {"tetrahedra", [] { return painted(soft_record(), settings_with({"meshes", "tetrahedra"})); }},
+      {"tetrahedra_alone", [] { return painted(soft_record(), settings_with({"tetrahedra"})); }},
+      {"tetrahedra_shrunk",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "tetrahedra"});
+         settings.tetrahedra_style = "shrunk";
+         return painted(soft_record(), settings);
+       }},
+      {"stress",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "stress"});
+         settings.show_legend = true;
+         return painted(soft_record(), settings);
+       }},
+      {"strain_of_tetrahedra",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "tetrahedra", "strain"});
+         settings.tetrahedra_style = "shrunk";
+         settings.strain_max = 0.4;
+         return painted(soft_record(), settings);
+       }},
+      {"fixed_nodes", [] { return painted(soft_record(), settings_with({"meshes", "fixed_nodes"})); }},
+      {"embedding", [] { return painted(soft_record(), settings_with({"meshes", "embedding"})); }},
+      {"soft_velocities", [] { return painted(soft_record(), settings_with({"meshes", "velocities", "mass_centers"})); }},
+      {"clip",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "contacts"});
+         settings.clip = {true, {0.0, 0.0, 1.0}, 0.1};
+         return painted(soft_record(), settings);
+       }},
+      {"backs_only",
+       [] {
+         ViewSettings settings = settings_with({"meshes"});
+         settings.backfaces = "only";
+         return painted(soft_record(), settings);
+       }},
+      {"soft_panels",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "stress", "fixed_nodes", "tetrahedra"});
+         settings.show_figures = settings.show_legend = true;
+         for (LayerSwitch& layer : settings.layers) layer.on = layer.on && layer.name != "meshes" && layer.name != "tetrahedra";
+         return painted(soft_record(), settings, 640, 240);
+       }},
       {"panels",
        [] {
          ViewSettings settings = settings_with({"contacts"});

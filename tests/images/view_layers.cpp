@@ -41,18 +41,25 @@ TEST_CASE("layers have distinct names and each says what it draws") {
     CHECK(names.insert(layer.name).second);
     CHECK_FALSE(layer.doc.empty());
   }
-  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps",
+  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps", "stress", "strain", "tetrahedra", "fixed_nodes", "embedding", "attachments",
                            "velocities", "mass_centers", "broad_pairs", "triangle_pairs", "groups", "labels"})
     CHECK(names.count(name) == 1);
 }
 
 TEST_CASE("every layer changes the picture, and no two in the same way") {
-  const Image base = painted(sample_record(), settings_with({"meshes"}));
+  // of rigid bodies beside one of deformable ones
+  const auto both = [](const std::vector<std::string>& names) {
+    Image image = painted(sample_record(), settings_with(names)), soft = painted(soft_record(), settings_with(names));
+    image.rgb.insert(image.rgb.end(), soft.rgb.begin(), soft.rgb.end());
+    image.height *= 2;
+    return image;
+  };
+  const Image base = both({"meshes"});
   std::vector<Image> pictures;
   for (const Layer& layer : layers()) {
     if (layer.name == "meshes") continue;
     CAPTURE(layer.name);
-    pictures.push_back(painted(sample_record(), settings_with({"meshes", std::string(layer.name)})));
+    pictures.push_back(both({"meshes", std::string(layer.name)}));
     CHECK(changed_pixels(base, pictures.back()) > 20);
   }
   for (std::size_t i = 0; i < pictures.size(); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <string>
 
 #include "engine/world/step_record.hpp"
@@ -42,6 +43,30 @@ class HandMadeRecord {
     return record_.stats.bodies - 1;
   }
 
+  /// A deformable body: node positions are `place` of the rest positions, velocities likewise; `held` are held nodes.
+  int add_soft(const std::string& name, const MeshPointer& surface, const TetMesh& mesh, const Embedding& embedding,
+               const std::function<Vec3(const Vec3&)>& place, const std::vector<int>& held = {},
+               std::string_view material = "corotational") {
+    std::shared_ptr<Material> elastic = find_entry(materials(), material)->make();
+    elastic->configure({});
+    DeformableBody& soft = soft_.emplace_back(FemAssembly(mesh, {{elastic, 1000.0}}, MassKind::lumped));
+    soft.hold(held);
+    for (int i = 0; i < soft.nodes(); ++i) soft.position.segment<3>(3 * i) = place(mesh.vertices[static_cast<std::size_t>(i)]);
+    embeddings_.push_back(embedding);
+    const int index = add(name, BodyKind::deformable, surface, Vec3::Zero());
+    BodyRecord& body = record_.bodies.back();
+    body.soft = &soft;
+    body.embedding = &embeddings_.back();
+    interpolate(embedding, mesh, soft.position, vertices_.back());
+    body.vertices = vertices_.back();
+    body.bounds = Aabb{};
+    for (const Vec3& v : vertices_.back()) body.bounds.include(v);
+    body.pose.position = body.file_pose.position = soft.center_of_mass();
+    body.mass = soft.fem.total_mass();
+    return index;
+  }
+  DeformableBody& last_soft() { return soft_.back(); }
+
   ContactRecord& touch(int a, int b, const Vec3& point, const Vec3& normal, ContactState state, double gap = 0.0) {
     ContactRecord contact;
     contact.body_a = a, contact.body_b = b;
@@ -63,6 +88,8 @@ class HandMadeRecord {
   std::deque<std::string> names_;
   std::deque<Shape> shapes_;
   std::deque<std::vector<Vec3>> vertices_;
+  std::deque<DeformableBody> soft_;
+  std::deque<Embedding> embeddings_;
   StepRecord record_;
 };
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "engine/geometry/tet_cage.hpp"
 #include "tests/support/meshes.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"
@@ -55,7 +56,54 @@ std::unique_ptr<HandMadeRecord> make_record(double shift) {
   return scene;
 }
 
+/// A lump in a cage, pressed on a slab by a ball and bulging; its top is held at the back and moved at the front.
+std::unique_ptr<HandMadeRecord> make_soft_record() {
+  auto scene = std::make_unique<HandMadeRecord>();
+  const MeshPointer lump = surface(scaled_to(bumpy_sphere(3), 1.2));
+  const TetCage cage = make_tet_cage(lump->mesh, {.cells = 5, .rays_per_cell = 8});
+  Embedding embedding = cage.embedding;
+  std::vector<int> held;
+  for (std::size_t i = 0; i < cage.mesh.vertices.size(); ++i)
+    if (cage.mesh.vertices[i].x() < -0.48) held.push_back(static_cast<int>(i));
+  const auto pressed = [](const Vec3& p) {
+    const double dent = 0.22 * std::exp(-6.0 * ((p.x() - 0.1) * (p.x() - 0.1) + p.z() * p.z())) * (p.y() + 0.6);
+    const double wide = 1.0 + 0.14 * std::exp(-8.0 * p.y() * p.y());
+    return Vec3(wide * p.x() + 0.15 * p.y() * p.y(), 0.5 + 0.86 * p.y() - dent, wide * p.z());
+  };
+  scene->add("slab", BodyKind::fixed, Box{{1.5, 0.05, 1.1}}, {0, -0.05, 0});
+  const int ball = scene->add("ball", BodyKind::scripted, Sphere{0.2}, {0.15, 0.93, 0.05});
+  const int body = scene->add_soft("lump", lump, cage.mesh, embedding, pressed, held);
+  DeformableBody& soft = scene->last_soft();
+  for (int i = 0; i < soft.nodes(); ++i)
+    soft.velocity.segment<3>(3 * i) = Vec3(0.3, -2.0, 0.0) * (soft.position[3 * i + 1] - 0.1);
+  for (const int i : held)
+    if (soft.position[3 * i + 2] > 0.0) soft.set_held_velocity(i, {-1.2, 0.6, 0.0});
+  const MeshPointer box_surface = surface(box({0.15, 0.15, 0.15}, {2, 2, 2}));
+  TetMesh block = make_tet_box({0.3, 0.3, 0.3}, 2, 2, 2);
+  for (Vec3& v : block.vertices) v -= Vec3::Constant(0.15);
+  Embedding in_block = embed(block, box_surface->mesh.vertices);
+  in_block.weight[0] = {1.2, -0.1, -0.05, -0.05};
+  in_block.outside = 1;
+  const int crate = scene->add_soft("block", box_surface, block, in_block,
+                                    [](const Vec3& p) { return Vec3(p.x() + 1.0 + 0.5 * p.y(), 0.9 * p.y() + 0.135, p.z() + 0.55); });
+  scene->touch(0, body, {0.1, 0.0, 0.2}, -Vec3::UnitY(), ContactState::stick).lambda = {900.0, 20.0, 0.0};
+  scene->touch(ball, body, {0.15, 0.73, 0.05}, Vec3::UnitY(), ContactState::slip).lambda = {600.0, 90.0, 0.0};
+  StepRecord& r = scene->record();
+  r.attachments.push_back({"string", body, crate, {0.66, 0.45, 0.15}, {0.95, 0.27, 0.5}, Vec3::Zero()});
+  r.groups = {{ball, body}, {crate}};
+  r.bodies[static_cast<std::size_t>(body)].group = 0;
+  r.stats.frame = 12;
+  r.stats.time = 0.2;
+  r.stats.elastic = 3.25;
+  return scene;
+}
+
 }  // namespace
+
+const StepRecord& soft_record() {
+  static const std::unique_ptr<HandMadeRecord> scene = make_soft_record();
+  return scene->record();
+}
 
 const StepRecord& sample_record() {
   static const std::unique_ptr<HandMadeRecord> scene = make_record(0.0);

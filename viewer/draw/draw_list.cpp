@@ -10,6 +10,7 @@ void DrawList::clear() {
   triangles.clear();
   planes.clear();
   labels.clear();
+  color_bar.reset();
 }
 
 void DrawList::add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth,

@@ -1,10 +1,11 @@
 // What is to be drawn, as plain data: layers write it, the renderer reads it. No OpenGL, no physics.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "viewer/draw/moved_surface.hpp"
 #include "viewer/draw/palette.hpp"
-#include "viewer/draw/shaded_surface.hpp"
 
 namespace impinge {
 
@@ -44,7 +45,10 @@ struct DrawArrow {
   PickId pick = 0;
 };
 
-/// A surface in its own frame, placed by `pose`.
+/// A quantity at each position of a surface, as a share of the colour bar's range.
+using SurfaceHeat = std::shared_ptr<const std::vector<float>>;
+
+/// A surface in its own frame, placed by `pose`; or a deformed one, which needs no pose.
 struct DrawSurface {
   ShadedSurfacePointer surface;
   Pose pose;
@@ -52,6 +56,13 @@ struct DrawSurface {
   bool see_through = false;  ///< hardly more than its edges: what lies behind matters more
   bool striped = false;      ///< marked with bands: moved by a script
   PickId pick = 0;
+  MovedSurfacePointer moved = nullptr;  ///< where `surface`'s positions are now; null: it has its own shape
+  SurfaceHeat heat = nullptr;           ///< replaces the colour; null: none
+  bool clipped = true;                  ///< cut by the view's clip plane
+
+  const Eigen::AlignedBox3f& bounds() const { return moved ? moved->bounds : surface->bounds; }
+  Pose placement() const { return moved ? Pose{Mat3::Identity(), moved->origin} : pose; }
+  bool is_solid() const { return moved ? moved->solid : surface->solid; }
 };
 
 /// A single triangle laid over a surface.
@@ -76,6 +87,13 @@ struct DrawLabel {
   Color color = role::kInk;
 };
 
+/// What the colours of heated surfaces mean: from 0 to `high`, beyond which the last colour stays.
+struct ColorBar {
+  std::string title, unit;
+  double high = 1.0;     ///< in `unit`
+  bool exceeded = false;  ///< whether something in the picture lies beyond
+};
+
 struct DrawList {
   std::vector<DrawPoint> points;
   std::vector<DrawLine> lines;
@@ -84,6 +102,7 @@ struct DrawList {
   std::vector<DrawTriangle> triangles;
   std::vector<DrawPlane> planes;
   std::vector<DrawLabel> labels;
+  std::optional<ColorBar> color_bar;
 
   void clear();
   /// The twelve edges of a box given in the frame of `pose`.

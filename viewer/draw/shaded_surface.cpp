@@ -35,6 +35,7 @@ ShadedSurface make_shaded_surface(const TriangleMesh& mesh, const MeshTopology& 
       if (index == out.positions.size()) {
         out.positions.push_back(mesh.vertices[v].cast<float>());
         out.normals.push_back(normal);
+        out.source.push_back(static_cast<std::uint32_t>(v));
       }
       for (int corner = 0; corner < 3; ++corner)
         if (mesh.triangles[own][corner] == static_cast<int>(v))

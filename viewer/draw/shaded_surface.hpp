@@ -11,6 +11,7 @@ struct ShadedSurface {
   std::vector<Eigen::Vector3f> positions, normals;      ///< as many of each
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< in the source's order
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< each once, as two of the positions
+  std::vector<std::uint32_t> source;                    ///< of each position: the source's vertex
   Eigen::AlignedBox3f bounds;
   bool solid = false;  ///< closed and facing outwards: from outside, no triangle is seen from its back
 };

@@ -32,11 +32,31 @@ ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) {
   return kept.surface;
 }
 
+MovedSurfacePointer SurfaceCache::moved_of(const BodyRecord& body) {
+  if (body.soft == nullptr) return nullptr;
+  MovedSurfacePointer& moved = moved_[body.soft];
+  if (!moved)
+    moved = std::make_shared<MovedSurface>(
+        move_surface(*surface_of(*body.shape), body.vertices, body.soft->smallest_volume_ratio() <= 0.0));
+  return moved;
+}
+
+const TetEdges& SurfaceCache::edges_of(const FemAssembly& fem) {
+  const auto [place, is_new] = edges_.try_emplace(fem.pattern().get());
+  KeptEdges& kept = place->second;
+  kept.used = true;
+  if (is_new) kept.pattern = fem.pattern(), kept.edges = make_tet_edges(fem.rest());
+  return kept.edges;
+}
+
 void SurfaceCache::forget_unused() {
-  for (auto it = kept_.begin(); it != kept_.end();) {
-    it = it->second.used ? std::next(it) : kept_.erase(it);
-  }
-  for (auto& [key, kept] : kept_) kept.used = false;
+  const auto forget = [](auto& all) {
+    for (auto it = all.begin(); it != all.end();) it = it->second.used ? std::next(it) : all.erase(it);
+    for (auto& [key, kept] : all) kept.used = false;
+  };
+  forget(kept_);
+  forget(edges_);
+  moved_.clear();
 }
 
 }  // namespace impinge

@@ -1,9 +1,12 @@
-// Bodies' shapes made ready for drawing, once for all bodies and frames that share a shape.
+// Bodies' shapes made ready for drawing, once for all bodies and frames that share a shape; of deformable bodies the
+// triangles are kept and the positions made anew for each record.
 #pragma once
 
 #include <map>
 
-#include "viewer/draw/shaded_surface.hpp"
+#include "engine/world/step_record.hpp"
+#include "viewer/draw/moved_surface.hpp"
+#include "viewer/draw/tet_shapes.hpp"
 
 namespace impinge {
 
@@ -11,7 +14,11 @@ class SurfaceCache {
  public:
   /// The surface of a sphere, box, capsule or mesh in the body's frame. What it returns depends on the shape alone.
   ShadedSurfacePointer surface_of(const Shape& shape);
-  /// Forgets what was not asked for since the last call.
+  /// Where a deformable body's surface is now, made once between two calls of forget_unused; null for other bodies.
+  MovedSurfacePointer moved_of(const BodyRecord& body);
+  /// The edges of a body's tetrahedra.
+  const TetEdges& edges_of(const FemAssembly& fem);
+  /// Call it after each record. Forgets what was not asked for since the last call, and all that moves.
   void forget_unused();
 
  private:
@@ -20,9 +27,16 @@ class SurfaceCache {
     ShadedSurfacePointer surface;
     bool used = true;
   };
+  struct KeptEdges {
+    std::shared_ptr<const BlockPattern> pattern;  // likewise
+    TetEdges edges;
+    bool used = true;
+  };
   using Key = std::tuple<int, const SurfaceMesh*, double, double, double>;  // kind, mesh, dimensions
 
   std::map<Key, Kept> kept_;
+  std::map<const BlockPattern*, KeptEdges> edges_;
+  std::map<const DeformableBody*, MovedSurfacePointer> moved_;  // of this record
 };
 
 }  // namespace impinge

@@ -53,6 +53,10 @@ std::vector<std::string> ViewSettings::layers_on() const {
   return names;
 }
 
+Backs ViewSettings::backs() const {
+  return backfaces == "only" ? Backs::only : backfaces == "hidden" ? Backs::hidden : Backs::shown;
+}
+
 void ViewSettings::bind(ParameterSet& rows) {
   rows.add(vector_row(*this, "view.camera.eye", &Camera::eye,
                       "Where the camera is; without eye and target it is fitted to the scene."));
@@ -93,9 +97,27 @@ void ViewSettings::bind(ParameterSet& rows) {
   rows.add("view.arrow_length", arrow_length, {1.0, 1000.0}, "px",
            "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
   rows.add("view.line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
+  rows.add("view.force_unit", force_unit, {0.0, 1e15, true}, "N",
+           "The contact force that is drawn view.arrow_length long; 0 chooses by the bodies' weights.");
   rows.add("view.antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
   rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light", "flat"},
            "What stands behind the scene; flat is one colour, for pictures that are compared.");
+  rows.add("view.clip.enabled", clip.enabled,
+           "Cut surfaces and tetrahedra by a plane, to see into bodies; marks are never cut.");
+  rows.add("view.clip.normal", clip.normal, {-1e9, 1e9}, "",
+           "Towards the side of the clip plane that is left out; of any length but zero.");
+  rows.add("view.clip.offset", clip.offset, {-1e9, 1e9}, "m",
+           "Distance of the clip plane from the origin along its normal.");
+  rows.add("view.backfaces", backfaces, std::vector<std::string>{"shown", "hidden", "only"},
+           "Backs of surfaces; only leaves the fronts out, so that bodies are seen from inside.");
+  rows.add("view.tetrahedra.style", tetrahedra_style, std::vector<std::string>{"wire", "shrunk"},
+           "Tetrahedra as edges, or as solids with gaps between them inside a see-through surface.");
+  rows.add("view.tetrahedra.shrink", tetrahedra_shrink, {0.05, 1.0}, "",
+           "Size of a solid tetrahedron as a share of its true size.");
+  rows.add("view.stress.max", stress_max, {0.0, 1e15, true}, "Pa",
+           "Stress of the brightest colour; 0 chooses by the frame's own stresses.");
+  rows.add("view.strain.max", strain_max, {0.0, 1e6, true}, "",
+           "Strain of the brightest colour; 0 chooses by the frame's own strains.");
   rows.add("view.panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
   rows.add("view.panel.legend", show_legend,
            "What the marks of the visible layers mean, left out where there is no room.");

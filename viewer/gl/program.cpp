@@ -57,6 +57,9 @@ void Program::set(const char* name, int value) { glUniform1i(location(name), val
 void Program::set(const char* name, const Eigen::Vector2f& value) { glUniform2fv(location(name), 1, value.data()); }
 void Program::set(const char* name, const Eigen::Vector3f& value) { glUniform3fv(location(name), 1, value.data()); }
 void Program::set(const char* name, const Eigen::Vector4f& value) { glUniform4fv(location(name), 1, value.data()); }
+void Program::set(const char* name, std::span<const Eigen::Vector3f> values) {
+  glUniform3fv(location(name), static_cast<GLsizei>(values.size()), values.front().data());
+}
 void Program::set(const char* name, const Eigen::Matrix3f& value) {
   glUniformMatrix3fv(location(name), 1, GL_FALSE, value.data());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 
 #include <Eigen/Core>
@@ -26,6 +27,7 @@ class Program {
   void set(const char* name, const Eigen::Vector2f& value);
   void set(const char* name, const Eigen::Vector3f& value);
   void set(const char* name, const Eigen::Vector4f& value);
+  void set(const char* name, std::span<const Eigen::Vector3f> values);  ///< of an array; `name` with its "[0]"
   void set(const char* name, const Eigen::Matrix3f& value);
   void set(const char* name, const Eigen::Matrix4f& value);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/draw/color_map.hpp"
 #include "viewer/gl/gl.hpp"
 
 namespace impinge {
@@ -15,42 +16,68 @@ Aabb bounds_of(const DrawList& list) {
   for (const DrawTriangle& t : list.triangles)
     for (const Vec3& p : t.corners) box.include(p);
   for (const DrawSurface& s : list.surfaces) {
-    const Eigen::AlignedBox3f& local = s.surface->bounds;
+    const Eigen::AlignedBox3f& local = s.bounds();
+    const Pose pose = s.placement();
     for (int corner = 0; corner < 8 && !local.isEmpty(); ++corner)
-      box.include(s.pose.apply(local.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)).cast<double>()));
+      box.include(pose.apply(local.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner)).cast<double>()));
   }
   return box;
 }
 
-/// Whether the back of no triangle can be seen: the surface is solid, and neither the eye nor the near plane reaches into
-/// its box. Half of the triangles are then left out, which saves up to 45 % of the drawing.
+/// Which part of a surface the clip plane leaves.
+enum class Left { all, some, none };
+Left left_of(const DrawSurface& item, const ClipPlane& clip) {
+  if (!clip.is_on() || !item.clipped || item.bounds().isEmpty()) return Left::all;
+  const Pose pose = item.placement();
+  const Vec3 normal = pose.rotation.transpose() * clip.normal.normalized();
+  const double middle = clip.height(pose.apply(item.bounds().center().cast<double>()));
+  const double reach = normal.cwiseAbs().dot(0.5 * item.bounds().sizes().cast<double>());
+  return middle - reach > 0.0 ? Left::none : middle + reach > 0.0 ? Left::some : Left::all;
+}
+
+/// Whether the back of no triangle can be seen: the surface is solid and whole, and neither the eye nor the near plane
+/// reaches into its box. Half of the triangles are then left out, which saves up to 45 % of the drawing.
 bool hides_its_backs(const DrawSurface& item, const ViewTransform& view) {
-  if (!item.surface->solid) return false;
+  if (!item.is_solid()) return false;
   const double across = std::hypot(0.5 * view.width, 0.5 * view.height) / view.focal;
   const double reach = view.near * std::sqrt(1.0 + across * across);  // of the near plane's corners
-  const Eigen::Vector3f eye = item.pose.apply_inverse(view.eye).cast<float>();
-  return item.surface->bounds.exteriorDistance(eye) > 1.001 * reach;
+  const Eigen::Vector3f eye = item.placement().apply_inverse(view.eye).cast<float>();
+  return item.bounds().exteriorDistance(eye) > 1.001 * reach;
+}
+
+std::vector<Eigen::Vector3f> heat_table() {
+  std::vector<Eigen::Vector3f> table;
+  for (const Color& c : heat_colors()) table.emplace_back(c.r, c.g, c.b);
+  return table;
 }
 
 }  // namespace
 
-Renderer::SurfaceBuffers& Renderer::buffers_of(const ShadedSurfacePointer& surface) {
-  // a surface that is gone may have left its address to another
-  for (auto it = buffers_.begin(); it != buffers_.end();)
-    it = it->second.surface.expired() ? buffers_.erase(it) : std::next(it);
-  const auto [place, is_new] = buffers_.try_emplace(surface.get());
+Renderer::Renderer() : heat_table_(heat_table()) {}
+
+Renderer::SurfaceBuffers& Renderer::buffers_of(const DrawSurface& item) {
+  const ShadedSurface& surface = *item.surface;
+  const auto [place, is_new] = buffers_.try_emplace(item.surface.get());
   SurfaceBuffers& buffers = place->second;
+  if (!is_new && buffers.moved == item.moved && buffers.heat == item.heat) return buffers;
+  struct Vertex {
+    Eigen::Vector3f position, normal;
+    float heat;
+  };
+  const std::vector<Eigen::Vector3f>& positions = item.moved ? item.moved->positions : surface.positions;
+  const std::vector<Eigen::Vector3f>& normals = item.moved ? item.moved->normals : surface.normals;
+  std::vector<Vertex> data(positions.size());
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] = {positions[i], normals[i], item.heat ? (*item.heat)[i] : 0.0f};
+  buffers.array.set_vertices(data.data(), data.size() * sizeof(Vertex));
+  buffers.moved = item.moved;
+  buffers.heat = item.heat;
   if (!is_new) return buffers;
-  buffers.surface = surface;
-  std::vector<Eigen::Vector3f> data;
-  data.reserve(2 * surface->positions.size());
-  for (std::size_t i = 0; i < surface->positions.size(); ++i)
-    data.insert(data.end(), {surface->positions[i], surface->normals[i]});
-  buffers.array.set_vertices(data.data(), data.size() * sizeof(Eigen::Vector3f));
-  buffers.array.floats(0, 3, 6 * sizeof(float), 0);
-  buffers.array.floats(1, 3, 6 * sizeof(float), 3 * sizeof(float));
-  buffers.array.set_indices(surface->triangles.data(), surface->triangles.size() * 3 * sizeof(std::uint32_t));
-  buffers.indices = static_cast<int>(3 * surface->triangles.size());
+  buffers.surface = item.surface;
+  buffers.array.floats(0, 3, sizeof(Vertex), offsetof(Vertex, position));
+  buffers.array.floats(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
+  buffers.array.floats(2, 1, sizeof(Vertex), offsetof(Vertex, heat));
+  buffers.array.set_indices(surface.triangles.data(), surface.triangles.size() * 3 * sizeof(std::uint32_t));
+  buffers.indices = static_cast<int>(3 * surface.triangles.size());
   return buffers;
 }
 
@@ -63,35 +90,63 @@ void Renderer::draw_backdrop(const Backdrop& backdrop) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::draw_surface(const DrawSurface& item, const ViewTransform& view) {
-  SurfaceBuffers& buffers = buffers_of(item.surface);
+void Renderer::draw_surface(const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip) {
+  SurfaceBuffers& buffers = buffers_of(item);
   surface_program_.use();
-  surface_program_.set("model_view", view.model_view(item.pose));
+  surface_program_.set("model_view", view.model_view(item.placement()));
   surface_program_.set("color", Eigen::Vector4f(item.color.r, item.color.g, item.color.b, item.color.a));
   surface_program_.set("outline_only", item.see_through ? 1.0f : 0.0f);
+  surface_program_.set("heated", item.heat ? 1.0f : 0.0f);
   float bands = 0.0f;
-  if (item.striped) bands = 9.0f / std::max(item.surface->bounds.sizes().sum(), 1e-12f);
+  if (item.striped) bands = 9.0f / std::max(item.bounds().sizes().sum(), 1e-12f);
   const Color stripe = role::kScriptedStripe;
   surface_program_.set("stripes", Eigen::Vector4f(stripe.r, stripe.g, stripe.b, bands));
+  surface_program_.set("cut", left_of(item, clip) == Left::some ? 1.0f : 0.0f);
   buffers.array.bind();
   glDrawElements(GL_TRIANGLES, buffers.indices, GL_UNSIGNED_INT, nullptr);
 }
 
-void Renderer::draw_see_through(const DrawList& list, const ViewTransform& view) {
+void Renderer::draw_see_through(const DrawList& list, const ViewTransform& view, const ClipPlane& clip) {
   std::vector<const DrawSurface*> order;
   for (const DrawSurface& item : list.surfaces)
-    if (item.see_through) order.push_back(&item);
-  std::stable_sort(order.begin(), order.end(), [&](const DrawSurface* l, const DrawSurface* r) {
-    return (l->pose.position - view.eye).squaredNorm() > (r->pose.position - view.eye).squaredNorm();
-  });
+    if (item.see_through && left_of(item, clip) != Left::none) order.push_back(&item);
+  const auto distance = [&](const DrawSurface* item) { return (item->placement().position - view.eye).squaredNorm(); };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const DrawSurface* l, const DrawSurface* r) { return distance(l) > distance(r); });
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
-  for (const DrawSurface* item : order) draw_surface(*item, view);
+  for (const DrawSurface* item : order) draw_surface(*item, view, clip);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
+}
+
+void Renderer::draw_surfaces(const DrawList& list, const ViewTransform& view, const RenderStyle& style) {
+  // a surface that is gone may leave its address to another
+  std::erase_if(buffers_, [](const auto& entry) { return entry.second.surface.expired(); });
+  surface_program_.use();
+  surface_program_.set("projection", view.projection);
+  surface_program_.set("eye_up", view.eye_up);
+  surface_program_.set("heat_colors[0]", heat_table_);
+  if (style.clip.is_on()) {
+    const Eigen::Vector3f normal = (view.rotation * style.clip.normal.normalized()).cast<float>();
+    const auto eye_height = static_cast<float>(style.clip.height(view.eye));
+    surface_program_.set("clip", Eigen::Vector4f(normal.x(), normal.y(), normal.z(), eye_height));
+    const Color edge = role::kInk;
+    surface_program_.set("cut_edge", Eigen::Vector4f(edge.r, edge.g, edge.b, 0.8f + style.pixel_scale));
+  }
+  for (const DrawSurface& item : list.surfaces) {
+    const Left left = left_of(item, style.clip);
+    if (item.see_through || left == Left::none) continue;
+    if (style.backs != Backs::shown || (left == Left::all && hides_its_backs(item, view))) glEnable(GL_CULL_FACE);
+    glCullFace(style.backs == Backs::only ? GL_FRONT : GL_BACK);
+    draw_surface(item, view, style.clip);
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
+  }
+  draw_see_through(list, view, style.clip);
 }
 
 void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target) {
@@ -105,16 +160,7 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyl
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view, style.pixel_scale);
-  surface_program_.use();
-  surface_program_.set("projection", view.projection);
-  surface_program_.set("eye_up", view.eye_up);
-  for (const DrawSurface& item : list.surfaces) {
-    if (item.see_through) continue;
-    if (hides_its_backs(item, view)) glEnable(GL_CULL_FACE);
-    draw_surface(item, view);
-    glDisable(GL_CULL_FACE);
-  }
-  draw_see_through(list, view);
+  draw_surfaces(list, view, style);
   if (style.smooth_edges) target.smooth_edges();
   marks_.draw(list, view, style.pixel_scale);
 }

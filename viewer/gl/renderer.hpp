@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "viewer/draw/clip_plane.hpp"
 #include "viewer/gl/framebuffer.hpp"
 #include "viewer/gl/grid.hpp"
 #include "viewer/gl/marks.hpp"
@@ -18,12 +19,14 @@ struct RenderStyle {
   Backdrop backdrop;
   bool smooth_edges = true;  ///< of surfaces; marks are always smooth
   float pixel_scale = 1.0f;  ///< multiplies every size in pixels
+  ClipPlane clip = {};       ///< of surfaces
+  Backs backs = Backs::shown;
 };
 
 class Renderer {
  public:
   /// A context must be current, here and in every call.
-  Renderer() = default;
+  Renderer();
 
   /// Draws into `target`, which is left bound.
   void draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target);
@@ -31,17 +34,21 @@ class Renderer {
  private:
   struct SurfaceBuffers {
     std::weak_ptr<const ShadedSurface> surface;
+    MovedSurfacePointer moved;  // what the vertex buffer holds
+    SurfaceHeat heat;
     VertexArray array;
     int indices = 0;
   };
 
-  SurfaceBuffers& buffers_of(const ShadedSurfacePointer& surface);
+  SurfaceBuffers& buffers_of(const DrawSurface& item);
   void draw_backdrop(const Backdrop& backdrop);
-  void draw_surface(const DrawSurface& item, const ViewTransform& view);
-  void draw_see_through(const DrawList& list, const ViewTransform& view);
+  void draw_surfaces(const DrawList& list, const ViewTransform& view, const RenderStyle& style);
+  void draw_surface(const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip);
+  void draw_see_through(const DrawList& list, const ViewTransform& view, const ClipPlane& clip);
 
   Program surface_program_{"surface"}, backdrop_program_{"backdrop"};
   VertexArray nothing_;  // a core profile draws nothing without a vertex array
+  std::vector<Eigen::Vector3f> heat_table_;
   std::map<const ShadedSurface*, SurfaceBuffers> buffers_;
   Grid grid_;
   Marks marks_;

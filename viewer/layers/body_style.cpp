@@ -15,6 +15,11 @@ int thin_axis(const BodyRecord& body) {
   return thinnest < 0.3 * next ? axis : -1;
 }
 
+template <class Condition>
+bool any_body(const StepRecord& record, Condition&& condition) {
+  return std::any_of(record.bodies.begin(), record.bodies.end(), condition);
+}
+
 }  // namespace
 
 std::vector<Color> body_colors(const StepRecord& record) {
@@ -34,6 +39,41 @@ std::vector<Color> body_colors(const StepRecord& record) {
     }
   }
   return colors;
+}
+
+bool has_fixed(const StepRecord& record) {
+  // a plane is drawn as a floor
+  return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::fixed && !std::holds_alternative<Plane>(*b.shape); });
+}
+bool has_scripted(const StepRecord& record) {
+  return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::scripted; });
+}
+bool has_rigid(const StepRecord& record) {
+  return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::scripted; });
+}
+bool has_deformable(const StepRecord& record) {
+  return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr; });
+}
+bool has_held_nodes(const StepRecord& record) {
+  return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr && b.soft->free_nodes() < b.soft->nodes(); });
+}
+bool has_outside_vertices(const StepRecord& record) {
+  return any_body(record, [](const BodyRecord& b) { return b.embedding != nullptr && b.embedding->outside > 0; });
+}
+bool has_everted(const StepRecord& record) {
+  return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr && b.soft->smallest_volume_ratio() <= 0.0; });
+}
+bool has_attachments(const StepRecord& record) { return !record.attachments.empty(); }
+
+bool is_moved_by_contact(const BodyRecord& body) {
+  return body.kind == BodyKind::dynamic || body.kind == BodyKind::deformable;
+}
+
+std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> out;
+  const std::size_t stride = most == 0 ? 1 : std::max<std::size_t>(1, (count + most - 1) / most);
+  for (std::size_t i = 0; i < count; i += stride) out.push_back(i);
+  return out;
 }
 
 bool is_wall(const BodyRecord& body) { return thin_axis(body) >= 0; }

@@ -1,33 +1,47 @@
 // The force of every contact, impulse over time step: on body A, or on body B where A cannot be moved. The mean weight
-// of the dynamic bodies is as long as a normal; without gravity the frame's largest force is.
+// of the bodies that contact moves is as long as a normal; without gravity the frame's largest force is.
 #include <algorithm>
 
 #include "viewer/layers/all.hpp"
+#include "viewer/layers/body_style.hpp"
 
 namespace impinge {
 namespace {
 
+constexpr double kFew = 4.0;  // contacts a body, as a box has
 constexpr double kLongest = 5.0;  // times the length of a normal: an impact must not cross the picture
 
-double mean_weight(const StepRecord& record) {
+/// The force that is as long as a normal, N; 0: nothing is known of it. A body's weight, spread over the contacts that
+/// carry it where they are many: a mesh may rest on hundreds.
+double force_unit(const StepRecord& record) {
   double mass = 0.0;
   int count = 0;
   for (const BodyRecord& body : record.bodies)
-    if (body.kind == BodyKind::dynamic) mass += body.mass, ++count;
-  return count > 0 ? mass / count * record.gravity.norm() : 0.0;
+    if (is_moved_by_contact(body)) mass += body.mass, ++count;
+  if (count == 0) return 0.0;
+  std::vector<bool> carried(record.bodies.size(), false);
+  int contacts = 0;
+  for (const ContactRecord& c : record.contacts) {
+    if (!(c.lambda[0] > 0.0)) continue;
+    ++contacts;
+    for (const int b : {c.body_a, c.body_b})
+      if (is_moved_by_contact(record.bodies[b])) carried[b] = true;
+  }
+  const double bodies = std::max<double>(1.0, static_cast<double>(std::count(carried.begin(), carried.end(), true)));
+  return mass / count * record.gravity.norm() / std::max(1.0, contacts / bodies / kFew);
 }
 
 void draw(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const double step = record.frame_time / std::max(1, record.stats.substeps);
   if (!(step > 0.0)) return;
-  double unit = mean_weight(record);
+  double unit = context.settings.force_unit > 0.0 ? context.settings.force_unit : force_unit(record);
   if (unit <= 0.0)
     for (const ContactRecord& c : record.contacts) unit = std::max(unit, c.lambda.norm() / step);
   if (unit <= 0.0) return;
   for (std::size_t i = 0; i < record.contacts.size(); ++i) {
     const ContactRecord& c = record.contacts[i];
-    const bool on_b = record.bodies[c.body_a].kind != BodyKind::dynamic;
+    const bool on_b = !is_moved_by_contact(record.bodies[c.body_a]);
     const Vec3 t1 = tangent1(c.normal), t2 = c.normal.cross(t1);
     const Vec3 force = (c.lambda[0] * c.normal + c.lambda[1] * t1 + c.lambda[2] * t2) * ((on_b ? -1.0 : 1.0) / step);
     const double size = force.norm();
@@ -42,10 +56,10 @@ void draw(const LayerContext& context, DrawList& list) {
 
 Layer contact_forces_layer() {
   return {"contact_forces",
-          "Contact forces with friction; a normal's length is the bodies' mean weight.",
+          "Contact forces with friction; a normal's length is the bodies' mean weight, less where many contacts share it.",
           false,
           draw,
-          {{LegendRow::arrow, role::kForce, "contact force on A (on B if A is fixed)"}}};
+          {{LegendRow::arrow, role::kForce, "contact force (on A, if it can move)"}}};
 }
 
 }  // namespace impinge

@@ -12,11 +12,11 @@ void draw(const LayerContext& context, DrawList& list) {
   for (DrawSurface& item : list.surfaces) {
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];
-    if (body.kind != BodyKind::dynamic) continue;
+    if (!is_moved_by_contact(body)) continue;
     item.color = role::kUngrouped;
     if (body.group >= 0)
       for (const int member : record.groups[body.group])
-        if (record.bodies[member].kind == BodyKind::dynamic) {
+        if (is_moved_by_contact(record.bodies[member])) {
           item.color = colors[member];
           break;
         }

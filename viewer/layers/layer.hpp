@@ -17,10 +17,11 @@ struct LayerContext {
 
 /// What one of a layer's marks means.
 struct LegendRow {
-  enum Mark { area, point, line, arrow };
+  enum Mark { area, point, ring, line, arrow };
   Mark mark = area;
   Color color;
   const char* text = "";
+  bool (*present)(const StepRecord& record) = nullptr;  ///< whether the scene has such a thing; null: it may
 };
 
 struct Layer {

@@ -1,5 +1,6 @@
 // Centres of mass and the axes of the bodies' frames: x red, y green, z blue.
 #include "viewer/layers/all.hpp"
+#include "viewer/layers/body_style.hpp"
 
 namespace impinge {
 namespace {
@@ -11,7 +12,7 @@ void draw(const LayerContext& context, DrawList& list) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed) continue;
     const Color colors[3] = {role::kAxisX, role::kAxisY, role::kAxisZ};
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3 && body.soft == nullptr; ++axis)  // a deformable body has no frame
       list.arrows.push_back(
           {body.pose.position, body.pose.rotation.col(axis), colors[axis], length, width, Depth::on_top, body_pick(i)});
     list.points.push_back({body.pose.position, role::kMassCenter,
@@ -27,9 +28,9 @@ Layer mass_centers_layer() {
           false,
           draw,
           {{LegendRow::point, role::kMassCenter, "centre of mass"},
-           {LegendRow::arrow, role::kAxisX, "body axis x"},
-           {LegendRow::arrow, role::kAxisY, "body axis y"},
-           {LegendRow::arrow, role::kAxisZ, "body axis z"}}};
+           {LegendRow::arrow, role::kAxisX, "body axis x", has_rigid},
+           {LegendRow::arrow, role::kAxisY, "body axis y", has_rigid},
+           {LegendRow::arrow, role::kAxisZ, "body axis z", has_rigid}}};
 }
 
 }  // namespace impinge

@@ -1,4 +1,6 @@
 // The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls in the way: see-through.
+#include <algorithm>
+
 #include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
 
@@ -16,13 +18,17 @@ void draw(const LayerContext& context, DrawList& list) {
       continue;
     }
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};
+    item.moved = context.surfaces.moved_of(body);
     item.striped = body.kind == BodyKind::scripted;
     if (body.asleep) item.color = asleep_color(item.color);
     item.see_through = is_wall_in_the_way(body, context.camera);
     list.surfaces.push_back(std::move(item));
     if (is_wall(body)) {
       const Vec3 half = std::get<Box>(*body.shape).half;
+      const auto first = static_cast<std::ptrdiff_t>(list.lines.size());
       list.add_box(body.pose, -half, half, with_alpha(role::kWallEdge, 0.55f), 1.0f, Depth::tested, body_pick(i));
+      const auto gone = [&](DrawLine& line) { return !context.settings.clip.trim(line.a, line.b); };
+      list.lines.erase(std::remove_if(list.lines.begin() + first, list.lines.end(), gone), list.lines.end());
     }
   }
 }
@@ -34,7 +40,8 @@ Layer meshes_layer() {
           "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.",
           true,
           draw,
-          {{LegendRow::area, role::kScripted, "scripted body"}, {LegendRow::area, role::kStatic, "static body"}}};
+          {{LegendRow::area, role::kScripted, "scripted body", has_scripted},
+           {LegendRow::area, role::kStatic, "static body", has_fixed}}};
 }
 
 }  // namespace impinge

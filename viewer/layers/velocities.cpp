@@ -1,10 +1,27 @@
-// Where the moving bodies' centres of mass would be some frames later, and the axes about which they turn.
+// Where the moving bodies' centres of mass (points of deformable surfaces) would be some frames later, and the axes
+// about which they turn.
 #include "viewer/layers/all.hpp"
+#include "viewer/layers/body_style.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr double kFrames = 6.0;
+constexpr std::size_t kMostVertices = 160;  // of a deformable body
+
+/// At some of the surface's vertices: what the nodes that carry them have.
+void draw_deformable(const LayerContext& context, DrawList& list, std::size_t index, double time, float width) {
+  const BodyRecord& body = context.record.bodies[index];
+  const Embedding& embedding = *body.embedding;
+  const double shortest = 0.012 * body.bounds.extent().norm();
+  for (const std::size_t v : thinned(body.vertices.size(), kMostVertices)) {
+    Vec3 way = Vec3::Zero();
+    const Tet& tet = body.soft->fem.rest().tets[static_cast<std::size_t>(embedding.tet[v])];
+    for (int k = 0; k < 4; ++k) way += time * embedding.weight[v][k] * body.soft->velocity.segment<3>(3 * tet[k]);
+    if (way.norm() > shortest)
+      list.arrows.push_back({body.vertices[v], way, role::kVelocity, 0.0f, width, Depth::both, body_pick(index)});
+  }
+}
 
 void draw(const LayerContext& context, DrawList& list) {
   const double time = kFrames * context.record.frame_time;
@@ -12,6 +29,10 @@ void draw(const LayerContext& context, DrawList& list) {
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed) continue;
+    if (body.soft != nullptr && body.embedding != nullptr) {
+      draw_deformable(context, list, i, time, 0.7f * width);
+      continue;
+    }
     const Vec3 way = body.velocity * time;
     if (way.squaredNorm() > 0.0)
       list.arrows.push_back({body.pose.position, way, role::kVelocity, 0.0f, width, Depth::on_top, body_pick(i)});
@@ -31,7 +52,7 @@ Layer velocities_layer() {
       "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).",
       false,
       draw,
-      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation"}}};
+      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation", has_rigid}}};
 }
 
 }  // namespace impinge

@@ -14,7 +14,11 @@ void draw(const LayerContext& context, DrawList& list) {
     if (std::holds_alternative<Plane>(*body.shape)) continue;
     const ShadedSurfacePointer surface = context.surfaces.surface_of(*body.shape);
     std::vector<Vec3> world;
-    for (const Eigen::Vector3f& p : surface->positions) world.push_back(body.pose.apply(p.cast<double>()));
+    world.reserve(surface->positions.size());
+    if (body.soft != nullptr)
+      for (const std::uint32_t v : surface->source) world.push_back(body.vertices[v]);
+    else
+      for (const Eigen::Vector3f& p : surface->positions) world.push_back(body.pose.apply(p.cast<double>()));
     const Color color = over_surfaces ? with_alpha(role::kOutline, 0.6f) : with_alpha(colors[i], 0.8f);
     for (const auto& [a, b] : surface->edges)
       list.lines.push_back({world[a], world[b], color, width, Depth::tested, body_pick(i)});

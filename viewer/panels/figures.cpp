@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "viewer/panels/panels.hpp"
 
@@ -8,10 +9,11 @@ namespace impinge {
 namespace {
 
 constexpr Color kLabel = hex(0xa7b0bd), kValue = hex(0xf2f4f7), kWarning = hex(0xffb000);
-constexpr float kMargin = 10.0f, kPadding = 9.0f, kRow = 16.0f, kBetween = 18.0f;
+constexpr float kBetween = 18.0f;
 
 struct Row {
   std::string label, value;
+  bool brief = false;  ///< shown in small pictures too
   Color ink = kValue;
 };
 
@@ -22,22 +24,37 @@ std::string grouped(std::int64_t number) {
   return text;
 }
 
+void add_deformable(std::vector<Row>& rows, const StepRecord& record) {
+  std::int64_t tetrahedra = 0, unknowns = 0;
+  for (const BodyRecord& body : record.bodies) {
+    if (body.soft == nullptr) continue;
+    tetrahedra += static_cast<std::int64_t>(body.soft->fem.rest().tets.size());
+    unknowns += body.soft->dofs();
+  }
+  if (tetrahedra == 0) return;
+  const double energy = std::abs(record.stats.elastic);
+  rows.push_back({"tetrahedra", grouped(tetrahedra)});
+  rows.push_back({"their unknowns", grouped(unknowns)});
+  rows.push_back({"elastic energy", energy > 0.0 && energy < 0.1 ? fmt::format("{:.3g} mJ", 1e3 * record.stats.elastic) : fmt::format("{:.4g} J", record.stats.elastic)});
+}
+
 std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   const FrameStats& s = record.stats;
-  const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.kind == BodyKind::dynamic; });
+  const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable; });
   std::vector<Row> rows = {
-      {"frame", grouped(s.frame)},
-      {"time", fmt::format("{:.4f} s", s.time)},
+      {"frame", grouped(s.frame), true},
+      {"time", fmt::format("{:.4f} s", s.time), true},
       {"body pairs", grouped(s.broad_pairs)},
       {"triangle pairs", grouped(s.triangle_pairs)},
-      {"contacts", grouped(s.contacts)},
+      {"contacts", grouped(s.contacts), true},
       {"groups", grouped(s.groups)},
-      {"penetration", fmt::format("{:.4f} mm", 1e3 * s.max_penetration)},
+      {"penetration", fmt::format("{:.4f} mm", 1e3 * s.max_penetration), true},
       {"iterations", grouped(s.lcp_iterations)},
-      {"residual", s.residual > 0.0 ? fmt::format("{:.1e} m/s", s.residual) : "0 m/s"},
+      {"residual", s.residual > 0.0 ? fmt::format("{:.1e} m/s", s.residual) : "0 m/s", true},
       {"asleep", fmt::format("{} of {}", s.asleep, dynamic)},
   };
-  if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), kWarning});
+  add_deformable(rows, record);
+  if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), true, kWarning});
   if (timings)
     for (const auto& [name, ms] : {std::pair{"broad", s.times.broad_ms},
                                    {"narrow", s.times.narrow_ms},
@@ -45,31 +62,37 @@ std::vector<Row> rows_of(const StepRecord& record, bool timings) {
                                    {"response", s.times.response_ms},
                                    {"integrate", s.times.integrate_ms},
                                    {"step", s.times.step_ms}})
-      rows.push_back({name, fmt::format("{:.2f} ms", ms)});
+      rows.push_back({name, fmt::format("{:.2f} ms", ms), true});
   return rows;
 }
 
 }  // namespace
 
+bool panels_meet(const PanelArea& a, const PanelArea& b) {
+  return a.width > 0.0f && b.width > 0.0f && a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height &&
+         b.y < a.y + a.height;
+}
+
 PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings) {
   if (!settings.show_figures) return {};
-  const std::vector<Row> rows = rows_of(record, settings.show_timings);
-  const float u = pen.unit;
+  std::vector<Row> rows = rows_of(record, settings.show_timings);
+  if (pen.is_small()) std::erase_if(rows, [](const Row& row) { return !row.brief; });
   float labels = 0.0f,
         values = pen.text_width("0.0000000 mm");  // wide enough that it seldom changes from frame to frame
   for (const Row& row : rows) {
     labels = std::max(labels, pen.text_width(row.label));
     values = std::max(values, pen.text_width(row.value));
   }
-  PanelArea area{kMargin * u, kMargin * u, labels + values + (2.0f * kPadding + kBetween) * u,
-                 (static_cast<float>(rows.size()) * kRow + 2.0f * kPadding - (kRow - 13.0f)) * u};
-  if (area.width > 0.5f * pen.picture_width || area.height + 2.0f * kMargin * u > pen.picture_height) return {};
+  const float pad = pen.padding();
+  PanelArea area{pen.margin(), pen.margin(), labels + values + 2.0f * pad + (pen.is_small() ? 0.5f : 1.0f) * kBetween * pen.unit,
+                 static_cast<float>(rows.size()) * pen.row() + 2.0f * pad - (pen.row() - pen.text_size)};
+  if (area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height) return {};
   pen.sheet(area.x, area.y, area.width, area.height);
-  float y = area.y + kPadding * u;
+  float y = area.y + pad;
   for (const Row& row : rows) {
-    pen.text(area.x + kPadding * u, y, kLabel, row.label);
-    pen.text(area.x + area.width - kPadding * u - pen.text_width(row.value), y, row.ink, row.value);
-    y += kRow * u;
+    pen.text(area.x + pad, y, kLabel, row.label);
+    pen.text(area.x + area.width - pad - pen.text_width(row.value), y, row.ink, row.value);
+    y += pen.row();
   }
   return area;
 }

@@ -7,7 +7,7 @@ namespace impinge {
 namespace {
 
 constexpr Color kInk = hex(0xd9dee6);
-constexpr float kMargin = 10.0f, kPadding = 9.0f, kRow = 16.0f, kMark = 20.0f, kAfterMark = 9.0f;
+constexpr float kMark = 20.0f, kAfterMark = 9.0f;
 
 ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
 
@@ -24,6 +24,11 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.4f * u, dark, 24);
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 4.2f * u, ink, 24);
       break;
+    case LegendRow::ring:
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.4f * u, dark, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 4.2f * u, ink, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 1.9f * u, dark, 24);
+      break;
     case LegendRow::line:
       list.AddLine({x, middle}, {right, middle}, ink, 1.6f * u);
       break;
@@ -37,29 +42,30 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
 
 }  // namespace
 
-PanelArea draw_legend(const Pen& pen, const ViewSettings& settings, const PanelArea& other) {
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other) {
   if (!settings.show_legend) return {};
   std::vector<LegendRow> rows;
   for (const Layer& layer : layers())
-    if (settings.is_on(layer.name)) rows.insert(rows.end(), layer.legend.begin(), layer.legend.end());
+    if (settings.is_on(layer.name))
+      std::copy_if(layer.legend.begin(), layer.legend.end(), std::back_inserter(rows),
+                   [&](const LegendRow& row) { return row.present == nullptr || row.present(record); });
   if (rows.empty()) return {};
-  const float u = pen.unit;
+  const float mark = (kMark + (pen.is_small() ? 0.5f : 1.0f) * kAfterMark) * pen.unit, pad = pen.padding();
   float text = 0.0f;
   for (const LegendRow& row : rows) text = std::max(text, pen.text_width(row.text));
   PanelArea area;
-  area.width = text + (2.0f * kPadding + kMark + kAfterMark) * u;
-  area.height = (static_cast<float>(rows.size()) * kRow + 2.0f * kPadding - (kRow - 13.0f)) * u;
-  area.x = pen.picture_width - kMargin * u - area.width;
-  area.y = kMargin * u;
-  const bool meets = other.width > 0.0f && area.x < other.x + other.width + kMargin * u;
-  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * kMargin * u > pen.picture_height)
-    return {};
+  area.width = text + 2.0f * pad + mark;
+  area.height = static_cast<float>(rows.size()) * pen.row() + 2.0f * pad - (pen.row() - pen.text_size);
+  area.x = pen.picture_width - pen.margin() - area.width;
+  area.y = pen.margin();
+  const bool meets = other.width > 0.0f && area.x < other.x + other.width + pen.margin();
+  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height) return {};
   pen.sheet(area.x, area.y, area.width, area.height);
-  float y = area.y + kPadding * u;
+  float y = area.y + pad;
   for (const LegendRow& row : rows) {
-    draw_mark(pen, row, area.x + kPadding * u, y);
-    pen.text(area.x + (kPadding + kMark + kAfterMark) * u, y, kInk, row.text);
-    y += kRow * u;
+    draw_mark(pen, row, area.x + pad, y);
+    pen.text(area.x + pad + mark, y, kInk, row.text);
+    y += pen.row();
   }
   return area;
 }

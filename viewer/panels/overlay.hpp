@@ -21,6 +21,13 @@ struct Pen {
   float unit = 1.0f;  ///< a pixel of a picture with text of 13 pixels
   float picture_width = 0.0f, picture_height = 0.0f;
 
+  /// Whether panels should say less and stand closer together.
+  bool is_small() const { return picture_height < 480.0f * unit; }
+  // of panels
+  float margin() const { return (is_small() ? 5.0f : 10.0f) * unit; }
+  float padding() const { return (is_small() ? 5.0f : 9.0f) * unit; }
+  float row() const { return (is_small() ? 13.0f : 16.0f) * unit; }
+
   float text_width(const std::string& text) const;
   void text(float x, float y, Color color, const std::string& text) const;
   /// A dark translucent sheet with round corners.

@@ -60,14 +60,16 @@ void FramePainter::paint(const StepRecord& record, const ViewSettings& settings,
     if (settings.is_on(layer.name)) layer.draw(context, p.list);
   p.surfaces.forget_unused();
 
-  p.renderer.draw(p.list, camera, {backdrop_of(settings), settings.antialiasing, pixel_scale(p.height)}, p.target);
+  p.renderer.draw(p.list, camera, {backdrop_of(settings), settings.antialiasing, pixel_scale(p.height), settings.clip, settings.backs()}, p.target);
 
   const int scale = text_scale(settings, p.height);
   if (!p.overlay || p.overlay->scale() != scale) p.overlay = std::make_unique<Overlay>(scale);
   p.overlay->draw(p.width, p.height, [&](const Pen& pen) {
     const PanelArea figures = draw_figures(pen, record, settings);
-    const PanelArea legend = draw_legend(pen, settings, figures);
-    draw_labels(pen, p.list.labels, camera, {figures, legend});
+    const PanelArea legend = draw_legend(pen, record, settings, figures);
+    PanelArea bar;
+    if (p.list.color_bar) bar = draw_color_bar(pen, *p.list.color_bar, settings, {figures, legend});
+    draw_labels(pen, p.list.labels, camera, {figures, legend, bar});
   });
   p.target.read(out);
 }

@@ -1,0 +1,83 @@
+#include "viewer/layers/heat_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/bodies/element_stress.hpp"
+
+namespace impinge {
+
+std::optional<HeatQuantity> heat_shown(const ViewSettings& settings) {
+  if (settings.is_on("strain")) return HeatQuantity::strain;
+  if (settings.is_on("stress")) return HeatQuantity::stress;
+  return std::nullopt;
+}
+
+std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity) {
+  return quantity == HeatQuantity::stress ? element_von_mises(body) : element_equivalent_strain(body);
+}
+
+double rounded_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0, 10.0})
+    if (value <= step * power * (1.0 + 1e-12)) return step * power;
+  return 10.0 * power;
+}
+
+double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity) {
+  const double given = quantity == HeatQuantity::stress ? settings.stress_max : settings.strain_max;
+  if (given > 0.0) return given;
+  std::vector<double> all;
+  for (const BodyRecord& body : record.bodies) {
+    if (body.soft == nullptr) continue;
+    std::vector<double> shown = node_average(*body.soft, heat_of_elements(*body.soft, quantity));
+    if (body.embedding != nullptr) shown = values_at_points(*body.embedding, body.soft->fem.rest(), shown);
+    std::copy_if(shown.begin(), shown.end(), std::back_inserter(all), [](double v) { return std::isfinite(v); });
+  }
+  // at rest nothing but rounding is left, which is no picture
+  const double least = quantity == HeatQuantity::stress ? 1.0 : 1e-4;
+  if (all.empty()) return least;
+  const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), place, all.end());
+  return rounded_up(std::max(*place, least));
+}
+
+std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh, const std::vector<double>& of_nodes) {
+  std::vector<double> values(embedding.tet.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Tet& tet = mesh.tets[static_cast<std::size_t>(embedding.tet[i])];
+    const Vec4& weight = embedding.weight[i];
+    for (int k = 0; k < 4; ++k) values[i] += weight[k] * of_nodes[static_cast<std::size_t>(tet[k])];
+  }
+  return values;
+}
+
+ColorBar make_color_bar(HeatQuantity quantity, double high) {
+  if (quantity == HeatQuantity::strain) return {"equivalent strain", "%", 100.0 * high};
+  const char* const units[] = {"Pa", "kPa", "MPa", "GPa"};
+  int thousands = 0;
+  while (thousands < 3 && high >= 1000.0) high /= 1000.0, ++thousands;
+  return {"von Mises stress", units[thousands], high};
+}
+
+void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantity) {
+  const StepRecord& record = context.record;
+  if (std::none_of(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.soft != nullptr; })) return;
+  const double high = heat_high(record, context.settings, quantity);
+  ColorBar bar = make_color_bar(quantity, high);
+  for (DrawSurface& item : list.surfaces) {
+    if (item.pick == 0 || item.pick > record.bodies.size()) continue;
+    const BodyRecord& body = record.bodies[item.pick - 1];
+    if (body.soft == nullptr || body.embedding == nullptr) continue;
+    const std::vector<double> nodes = node_average(*body.soft, heat_of_elements(*body.soft, quantity));
+    const std::vector<double> points = values_at_points(*body.embedding, body.soft->fem.rest(), nodes);
+    auto heat = std::make_shared<std::vector<float>>();
+    heat->reserve(item.surface->source.size());
+    for (const std::uint32_t v : item.surface->source) heat->push_back(static_cast<float>(points[v] / high));
+    bar.exceeded = bar.exceeded || std::any_of(heat->begin(), heat->end(), [](float v) { return v > 1.0f; });
+    item.heat = std::move(heat);
+  }
+  list.color_bar = bar;
+}
+
+}  // namespace impinge
