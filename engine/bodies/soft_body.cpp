@@ -43,7 +43,7 @@ double SoftBody::fastest_node() const {
 SoftBody make_soft_body(const SoftDescription& d, const Pose& file, const Vec3& velocity, const Vec3& angular_velocity) {
   std::shared_ptr<Material> material = make_named(materials(), d.model);
   material->configure(d.material);
-  SoftBody soft{DeformableBody(FemAssembly(d.mesh, {{material, d.density}}, d.mass, {}, d.fraction)), d.embedding, material, {}, {}};
+  SoftBody soft{DeformableBody(FemAssembly(d.mesh, {{material, d.density}}, d.mass, {}, d.fraction)), d.embedding, material, {}, {}, d.model};
   DeformableBody& fem = soft.fem;
   fem.damping = d.damping;
   for (int i = 0; i < fem.nodes(); ++i) fem.position.segment<3>(3 * i) = file.apply(d.mesh.vertices[i]);

@@ -50,6 +50,7 @@ struct SoftBody {
   std::shared_ptr<Material> material;  ///< the one that fem's elements refer to
   std::vector<HeldRegion> held;
   std::vector<Vec3> surface_velocity;  ///< of the surface's vertices in the coming sub-step, m/s
+  std::string model;                   ///< the material's name
 
   /// The free and held nodes that carry surface vertex v, with embedding.weight[v].
   const Tet& nodes_of(int vertex) const { return fem.fem.rest().tets[embedding.tet[vertex]]; }

@@ -1,7 +1,9 @@
 #include "engine/geometry/primitive_surfaces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 namespace impinge {
 
@@ -58,6 +60,38 @@ TriangleMesh box_surface(const Vec3& half, const Eigen::Vector3i& cells) {
           else
             mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
         }
+  }
+  return mesh;
+}
+
+TriangleMesh capsule_surface(double radius, double half_length, int around) {
+  const double edge = 2.0 * std::numbers::pi * radius / around;
+  const int cap = std::max(2, (around + 2) / 4), side = std::max(1, static_cast<int>(std::lround(2.0 * half_length / edge)));
+  std::vector<Vec2> profile;  // distance from the axis and y of each ring, poles left out, from below
+  for (int i = 1; i <= cap; ++i) {
+    const double angle = 0.5 * std::numbers::pi * i / cap;
+    profile.emplace_back(radius * std::sin(angle), -half_length - radius * std::cos(angle));
+  }
+  for (int i = 1; i < side; ++i) profile.emplace_back(radius, half_length * (2.0 * i / side - 1.0));
+  for (int i = cap; i >= 1; --i) {
+    const double angle = 0.5 * std::numbers::pi * i / cap;
+    profile.emplace_back(radius * std::sin(angle), half_length + radius * std::cos(angle));
+  }
+  TriangleMesh mesh;
+  mesh.vertices.emplace_back(0.0, -half_length - radius, 0.0);
+  for (const Vec2& ring : profile)
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / around;
+      mesh.vertices.emplace_back(ring.x() * std::cos(angle), ring.y(), -ring.x() * std::sin(angle));
+    }
+  const int top = static_cast<int>(mesh.vertices.size()), rings = static_cast<int>(profile.size());
+  mesh.vertices.emplace_back(0.0, half_length + radius, 0.0);
+  const auto at = [&](int ring, int k) { return 1 + ring * around + k % around; };
+  for (int k = 0; k < around; ++k) {
+    mesh.triangles.push_back({0, at(0, k + 1), at(0, k)});
+    for (int r = 0; r + 1 < rings; ++r)
+      mesh.triangles.insert(mesh.triangles.end(), {{at(r, k), at(r, k + 1), at(r + 1, k + 1)}, {at(r, k), at(r + 1, k + 1), at(r + 1, k)}});
+    mesh.triangles.push_back({at(rings - 1, k), at(rings - 1, k + 1), top});
   }
   return mesh;
 }

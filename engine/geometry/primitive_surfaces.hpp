@@ -11,4 +11,8 @@ TriangleMesh sphere_surface(double radius, int k);
 /// A box about the origin, each side cut into cells[axis] pieces, two triangles a cell; vertices shared, closed, outward.
 TriangleMesh box_surface(const Vec3& half, const Eigen::Vector3i& cells);
 
+/// A capsule about the origin along y, cap centres at y = ±half_length: `around` >= 3 vertices a ring, rings about as
+/// far apart as their vertices; closed, outward.
+TriangleMesh capsule_surface(double radius, double half_length, int around);
+
 }  // namespace impinge

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace impinge {
@@ -27,6 +29,14 @@ std::vector<Face> sorted_faces(const TetMesh& mesh) {
   std::sort(faces.begin(), faces.end(),
             [](const Face& a, const Face& b) { return std::tie(a.key, a.tet) < std::tie(b.key, b.tet); });
   return faces;
+}
+
+std::vector<Vec3> grid_points(const Vec3& size, int nx, int ny, int nz) {
+  std::vector<Vec3> points;
+  for (int k = 0; k <= nz; ++k)
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i) points.emplace_back(size.x() * i / nx, size.y() * j / ny, size.z() * k / nz);
+  return points;
 }
 
 }  // namespace
@@ -133,9 +143,7 @@ TetMesh make_tet_box(const Vec3& size, int nx, int ny, int nz) {
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   TetMesh mesh;
   const auto index = [&](const std::array<int, 3>& p) { return (p[2] * (ny + 1) + p[1]) * (nx + 1) + p[0]; };
-  for (int k = 0; k <= nz; ++k)
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i) mesh.vertices.emplace_back(size.x() * i / nx, size.y() * j / ny, size.z() * k / nz);
+  mesh.vertices = grid_points(size, nx, ny, nz);
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i)
@@ -151,6 +159,43 @@ TetMesh make_tet_box(const Vec3& size, int nx, int ny, int nz) {
           mesh.tets.push_back(tet);
         }
   return mesh;
+}
+
+TetMesh make_alternating_box(const Vec3& size, int nx, int ny, int nz) {
+  TetMesh mesh;
+  mesh.vertices = grid_points(size, nx, ny, nz);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const auto corner = [&](int x, int y, int z) { return ((k + z) * (ny + 1) + j + y) * (nx + 1) + i + x; };
+        const auto add = [&](Tet tet) {
+          if (tet_volume(mesh, tet) < 0.0) std::swap(tet[2], tet[3]);
+          mesh.tets.push_back(tet);
+        };
+        // the middle one has the corners of even index sum, so that cells agree on the diagonals of their faces
+        const int odd = (i + j + k) % 2;
+        const auto flip = [&](int x, int y, int z) { return odd == 0 ? corner(x, y, z) : corner(1 - x, y, z); };
+        const int a = flip(0, 0, 0), b = flip(1, 1, 0), c = flip(1, 0, 1), d = flip(0, 1, 1);
+        add({a, b, c, d});
+        add({flip(1, 0, 0), a, b, c});
+        add({flip(0, 1, 0), a, b, d});
+        add({flip(0, 0, 1), a, c, d});
+        add({flip(1, 1, 1), b, c, d});
+      }
+  return mesh;
+}
+
+double smallest_dihedral_angle(const TetMesh& mesh) {
+  double largest_cosine = -1.0;
+  for (const Tet& tet : mesh.tets) {
+    std::array<Vec3, 4> normal;  // outward, of the face opposite corner k
+    for (int k = 0; k < 4; ++k) {
+      const Vec3& p = mesh.vertices[tet[kTetFaces[k][0]]];
+      normal[k] = (mesh.vertices[tet[kTetFaces[k][1]]] - p).cross(mesh.vertices[tet[kTetFaces[k][2]]] - p).normalized();
+    }
+    for (const auto& [a, b] : kTetEdges) largest_cosine = std::max(largest_cosine, -normal[a].dot(normal[b]));
+  }
+  return std::acos(std::min(1.0, largest_cosine)) * 180.0 / std::numbers::pi;
 }
 
 }  // namespace impinge

@@ -43,4 +43,11 @@ int component_count(const TetMesh& mesh);
 /// (Kuhn, Freudenthal). Vertex (i, j, k) has index (k (ny+1) + j) (nx+1) + i.
 TetMesh make_tet_box(const Vec3& size, int nx, int ny, int nz);
 
+/// The same box and vertices with five tetrahedra a cell, mirrored from cell to cell: a regular one in the middle, four
+/// at its faces. No direction is favoured as by the diagonals of make_tet_box.
+TetMesh make_alternating_box(const Vec3& size, int nx, int ny, int nz);
+
+/// The smallest angle between two faces of one tetrahedron, degrees; the measure of a mesh's worst sliver.
+double smallest_dihedral_angle(const TetMesh& mesh);
+
 }  // namespace impinge

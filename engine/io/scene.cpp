@@ -82,7 +82,10 @@ void read_attachments(const TomlNode& list, Scene& scene, World& world) {
   if (list.kind != TomlNode::array)
     refuse(list.place, fmt::format("attachment is {}", toml_kind_name(list)), "[[attachment]] tables are wanted", "write [[attachment]]");
   for (const TomlNode& table : list.items) {
-    const AttachmentDescription attachment = read_attachment(table, static_cast<int>(scene.attachments.size()));
+    const AttachmentDescription attachment = read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies());
+    for (const TomlNode& earlier : scene.attachments)
+      if (const TomlEntry* name = earlier.find("name"); name != nullptr && name->value.string == attachment.name)
+        refuse(table.place, fmt::format("a second attachment named '{}'", attachment.name), "names must differ", "rename one of them");
     try {
       world.add_attachment(attachment);
     } catch (const InputError& error) {

@@ -1,12 +1,16 @@
-// [[attachment]] tables of a scene: two points that stay together.
+// One [[attachment]] of a scene as a checked description.
 #pragma once
 
+#include <span>
+
 #include "engine/bodies/attachment.hpp"
+#include "engine/bodies/rigid_body.hpp"
 #include "engine/io/scene_values.hpp"
 
 namespace impinge {
 
-/// Number `index` of the scene. Throws InputError, located.
-AttachmentDescription read_attachment(const TomlNode& table, int index);
+/// The table of number `index`, which is its name unless it gives one. Throws InputError, located, at the first key or
+/// value that can't be taken: names that are not among `bodies`, and two ends that can't move.
+AttachmentDescription read_attachment(const TomlNode& table, int index, std::span<const RigidBody> bodies);
 
 }  // namespace impinge

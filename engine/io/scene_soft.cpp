@@ -5,22 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/mesh_checks.hpp"
-#include "engine/geometry/primitive_surfaces.hpp"
-#include "engine/geometry/tet_cage.hpp"
-#include "engine/io/scene_body.hpp"
+#include "engine/geometry/rotation.hpp"
 #include "engine/io/scene_motion.hpp"
 #include "engine/io/scene_values.hpp"
+#include "engine/io/scene_volume.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr Range kLength{-1e6, 1e6};
-constexpr int kMostCells = 200;
-constexpr double kMostOutside = 0.1;  // of the volume's size: a surface vertex farther out than this belongs to another mesh
 
-const std::vector<std::string> kMaterialKeys = {"model",   "young",         "poisson",      "density", "damping",
-                                                "damping_alpha", "damping_beta", "mass",    "extension_threshold"};
+const std::vector<std::string> kMaterialKeys = {"model",        "young", "poisson",             "density", "damping", "damping_alpha",
+                                                "damping_beta", "mass",  "extension_threshold", "tangent"};
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
@@ -34,15 +30,6 @@ std::string choice(const TomlNode& node, const std::string& what, const std::vec
   const std::string near = nearest_word(word, names);
   refuse(node.place, fmt::format("{} is {}", what, toml_string(word)), fmt::format("one of {} is allowed", fmt::join(names, ", ")),
          near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
-}
-
-int read_cells(const TomlNode& table, const std::string& what) {
-  check_keys(table, what, {"cells"});
-  const TomlEntry* cells = table.find("cells");
-  if (cells == nullptr) refuse(table.place, what + " has no cells", "cells = how many along the longest side", "add cells = 12");
-  const double n = scene_real(cells->value, what + ".cells", {1, kMostCells});
-  if (n != std::floor(n)) refuse(cells->value.place, fmt::format("{}.cells is {}", what, shortest(n)), "a whole number is wanted", "round it");
-  return static_cast<int>(n);
 }
 
 void read_damping(const TomlNode& table, const std::string& what, RayleighDamping& damping) {
@@ -69,6 +56,10 @@ void read_elastic(const TomlNode& table, const std::string& what, SoftDescriptio
   with("extension_threshold", [&](const TomlNode& node, const std::string& key) { soft.material.extension_threshold = scene_real(node, key, {1e-3, 0.9}); });
   with("mass", [&](const TomlNode& node, const std::string& key) {
     soft.mass = choice(node, key, {"lumped", "consistent"}) == "lumped" ? MassKind::lumped : MassKind::consistent;
+  });
+  with("tangent", [&](const TomlNode& node, const std::string& key) {
+    const std::string word = choice(node, key, {"automatic", "exact", "projected"});
+    soft.material.tangent = word == "exact" ? Tangent::exact : word == "projected" ? Tangent::projected : Tangent::automatic;
   });
   read_damping(table, what, soft.damping);
 }
@@ -113,129 +104,63 @@ NodeRegion read_region(const TomlNode& node, const std::string& what) {
   return region;
 }
 
-MeshPointer checked_surface(TriangleMesh mesh, const TomlNode& node, const std::string& what) {
-  auto surface = std::make_shared<SurfaceMesh>();
-  surface->mesh = std::move(mesh);
-  surface->topology = make_topology(surface->mesh);
-  if (const auto problem = check_mesh(surface->mesh, surface->topology))
-    throw InputError(fmt::format("{}: the boundary of {} {}; give the body a surface of its own", node.place, what, *problem));
-  return surface;
-}
+/// The regions as written and the place of each, for what can only be said once the nodes are known.
+struct Regions {
+  std::vector<const TomlNode*> node;
+  std::vector<std::string> name;
+};
 
-/// The faces that belong to one tetrahedron, with the vertices they use.
-TriangleMesh boundary_of(const TetMesh& volume) {
-  TriangleMesh mesh;
-  mesh.triangles = boundary_triangles(volume);
-  std::vector<int> index(volume.vertices.size(), -1);
-  for (Triangle& t : mesh.triangles)
-    for (int& v : t) {
-      if (index[v] < 0) {
-        index[v] = static_cast<int>(mesh.vertices.size());
-        mesh.vertices.push_back(volume.vertices[v]);
-      }
-      v = index[v];
+Regions read_fixed(const TomlNode& table, const std::string& what, SoftDescription& soft) {
+  Regions regions;
+  const TomlEntry* fixed = table.find("fixed");
+  if (fixed == nullptr) return regions;
+  const std::string name = what + ".fixed";
+  if (fixed->value.kind == TomlNode::array) {
+    if (fixed->value.items.empty()) refuse(fixed->value.place, name + " lists no region", "at least one is wanted", "remove fixed, or add one");
+    for (std::size_t i = 0; i < fixed->value.items.size(); ++i) {
+      regions.node.push_back(&fixed->value.items[i]);
+      regions.name.push_back(fmt::format("{}[{}]", name, i));
     }
-  return mesh;
+  } else {
+    regions.node.push_back(&fixed->value);
+    regions.name.push_back(name);
+  }
+  for (std::size_t i = 0; i < regions.node.size(); ++i) soft.fixed.push_back(read_region(*regions.node[i], regions.name[i]));
+  return regions;
 }
 
-/// The surface that collides and is drawn: a file's, or that of an exact shape about as fine as the cells.
-MeshPointer read_outer_surface(const TomlNode& table, const std::string& what, double scale, int cells, SurfaceFiles& files, BodyDescription& body) {
-  if (const TomlEntry* surface = table.find("surface")) {
-    body.surface_file = surface->value.string;
-    return files.load(surface->value, what + ".surface", scale);
+// a region that holds nothing is a slip in its numbers, and so is one that leaves nothing to deform
+void check_fixed(const Regions& regions, const std::string& what, const SoftDescription& soft, const BodyDescription& body) {
+  const Pose file{rotation_from_degrees(body.rotation), body.position};
+  const int nodes = static_cast<int>(soft.mesh.vertices.size());
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::vector<Vec3> world;
+  for (const Vec3& x : soft.mesh.vertices) {
+    world.push_back(file.apply(x));
+    low = low.cwiseMin(world.back());
+    high = high.cwiseMax(world.back());
   }
-  const TomlEntry* entry = table.find("shape");
-  const Shape shape = read_shape(entry->value, what + ".shape", scale);
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    int k = 1;  // edges of an icosphere are about 1.1 r / 2^k long
-    while (k < 5 && 1.1 * sphere->radius / (1 << k) > 2.0 * sphere->radius / cells) ++k;
-    return checked_surface(sphere_surface(sphere->radius, k), entry->value, what + ".shape");
-  }
-  if (const auto* box = std::get_if<Box>(&shape)) {
-    const double longest = box->half.maxCoeff();
-    const Eigen::Vector3i n = (box->half / longest * cells).array().round().max(1.0).matrix().cast<int>();
-    return checked_surface(box_surface(box->half, n), entry->value, what + ".shape");
-  }
-  refuse(entry->value.place, fmt::format("{}.shape is a {} and the body deformable", what, shape_name(shape)), "sphere and box can be, and any closed surface file",
-         "use surface = \"file\"");
-}
-
-void use_file_material(const TomlNode& table, const TomlNode& volume, const std::string& what, const TetFile& file, SoftDescription& soft) {
-  const TomlEntry* material = table.find("material");
-  const auto names = [&](const char* key) { return material != nullptr && material->value.find(key) != nullptr; };
-  if (file.materials.empty()) return;
-  const bool one = std::all_of(file.element_material.begin(), file.element_material.end(), [&](int m) { return m == file.element_material[0]; });
-  if (names("young") && names("poisson") && (names("density") || table.find("mass") != nullptr)) return;
-  const TetFileMaterial& m = file.materials[file.element_material.empty() ? 0 : file.element_material[0]];
-  if (!one || !m.isotropic)
-    refuse(volume.place, fmt::format("{}.volume = {} has {}", what, toml_string(volume.string), one ? "a material that is not isotropic" : "more than one material"),
-           "a body has one isotropic material", "give young, poisson and density in the scene: they then hold for all of it");
-  if (!names("young")) soft.material.young = m.young;
-  if (!names("poisson")) soft.material.poisson = m.poisson;
-  if (!names("density")) soft.density = m.density;
-}
-
-void read_volume_file(const TomlNode& table, const TomlNode& node, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft,
-                      BodyDescription& body) {
-  const std::shared_ptr<const TetFile> file = files.load_volume(node, what + ".volume");
-  soft.mesh = file->mesh;
-  for (Vec3& x : soft.mesh.vertices) x *= scale;
-  use_file_material(table, node, what, *file, soft);
-  if (table.find("shape") != nullptr)
-    refuse(table.find("shape")->place, what + " has a shape and a volume file", "the volume's own boundary or a surface file is its surface", "remove shape");
-  MeshPointer surface = table.find("surface") != nullptr ? read_outer_surface(table, what, scale, 1, files, body)
-                                                         : checked_surface(boundary_of(soft.mesh), node, toml_string(node.string));
-  soft.embedding = embed(soft.mesh, surface->mesh.vertices);
-  // barycentric weights are distances in heights of the carrying tetrahedron
-  if (soft.embedding.farthest > 0.0) {
-    Aabb box{soft.mesh.vertices[0], soft.mesh.vertices[0]};
-    for (const Vec3& x : soft.mesh.vertices) box.include(x);
-    const double allowed = kMostOutside * (box.max - box.min).maxCoeff();
-    for (std::size_t v = 0; v < surface->mesh.vertices.size(); ++v) {
-      const Vec3 &x = surface->mesh.vertices[v], inside = x.cwiseMax(box.min).cwiseMin(box.max);
-      if ((x - inside).norm() > allowed)
-        refuse(node.place, fmt::format("{}: vertex {} of the surface lies {:.3g} m outside of the volume {}", what, v, (x - inside).norm(), toml_string(node.string)),
-               "surface and volume must be in one frame and scale", "check that they belong together");
+  std::vector<char> held(nodes, 0);
+  int all = 0;
+  for (std::size_t r = 0; r < soft.fixed.size(); ++r) {
+    for (const int i : soft.fixed[r].nodes)
+      if (i >= nodes)
+        refuse(regions.node[r]->place, fmt::format("{}.nodes names node {}", regions.name[r], i), fmt::format("the body has nodes 0 to {}", nodes - 1), "correct it");
+    int found = 0;
+    for (int i = 0; i < nodes; ++i) {
+      if (held[i] || !soft.fixed[r].contains(i, world[i])) continue;
+      held[i] = 1;
+      ++found;
     }
+    all += found;
+    if (found == 0)
+      refuse(regions.node[r]->place, fmt::format("{} holds no node{}", regions.name[r], r > 0 ? " that the regions before it leave" : ""),
+             fmt::format("the body's nodes lie in [{:.4g}, {:.4g}, {:.4g}] to [{:.4g}, {:.4g}, {:.4g}]", low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
+             "move or widen it");
   }
-  body.shape = surface;
-}
-
-void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
-  const TomlEntry *entry = table.find("volume"), *shape = table.find("shape"), *surface = table.find("surface");
-  const std::string name = what + ".volume";
-  if (shape != nullptr && surface != nullptr) refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
-  if (entry == nullptr)
-    refuse(table.place, what + " is deformable and has no volume", "a cage round its surface or a file of tetrahedra is wanted", "add volume = { cage = { cells = 12 } }");
-  if (entry->value.kind == TomlNode::text) return read_volume_file(table, entry->value, what, scale, files, soft, body);
-  const TomlNode& volume = scene_table(entry->value, name);
-  check_keys(volume, name, {"cage", "lattice"});
-  if (volume.entries.size() != 1)
-    refuse(volume.place, fmt::format("{} names {} ways", name, volume.entries.size()), "a file name, or one of cage, lattice, is wanted", "keep one");
-  const TomlEntry& way = volume.entries[0];
-  const int cells = read_cells(scene_table(way.value, name + "." + way.key), name + "." + way.key);
-  if (shape == nullptr && surface == nullptr)
-    refuse(table.place, what + " has no surface", "surface = \"file\", or shape = { box or sphere }, is wanted", "add one");
-  if (way.key == "lattice") {
-    if (shape == nullptr || shape->value.find("box") == nullptr)
-      refuse(way.place, name + " is a lattice of a body that is not a box", "shape = { box = { size } } has one", "use a cage");
-    const Vec3 half = std::get<Box>(read_shape(shape->value, what + ".shape", scale)).half;
-    const Eigen::Vector3i n = (half / half.maxCoeff() * cells).array().round().max(1.0).matrix().cast<int>();
-    soft.mesh = make_tet_box(2.0 * half, n.x(), n.y(), n.z());
-    for (Vec3& x : soft.mesh.vertices) x -= half;
-    const MeshPointer boundary = checked_surface(boundary_of(soft.mesh), way.value, name);
-    soft.embedding = embed(soft.mesh, boundary->mesh.vertices);
-    body.shape = boundary;
-    return;
-  }
-  const MeshPointer outer = read_outer_surface(table, what, scale, cells, files, body);
-  TetCageSettings settings;
-  settings.cells = cells;
-  TetCage cage = make_tet_cage(outer->mesh, settings);
-  soft.mesh = std::move(cage.mesh);
-  soft.fraction = std::move(cage.fraction);
-  soft.embedding = std::move(cage.embedding);
-  body.shape = outer;
+  if (!soft.fixed.empty() && all == nodes)
+    refuse(regions.node[0]->place, fmt::format("{}.fixed holds all {} nodes", what, nodes), "a body with no node left to move is rigid",
+           "hold fewer, or make it static or scripted");
 }
 
 }  // namespace
@@ -243,19 +168,9 @@ void read_volume(const TomlNode& table, const std::string& what, double scale, S
 void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files, BodyDescription& body) {
   auto soft = std::make_shared<SoftDescription>();
   if (const TomlEntry* material = table.find("material")) read_elastic(material->value, what + ".material", *soft);
-  if (const TomlEntry* fixed = table.find("fixed")) {
-    const std::string name = what + ".fixed";
-    if (fixed->value.kind == TomlNode::array)
-      for (std::size_t i = 0; i < fixed->value.items.size(); ++i) soft->fixed.push_back(read_region(fixed->value.items[i], fmt::format("{}[{}]", name, i)));
-    else
-      soft->fixed.push_back(read_region(fixed->value, name));
-  }
+  const Regions regions = read_fixed(table, what, *soft);
   read_volume(table, what, scale, files, *soft, body);
-  const int nodes = static_cast<int>(soft->mesh.vertices.size());
-  for (const NodeRegion& region : soft->fixed)
-    for (const int i : region.nodes)
-      if (i >= nodes)
-        refuse(table.find("fixed")->place, fmt::format("{}.fixed names node {}", what, i), fmt::format("the body has nodes 0 to {}", nodes - 1), "correct it");
+  check_fixed(regions, what, *soft, body);
   if (body.mass) {
     double volume = 0.0;
     for (std::size_t t = 0; t < soft->mesh.tets.size(); ++t)

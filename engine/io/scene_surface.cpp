@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
+
 bool is_inside(const fs::path& folder, const fs::path& path) {
   const fs::path relative = path.lexically_relative(folder);
   return !relative.empty() && *relative.begin() != ".." && !relative.is_absolute();
@@ -44,7 +46,7 @@ fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const
 MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
   SurfaceFile file;
   file.name = node.string;
-  file.hash = hash_bytes(read_file(path, std::uint64_t{4} << 30));
+  file.hash = hash_bytes(read_file(path, kLargestFile));
   auto surface = std::make_shared<SurfaceMesh>();
   surface->mesh = read_mesh(path);
   const auto refuse_mesh = [&](const std::string& problem) { throw InputError(fmt::format("{}: surface {} {}", node.place, toml_string(node.string), problem)); };
@@ -71,7 +73,16 @@ std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, c
   std::shared_ptr<const TetFile>& volume = volumes_[node.string];
   if (volume != nullptr) return volume;
   volume = std::make_shared<TetFile>(read_tet_file(path));
-  files_.push_back({node.string, hash_bytes(read_file(path, std::uint64_t{4} << 30)), volume->mesh.vertices.size(), volume->mesh.tets.size(), 0});
+  SurfaceFile file;
+  file.name = node.string;
+  file.hash = hash_bytes(read_file(path, kLargestFile));
+  // TetGen's mesh is a pair of files, and the run depends on both
+  for (const auto& [own, other] : {std::pair(".node", ".ele"), std::pair(".ele", ".node")})
+    if (path.extension() == own) file.hash = hash_bytes(read_file(fs::path(path).replace_extension(other), kLargestFile), file.hash);
+  file.vertices = volume->mesh.vertices.size();
+  file.tets = volume->mesh.tets.size();
+  file.notes = volume->notes;
+  files_.push_back(std::move(file));
   return volume;
 }
 

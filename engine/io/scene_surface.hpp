@@ -7,6 +7,7 @@
 #include "engine/bodies/shape.hpp"
 #include "engine/io/tet_file.hpp"
 #include "engine/io/toml.hpp"
+#include "engine/io/volume_cache.hpp"
 
 namespace impinge {
 
@@ -16,6 +17,8 @@ struct SurfaceFile {
   std::uint64_t hash = 0;          ///< of the file's bytes
   std::size_t vertices = 0, triangles = 0;
   std::size_t welded = 0;          ///< vertices that coincided with an earlier one and were made one with it
+  std::size_t tets = 0;            ///< of a volume mesh, which has no triangles here
+  std::vector<std::string> notes;  ///< of a volume mesh's reader, one sentence each
 };
 
 class SurfaceFiles {
@@ -29,6 +32,9 @@ class SurfaceFiles {
   /// The volume mesh of the file that `node` names, unscaled.
   std::shared_ptr<const TetFile> load_volume(const TomlNode& node, const std::string& what);
 
+  /// Volumes that are made from surfaces.
+  VolumeCache& volumes() { return made_; }
+
   const std::vector<SurfaceFile>& files() const { return files_; }  ///< in order of first use
 
  private:
@@ -38,6 +44,7 @@ class SurfaceFiles {
   std::filesystem::path folder_;
   bool allow_outside_ = false;
   std::vector<SurfaceFile> files_;
+  VolumeCache made_;
   std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
   std::map<std::string, MeshPointer> unscaled_;                    // by name
   std::map<std::pair<std::string, double>, MeshPointer> scaled_;   // by name and scale

@@ -1,0 +1,26 @@
+// Tetrahedra that fill a closed surface, made by a program of its own: impinge-tetrahedralize (tools/tetrahedralize).
+//
+// It stands apart because the library it uses is under another licence, large, and slow to compile; nothing of it is
+// linked into impinge.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace impinge {
+
+struct TetrahedralizeSettings {
+  double max_size = 0.1;    ///< longest edge that is aimed at, metres; few exceed it
+  double min_angle = 10.0;  ///< smallest angle between two faces of a tetrahedron that is aimed at, degrees
+};
+
+/// Beside the running program, else in PATH; empty where there is none.
+std::filesystem::path find_tetrahedralizer();
+
+/// The tetrahedra, checked like those of a file. Their boundary follows the surface to within a tenth of max_size, edges
+/// and corners rounded. Throws InputError (without a place) where the program isn't there or fails, with what it said.
+TetMesh tetrahedralize(const TriangleMesh& surface, const TetrahedralizeSettings& settings);
+
+}  // namespace impinge
