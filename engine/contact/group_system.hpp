@@ -1,6 +1,8 @@
 // One collision group as a system of equations: A by body, J by contact, the free velocity v* and the rows' bounds.
 #pragma once
 
+#include <memory>
+
 #include "engine/contact/row_kind.hpp"
 #include "engine/core/block_matrix.hpp"
 #include "engine/core/linear_solver.hpp"
@@ -62,6 +64,9 @@ struct GroupSystem {
   std::vector<Vec3> lambda;        ///< in: where to start; out: impulses (n, t1, t2), N·s
   std::vector<Vec3> delta_velocity, delta_angular_velocity;  ///< out: Δv = A⁻¹ J^T λ by rigid body
   std::vector<VecX> soft_delta;    ///< out: the same by deformable body, over its free nodes
+  /// W = J A⁻¹ J^T, 1/kg, once a response has assembled it. Copies share it; whoever changes A, directions, arms or nodes resets
+  /// it. Velocities, bounds, kinds and friction are free to change; the solvers keep their factorizations with it.
+  std::shared_ptr<const MatX> assembled;
 
   /// J v of contact i for the bodies' velocities, with or without the Δv.
   Vec3 contact_velocity(std::size_t i, bool with_delta) const;

@@ -9,20 +9,19 @@ namespace impinge {
 
 class AssembledDelassus : public Delassus {
  public:
-  /// Factorizes A of every deformable body of the group; throws DivergenceError where A is not positive definite.
-  explicit AssembledDelassus(const GroupSystem& group);
+  /// Takes group.assembled if there is one, or makes it: factorizes A of every deformable body of the group; throws
+  /// DivergenceError where A is not positive definite.
+  explicit AssembledDelassus(GroupSystem& group);
 
   std::size_t contacts() const override { return diagonal_.size(); }
   const Mat3& diagonal(std::size_t i) const override { return diagonal_[i]; }
   void begin(const std::vector<Vec3>& lambda) override;
   Vec3 row(std::size_t i, bool normal_only) const override;
   void change(std::size_t i, const Vec3& delta, bool normal_only) override;
-  const MatX& matrix() const { return w_; }
+  const MatX& matrix() const { return *w_; }
 
  private:
-  void add_rigid(const GroupSystem& group);
-  void add_soft(const GroupSystem& group, int body);
-  MatX w_;        // 3 contacts x 3 contacts, symmetric
+  std::shared_ptr<const MatX> w_;  // 3 contacts x 3 contacts, symmetric
   VecX lambda_;
   std::vector<Mat3> diagonal_;
 };

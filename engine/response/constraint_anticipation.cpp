@@ -1,6 +1,9 @@
 // Full constraint anticipation, CA [Haapaoja16 §4.1.2]: v = v* + Δv, Δv = A⁻¹ J^T λ, λ from the cone problem with
 // W = J A⁻¹ J^T and q = J v* - bound. Exact up to the LCP solver's tolerance. For rigid bodies A⁻¹ is six numbers a body,
-// so W stays factored; a deformable body's A is factorized once for all its contacts and W is dense.
+// so W stays factored, and so it is where explicit schemes leave one block a node; any other deformable body's A is factorized once
+// for all its contacts and W is dense.
+#include <algorithm>
+
 #include "engine/response/assembled_delassus.hpp"
 #include "engine/response/factored_delassus.hpp"
 #include "engine/response/response.hpp"
@@ -13,8 +16,10 @@ class ConstraintAnticipation : public Response {
   ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const override {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
-    if (group.soft.empty()) {
-      FactoredDelassus w(group);
+    // explicit schemes: A of a deformable body is one block a node, and W has factors as for rigid bodies
+    if (std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; })) {
+      const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);
+      FactoredDelassus w(group, &inverse);
       problem.w = &w;
       const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
       w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps

@@ -1,6 +1,17 @@
 #include "engine/response/factored_delassus.hpp"
 
+#include <Eigen/LU>
+
 namespace impinge {
+
+std::vector<std::vector<Mat3>> inverse_node_blocks(const GroupSystem& group) {
+  std::vector<std::vector<Mat3>> inverse(group.soft.size());
+  for (std::size_t s = 0; s < group.soft.size(); ++s) {
+    const BlockMatrix& a = *group.soft[s].a;
+    for (int i = 0; i < a.pattern->rows; ++i) inverse[s].push_back(a.values[a.pattern->diagonal[i]].inverse());
+  }
+  return inverse;
+}
 
 FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::vector<Mat3>>* node_inverse)
     : group_(group), node_inverse_(node_inverse), diagonal_(group.contacts.size(), Mat3::Zero()), sides_(group.contacts.size()) {

@@ -8,6 +8,9 @@
 
 namespace impinge {
 
+/// Inverse diagonal blocks of every deformable body's A, 1/kg, by body and node.
+std::vector<std::vector<Mat3>> inverse_node_blocks(const GroupSystem& group);
+
 class FactoredDelassus : public Delassus {
  public:
   /// Refers to `group`, and writes its Δv (B⁻¹ J^T λ). node_inverse: for each deformable body the inverse blocks of its free

@@ -1,0 +1,14 @@
+// Iterative constraint anticipation that converges whatever the stiffness: see accelerated_anticipation.cpp.
+#pragma once
+
+#include "engine/response/response.hpp"
+
+namespace impinge {
+
+/// Fills group.lambda and the Δv; group.lambda holds the start. For groups with deformable bodies.
+ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings);
+
+/// The seed's outer stop rule: ‖A Δv - J^T λ‖ changes by less than this between iterations.
+constexpr double kSeedChange = 0.05;
+
+}  // namespace impinge
