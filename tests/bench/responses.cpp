@@ -1,0 +1,76 @@
+// Constraint anticipation against its iterative form: two lattice cubes on a floor (0.2 m, 1000 kg/m³, ν 0.4, h 10 ms, friction
+// 0.5), from about 50 contacts to 1000, at three stiffnesses. All ratios are of one run. Prints CSV; processor time of one thread.
+// error: ‖Δv - Δv of CA at 1e-11‖_A, relative. memory: numbers a method holds beside A, MB (W; or nine vectors and two inverses).
+// usage: bench_responses [most lattice cells a side = 8]
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+#include "engine/core/parallel.hpp"
+#include "engine/response/group_judge.hpp"
+#include "engine/response/response.hpp"
+#include "tests/support/soft_stack.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+double now_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Method {
+  const char *label, *response, *form, *stop;
+};
+
+double relative_error(const GroupSystem& group, const GroupSystem& truth) {
+  double error = 0.0, size = 0.0;
+  for (std::size_t s = 0; s < group.soft.size(); ++s) {
+    const VecX difference = group.soft_delta[s] - truth.soft_delta[s];
+    error += difference.dot(*group.soft[s].a * difference);
+    size += truth.soft_delta[s].dot(*group.soft[s].a * truth.soft_delta[s]);
+  }
+  return std::sqrt(error / size);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  set_thread_count(1);
+  const int most = argc > 1 ? std::atoi(argv[1]) : 8;
+  const Method methods[] = {{"ca", "constraint_anticipation", "accelerated", "residual"},
+                            {"ica", "iterative_constraint_anticipation", "accelerated", "residual"},
+                            {"ica_5_percent", "iterative_constraint_anticipation", "accelerated", "change"},
+                            {"seed", "iterative_constraint_anticipation", "seed", "residual"},
+                            {"seed_5_percent", "iterative_constraint_anticipation", "seed", "change"}};
+  const auto lcp = find_entry(lcp_solvers(), "projected_gauss_seidel")->make();
+  std::printf("young_Pa,nodes,contacts,method,ms,to_ca,outer,sweeps,converged,residual_m_s,error,memory_MB\n");
+  for (int cells = 4; cells <= most; cells += cells < 8 ? 2 : 4)
+    for (const double young : {1e4, 1e5, 1e6}) {
+      const SoftStack stack = make_soft_stack({.young = young, .friction = 0.5, .cells = {cells, cells - 1}});
+      GroupSystem truth = stack.group;
+      ResponseSettings tight;
+      tight.lcp = {1e-11, 100000};
+      find_entry(responses(), "constraint_anticipation")->make()->solve(truth, *lcp, tight);
+      Eigen::Index unknowns = 0;
+      for (const SoftBlock& block : truth.soft) unknowns += block.velocity.size();
+      double exact_ms = 0.0;
+      for (const Method& method : methods) {
+        GroupSystem group = stack.group;
+        ResponseSettings settings;
+        settings.lcp.max_iterations = 20000;
+        settings.form = method.form;
+        settings.stop = method.stop;
+        const double start = now_ms();
+        const ResponseResult result = find_entry(responses(), method.response)->make()->solve(group, *lcp, settings);
+        const double ms = now_ms() - start;
+        if (exact_ms == 0.0) exact_ms = ms;
+        const double numbers = method.label == methods[0].label ? 9.0 * static_cast<double>(group.contacts.size() * group.contacts.size())
+                                                                 : 15.0 * static_cast<double>(unknowns);
+        std::printf("%.0e,%d,%zu,%s,%.2f,%.3f,%d,%d,%d,%.1e,%.1e,%.2f\n", young, static_cast<int>(unknowns / 3), group.contacts.size(), method.label, ms,
+                    ms / exact_ms, result.outer_iterations, result.iterations, result.converged, judge_group(group).residual(),
+                    relative_error(group, truth), 8e-6 * numbers);
+        std::fflush(stdout);
+      }
+    }
+}
