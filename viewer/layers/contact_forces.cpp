@@ -1,5 +1,6 @@
-// The force of every contact, impulse over time step: on body A, or on body B where A cannot be moved. The mean weight
-// of the bodies that contact moves is as long as a normal; without gravity the frame's largest force is.
+// The force of every contact, impulse over time step: on body A, or on body B where A cannot be moved. As long as a
+// normal is the mean weight of the bodies that contact moves, shared by the mean number of contacts that carry one;
+// without gravity the frame's largest force is.
 #include <algorithm>
 
 #include "viewer/layers/all.hpp"
@@ -8,11 +9,10 @@
 namespace impinge {
 namespace {
 
-constexpr double kFew = 4.0;  // contacts a body, as a box has
 constexpr double kLongest = 5.0;  // times the length of a normal: an impact must not cross the picture
 
-/// The force that is as long as a normal, N; 0: nothing is known of it. A body's weight, spread over the contacts that
-/// carry it where they are many: a mesh may rest on hundreds.
+/// The force that is as long as a normal, N; 0: nothing is known of it. A body's weight, shared by the contacts that
+/// carry it: a mesh may rest on hundreds.
 double force_unit(const StepRecord& record) {
   double mass = 0.0;
   int count = 0;
@@ -28,7 +28,7 @@ double force_unit(const StepRecord& record) {
       if (is_moved_by_contact(record.bodies[b])) carried[b] = true;
   }
   const double bodies = std::max<double>(1.0, static_cast<double>(std::count(carried.begin(), carried.end(), true)));
-  return mass / count * record.gravity.norm() / std::max(1.0, contacts / bodies / kFew);
+  return mass / count * record.gravity.norm() / std::max(1.0, contacts / bodies);
 }
 
 void draw(const LayerContext& context, DrawList& list) {
@@ -56,7 +56,7 @@ void draw(const LayerContext& context, DrawList& list) {
 
 Layer contact_forces_layer() {
   return {"contact_forces",
-          "Contact forces with friction; a normal's length is the bodies' mean weight, less where many contacts share it.",
+          "Contact forces with friction; a normal's length is the bodies' mean weight over the mean number of contacts that carry one.",
           false,
           draw,
           {{LegendRow::arrow, role::kForce, "contact force (on A, if it can move)"}}};
