@@ -11,7 +11,7 @@ constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6}, kTime{0.0, 1e9};  // beyo
 
 std::vector<MotionKey> read_motion(const TomlNode& node, const std::string& what, const Vec3& position, const Vec3& rotation) {
   if (node.kind != TomlNode::array || node.items.empty())
-    refuse(node.place, what + " has no key frames", "[ { time = s, position = [x, y, z], rotation = [x, y, z] }, ... ] is wanted", "add at least one");
+    refuse(node.place, node.kind == TomlNode::array ? what + " has no key frames" : fmt::format("{} is {}", what, toml_kind_name(node)), "[ { time = s, position = [x, y, z], rotation = [x, y, z] }, ... ] is wanted", "add at least one");
   std::vector<MotionKey> keys;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     const std::string name = fmt::format("{}[{}]", what, i);

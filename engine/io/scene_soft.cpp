@@ -93,7 +93,7 @@ NodeRegion read_region(const TomlNode& node, const std::string& what) {
   } else {
     region.kind = NodeRegion::list;
     if (nodes->value.kind != TomlNode::array || nodes->value.items.empty())
-      refuse(nodes->value.place, what + ".nodes lists no node", "[0, 1, 2], counted from 0, is wanted", "add at least one");
+      refuse(nodes->value.place, nodes->value.kind == TomlNode::array ? what + ".nodes lists no node" : fmt::format("{}.nodes is {}", what, toml_kind_name(nodes->value)), "[0, 1, 2], counted from 0, is wanted", "add at least one");
     for (const TomlNode& item : nodes->value.items) {
       const double n = scene_real(item, what + ".nodes", {0, 1e9});
       if (n != std::floor(n)) refuse(item.place, what + ".nodes holds a fraction", "whole numbers are wanted", "round it");

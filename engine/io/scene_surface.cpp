@@ -32,7 +32,7 @@ fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const
   std::error_code error;
   // symbolic links are followed first: what counts is where the file really is
   const fs::path folder = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);
-  const fs::path target = fs::weakly_canonical(path, error);
+  const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);  // of a name that isn't there, a relative one stays relative
   if (!allow_outside_ && !is_inside(folder, target))
     refuse(node.place, fmt::format("{} = {} leads out of the scene's folder ({})", what, toml_string(name), target.string()),
            "files inside it are read", "move the file there, or set allow_outside_files = true in the table [scene]");

@@ -74,7 +74,7 @@ MeshPointer shape_surface(const TomlNode& node, const std::string& what, const S
   if (const auto* box = std::get_if<Box>(&shape))
     return checked_surface(box_surface(box->half, cells_of_box(box->half, 2.0 * box->half.maxCoeff() / edge)), node, what);
   if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    const double around = std::ceil(6.2832 * capsule->radius / edge);
+    const double around = std::ceil(2.0 * 6.2832 * capsule->radius / edge);  // half as long: ten to a ring would cut off 8 % of it
     return checked_surface(capsule_surface(capsule->radius, capsule->half_length, std::clamp(static_cast<int>(around), 8, 256)), node, what);
   }
   refuse(node.place, what + " is a plane and the body deformable", "sphere, box, capsule and any closed surface file can be deformable", "use another shape");
@@ -97,7 +97,9 @@ MeshPointer outer_surface(const TomlNode& table, const std::string& what, double
   }
   const TomlEntry* entry = table.find("shape");
   const Shape shape = read_shape(entry->value, what + ".shape", scale);
-  return shape_surface(entry->value, what + ".shape", shape, cells > 0 ? longest_side(shape) / cells : edge);
+  // an edge too short is refused by the caller, once the surface is there: no finer than is ever taken
+  const double longest = longest_side(shape);
+  return shape_surface(entry->value, what + ".shape", shape, cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
 }
 
 void take(const CarriedVolume& volume, const MeshPointer& surface, SoftDescription& soft, BodyDescription& body) {
@@ -238,7 +240,10 @@ void read_volume(const TomlNode& table, const std::string& what, double scale, S
   if (entry == nullptr)
     refuse(table.place, what + " is deformable and has no volume", "a cage round its surface or a file of tetrahedra is wanted", "add volume = { cage = { cells = 12 } }");
   if (entry->value.kind == TomlNode::text) return read_volume_file(table, entry->value, what, scale, files, soft, body);
-  const TomlNode& volume = scene_table(entry->value, name);
+  if (entry->value.kind != TomlNode::table)
+    refuse(entry->value.place, fmt::format("{} is {}", name, toml_kind_name(entry->value)), "a file name, or a table naming one way to make it, is wanted",
+           "write volume = { cage = { cells = 12 } }");
+  const TomlNode& volume = entry->value;
   check_keys(volume, name, {"cage", "lattice", "tetrahedralize"});
   if (volume.entries.size() != 1)
     refuse(volume.place, fmt::format("{} names {} ways", name, volume.entries.size()), "a file's name, or one of cage, lattice, tetrahedralize, is wanted",

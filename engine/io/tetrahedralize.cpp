@@ -91,6 +91,7 @@ std::string last_line(const std::string& text) {
 }  // namespace
 
 fs::path find_tetrahedralizer() {
+  if (const char* named = std::getenv("IMPINGE_TETRAHEDRALIZE"); named != nullptr && *named != '\0') return is_program(named) ? fs::path(named) : fs::path();
   std::error_code error;
   const fs::path own = fs::read_symlink("/proc/self/exe", error);
   if (!error && is_program(own.parent_path() / kProgram)) return own.parent_path() / kProgram;
@@ -108,7 +109,7 @@ fs::path find_tetrahedralizer() {
 TetMesh tetrahedralize(const TriangleMesh& surface, const TetrahedralizeSettings& settings) {
   const fs::path program = find_tetrahedralizer();
   if (program.empty())
-    throw InputError(fmt::format("the program {} is not there; it is looked for beside impinge and in PATH; build it (apt install libcgal-dev; cmake --build build "
+    throw InputError(fmt::format("the program {} is not there; what IMPINGE_TETRAHEDRALIZE names, the folder of impinge and PATH are looked in; build it (apt install libcgal-dev; cmake --build build "
                                  "--target {}), or use a cage",
                                  kProgram, kProgram));
   const Workshop folder;

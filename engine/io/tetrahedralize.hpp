@@ -16,7 +16,7 @@ struct TetrahedralizeSettings {
   double min_angle = 10.0;  ///< smallest angle between two faces of a tetrahedron that is aimed at, degrees
 };
 
-/// Beside the running program, else in PATH; empty where there is none.
+/// What IMPINGE_TETRAHEDRALIZE names; else beside the running program, else in PATH. Empty where there is none.
 std::filesystem::path find_tetrahedralizer();
 
 /// The tetrahedra, checked like those of a file. Their boundary follows the surface to within a tenth of max_size, edges

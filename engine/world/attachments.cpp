@@ -8,6 +8,9 @@
 namespace impinge {
 namespace {
 
+// in heights of the nearest tetrahedron: farther out, a small strain of it would be a large motion of the point
+constexpr double kMostOutside = 1.0;
+
 AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, std::span<const RigidBody> bodies) {
   AttachmentEnd end;
   end.local = d.point;
@@ -29,6 +32,10 @@ AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, 
   TetMesh now = body.soft->fem.fem.rest();
   for (int i = 0; i < body.soft->fem.nodes(); ++i) now.vertices[i] = body.soft->fem.position.segment<3>(3 * i);
   const Embedding place = embed(now, std::span(&d.point, 1));
+  if (place.farthest > kMostOutside)
+    throw InputError(fmt::format("attachment '{}' has its point {:.2g} tetrahedron heights outside of the deformable body '{}'; a point in it, or close to its surface, is wanted; "
+                                 "move the point",
+                                 d.name, place.farthest, name));
   end.tet = place.tet[0];
   end.weight = place.weight[0];
   return end;

@@ -4,8 +4,7 @@
 #include <unistd.h>
 
 #include "tests/support/mesh_text.hpp"
-#include "tests/support/program.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -26,33 +25,6 @@ kind = "dynamic"
 shape = { box = { size = [1, 1, 1] } }
 position = [0, 2, 0]
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-// everything in a folder, so that nothing new in it goes unseen
-std::vector<std::string> listing(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) names.push_back(entry.path().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-void check_refused(const TempFolder& folder, const std::vector<std::string>& arguments, const std::string& start, const std::string& contains) {
-  const auto before = listing(folder.path());
-  const Outcome outcome = impinge_run(folder.path(), arguments);
-  INFO(outcome.err);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.error_lines() == 1);
-  CHECK(outcome.out.empty());
-  CHECK(outcome.err.rfind(start, 0) == 0);
-  CHECK(outcome.err.find(contains) != std::string::npos);
-  CHECK(std::count(outcome.err.begin(), outcome.err.end(), ';') >= 1);
-  CHECK(listing(folder.path()) == before);
-}
 
 const std::vector<std::string> kRun = {"run", "s.toml", "--out", "out", "--frames", "2", "--no-images"};
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/bodies/soft_body.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/linear_solver.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/narrowphase/narrow_phase.hpp"
@@ -52,9 +54,29 @@ std::string range_of(const Parameter& row) {
   return row.names.empty() ? "" : fmt::format("{}", fmt::join(row.names, " | "));
 }
 
+/// A deformable cube with a held node, so that all its rows exist.
+BodyDescription small_deformable() {
+  auto soft = std::make_shared<SoftDescription>();
+  soft->mesh = make_tet_box(Vec3::Ones(), 1, 1, 1);
+  NodeRegion held;
+  held.kind = NodeRegion::list;
+  held.nodes = {0};
+  soft->fixed = {held};
+  auto surface = std::make_shared<SurfaceMesh>();
+  surface->mesh = {soft->mesh.vertices, boundary_triangles(soft->mesh)};
+  surface->topology = make_topology(surface->mesh);
+  soft->embedding = embed(soft->mesh, surface->mesh.vertices);
+  BodyDescription body;
+  body.name = "DEFORMABLE";
+  body.kind = BodyKind::deformable;
+  body.shape = MeshPointer(surface);
+  body.soft = soft;
+  return body;
+}
+
 void print_parameters() {
   constexpr const char* kKinds[] = {"boolean", "integer", "real", "text", "choice", "vector", "list"};
-  // a world with one body, so that the rows of bodies are shown as well
+  // a world with a body of each kind that has rows, so that those are shown as well
   World world;
   FrameView view;
   ParameterSet rows;
@@ -64,10 +86,14 @@ void print_parameters() {
   body.name = "NAME";
   body.shape = Sphere{1.0};
   world.add_body(body);
+  world.add_body(small_deformable());
   world.bind_bodies(rows);
   std::vector<Row> table = {{"path", "kind", "unit", "range", "default", "meaning"}};
   for (const Parameter& row : rows.all()) {
     const bool of_body = row.path.rfind("body.", 0) == 0;
+    // what both have is shown once
+    const std::string own = "body.DEFORMABLE.";
+    if (row.path.rfind(own, 0) == 0 && rows.find("body.NAME." + row.path.substr(own.size())) != nullptr) continue;
     table.push_back({row.path, kKinds[static_cast<int>(row.kind)], row.unit, range_of(row), of_body ? "" : format_value(row.initial), row.doc});
   }
   print_table(table);
@@ -79,7 +105,7 @@ void print_layers() {
   print_table(rows);
 }
 
-const std::vector<std::string> kTopics = {"parameters", "layers", "responses", "lcp_solvers", "broad_phases", "narrow_phases", "materials", "integrators", "cases"};
+const std::vector<std::string> kTopics = {"parameters", "layers", "responses", "lcp_solvers", "broad_phases", "narrow_phases", "materials", "integrators", "linear_solvers", "cases"};
 
 }  // namespace
 
@@ -92,7 +118,8 @@ int list_command(const Arguments& arguments) {
   else if (topic == "broad_phases") print_registry(broad_phases());
   else if (topic == "narrow_phases") print_registry(narrow_phases());
   else if (topic == "integrators") print_registry(integrators());
-  else if (topic == "materials") fmt::print("none in this version: bodies are rigid\n");
+  else if (topic == "materials") print_registry(materials());
+  else if (topic == "linear_solvers") print_registry(linear_solvers());
   else if (topic == "cases") fmt::print("none in this version\n");
   else {
     const std::string near = nearest_word(topic, kTopics);
