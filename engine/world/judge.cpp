@@ -162,7 +162,7 @@ OverlapVerdict judge_overlap(std::span<const RigidBody> bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       const RigidBody &a = bodies[i], &b = bodies[j];
-      if (!a.is_dynamic() && !b.is_dynamic()) continue;
+      if (!a.has_freedom() && !b.has_freedom()) continue;
       if (!overlap(a.bounds(), b.bounds())) continue;
       if (is_mesh(a.shape) && is_mesh(b.shape)) verdict.intersections += crossing_triangles(a, b);
       const double depth = pair_penetration(a, b);
