@@ -10,7 +10,9 @@ using namespace impinge::test;
 
 namespace {
 
-Vec3 bent(const Vec3& p) { return {p.x() + 0.4 * p.y() * p.y(), 0.8 * p.y() + 0.2 * p.x(), p.z() * (1.0 + 0.5 * p.y())}; }
+Vec3 bent(const Vec3& p) {
+  return {p.x() + 0.4 * p.y() * p.y(), 0.8 * p.y() + 0.2 * p.x(), p.z() * (1.0 + 0.5 * p.y())};
+}
 
 struct Caged {
   MeshPointer surface;
@@ -27,7 +29,8 @@ const Caged& caged_lump() {
 
 int add_bent(HandMadeRecord& scene, const Vec3& shift = Vec3::Zero()) {
   const Caged& c = caged_lump();
-  return scene.add_soft("lump", c.surface, c.cage.mesh, c.cage.embedding, [&](const Vec3& p) { return Vec3(bent(p) + shift); });
+  return scene.add_soft("lump", c.surface, c.cage.mesh, c.cage.embedding,
+                        [&](const Vec3& p) { return Vec3(bent(p) + shift); });
 }
 
 /// Pixels that differ by more than `levels`.
@@ -92,14 +95,16 @@ TEST_CASE("what is turned inside out is not left out of the picture") {
   });
   ViewSettings settings = settings_with({"meshes"});
   settings.camera.look_at({0.0, 1.0, 4.0}, Vec3::Zero());
-  const int right = covered(painted(upright.record(), settings)), mirrored = covered(painted(everted.record(), settings));
+  const int right = covered(painted(upright.record(), settings)),
+            mirrored = covered(painted(everted.record(), settings));
   CHECK(mirrored == Approx(right).epsilon(0.01));
   // and marked among the tetrahedra
   ViewSettings tetrahedra = settings_with({"tetrahedra"});
   tetrahedra.camera = settings.camera;
   const auto red = [](const Image& image) {
     int count = 0;
-    for (std::size_t i = 0; i < image.rgb.size(); i += 3) count += image.rgb[i] > 180 && image.rgb[i + 1] < 100 && image.rgb[i + 2] < 100;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+      count += image.rgb[i] > 180 && image.rgb[i + 1] < 100 && image.rgb[i + 2] < 100;
     return count;
   };
   for (const char* style : {"wire", "shrunk"}) {
@@ -121,11 +126,16 @@ TEST_CASE("a cut sphere shows what rays meet on the side that is left", "[render
   const Mat3 axes = settings.camera.view_rotation();
   const double tangent = std::tan(0.5 * settings.camera.fov_deg * M_PI / 180.0);
   enum Seen { unsure, front, back, gone_by_cut };
-  for (const auto& [normal, offset] : {std::pair{Vec3(0, 0, 2.0), 0.2}, {Vec3(1, 1, 1), -0.3}, {Vec3(0, -1, 0), 0.0}, {Vec3(0, 0, 1), 2.0}, {Vec3(0, 0, 1), -2.0}}) {
+  for (const auto& [normal, offset] : {std::pair{Vec3(0, 0, 2.0), 0.2},
+                                       {Vec3(1, 1, 1), -0.3},
+                                       {Vec3(0, -1, 0), 0.0},
+                                       {Vec3(0, 0, 1), 2.0},
+                                       {Vec3(0, 0, 1), -2.0}}) {
     settings.clip = {true, normal, offset};
     const Image cut = painted(scene.record(), settings);
     const auto seen = [&](int x, int y) {
-      const Vec3 ray = axes.transpose() * Vec3((2.0 * x + 1.0 - cut.width) / cut.height * tangent, (cut.height - 2.0 * y - 1.0) / cut.height * tangent, -1.0);
+      const Vec3 ray = axes.transpose() * Vec3((2.0 * x + 1.0 - cut.width) / cut.height * tangent,
+                                               (cut.height - 2.0 * y - 1.0) / cut.height * tangent, -1.0);
       const Vec3 d = ray.normalized(), e = settings.camera.eye;
       const double b = d.dot(e), under = b * b - e.squaredNorm() + radius * radius;
       if (under < 0.02) return unsure;  // near the outline a polyhedron is no sphere
@@ -137,7 +147,8 @@ TEST_CASE("a cut sphere shows what rays meet on the side that is left", "[render
       for (int x = 0; x < cut.width; ++x) {
         const Seen expected = seen(x, y);
         bool sure = expected != unsure;  // and not on the line along the cut
-        for (const auto& [dx, dy] : {std::pair{3, 0}, {-3, 0}, {0, 3}, {0, -3}}) sure = sure && seen(x + dx, y + dy) == expected;
+        for (const auto& [dx, dy] : {std::pair{3, 0}, {-3, 0}, {0, 3}, {0, -3}})
+          sure = sure && seen(x + dx, y + dy) == expected;
         if (!sure) continue;
         const bool is_background = std::equal(cut.pixel(x, y), cut.pixel(x, y) + 3, nothing.pixel(x, y));
         const bool is_front = std::equal(cut.pixel(x, y), cut.pixel(x, y) + 3, whole.pixel(x, y));
@@ -175,7 +186,8 @@ TEST_CASE("a heated surface has the colour of its value, in the light and in the
   // uniaxial stretch: one stress everywhere, so one colour; its place in the bar follows the setting
   HandMadeRecord scene;
   const Caged& c = caged_lump();
-  scene.add_soft("bar", c.surface, c.cage.mesh, c.cage.embedding, [](const Vec3& p) { return Vec3(1.1 * p.x(), p.y(), p.z()); });
+  scene.add_soft("bar", c.surface, c.cage.mesh, c.cage.embedding,
+                 [](const Vec3& p) { return Vec3(1.1 * p.x(), p.y(), p.z()); });
   ViewSettings settings = settings_with({"meshes", "strain"});
   std::vector<double> lightness;
   const Image nothing = painted(StepRecord{}, settings);

@@ -19,7 +19,8 @@ namespace {
 
 VecX positions_of(const TetMesh& mesh, const std::function<Vec3(const Vec3&)>& place) {
   VecX x(3 * static_cast<Eigen::Index>(mesh.vertices.size()));
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) x.segment<3>(3 * static_cast<Eigen::Index>(i)) = place(mesh.vertices[i]);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    x.segment<3>(3 * static_cast<Eigen::Index>(i)) = place(mesh.vertices[i]);
   return x;
 }
 
@@ -33,7 +34,8 @@ TEST_CASE("a shrunk tetrahedron keeps its centre and faces outwards, turned insi
   const Vec3 origin(0.4, -0.2, 0.1);
   for (const double side : {1.0, -1.0})
     for (const double factor : {0.5, 0.75, 1.0}) {
-      const VecX x = positions_of(mesh, [&](const Vec3& p) { return Vec3(side * p.x() + 0.2 * p.y(), p.y(), 1.3 * p.z()); });
+      const VecX x =
+          positions_of(mesh, [&](const Vec3& p) { return Vec3(side * p.x() + 0.2 * p.y(), p.y(), 1.3 * p.z()); });
       const ShadedSurface solids = shrunk_tets(mesh, x, all, factor, origin);
       REQUIRE(solids.triangles.size() == 4 * mesh.tets.size());
       for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -54,7 +56,9 @@ TEST_CASE("a shrunk tetrahedron keeps its centre and faces outwards, turned insi
           CHECK(normal.dot(p[1] - p[0]) == Approx(0.0).margin(1e-6));
         }
         CHECK(mean.norm() < 1e-6);
-        CHECK(volume == Approx(factor * factor * factor * std::abs(tet_volume(corner[0], corner[1], corner[2], corner[3]))).epsilon(1e-4));
+        CHECK(volume ==
+              Approx(factor * factor * factor * std::abs(tet_volume(corner[0], corner[1], corner[2], corner[3])))
+                  .epsilon(1e-4));
       }
     }
 }
@@ -73,7 +77,8 @@ TEST_CASE("every edge of the tetrahedra is there once, those of the hull among t
     const Vec3 &p = mesh.vertices[static_cast<std::size_t>(a)], &q = mesh.vertices[static_cast<std::size_t>(b)];
     bool on_hull = false;
     for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {0.0, axis == 0 ? 3.0 : axis == 1 ? 2.0 : 4.0}) on_hull = on_hull || (p[axis] == side && q[axis] == side);
+      for (const double side : {0.0, axis == 0 ? 3.0 : axis == 1 ? 2.0 : 4.0})
+        on_hull = on_hull || (p[axis] == side && q[axis] == side);
     outer_by_place += on_hull;
   }
   for (const auto& list : {edges.outer, edges.inner})
@@ -82,7 +87,8 @@ TEST_CASE("every edge of the tetrahedra is there once, those of the hull among t
   CHECK(static_cast<int>(edges.outer.size()) == outer_by_place);
 }
 
-TEST_CASE("a moved surface has the normals of its new form, smooth where it was smooth and creased where it was creased") {
+TEST_CASE(
+    "a moved surface has the normals of its new form, smooth where it was smooth and creased where it was creased") {
   const auto place = [](const Vec3& p) { return Vec3(2.0 * p.x() + 5.0, p.y() - 3.0, 0.5 * p.z() + 0.3 * p.x()); };
   Mat3 gradient;
   gradient << 2, 0, 0, 0, 1, 0, 0.3, 0, 0.5;
@@ -125,7 +131,14 @@ TEST_CASE("values at a surface's vertices are those of a linear field") {
 }
 
 TEST_CASE("the colour bar ends at a round number that covers what is shown, or where it is told to") {
-  for (const auto& [value, expected] : {std::pair{1.0, 1.0}, {1.01, 2.0}, {2.0, 2.0}, {3.0, 5.0}, {5.1, 10.0}, {0.013, 0.02}, {7e5, 1e6}, {9.99e-7, 1e-6}})
+  for (const auto& [value, expected] : {std::pair{1.0, 1.0},
+                                        {1.01, 2.0},
+                                        {2.0, 2.0},
+                                        {3.0, 5.0},
+                                        {5.1, 10.0},
+                                        {0.013, 0.02},
+                                        {7e5, 1e6},
+                                        {9.99e-7, 1e-6}})
     CHECK(rounded_up(value) == Approx(expected).epsilon(1e-12));
 
   // stretched by 1.3 % with free sides: the stress is E times the strain (the hand-made material's E is 1e5 Pa, ν 0.45)
@@ -136,7 +149,8 @@ TEST_CASE("the colour bar ends at a round number that covers what is shown, or w
   scene.add_soft("bar", cube, mesh, embed(mesh, cube->mesh.vertices),
                  [](const Vec3& p) { return Vec3(1.013 * p.x(), (1.0 - 0.00585) * p.y(), (1.0 - 0.00585) * p.z()); });
   ViewSettings settings = make_view_settings();
-  for (const double stress : heat_of_elements(*scene.record().bodies[0].soft, HeatQuantity::stress)) CHECK(stress == Approx(1300.0).epsilon(0.02));
+  for (const double stress : heat_of_elements(*scene.record().bodies[0].soft, HeatQuantity::stress))
+    CHECK(stress == Approx(1300.0).epsilon(0.02));
   CHECK(heat_high(scene.record(), settings, HeatQuantity::stress) == Approx(2000.0).epsilon(1e-12));
   CHECK(heat_high(scene.record(), settings, HeatQuantity::strain) == Approx(0.02).epsilon(1e-9));
   settings.stress_max = 4321.0;

@@ -9,8 +9,8 @@
 namespace impinge {
 namespace {
 
-constexpr double kDarkest = 0.34, kBrightest = 0.93;           // OKLab lightness
-constexpr double kFirstHue = 295.0, kLastHue = 105.0;          // degrees: violet, blue, teal, green, yellow
+constexpr double kDarkest = 0.34, kBrightest = 0.93;   // OKLab lightness
+constexpr double kFirstHue = 295.0, kLastHue = 105.0;  // degrees: violet, blue, teal, green, yellow
 constexpr double kChroma = 0.12, kShareOfGamut = 0.94;
 
 double to_srgb(double linear) {
@@ -47,7 +47,8 @@ std::array<Color, kHeatColors> make_colors() {
   constexpr int kFine = 2000;
   std::vector<double> length = {0.0};
   for (int i = 1; i <= kFine; ++i)
-    length.push_back(length.back() + (lab_at(i / static_cast<double>(kFine)) - lab_at((i - 1) / static_cast<double>(kFine))).norm());
+    length.push_back(length.back() +
+                     (lab_at(i / static_cast<double>(kFine)) - lab_at((i - 1) / static_cast<double>(kFine))).norm());
   std::array<Color, kHeatColors> colors;
   for (int k = 0; k < kHeatColors; ++k) {
     const double wanted = length.back() * k / (kHeatColors - 1.0);

@@ -67,7 +67,8 @@ Renderer::SurfaceBuffers& Renderer::buffers_of(const DrawSurface& item) {
   const std::vector<Eigen::Vector3f>& positions = item.moved ? item.moved->positions : surface.positions;
   const std::vector<Eigen::Vector3f>& normals = item.moved ? item.moved->normals : surface.normals;
   std::vector<Vertex> data(positions.size());
-  for (std::size_t i = 0; i < data.size(); ++i) data[i] = {positions[i], normals[i], item.heat ? (*item.heat)[i] : 0.0f};
+  for (std::size_t i = 0; i < data.size(); ++i)
+    data[i] = {positions[i], normals[i], item.heat ? (*item.heat)[i] : 0.0f};
   buffers.array.set_vertices(data.data(), data.size() * sizeof(Vertex));
   buffers.moved = item.moved;
   buffers.heat = item.heat;

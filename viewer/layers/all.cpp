@@ -4,10 +4,10 @@ namespace impinge {
 
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = {
-      meshes_layer(),         groups_layer(),      stress_layer(),      strain_layer(),       tetrahedra_layer(),
-      wireframe_layer(),      embedding_layer(),   triangle_pairs_layer(), aabbs_layer(),     broad_pairs_layer(),
-      gaps_layer(),           normals_layer(),     contact_forces_layer(), velocities_layer(), fixed_nodes_layer(),
-      attachments_layer(),    mass_centers_layer(), contacts_layer(),   labels_layer(),
+      meshes_layer(),      groups_layer(),       stress_layer(),         strain_layer(),     tetrahedra_layer(),
+      wireframe_layer(),   embedding_layer(),    triangle_pairs_layer(), aabbs_layer(),      broad_pairs_layer(),
+      gaps_layer(),        normals_layer(),      contact_forces_layer(), velocities_layer(), fixed_nodes_layer(),
+      attachments_layer(), mass_centers_layer(), contacts_layer(),       labels_layer(),
   };
   return all;
 }

@@ -43,25 +43,30 @@ std::vector<Color> body_colors(const StepRecord& record) {
 
 bool has_fixed(const StepRecord& record) {
   // a plane is drawn as a floor
-  return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::fixed && !std::holds_alternative<Plane>(*b.shape); });
+  return any_body(record, [](const BodyRecord& b) {
+    return b.kind == BodyKind::fixed && !std::holds_alternative<Plane>(*b.shape);
+  });
 }
 bool has_scripted(const StepRecord& record) {
   return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::scripted; });
 }
 bool has_rigid(const StepRecord& record) {
-  return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::scripted; });
+  return any_body(record,
+                  [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::scripted; });
 }
 bool has_deformable(const StepRecord& record) {
   return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr; });
 }
 bool has_held_nodes(const StepRecord& record) {
-  return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr && b.soft->free_nodes() < b.soft->nodes(); });
+  return any_body(record,
+                  [](const BodyRecord& b) { return b.soft != nullptr && b.soft->free_nodes() < b.soft->nodes(); });
 }
 bool has_outside_vertices(const StepRecord& record) {
   return any_body(record, [](const BodyRecord& b) { return b.embedding != nullptr && b.embedding->outside > 0; });
 }
 bool has_everted(const StepRecord& record) {
-  return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr && b.soft->smallest_volume_ratio() <= 0.0; });
+  return any_body(record,
+                  [](const BodyRecord& b) { return b.soft != nullptr && b.soft->smallest_volume_ratio() <= 0.0; });
 }
 bool has_attachments(const StepRecord& record) { return !record.attachments.empty(); }
 

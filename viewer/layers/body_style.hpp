@@ -8,7 +8,8 @@ namespace impinge {
 /// Dynamic bodies take turns through the palette in scene order; static grey, scripted pale.
 std::vector<Color> body_colors(const StepRecord& record);
 
-/// Whether the scene has such bodies (or nodes, vertices, tetrahedra of some body): what a legend need not explain else.
+/// Whether the scene has such bodies (or nodes, vertices, tetrahedra of some body): what a legend need not explain
+/// else.
 bool has_fixed(const StepRecord& record);
 bool has_scripted(const StepRecord& record);
 bool has_rigid(const StepRecord& record);

@@ -56,7 +56,8 @@ void draw(const LayerContext& context, DrawList& list) {
 
 Layer contact_forces_layer() {
   return {"contact_forces",
-          "Contact forces with friction; a normal's length is the bodies' mean weight over the mean number of contacts that carry one.",
+          "Contact forces with friction; a normal's length is the bodies' mean weight over the mean number of contacts "
+          "that carry one.",
           false,
           draw,
           {{LegendRow::arrow, role::kForce, "contact force (on A, if it can move)"}}};

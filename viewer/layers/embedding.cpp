@@ -1,5 +1,5 @@
-// How surfaces hang on tetrahedra: from some of a surface's vertices to the four nodes that carry each. A vertex outside
-// of all tetrahedra is carried by the nearest one and marked.
+// How surfaces hang on tetrahedra: from some of a surface's vertices to the four nodes that carry each. A vertex
+// outside of all tetrahedra is carried by the nearest one and marked.
 #include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
 
@@ -21,7 +21,8 @@ void draw(const LayerContext& context, DrawList& list) {
       const Vec3& at = body.vertices[v];
       const Color color = outside ? role::kOutside : role::kCarried;
       for (const int n : body.soft->fem.rest().tets[static_cast<std::size_t>(embedding.tet[v])])
-        list.lines.push_back({at, body.soft->position.segment<3>(3 * n), with_alpha(color, 0.7f), width, Depth::both, pick});
+        list.lines.push_back(
+            {at, body.soft->position.segment<3>(3 * n), with_alpha(color, 0.7f), width, Depth::both, pick});
       list.points.push_back({at, color, outside ? 1.5f * size : size, Depth::both, pick});
     };
     std::vector<std::size_t> outside;

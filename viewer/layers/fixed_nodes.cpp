@@ -19,8 +19,8 @@ void draw(const LayerContext& context, DrawList& list) {
       const Vec3 at = body->position.segment<3>(3 * n), velocity = body->held_velocity().segment<3>(3 * n);
       const bool moves = velocity.squaredNorm() > 0.0;
       if (moves)
-        list.arrows.push_back({at, velocity * (kFrames * context.record.frame_time), role::kMoved, 0.0f, width, Depth::both,
-                               body_pick(i)});
+        list.arrows.push_back({at, velocity * (kFrames * context.record.frame_time), role::kMoved, 0.0f, width,
+                               Depth::both, body_pick(i)});
       list.points.push_back({at, moves ? role::kMoved : role::kHeld, size, Depth::both, body_pick(i)});
       list.points.push_back({at, role::kOutline, 0.35f * size, Depth::both, body_pick(i)});
     }

@@ -42,7 +42,8 @@ double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQua
   return rounded_up(std::max(*place, least));
 }
 
-std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh, const std::vector<double>& of_nodes) {
+std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh,
+                                     const std::vector<double>& of_nodes) {
   std::vector<double> values(embedding.tet.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Tet& tet = mesh.tets[static_cast<std::size_t>(embedding.tet[i])];
@@ -62,7 +63,8 @@ ColorBar make_color_bar(HeatQuantity quantity, double high) {
 
 void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantity) {
   const StepRecord& record = context.record;
-  if (std::none_of(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.soft != nullptr; })) return;
+  if (std::none_of(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.soft != nullptr; }))
+    return;
   const double high = heat_high(record, context.settings, quantity);
   ColorBar bar = make_color_bar(quantity, high);
   for (DrawSurface& item : list.surfaces) {

@@ -14,12 +14,13 @@ std::optional<HeatQuantity> heat_shown(const ViewSettings& settings);
 /// von Mises stress (Pa) or equivalent strain of every tetrahedron.
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity);
 
-/// The end of the colour bar: the setting's, or what 99 % of all deformable surfaces' vertices stay below, rounded up to 1, 2
-/// or 5 times a power of ten so that it keeps still from frame to frame.
+/// The end of the colour bar: the setting's, or what 99 % of all deformable surfaces' vertices stay below, rounded up
+/// to 1, 2 or 5 times a power of ten so that it keeps still from frame to frame.
 double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity);
 
 /// Nodal values at embedded points, by their weights.
-std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh, const std::vector<double>& of_nodes);
+std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh,
+                                     const std::vector<double>& of_nodes);
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a positive value.
 double rounded_up(double value);

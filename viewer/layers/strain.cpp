@@ -10,7 +10,11 @@ void draw(const LayerContext& context, DrawList& list) { draw_heat(context, list
 }  // namespace
 
 Layer strain_layer() {
-  return {"strain", "Surfaces of deformable bodies coloured by equivalent strain; the colour bar gives its range.", false, draw, {}};
+  return {"strain",
+          "Surfaces of deformable bodies coloured by equivalent strain; the colour bar gives its range.",
+          false,
+          draw,
+          {}};
 }
 
 }  // namespace impinge

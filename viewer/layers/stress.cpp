@@ -10,7 +10,11 @@ void draw(const LayerContext& context, DrawList& list) { draw_heat(context, list
 }  // namespace
 
 Layer stress_layer() {
-  return {"stress", "Surfaces of deformable bodies coloured by von Mises stress; the colour bar gives its range.", false, draw, {}};
+  return {"stress",
+          "Surfaces of deformable bodies coloured by von Mises stress; the colour bar gives its range.",
+          false,
+          draw,
+          {}};
 }
 
 }  // namespace impinge

@@ -52,7 +52,8 @@ Layer velocities_layer() {
       "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).",
       false,
       draw,
-      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation", has_rigid}}};
+      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"},
+       {LegendRow::arrow, role::kSpin, "axis of rotation", has_rigid}}};
 }
 
 }  // namespace impinge

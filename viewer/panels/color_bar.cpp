@@ -15,7 +15,8 @@ ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.
 
 }  // namespace
 
-PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings, const std::vector<PanelArea>& taken) {
+PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings,
+                         const std::vector<PanelArea>& taken) {
   if (!settings.show_legend) return {};
   const float u = pen.unit, pad = pen.padding(), width = (pen.is_small() ? 0.7f : 1.0f) * kWidth * u;
   const std::string title = bar.unit.empty() ? bar.title : fmt::format("{}, {}", bar.title, bar.unit);
@@ -34,7 +35,8 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
   const float left = area.x + pad, top = area.y + pad + pen.text_size + 3.0f * u, bottom = top + kHeight * u;
   const auto& colors = heat_colors();
   for (int k = 0; k + 1 < kHeatColors; ++k) {
-    const float from = left + width * static_cast<float>(k) / (kHeatColors - 1), to = left + width * static_cast<float>(k + 1) / (kHeatColors - 1);
+    const float from = left + width * static_cast<float>(k) / (kHeatColors - 1),
+                to = left + width * static_cast<float>(k + 1) / (kHeatColors - 1);
     const ImU32 a = packed(colors[static_cast<std::size_t>(k)]), b = packed(colors[static_cast<std::size_t>(k + 1)]);
     pen.list.AddRectFilledMultiColor({from, top}, {to, bottom}, a, b, b, a);
   }

@@ -35,12 +35,15 @@ void add_deformable(std::vector<Row>& rows, const StepRecord& record) {
   const double energy = std::abs(record.stats.elastic);
   rows.push_back({"tetrahedra", grouped(tetrahedra)});
   rows.push_back({"their unknowns", grouped(unknowns)});
-  rows.push_back({"elastic energy", energy > 0.0 && energy < 0.1 ? fmt::format("{:.3g} mJ", 1e3 * record.stats.elastic) : fmt::format("{:.4g} J", record.stats.elastic)});
+  rows.push_back({"elastic energy", energy > 0.0 && energy < 0.1 ? fmt::format("{:.3g} mJ", 1e3 * record.stats.elastic)
+                                                                 : fmt::format("{:.4g} J", record.stats.elastic)});
 }
 
 std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   const FrameStats& s = record.stats;
-  const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable; });
+  const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) {
+    return b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable;
+  });
   std::vector<Row> rows = {
       {"frame", grouped(s.frame), true},
       {"time", fmt::format("{:.4f} s", s.time), true},
@@ -84,7 +87,8 @@ PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSetti
     values = std::max(values, pen.text_width(row.value));
   }
   const float pad = pen.padding();
-  PanelArea area{pen.margin(), pen.margin(), labels + values + 2.0f * pad + (pen.is_small() ? 0.5f : 1.0f) * kBetween * pen.unit,
+  PanelArea area{pen.margin(), pen.margin(),
+                 labels + values + 2.0f * pad + (pen.is_small() ? 0.5f : 1.0f) * kBetween * pen.unit,
                  static_cast<float>(rows.size()) * pen.row() + 2.0f * pad - (pen.row() - pen.text_size)};
   if (area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height) return {};
   pen.sheet(area.x, area.y, area.width, area.height);

@@ -27,7 +27,8 @@ void draw_labels(const Pen& pen, const std::vector<DrawLabel>& labels, const Cam
     area.y = std::floor(static_cast<float>(placed.at.y()) - area.height - 3.0f * pen.unit);
     const bool inside = area.x >= 0.0f && area.y >= 0.0f && area.x + area.width <= pen.picture_width &&
                         area.y + area.height <= pen.picture_height;
-    const bool meets = std::any_of(taken.begin(), taken.end(), [&](const PanelArea& t) { return panels_meet(t, area); });
+    const bool meets =
+        std::any_of(taken.begin(), taken.end(), [&](const PanelArea& t) { return panels_meet(t, area); });
     if (!inside || meets) continue;
     pen.list.AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + area.height}, IM_COL32(18, 21, 26, 165),
                            3.0f * pen.unit);

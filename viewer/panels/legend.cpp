@@ -59,7 +59,8 @@ PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettin
   area.x = pen.picture_width - pen.margin() - area.width;
   area.y = pen.margin();
   const bool meets = other.width > 0.0f && area.x < other.x + other.width + pen.margin();
-  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height) return {};
+  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height)
+    return {};
   pen.sheet(area.x, area.y, area.width, area.height);
   float y = area.y + pad;
   for (const LegendRow& row : rows) {

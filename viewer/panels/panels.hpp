@@ -12,8 +12,8 @@ struct PanelArea {
 };
 
 /// The frame's figures at the top left: deterministic ones only, unless timings are asked for; in a small picture only
-/// the most important ones. Draws nothing where the panel would cover more than half the picture's width or run over its
-/// height.
+/// the most important ones. Draws nothing where the panel would cover more than half the picture's width or run over
+/// its height.
 PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
 
 /// What the visible layers' marks mean, as far as the scene has such things, at the top right; left out where it would
@@ -22,7 +22,8 @@ PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettin
 
 /// What the colours of heated surfaces mean, at the bottom right; left out with the legend, or where it would meet one
 /// of `taken`.
-PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings, const std::vector<PanelArea>& taken);
+PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings,
+                         const std::vector<PanelArea>& taken);
 
 /// Whether two panels share a pixel; those that were left out don't.
 bool panels_meet(const PanelArea& a, const PanelArea& b);
