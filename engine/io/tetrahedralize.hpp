@@ -1,4 +1,4 @@
-// Tetrahedra that fill a closed surface, made by a program of its own: impinge-tetrahedralize (tools/tetrahedralize).
+// Tetrahedra that fill a closed surface, made by a program of its own: impinge-tetrahedralize (scenes/meshes/tetrahedralize).
 //
 // It stands apart because the library it uses is under another licence, large, and slow to compile; nothing of it is
 // linked into impinge.

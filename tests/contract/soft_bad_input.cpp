@@ -39,7 +39,7 @@ constexpr const char* kAttachment = "body_a = \"jelly\"\nbody_b = \"floor\"\npoi
 const std::vector<std::string> kRun = {"run", "s.toml", "--out", "out", "--frames", "1", "--no-images"};
 
 // the scene with `from` exchanged, in a folder of good and bad meshes; `start` is where the message says it is
-void refused(const std::string& from, const std::string& to, const std::string& start, const std::string& contains) {
+void check_refused_at(const std::string& from, const std::string& to, const std::string& start, const std::string& contains) {
   static const TempFolder folder;
   static const bool written = [] {
     const TetMesh cube = make_tet_box(Vec3::Constant(0.2), 2, 2, 2);
@@ -66,11 +66,11 @@ void refused(const std::string& from, const std::string& to, const std::string& 
 }
 
 void refused_material(const std::string& keys, const std::string& place, const std::string& contains) {
-  refused(kMaterial, "material = { " + keys + " }", "s.toml:12:" + place, contains);
+  check_refused_at(kMaterial, "material = { " + keys + " }", "s.toml:12:" + place, contains);
 }
 
 void refused_fixed(const std::string& value, const std::string& place, const std::string& contains) {
-  refused(kFixed, "fixed = " + value, "s.toml:14:" + place, contains);
+  check_refused_at(kFixed, "fixed = " + value, "s.toml:14:" + place, contains);
 }
 
 }  // namespace
@@ -84,48 +84,48 @@ TEST_CASE("the deformable scene that the bad ones are made from is good") {
 }
 
 TEST_CASE("volumes that can't be made are refused at the right place") {
-  refused(kKind, "kind = \"deformabel\"", "s.toml:9:8", "did you mean 'deformable'?");
-  refused(kKind, "kind = \"dynamic\"", "s.toml:11:1", "belongs to deformable bodies");
-  refused(kKind, "kind = \"static\"", "s.toml:11:1", "belongs to deformable bodies");
-  refused(kVolume, "", "s.toml:7:1", "add volume = ");
-  refused(kVolume, "volume = 3", "s.toml:11:10", "a file name, or a table");
-  refused(kVolume, "volume = [true]", "s.toml:11:10", "a file name, or a table");
-  refused(kVolume, "volume = {}", "s.toml:11:10", "names 0 ways");
-  refused(kVolume, "volume = { cage = { cells = 3 }, lattice = { cells = 3 } }", "s.toml:11:10", "names 2 ways");
-  refused(kVolume, "volume = { cge = { cells = 3 } }", "s.toml:11:12", "did you mean 'cage'?");
-  refused(kVolume, "volume = { cage = 3 }", "s.toml:11:19", "a table { ... } is wanted");
-  refused(kVolume, "volume = { cage = {} }", "s.toml:11:19", "has no cells");
-  refused(kVolume, "volume = { cage = { cell = 3 } }", "s.toml:11:21", "did you mean 'cells'?");
-  refused(kVolume, "volume = { cage = { cells = 1 } }", "s.toml:11:29", "[2, 200]");
-  refused(kVolume, "volume = { cage = { cells = 201 } }", "s.toml:11:29", "[2, 200]");
-  refused(kVolume, "volume = { cage = { cells = 2.5 } }", "s.toml:11:29", "a whole number");
-  refused(kVolume, "volume = { cage = { cells = nan } }", "s.toml:11:29", "nan");
-  refused(kVolume, "volume = { lattice = { cells = \"many\" } }", "s.toml:11:32", "a real number");
-  refused(kShapeAndVolume, "shape = { sphere = { radius = 0.1 } }\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12", "use a cage");
-  refused(kShapeAndVolume, "surface = \"cube.off\"\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12", "use a cage");
-  refused(kShape, "", "s.toml:7:1", "has no surface");
-  refused(kShape, "shape = { plane = { normal = [0, 1, 0] } }", "s.toml:10:9", "sphere, box, capsule");
-  refused(kShape, "shape = { capsule = { radius = 1 } }", "s.toml:10:21", "has no length");
-  refused(kShapeAndVolume, std::string(kShape) + "\nsurface = \"cube.off\"\n" + kVolume, "s.toml:11:1", "one of them is wanted");
-  refused(kShape, "surface = \"none.off\"", "s.toml:10:11", "there is no such file");
-  refused(kShape, "surface = \"open.off\"", "s.toml:10:11", "not closed");
-  refused(kShape, "shape = { box = { size = [0.2, 0.2, -1] } }", "s.toml:10:37", "greater than 0");
+  check_refused_at(kKind, "kind = \"deformabel\"", "s.toml:9:8", "did you mean 'deformable'?");
+  check_refused_at(kKind, "kind = \"dynamic\"", "s.toml:11:1", "belongs to deformable bodies");
+  check_refused_at(kKind, "kind = \"static\"", "s.toml:11:1", "belongs to deformable bodies");
+  check_refused_at(kVolume, "", "s.toml:7:1", "add volume = ");
+  check_refused_at(kVolume, "volume = 3", "s.toml:11:10", "a file name, or a table");
+  check_refused_at(kVolume, "volume = [true]", "s.toml:11:10", "a file name, or a table");
+  check_refused_at(kVolume, "volume = {}", "s.toml:11:10", "names 0 ways");
+  check_refused_at(kVolume, "volume = { cage = { cells = 3 }, lattice = { cells = 3 } }", "s.toml:11:10", "names 2 ways");
+  check_refused_at(kVolume, "volume = { cge = { cells = 3 } }", "s.toml:11:12", "did you mean 'cage'?");
+  check_refused_at(kVolume, "volume = { cage = 3 }", "s.toml:11:19", "a table { ... } is wanted");
+  check_refused_at(kVolume, "volume = { cage = {} }", "s.toml:11:19", "has no cells");
+  check_refused_at(kVolume, "volume = { cage = { cell = 3 } }", "s.toml:11:21", "did you mean 'cells'?");
+  check_refused_at(kVolume, "volume = { cage = { cells = 1 } }", "s.toml:11:29", "[2, 200]");
+  check_refused_at(kVolume, "volume = { cage = { cells = 201 } }", "s.toml:11:29", "[2, 200]");
+  check_refused_at(kVolume, "volume = { cage = { cells = 2.5 } }", "s.toml:11:29", "a whole number");
+  check_refused_at(kVolume, "volume = { cage = { cells = nan } }", "s.toml:11:29", "nan");
+  check_refused_at(kVolume, "volume = { lattice = { cells = \"many\" } }", "s.toml:11:32", "a real number");
+  check_refused_at(kShapeAndVolume, "shape = { sphere = { radius = 0.1 } }\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12", "use a cage");
+  check_refused_at(kShapeAndVolume, "surface = \"cube.off\"\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12", "use a cage");
+  check_refused_at(kShape, "", "s.toml:7:1", "has no surface");
+  check_refused_at(kShape, "shape = { plane = { normal = [0, 1, 0] } }", "s.toml:10:9", "sphere, box, capsule");
+  check_refused_at(kShape, "shape = { capsule = { radius = 1 } }", "s.toml:10:21", "has no length");
+  check_refused_at(kShapeAndVolume, std::string(kShape) + "\nsurface = \"cube.off\"\n" + kVolume, "s.toml:11:1", "one of them is wanted");
+  check_refused_at(kShape, "surface = \"none.off\"", "s.toml:10:11", "there is no such file");
+  check_refused_at(kShape, "surface = \"open.off\"", "s.toml:10:11", "not closed");
+  check_refused_at(kShape, "shape = { box = { size = [0.2, 0.2, -1] } }", "s.toml:10:37", "greater than 0");
 }
 
 TEST_CASE("volume files that don't fit are refused at the right place") {
-  refused(kShapeAndVolume, "volume = \"none.veg\"", "s.toml:10:10", "there is no such file");
-  refused(kShapeAndVolume, "volume = \"../secret.veg\"", "s.toml:10:10", "leads out of the scene's folder");
-  refused(kShapeAndVolume, "volume = \"\"", "s.toml:10:10", "name a file");
-  refused(kVolume, "volume = \"cube.veg\"", "s.toml:10:1", "remove shape");
-  refused(kShapeAndVolume, "volume = \"cube.off\"", "cube.off", ".veg, .node/.ele and .msh are read");
-  refused(kShapeAndVolume, "volume = \"bad.veg\"", "bad.veg:36:9", "vertex 140");
-  refused(kShapeAndVolume, "volume = \"inverted.msh\"", "inverted.msh:45:1", "inverted");
-  refused(kShapeAndVolume, "volume = \"lonely.node\"", "lonely.node", "'lonely.ele' is not there");
-  refused(kShapeAndVolume, "surface = \"far.off\"\nvolume = \"cube.veg\"", "s.toml:11:10", "outside of the volume");
+  check_refused_at(kShapeAndVolume, "volume = \"none.veg\"", "s.toml:10:10", "there is no such file");
+  check_refused_at(kShapeAndVolume, "volume = \"../secret.veg\"", "s.toml:10:10", "leads out of the scene's folder");
+  check_refused_at(kShapeAndVolume, "volume = \"\"", "s.toml:10:10", "name a file");
+  check_refused_at(kVolume, "volume = \"cube.veg\"", "s.toml:10:1", "remove shape");
+  check_refused_at(kShapeAndVolume, "volume = \"cube.off\"", "cube.off", ".veg, .node/.ele and .msh are read");
+  check_refused_at(kShapeAndVolume, "volume = \"bad.veg\"", "bad.veg:36:9", "vertex 140");
+  check_refused_at(kShapeAndVolume, "volume = \"inverted.msh\"", "inverted.msh:45:1", "inverted");
+  check_refused_at(kShapeAndVolume, "volume = \"lonely.node\"", "lonely.node", "'lonely.ele' is not there");
+  check_refused_at(kShapeAndVolume, "surface = \"far.off\"\nvolume = \"cube.veg\"", "s.toml:11:10", "outside of the volume");
 }
 
 TEST_CASE("materials that don't exist are refused at the right place") {
-  refused(kMaterial, "material = \"jelly\"", "s.toml:12:12", "a table { ... } is wanted");
+  check_refused_at(kMaterial, "material = \"jelly\"", "s.toml:12:12", "a table { ... } is wanted");
   refused_material("modle = \"corotational\"", "14", "did you mean 'model'?");
   refused_material("model = \"corotationl\"", "22", "did you mean 'corotational'?");
   refused_material("model = 3", "22", "a text is wanted");
@@ -153,9 +153,9 @@ TEST_CASE("materials that don't exist are refused at the right place") {
   refused_material("mass = 3", "21", "a text is wanted");
   refused_material("extension_threshold = 0", "36", "[0.001, 0.9]");
   refused_material("extension_threshold = 1", "36", "[0.001, 0.9]");
-  refused(kMaterial, std::string(kMaterial) + "\nmass = 3", "s.toml:13:1", "a mass and a density");
-  refused(kMaterial, "mass = 0", "s.toml:12:8", "greater than 0");
-  refused(kMaterial, std::string(kMaterial) + "\nmotion = [ { time = 0 } ]", "s.toml:13:1", "scripted bodies have one");
+  check_refused_at(kMaterial, std::string(kMaterial) + "\nmass = 3", "s.toml:13:1", "a mass and a density");
+  check_refused_at(kMaterial, "mass = 0", "s.toml:12:8", "greater than 0");
+  check_refused_at(kMaterial, std::string(kMaterial) + "\nmotion = [ { time = 0 } ]", "s.toml:13:1", "scripted bodies have one");
 }
 
 TEST_CASE("held regions that hold nothing, or make no sense, are refused at the right place") {
@@ -191,9 +191,9 @@ TEST_CASE("held regions that hold nothing, or make no sense, are refused at the 
 
 TEST_CASE("attachments that join nothing are refused at the right place") {
   const auto refused_attachment = [](const std::string& keys, const std::string& place, const std::string& contains) {
-    refused(kAttachment, keys, "s.toml:" + place, contains);
+    check_refused_at(kAttachment, keys, "s.toml:" + place, contains);
   };
-  refused("[[attachment]]", "[attachment]", "s.toml:15:1", "write [[attachment]]");
+  check_refused_at("[[attachment]]", "[attachment]", "s.toml:15:1", "write [[attachment]]");
   refused_attachment("", "15:1", "has no body_a");
   refused_attachment("body_a = \"jelly\"\n", "15:1", "has no point");
   refused_attachment("body_b = \"jelly\"\npoint = [0, 0.3, 0]\n", "15:1", "has no body_a");

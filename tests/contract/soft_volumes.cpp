@@ -202,7 +202,7 @@ TEST_CASE("the real tetrahedralizer fills a ball with good tetrahedra") {
   const fs::path built = fs::path(IMPINGE_PROGRAM).parent_path() / "impinge-tetrahedralize";
   const fs::path program = fs::exists(built) ? built : find_tetrahedralizer();
   if (program.empty()) {
-    WARN("skipped: impinge-tetrahedralize is not built (tools/tetrahedralize/CMakeLists.txt says how)");
+    WARN("skipped: impinge-tetrahedralize is not built (scenes/meshes/tetrahedralize/CMakeLists.txt says how)");
     SUCCEED();
     return;
   }
