@@ -67,7 +67,7 @@ void print_scene(const Session& session, const Counts& counts) {
   fmt::print("memory:       about {:.1f} MB for bodies and surfaces\n", static_cast<double>(counts.bytes) / 1e6);
 }
 
-void print_model(const Parameters& p, const Counts& counts) {
+void print_model(const Parameters& p, const Counts& counts, std::size_t attachments) {
   fmt::print("time:         {} s a frame, {} sub-steps of {} s\n", shortest(p.simulation.frame_time), p.simulation.substeps, shortest(p.simulation.time_step()));
   const auto line = [](const char* stage, bool used, const std::string& what, const char* why) { fmt::print("{:<14}{}\n", stage, used ? what : std::string("left out: ") + why); };
   const int moving = counts.dynamic + counts.deformable;
@@ -79,7 +79,9 @@ void print_model(const Parameters& p, const Counts& counts) {
   line("friction:", meets && counts.friction, fmt::format("Coulomb cone, three rows a contact, coefficient {} unless a body names one", shortest(p.contact.friction)), "no body has any, so contacts have one row");
   line("restitution:", meets && counts.restitution, fmt::format("{} unless a body names one, above {} m/s", shortest(p.contact.restitution), shortest(p.contact.restitution_threshold)), "no body bounces");
   line("sleeping:", p.simulation.sleeping && moves, fmt::format("groups slower than {} m/s for {} s", shortest(p.simulation.sleep_speed), shortest(p.simulation.sleep_time)), "switched off, or nothing can move");
-  line("deformation:", counts.deformable > 0, fmt::format("{} degrees of freedom, linear solves by {}", counts.soft_dofs, p.simulation.linear_solver), "no body is deformable");
+  line("deformation:", counts.deformable > 0, fmt::format("{} degrees of freedom, linear solver {}", counts.soft_dofs, p.simulation.linear_solver), "no body is deformable");
+  line("self-contact:", counts.self_collision, "of the deformable bodies that ask for it", "no deformable body asks for it");
+  line("attachments:", attachments > 0, fmt::format("{}, three bilateral rows each", attachments), "the scene has none");
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ int info_command(const Arguments& arguments) {
   const Counts counts = count(session.world());
   fmt::print("{}\n", arguments.run_options.scene.string());
   print_scene(session, counts);
-  print_model(session.world().parameters, counts);
+  print_model(session.world().parameters, counts, session.record().attachments.size());
   return 0;
 }
 

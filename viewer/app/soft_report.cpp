@@ -2,9 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/linear_solver.hpp"
 #include "engine/geometry/mass_properties.hpp"
 
 namespace impinge {
+
+namespace {
+
+constexpr int kManyRightHandSides = 100;  // about what contact asks for; one is what a free body asks for
+
+std::string solvers_of(const std::string& wanted, int dofs) {
+  if (dofs == 0) return "none, since every node is held";
+  if (wanted != "automatic") return wanted;
+  const std::string_view one = automatic_linear_solver(dofs, 1), many = automatic_linear_solver(dofs, kManyRightHandSides);
+  return one == many ? fmt::format("{}", one) : fmt::format("{}; {} where it touches something", one, many);
+}
+
+}  // namespace
 
 void print_soft_bodies(const Session& session) {
   for (const RigidBody& body : session.world().bodies()) {
@@ -24,6 +38,7 @@ void print_soft_bodies(const Session& session) {
     fmt::print("    material: {}, young {} Pa, poisson {}, density {:.6g} kg/m^3, damping alpha {} 1/s, beta {} s, {} mass\n", soft.model, shortest(m.young), shortest(m.poisson),
                body.mass / filled, shortest(soft.fem.damping.alpha), shortest(soft.fem.damping.beta), fem.mass_kind() == MassKind::lumped ? "lumped" : "consistent");
     fmt::print("    volume:   {:.6g} m^3 filled ({:+.2f} % of the surface's {:.6g} m^3), mass {:.6g} kg\n", filled, 100.0 * (filled / enclosed - 1.0), enclosed, body.mass);
+    fmt::print("    solver:   {}\n", solvers_of(session.world().parameters.simulation.linear_solver, soft.fem.dofs()));
     fmt::print("    surface:  {} vertices, {} triangles{}\n", surface.vertices.size(), surface.triangles.size(),
                outside > 0 ? fmt::format(", {} vertices outside of the volume, carried by the nearest tetrahedra", outside) : "");
   }
