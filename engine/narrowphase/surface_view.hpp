@@ -23,6 +23,7 @@ class SurfaceView {
       : collider_(&collider), mesh_(&collider.mesh().mesh), topology_(&collider.mesh().topology), body_(body) {}
 
   int body() const { return body_; }
+  bool is_deforming() const { return !collider_->vertex_velocities.empty(); }
   double mean_edge() const { return collider_->mean_edge; }
   const Vec3& vertex(int v) const { return collider_->vertices[v]; }
   const Triangle& triangle(int t) const { return mesh_->triangles[t]; }

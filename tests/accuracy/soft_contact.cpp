@@ -28,9 +28,7 @@ void check_rest(double young, int cells, bool stacked, double seconds, int subst
 
   double weight = 0.0;
   for (const RigidBody& body : world.bodies()) weight += body.soft ? kGravity * body.mass : 0.0;
-  // two lattices of 1e5 Pa don't come quite to rest: contacts of edges that are flat to 1e-4 come and go from step to step,
-  // also with every solve converged
-  CHECK(fastest_node(world) < (stacked && young == 1e5 ? 1e-2 : 1e-3));
+  CHECK(fastest_node(world) < 1e-3);
   CHECK(judge_overlap(world.bodies()).penetration < 1e-4 * 0.2);
   // what the floor bears: contacts of the plane, mean over a few frames, since a residual of the solver leaves a tremble
   double force = 0.0;
@@ -52,7 +50,9 @@ TEST_CASE("a deformable cube rests, every stiffness, ten seconds", "[long]") {
   for (const double young : {1e4, 1e5, 1e6, 1e7}) check_rest(young, 4, false, 10.0, 2);
 }
 
-TEST_CASE("two stacked deformable cubes come to rest") { check_rest(1e6, 3, true, 3.0, 2); }
+TEST_CASE("two stacked deformable cubes come to rest") {
+  for (const double young : {1e5, 1e6}) check_rest(young, 3, true, 3.0, 2);
+}
 
 TEST_CASE("two stacked deformable cubes rest, every stiffness, ten seconds", "[long]") {
   for (const double young : {1e4, 1e5, 1e6, 1e7}) check_rest(young, 3, true, 10.0, 2);
@@ -92,8 +92,6 @@ TEST_CASE("deformable and rigid bodies share a group: a box on a soft cube, a so
   run(world, 90);
   const double weight = kGravity * (world.bodies()[1].mass + world.bodies()[2].mass);
   CHECK(world.record().groups.size() == 1);
-  // edges of the box cross edges of a surface that is flat to 1e-4: these contacts come and go, and the forces of single
-  // steps with them (1 %)
   double floor = 0.0, box_force = 0.0;
   const int frames = 60;
   for (int i = 0; i < frames; ++i) {
@@ -101,8 +99,8 @@ TEST_CASE("deformable and rigid bodies share a group: a box on a soft cube, a so
     floor -= contact_force_on(world, 0).y() / frames;
     box_force += contact_force_on(world, 2).y() / frames;
   }
-  CHECK(floor == Approx(weight).epsilon(5e-3));
-  CHECK(box_force == Approx(kGravity * world.bodies()[2].mass).epsilon(1e-2));
+  CHECK(floor == Approx(weight).epsilon(1e-3));
+  CHECK(box_force == Approx(kGravity * world.bodies()[2].mass).epsilon(1e-3));
   CHECK(judge_overlap(world.bodies()).penetration < 2e-5);
 }
 
