@@ -1,8 +1,16 @@
 // Each outer step minimises, under the contacts' laws, a quadratic that lies above ½ Δv^T A Δv and touches it at a point y:
 //   r = A y - J^T λ,   Δv = y - Q⁻¹ r,   Gauss-Seidel sweeps over the contacts on J Q⁻¹ J^T, which move Δv as they move λ,
-// with Q of NodeInverse (Q >= A, checked along every step, since the power method only comes near λ_max from below). y by
-// Nesterov's rule, restarted where the step turns against it. Without friction this is a majorise-minimise scheme on a convex
-// problem; with Coulomb's law it converged in every run that was made.
+// with Q of NodeInverse (Q >= A, checked along every step, since the power method only comes near λ_max from below).
+//
+// F = Δv - y is the gradient of ½ y^T A y - y^T J^T λ, preconditioned by Q and projected on the contacts that act: conjugate
+// gradients can be had from it. The next y minimises that energy over y + span{F, last step of y}. While contacts stay open
+// or closed this is the projected preconditioned conjugate gradient method; where one opens or closes, or F grows, it starts
+// again with the plain step y = Δv. Where it makes no progress (stiff bodies that slide: Coulomb's law is not symmetric) the
+// rest is done by Nesterov's rule, restarted where the step turns against it; without friction that is a majorise-minimise
+// scheme on a convex problem.
+// Two stacked 0.2 m cubes of 4³ and 3³ cells, mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule
+// alone 39 / 50 / 46 s, factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have
+// nodes, the sweeps carry impulse along the null space of J: see follow_drift and is_stalled.
 //
 // The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold: a resting
 // group is recognized, and no work is spent on a λ that is far off.
@@ -11,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/friction_cone.hpp"
 #include "engine/response/split_rows.hpp"
 
 namespace impinge {
@@ -20,6 +29,11 @@ constexpr int kSweeps = 4;        // a step at most; they start from the last st
 constexpr int kStartSteps = 400;  // of conjugate gradients at most
 constexpr int kStartCheck = 8;    // steps between looks at what the contacts make of it
 constexpr double kStartAccuracy = 1e-3;  // of the contacts' residual: error of stiff bodies is far above D⁻¹ times their residual
+constexpr double kGrowth = 16.0;   // of |F|² over its least since the last restart, that asks for another
+constexpr double kProgress = 0.5;   // of |F|², to count as progress
+constexpr int kPatience = 50;      // steps without progress before conjugate gradients are given up
+constexpr int kDrift = 10;         // steps in balance whose contacts don't hold, before λ is taken along its drift
+constexpr int kStalled = 300;      // steps in which neither the balance nor the contacts get better by a tenth: more are no use
 constexpr int kFreshRigid = 32;   // steps after which rigid Δv is summed up afresh, lest rounding gathers
 
 using Vectors = std::vector<VecX>;
@@ -36,7 +50,7 @@ class Solver {
     for (const SoftBlock& block : group.soft) inverse_.emplace_back(block);
     rows_ = std::make_unique<SplitRows>(group, inverse_, base.q);
     for (const Vec3& q : base.q) scale_ = std::max(scale_, q.norm());
-    for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_})
+    for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
       for (const SoftBlock& block : group.soft) v->push_back(VecX::Zero(block.velocity.size()));
   }
 
@@ -46,7 +60,8 @@ class Solver {
     rows_->move_rigid(group_.lambda);
     rows_->impulses(group_.lambda, f_);
     start(tolerance);
-    double theta = 1.0, before = -1.0, momentum = momentum_residual();
+    for (const Vec3& lambda : group_.lambda) acts_.push_back(!lambda.isZero(0.0));
+    double before = -1.0, momentum = momentum_residual();
     result.converged = momentum <= tolerance && rows_->natural_residual(group_.lambda, x_) <= tolerance;
     while (!result.converged && result.outer_iterations < settings_.max_outer_iterations) {
       for (std::size_t s = 0; s < x_.size(); ++s) {
@@ -56,6 +71,7 @@ class Solver {
         inverse_[s].step(y_[s], r_[s], x_[s]);
       }
       if (result.outer_iterations % kFreshRigid == 0) rows_->move_rigid(group_.lambda);
+      earlier_ = group_.lambda;
       double change = 0.0;
       for (int k = 0; k < kSweeps; ++k) {
         change = rows_->sweep(group_.lambda, x_);
@@ -77,7 +93,10 @@ class Solver {
         result.converged = contacts_hold && momentum <= tolerance;
       }
       if (result.converged) break;
-      extrapolate(theta);
+      if (is_stalled(std::max(momentum, change), result.outer_iterations)) break;
+      drifting_ = momentum <= std::max(tolerance, 0.1 * change) ? drifting_ + 1 : 0;
+      if (drifting_ == kDrift) follow_drift();
+      choose_next(result.outer_iterations);
     }
     rows_->move_rigid(group_.lambda);
     group_.soft_delta = x_;
@@ -113,30 +132,116 @@ class Solver {
     a_y_ = a_x_;
   }
 
-  void extrapolate(double& theta) {
-    double turn = 0.0;
+  bool is_stalled(double error, int iteration) {
+    if (least_error_ < 0.0 || error < 0.9 * least_error_) {
+      least_error_ = error;
+      least_error_at_ = iteration;
+    }
+    return iteration - least_error_at_ > kStalled;
+  }
+
+  /// Two contacts in nearly one place with bounds that differ a little: every sweep moves the same bit of impulse from the one
+  /// to the other, the bodies feel nothing, and it takes a million sweeps until the second is empty. All of it at once: λ along
+  /// its last change until the first contact opens.
+  void follow_drift() {
+    drifting_ = 0;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < earlier_.size(); ++i) {
+      const double now = group_.lambda[i].x(), change = now - earlier_[i].x();
+      if (change < 0.0 && now > 0.0 && (longest == 0.0 || now < -longest * change)) longest = now / -change;
+    }
+    for (std::size_t i = 0; i < earlier_.size(); ++i) {
+      group_.lambda[i] += longest * (group_.lambda[i] - earlier_[i]);
+      if (group_.contacts[i].kind == RowKind::contact) group_.lambda[i] = project_to_cone(group_.lambda[i], group_.contacts[i].friction);
+    }
+    rows_->move_rigid(group_.lambda);
+    rows_->impulses(group_.lambda, f_);
+  }
+
+  /// Inner products of F = x - y and d, the last step of y. Q F = J^T λ - A y, A F = A x - A y.
+  struct Gram {
+    double f_q_f = 0.0, f_a_f = 0.0, d_q_f = 0.0, f_a_d = 0.0, d_a_d = 0.0;
+    double turn = 0.0;    // of the step against the last change of x, in the norm of Q
+    bool shrunk = false;  // Q was below A along the step, and has been made larger
+  };
+
+  Gram measure_step() {
+    Gram g;
     for (std::size_t s = 0; s < x_.size(); ++s) {
-      // Q d = J^T λ - A y along the step d = x - y that was taken: Q >= A asks d·A d <= d·Q d
       step_[s] = x_[s] - y_[s];
-      r_[s] = a_y_[s] - f_[s];
+      r_[s] = a_y_[s] - f_[s];  // -Q F
       const double q_norm = -dot(step_[s], r_[s]), a_norm = dot(step_[s], a_x_[s]) - dot(step_[s], a_y_[s]);
       if (a_norm > 1.001 * q_norm && q_norm > 1e-20 * dot(x_[s], a_x_[s])) {
         inverse_[s].shrink(1.05 * a_norm / q_norm);
-        changed_ = true;
+        g.shrunk = true;
       }
-      turn += dot(r_[s], x_[s]) - dot(r_[s], last_[s]);
+      g.f_q_f += q_norm;
+      g.f_a_f += a_norm;
+      g.d_q_f -= dot(d_[s], r_[s]);
+      g.f_a_d += dot(step_[s], a_d_[s]);
+      g.d_a_d += dot(d_[s], a_d_[s]);
+      g.turn += dot(r_[s], x_[s]) - dot(r_[s], last_[s]);
     }
-    if (changed_) rows_->prepare();
-    changed_ = false;
-    const bool restart = turn > 0.0;
-    if (restart) theta = 1.0;
-    const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * theta * theta));
-    const double beta = restart ? 0.0 : (theta - 1.0) / next;
+    if (g.shrunk) rows_->prepare();
+    return g;
+  }
+
+  void choose_next(int iteration) {
+    const Gram g = measure_step();
+    if (best_ < 0.0 || g.f_q_f < kProgress * best_) {
+      best_ = g.f_q_f;
+      best_at_ = iteration;
+    }
+    if (cautious_)
+      extrapolate(g);
+    else
+      minimise(g, iteration);
+  }
+
+  /// y = the minimum over y + span{F, d}, or x where that is not to be trusted.
+  void minimise(const Gram& g, int iteration) {
+    cautious_ = iteration - best_at_ > kPatience;
+    bool restart = cautious_ || g.shrunk || iteration == 1 || !(g.f_q_f <= kGrowth * least_);
+    for (std::size_t i = 0; i < acts_.size(); ++i) {
+      const char now = !group_.lambda[i].isZero(0.0);
+      restart |= now != acts_[i];
+      acts_[i] = now;
+    }
+    least_ = restart ? g.f_q_f : std::min(least_, g.f_q_f);
+    if (restart) {
+      for (std::size_t s = 0; s < x_.size(); ++s) {
+        d_[s].setZero();
+        a_d_[s].setZero();
+        y_[s] = x_[s];
+        a_y_[s] = a_x_[s];
+      }
+      return;
+    }
+    double alpha = g.f_a_f > 0.0 ? g.f_q_f / g.f_a_f : 1.0, beta = 0.0;
+    const double determinant = g.f_a_f * g.d_a_d - g.f_a_d * g.f_a_d;
+    if (g.d_a_d > 0.0 && determinant > 1e-14 * g.f_a_f * g.d_a_d) {
+      alpha = (g.f_q_f * g.d_a_d - g.d_q_f * g.f_a_d) / determinant;
+      beta = (g.d_q_f * g.f_a_f - g.f_q_f * g.f_a_d) / determinant;
+    }
+    for (std::size_t s = 0; s < x_.size(); ++s) {
+      d_[s] = alpha * step_[s] + beta * d_[s];
+      a_d_[s] = alpha * (a_x_[s] - a_y_[s]) + beta * a_d_[s];
+      y_[s] += d_[s];
+      a_y_[s] += a_d_[s];
+    }
+  }
+
+  /// Nesterov's rule.
+  void extrapolate(const Gram& g) {
+    const bool restart = g.turn > 0.0;
+    if (restart) theta_ = 1.0;
+    const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * theta_ * theta_));
+    const double beta = restart ? 0.0 : (theta_ - 1.0) / next;
     for (std::size_t s = 0; s < x_.size(); ++s) {
       y_[s] = x_[s] + beta * (x_[s] - last_[s]);
       a_y_[s] = a_x_[s] + beta * (a_x_[s] - a_last_[s]);
     }
-    theta = next;
+    theta_ = next;
   }
 
   /// max |D⁻¹ (A Δv - J^T λ)| over nodes, m/s. Leaves A Δv - J^T λ in r_.
@@ -160,8 +265,18 @@ class Solver {
   std::vector<NodeInverse> inverse_;
   std::unique_ptr<SplitRows> rows_;
   Vectors x_, last_, y_, a_x_, a_last_, a_y_, f_, r_, step_;
+  Vectors d_, a_d_;         // last step of y, and A times it
+  std::vector<Vec3> earlier_;  // λ before the last sweeps
+  int drifting_ = 0;
+  std::vector<char> acts_;  // contacts with an impulse
   double scale_ = 0.0;
-  bool changed_ = false;
+  double least_ = 0.0;      // |F|² since the last restart
+  double least_error_ = -1.0;  // of balance and contacts, m/s, and when it was last bettered
+  int least_error_at_ = 0;
+  double best_ = -1.0;      // |F|² of the whole solve, and when it was last bettered
+  int best_at_ = 0;
+  bool cautious_ = false;   // conjugate gradients were given up
+  double theta_ = 1.0;
 };
 
 }  // namespace
