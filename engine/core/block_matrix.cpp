@@ -57,6 +57,15 @@ BlockPattern make_block_pattern(int rows, std::span<const std::array<int, 4>> gr
   return p;
 }
 
+BlockPattern block_pattern_of_rows(std::vector<int> begin, std::vector<int> column) {
+  BlockPattern p;
+  p.rows = static_cast<int>(begin.size()) - 1;
+  p.begin = std::move(begin);
+  p.column = std::move(column);
+  finish(p);
+  return p;
+}
+
 BlockPattern sub_pattern(const BlockPattern& pattern, std::span<const int> new_index, std::vector<int>& source) {
   BlockPattern p;
   p.begin.assign(1, 0);

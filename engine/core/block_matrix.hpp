@@ -25,6 +25,9 @@ struct BlockPattern {
 /// Pattern that joins all nodes of each group (the corners of an element) with one another. Indices in [0, rows).
 BlockPattern make_block_pattern(int rows, std::span<const std::array<int, 4>> groups);
 
+/// Pattern from its block rows. Each row's columns ascend and hold the diagonal, and (j, i) is there where (i, j) is.
+BlockPattern block_pattern_of_rows(std::vector<int> begin, std::vector<int> column);
+
 /// Rows and columns of `pattern` that are kept: node i becomes new_index[i], which is −1 where it goes and ascends
 /// otherwise. `source` gets the position in `pattern` of each block of the result.
 BlockPattern sub_pattern(const BlockPattern& pattern, std::span<const int> new_index, std::vector<int>& source);

@@ -62,6 +62,7 @@ class Solver {
     start(tolerance);
     for (const Vec3& lambda : group_.lambda) acts_.push_back(!lambda.isZero(0.0));
     double before = -1.0, momentum = momentum_residual();
+    show();
     result.converged = momentum <= tolerance && rows_->natural_residual(group_.lambda, x_) <= tolerance;
     while (!result.converged && result.outer_iterations < settings_.max_outer_iterations) {
       for (std::size_t s = 0; s < x_.size(); ++s) {
@@ -85,6 +86,7 @@ class Solver {
         multiply(*group_.soft[s].a, x_[s], a_x_[s]);
       }
       momentum = momentum_residual();
+      show();
       if (settings_.stop == "change") {
         const double size = momentum_norm();
         result.converged = size == 0.0 || (before >= 0.0 && std::abs(size - before) < kSeedChange * before);
@@ -130,6 +132,12 @@ class Solver {
     }
     y_ = x_;
     a_y_ = a_x_;
+  }
+
+  void show() {
+    if (!settings_.observe) return;
+    group_.soft_delta = x_;
+    settings_.observe(group_);
   }
 
   bool is_stalled(double error, int iteration) {

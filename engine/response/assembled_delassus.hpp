@@ -18,6 +18,7 @@ class AssembledDelassus : public Delassus {
   void begin(const std::vector<Vec3>& lambda) override;
   Vec3 row(std::size_t i, bool normal_only) const override;
   void change(std::size_t i, const Vec3& delta, bool normal_only) override;
+  MatX dense() override { return *w_; }
   const MatX& matrix() const { return *w_; }
 
  private:

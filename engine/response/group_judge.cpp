@@ -7,7 +7,7 @@
 
 namespace impinge {
 
-GroupVerdict judge_group(const GroupSystem& group) {
+GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal) {
   GroupVerdict verdict;
   std::vector<Vec3> impulse(group.bodies.size(), Vec3::Zero()), turn(group.bodies.size(), Vec3::Zero());
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
@@ -33,6 +33,7 @@ GroupVerdict judge_group(const GroupSystem& group) {
     };
     add(rows.a, 1.0);
     add(rows.b, -1.0);
+    if (w_diagonal != nullptr) w = (*w_diagonal)[i];
     if (w(0, 0) <= 0.0) continue;  // both points are held: nothing can respond
     Vec3 u = group.contact_velocity(i, true);
     u.x() -= rows.bound;

@@ -54,6 +54,13 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   ResponseResult result;
   result.converged = false;
   double before = -1.0;
+  const auto show = [&] {
+    if (!settings.observe) return;
+    w.begin(group.lambda);
+    group.soft_delta = x;
+    settings.observe(group);
+  };
+  show();
   while (!result.converged && result.outer_iterations < settings.max_outer_iterations) {
     for (std::size_t s = 0; s < x.size(); ++s)
       for (std::size_t i = 0; i < inverse[s].size(); ++i) {
@@ -74,6 +81,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
       for (std::size_t i = 0; i < inverse[s].size(); ++i)
         momentum = std::max(momentum, (inverse[s][i] * r.segment<3>(static_cast<Eigen::Index>(3 * i))).norm());
     }
+    show();
     norm = std::sqrt(norm);
     if (settings.stop == "change") {
       result.converged = norm == 0.0 || (before >= 0.0 && std::abs(norm - before) < kSeedChange * before);

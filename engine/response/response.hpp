@@ -1,6 +1,8 @@
 // Collision response of one group: from the free velocity to one that the contacts allow. [Haapaoja16 §4.1]
 #pragma once
 
+#include <functional>
+
 #include "engine/contact/group_system.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 
@@ -12,6 +14,9 @@ struct ResponseSettings {
   std::string form = "accelerated";  ///< or "seed": the printed scheme
   std::string stop = "residual";     ///< or "change": the seed's 5 % rule
   int max_outer_iterations = 2000;
+  /// If given, a response with a loop of its own shows it the group, with λ and Δv as they stand, before the first and after
+  /// each of its iterations.
+  std::function<void(const GroupSystem&)> observe;
 };
 
 struct ResponseResult {

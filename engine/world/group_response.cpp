@@ -1,6 +1,7 @@
 // Stages 9 and 10 of a sub-step for one group: its system, the response, and what follows from the impulses.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/response/group_judge.hpp"
 #include "engine/world/world_stages.hpp"
@@ -38,12 +39,32 @@ void World::Stages::warm_start(std::span<const Attachment> attachments, const Co
   }
 }
 
+void World::Stages::freeze_geometry(std::span<const RigidBody> bodies, std::span<const Attachment> attachments, const CollisionGroup& group,
+                                    FrozenGroup& frozen) const {
+  for (const int b : group.bodies) (bodies[b].soft ? frozen.soft_bodies : frozen.rigid_bodies).push_back(b);
+  const int collisions = static_cast<int>(detection.collisions.size());
+  for (const int c : group.contacts) {
+    const ContactCache::Item key = cache_key(attachments, c);
+    if (c < collisions) {
+      const Collision& at = detection.collisions[c];
+      frozen.geometry.push_back({at.body_a, at.body_b, at.triangle_a, at.triangle_b, at.point_a, at.point_b, key.feature});
+    } else {
+      const Attachment& at = attachments[c - collisions];
+      frozen.geometry.push_back({key.body_a, key.body_b, -1, -1, at.a.position(bodies), at.b.position(bodies), key.feature});
+    }
+  }
+}
+
+ResponseSettings response_settings(const Parameters& p) {
+  return {{p.lcp.tolerance, p.lcp.max_iterations}, p.response.form, p.response.stop, p.response.max_iterations, {}};
+}
+
 GroupSystem World::solve_group(CollisionGroup& group, double h) {
   Stages& s = *stages_;
   StageTimes& times = s.frame_stats.times;
   const SubstepView view{bodies_, s.before, s.soft, s.detection.collisions, attachments_, parameters, h, s.integrator->is_explicit()};
-  const ResponseSettings settings{{parameters.lcp.tolerance, parameters.lcp.max_iterations}, parameters.response.form, parameters.response.stop,
-                                  parameters.response.max_iterations};
+  const ResponseSettings settings = response_settings(parameters);
+  std::optional<FrozenGroup> frozen;
   GroupSystem system;
   std::vector<Vec3> start;
   const auto solve = [&] {
@@ -55,6 +76,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
       else if (parameters.contact.warm_start)
         s.warm_start(attachments_, group, system);
     }
+    if (s.freezing) frozen = freeze(system);  // before a later Newton iteration takes A anew
     const StageTimer timer(times.response_ms);
     const ResponseResult result = s.response->solve(system, *s.lcp, settings);
     s.frame_stats.lcp_iterations += result.iterations;
@@ -86,6 +108,11 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
     converged = solve();
   }
   if (!converged || !at_root) ++s.frame_stats.unconverged;
+  if (frozen) {
+    frozen->answer = {system.lambda, system.delta_velocity, system.delta_angular_velocity, system.soft_delta};
+    s.freeze_geometry(bodies_, attachments_, group, *frozen);
+    s.frozen->groups.push_back(std::move(*frozen));
+  }
 
   // 12 (in part) the judge sees the group while its system stands
   const StageTimer timer(times.response_ms);

@@ -122,6 +122,27 @@ void World::step() {
   publish(true);
 }
 
+FrozenStep World::step_and_freeze() {
+  FrozenStep frozen;
+  stages_->frozen = &frozen;
+  struct Reset {  // a step that diverges leaves nobody holding on to it
+    Stages& stages;
+    ~Reset() { stages.frozen = nullptr; }
+  } reset{*stages_};
+  step();
+  frozen.frame = frame_;
+  frozen.time_step = parameters.simulation.time_step();
+  frozen.time = time_ - frozen.time_step;
+  frozen.gravity = parameters.simulation.gravity;
+  frozen.integrator = parameters.simulation.integrator;
+  frozen.linear_solver = parameters.simulation.linear_solver;
+  frozen.response = parameters.response.method;
+  frozen.lcp = parameters.lcp.method;
+  frozen.settings = response_settings(parameters);
+  for (const RigidBody& body : bodies_) frozen.bodies.push_back(body.name);
+  return frozen;
+}
+
 void World::free_velocity(int index, double h) {
   Stages& s = *stages_;
   RigidBody& body = bodies_[index];
@@ -174,6 +195,7 @@ void World::substep(double h, int left) {
     const auto rests = [&](int b) { return b < 0 || bodies_[b].asleep || !bodies_[b].has_freedom(); };
     if (rests(item.body_a) && rests(item.body_b)) s.solved.push_back(item);
   }
+  s.freezing = s.frozen != nullptr && left == 1;
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
     // 9 Jacobian and group system, 10 response
     const GroupSystem system = solve_group(s.groups[g], h);

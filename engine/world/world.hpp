@@ -11,6 +11,7 @@ namespace impinge {
 
 class ByteReader;
 struct CollisionGroup;
+struct FrozenStep;
 struct GroupSystem;
 class ByteWriter;
 
@@ -38,6 +39,8 @@ class World {
   void start();
   /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body.
   void step();
+  /// The same, and hands out the group systems of the frame's last sub-step, the one that its record shows.
+  FrozenStep step_and_freeze();
   /// To be called after parameters were changed between frames: sleeping bodies must feel the change.
   void parameters_changed();
 

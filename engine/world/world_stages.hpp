@@ -5,6 +5,7 @@
 #include "engine/integrators/integrator.hpp"
 #include "engine/response/response.hpp"
 #include "engine/world/detection.hpp"
+#include "engine/world/frozen_step.hpp"
 #include "engine/world/group_assembly.hpp"
 #include "engine/world/sleeping.hpp"
 #include "engine/world/world.hpp"
@@ -42,14 +43,21 @@ struct World::Stages {
   std::vector<VecX> soft_push;            // and by deformable body, over its free nodes; empty: none
   std::uint64_t settings_seen = 0;        // hash of what parameters_changed compares with
   FrameStats frame_stats;                 // sums and maxima over the frame's sub-steps
+  FrozenStep* frozen = nullptr;           // if given, gets the groups of the frame's last sub-step
+  bool freezing = false;                  // this is that sub-step
 
   void select(const Parameters& parameters);
   /// Groups of what detection found last, and of the attachments.
   void make_collision_groups(std::span<const RigidBody> bodies, std::span<const Attachment> attachments);
   /// What the impulse of a group's contact is remembered by.
   ContactCache::Item cache_key(std::span<const Attachment> attachments, int contact) const;
+  /// What a frozen group keeps beside its system: scene indices and where its contacts are.
+  void freeze_geometry(std::span<const RigidBody> bodies, std::span<const Attachment> attachments, const CollisionGroup& group, FrozenGroup& frozen) const;
   void warm_start(std::span<const Attachment> attachments, const CollisionGroup& group, GroupSystem& system) const;
 };
+
+/// What the parameters ask of a response.
+ResponseSettings response_settings(const Parameters& parameters);
 
 /// A point of a body's surface in coordinates that move with it, and back.
 Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world);

@@ -224,7 +224,6 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"debug", "s.toml"}, "not part of this version");
   refused({"sweep", "s.toml"}, "not part of this version");
   refused({"run", "s.toml", "--ids"}, "not part of this version");
-  refused({"run", "s.toml", "--freeze", "3"}, "not part of this version");
   refused({"diff", "a", "b", "--update"}, "not part of this version");
   refused({"run"}, "SCENE");
   refused({"run", "s.toml", "--frame", "3"}, "--frames");

@@ -95,7 +95,7 @@ TEST_CASE("impinge step: a table, and with --out the files; wrong input ends wit
     const std::string solution = slurp(folder / fmt::format("result/solution_{}.csv", method));
     CHECK(solution.rfind("contact,mu,r_n,r_t1,r_t2\n0,0.5,", 0) == 0);
     CHECK(std::count(solution.begin(), solution.end(), '\n') == 2);
-    CHECK(slurp(folder / fmt::format("result/residual_{}.csv", method)).rfind("iteration,residual\n0,", 0) == 0);
+    CHECK(slurp(folder / fmt::format("result/history_{}.csv", method)).rfind("iteration,residual\n0,", 0) == 0);
   }
   const Outcome one = impinge_run(folder.path(), {"step", "p.dat", "--lcp", "semismooth_newton", "--tolerance", "1e-12", "--max-iterations", "50"});
   CHECK(one.code == 0);
@@ -108,7 +108,7 @@ TEST_CASE("impinge step: a table, and with --out the files; wrong input ends wit
       {{"step", "p.dat", "--lcp", "pivoting"}, "no chosen solver applies"},
       {{"step", "p.dat", "--tolerance", "0"}, "--tolerance"},
       {{"step", "p.dat", "--max-iterations", "x"}, "--max-iterations"},
-      {{"step", "p.dat", "--response", "penalty"}, "not part of this version"},
+      {{"step", "p.dat", "--response", "constraint_anticipation"}, "has no bodies"},
       {{"step"}, "FILE"}};
   for (const auto& [words, expected] : wrong) {
     const Outcome outcome = impinge_run(folder.path(), words);

@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step"};
 const std::vector<std::string> kReserved = {"debug", "sweep", "test", "compare", "verify"};
-const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--freeze", "--ids"}}, {"diff", {"--update"}}, {"step", {"--response"}}};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--ids"}}, {"diff", {"--update"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
@@ -89,7 +89,7 @@ std::vector<std::string> words_between_commas(const std::string& text, const cha
 }
 
 struct Raw {
-  std::string lcp, step_tolerance, max_iterations;
+  std::string response, lcp, step_tolerance, max_iterations, freeze;
   std::string size, frames, threads, tolerance, export_format;
   std::string scene, script, out;
   bool no_images = false;
@@ -104,6 +104,8 @@ void take_raw(const Raw& raw, Arguments& arguments) {
   if (!raw.frames.empty()) options.frames = whole(raw.frames, "--frames", 0, 100'000'000);
   if (!raw.threads.empty()) arguments.threads = whole(raw.threads, "--threads", 1, 4096);
   if (!raw.tolerance.empty()) arguments.tolerance = whole(raw.tolerance, "--tolerance", 0, 255);
+  if (!raw.freeze.empty()) options.freeze = whole(raw.freeze, "--freeze", 0, 100'000'000);
+  if (!raw.response.empty()) arguments.responses = words_between_commas(raw.response, "--response");
   if (!raw.lcp.empty()) arguments.lcp = words_between_commas(raw.lcp, "--lcp");
   if (!raw.step_tolerance.empty()) arguments.step_tolerance = real(raw.step_tolerance, "--tolerance", 1e-16, 1.0);
   if (!raw.max_iterations.empty()) arguments.max_iterations = whole(raw.max_iterations, "--max-iterations", 1, 100'000'000);
@@ -147,6 +149,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   run->add_option("--export", raw.export_format, "ply: the bodies' surfaces of each frame");
   run->add_flag("--contacts", arguments.run_options.contacts, "write contacts.csv");
   run->add_flag("--judge", arguments.run_options.judge, "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
+  run->add_option("--freeze", raw.freeze, "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_of(run);
   run->add_flag("--resume", arguments.run_options.resume, "continue an interrupted run in the folder");
   run->add_option("--video", arguments.video, "video file to make of the pictures (needs ffmpeg)");
@@ -173,12 +176,13 @@ Arguments parse_arguments(int count, const char* const* words) {
   CLI::App* names = app.add_subcommand("list", "parameters, layers and algorithms there are");
   names->add_option("TOPIC", arguments.a, "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|cases")->required();
 
-  CLI::App* step = app.add_subcommand("step", "solve a published friction-contact problem with every method, and compare them");
-  step->add_option("FILE", arguments.a, "problem as Siconos writes it in plain text (W, q, mu)")->required();
+  CLI::App* step = app.add_subcommand("step", "solve a frozen step or a published friction-contact problem with every method, and compare them");
+  step->add_option("FILE", arguments.a, "frozen step of impinge run --freeze, or a problem as Siconos writes it in plain text (W, q, mu)")->required();
+  step->add_option("--response", raw.response, "of a frozen step: responses to run, with commas between them (default: all; see impinge list responses)");
   step->add_option("--lcp", raw.lcp, "solvers to run, with commas between them (default: all that apply; see impinge list lcp_solvers)");
-  step->add_option("--tolerance", raw.step_tolerance, "residual to reach, by Siconos' definition (default: 1e-8)");
+  step->add_option("--tolerance", raw.step_tolerance, "relative residual to reach: of a frozen step the natural map, of a published problem Siconos' (default: 1e-8)");
   step->add_option("--max-iterations", raw.max_iterations, "iterations at most (default: 2000)");
-  step->add_option("--out", arguments.out, "folder for methods.csv, solution_METHOD.csv and residual_METHOD.csv");
+  step->add_option("--out", arguments.out, "folder for methods.csv, solution_METHOD.csv, history_METHOD.csv, work_precision.csv and their plots");
 
   try {
     app.parse(count, words);

@@ -19,6 +19,7 @@ struct Arguments {
   std::string a, b;             ///< diff: the two sides; replay: a is the folder; list: a is the topic; step: a is the file
   std::string out, mask;        ///< diff; step: out
   int tolerance = 3;            ///< diff, of 255
+  std::vector<std::string> responses;  ///< step: names, empty for all
   std::vector<std::string> lcp;  ///< step: names of solvers, empty for all
   double step_tolerance = 1e-8;  ///< step: relative residual
   int max_iterations = 2000;     ///< step

@@ -128,6 +128,9 @@ int run_command(const Arguments& arguments) {
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options.images && result.last_frame >= 0) fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);
   fmt::print("figures:  {}/stats.csv ({} frames)\n", options.out.string(), result.last_frame + 1);
+  if (!result.frozen_step.empty())
+    fmt::print("frozen:   {} ({} group{}, {} contact{}); impinge step solves it\n", result.frozen_step.string(), result.frozen_groups, result.frozen_groups == 1 ? "" : "s",
+               result.frozen_contacts, result.frozen_contacts == 1 ? "" : "s");
   if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
   if (filmed) fmt::print("video:    {}\n", arguments.video);
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
+#include "engine/world/frozen_step.hpp"
 #include "engine/world/judge.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/run_folder.hpp"
@@ -38,6 +39,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const int last_frame = options.frames.value_or(session.default_last_frame());
   if (!options.images && !session.script().images().empty())
     throw InputError(session.script().images().front().place + ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
+  if (options.freeze && (*options.freeze < 1 || *options.freeze > last_frame))
+    throw InputError(fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; change it, or --frames", *options.freeze, last_frame));
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene().path.filename().string());
@@ -55,6 +58,9 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   };
 
   bool stop = false;
+  if (options.freeze && *options.freeze <= folder.resume_frame() && !std::filesystem::exists(folder.frozen_step(*options.freeze)))
+    throw InputError(fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose one, or another --out", *options.freeze,
+                                 folder.resume_frame()));
   if (folder.resume_frame() >= 0) {
     result.resumed_from = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
@@ -63,8 +69,10 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const auto interrupted = [&] { return watcher.interrupted != nullptr && watcher.interrupted->load(); };
   while (!stop && session.frame() < last_frame && !interrupted()) {
     std::vector<Command> commands;
+    FrozenStep frozen;
+    const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
     try {
-      commands = session.advance();
+      commands = session.advance(freezes ? &frozen : nullptr);
     } catch (const DivergenceError& error) {
       result.diverged = error.what();
       break;
@@ -76,6 +84,12 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       const OverlapVerdict verdict = judge_overlap(session.world().bodies());
       extras.judged_penetration = verdict.penetration;
       extras.judged_intersections = verdict.intersections;
+    }
+    if (freezes) {
+      folder.add_frozen_step(frozen);
+      result.frozen_step = folder.frozen_step(frame);
+      result.frozen_contacts = frozen.contacts();
+      result.frozen_groups = frozen.groups.size();
     }
     folder.add_frame(session.record(), commands, extras);
     if (watcher.frame) watcher.frame(session.record().stats, last_frame);

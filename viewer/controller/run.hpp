@@ -13,6 +13,7 @@ struct RunOptions {
   std::filesystem::path scene, script;   ///< script may be empty
   std::filesystem::path out;
   std::optional<int> frames;             ///< the last frame's number
+  std::optional<int> freeze;             ///< the frame whose last sub-step is written as a frozen step
   std::vector<std::string> overrides;    ///< PATH=VALUE
   int width = 1280, height = 720;        ///< pixels
   bool images = true, contacts = false, export_ply = false, judge = false, resume = false;
@@ -31,6 +32,8 @@ struct RunResult {
   int failures = 0;          ///< expectations not met
   bool stopped_by_break = false;
   bool interrupted = false;
+  std::filesystem::path frozen_step;  ///< written, "" if none
+  std::size_t frozen_contacts = 0, frozen_groups = 0;
   double frames_per_second = 0;  ///< of simulated time
   std::string diverged;      ///< why, if the simulation left the finite numbers
   int exit_code() const;

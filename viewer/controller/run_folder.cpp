@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "engine/core/error.hpp"
+#include "engine/io/frozen_step_file.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/mesh_file.hpp"
 #include "viewer/controller/contacts_table.hpp"
@@ -160,6 +161,8 @@ void RunFolder::clear_markers() const {
 fs::path RunFolder::snapshot(int frame) const { return folder_ / "snapshots" / (six_digits(frame) + ".bin"); }
 fs::path RunFolder::picture(int frame) const { return folder_ / "frames" / (six_digits(frame) + ".png"); }
 
+fs::path RunFolder::frozen_step(int frame) const { return folder_ / "frozen" / (six_digits(frame) + ".step"); }
+
 void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras) {
   const int frame = record.stats.frame;
   if (run_.export_ply) {
@@ -175,6 +178,11 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
 }
 
 void RunFolder::add_snapshot(const Session& session) { write_snapshot(snapshot(session.frame()), session); }
+
+void RunFolder::add_frozen_step(const FrozenStep& step) {
+  make_folder(folder_ / "frozen");
+  write_frozen_step(frozen_step(step.frame), step);
+}
 
 void RunFolder::finish() { write_file(folder_ / "done", "done\n"); }
 

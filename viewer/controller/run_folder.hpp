@@ -25,12 +25,14 @@ class RunFolder {
   int resume_frame() const { return static_cast<int>(kept_.size()) - 1; }
   std::filesystem::path snapshot(int frame) const;
   std::filesystem::path picture(int frame) const;
+  std::filesystem::path frozen_step(int frame) const;
   const std::filesystem::path& path() const { return folder_; }
 
   /// Everything of a frame but its picture; the row of stats.csv comes last.
   void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras);
   /// To be called when all pictures up to the frame are on the disk.
   void add_snapshot(const Session& session);
+  void add_frozen_step(const FrozenStep& step);
   void finish();
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
+#include "engine/world/frozen_step.hpp"
 #include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
@@ -91,14 +92,19 @@ void Session::start() {
   }
 }
 
-std::vector<Command> Session::advance() {
+std::vector<Command> Session::advance(FrozenStep* frozen) {
   const std::vector<Command> commands = script_.commands_at(frame_ + 1);
   for (const Command& command : commands) apply(command);
   if (frame_ < 0) {
     if (!commands.empty()) start();  // the constructor started the world without them
   } else {
     if (!commands.empty()) world_.parameters_changed();
-    world_.step();
+    if (frozen != nullptr) {
+      *frozen = world_.step_and_freeze();
+      frozen->scene = scene_.path.filename().string();
+    } else {
+      world_.step();
+    }
   }
   ++frame_;
   return commands;

@@ -9,6 +9,7 @@
 
 namespace impinge {
 
+struct FrozenStep;
 class ByteReader;
 class ByteWriter;
 
@@ -26,8 +27,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// Applies the next frame's commands, then makes that frame: the first call gives frame 0. Returns what was applied.
-  /// Throws DivergenceError.
-  std::vector<Command> advance();
+  /// `frozen`, if given, gets the frame's last sub-step; frame 0 has none. Throws DivergenceError.
+  std::vector<Command> advance(FrozenStep* frozen = nullptr);
 
   /// The last frame to make when nobody says otherwise: a run.toml's, or the larger of 240 and the script's last.
   int default_last_frame() const;

@@ -1,0 +1,39 @@
+// The two kinds of problem that impinge step takes.
+#pragma once
+
+#include "engine/core/error.hpp"
+#include "engine/core/parameter.hpp"
+#include "viewer/app/arguments.hpp"
+
+namespace impinge {
+
+int step_published(const Arguments& arguments);
+int step_frozen(const Arguments& arguments);
+
+/// The entries of those names, all of them for no names. Throws InputError naming the nearest where there is none.
+template <class Interface>
+std::vector<const Entry<Interface>*> chosen_entries(const Registry<Interface>& registry, const std::vector<std::string>& names, const char* what, const char* option) {
+  std::vector<const Entry<Interface>*> chosen;
+  if (names.empty())
+    for (const auto& e : registry) chosen.push_back(&e);
+  for (const std::string& name : names) {
+    const auto* found = find_entry(registry, name);
+    if (found == nullptr) {
+      std::vector<std::string> all;
+      std::string allowed;
+      for (const auto& e : registry) {
+        all.emplace_back(e.name);
+        allowed += (allowed.empty() ? "" : ", ") + all.back();
+      }
+      const std::string near = nearest_word(name, all);
+      throw InputError("command line: unknown " + std::string(what) + " '" + name + "' in " + option + "; allowed: " + allowed + "; " +
+                       (near.empty() ? "use one of them" : "did you mean '" + near + "'?"));
+    }
+    bool there = false;
+    for (const auto* e : chosen) there |= e == found;
+    if (!there) chosen.push_back(found);
+  }
+  return chosen;
+}
+
+}  // namespace impinge

@@ -1,0 +1,27 @@
+// A plot with logarithmic axes, drawn with a pen: what it shows as data, and how it looks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/core/types.hpp"
+#include "viewer/panels/overlay.hpp"
+
+namespace impinge {
+
+struct PlotSeries {
+  std::string name;          ///< a '-' in it may become a line break in the legend
+  std::vector<Vec2> points;  ///< in order; what isn't finite or positive breaks the line
+};
+
+struct Plot {
+  std::string title, x_label, y_label;  ///< labels with their units
+  std::vector<PlotSeries> series;
+  /// x counts from 0, which a logarithmic axis doesn't have: 0 stands apart at its left end.
+  bool x_counts = false;
+};
+
+/// Fills the whole picture: dark on white, a colour and a kind of mark a series, colours after Okabe & Ito.
+void draw_plot(const Pen& pen, const Plot& plot);
+
+}  // namespace impinge
