@@ -125,7 +125,7 @@ BlockMatrix read_matrix(Reader& in) {
   const std::size_t n = in.count("free nodes", 4), start = in.at();
   std::vector<int> begin, column;
   for (std::size_t i = 0; i <= n; ++i) begin.push_back(in.index("a row's begin", i == 0 ? 0 : begin.back(), i == 0 ? 1 : std::int64_t{1} << 31));
-  if (begin.back() > 0 && static_cast<std::size_t>(begin.back()) / std::max<std::size_t>(n, 1) > n) in.fail(start, fmt::format("{} blocks", begin.back()), "a row has a block a column at most");
+  if (static_cast<std::size_t>(begin.back()) > n * n) in.fail(start, fmt::format("{} blocks", begin.back()), "a row has a block a column at most");
   for (std::size_t i = 0; i < n; ++i)
     for (int k = begin[i]; k < begin[i + 1]; ++k)
       column.push_back(in.index("a block's column", k == begin[i] ? 0 : column.back() + 1, static_cast<std::int64_t>(n)));
@@ -146,7 +146,8 @@ ContactSide read_side(Reader& in, const FrozenGroup& group) {
   side.soft = in.index("a side's deformable body", -1, static_cast<std::int64_t>(group.matrices.size()));
   side.arm = in.vec3();
   const std::size_t nodes = in.count("nodes of a contact", 12);
-  if ((side.rigid >= 0 && side.soft >= 0) || (side.soft < 0 && nodes > 0)) in.fail(start, "a side with more than one body", "a rigid body, a deformable one or none is wanted");
+  if ((side.rigid >= 0 && side.soft >= 0) || (side.soft < 0 && nodes > 0))
+    in.fail(start, "a side with more than one body", "a rigid body, a deformable one or none is wanted");
   for (std::size_t k = 0; k < nodes; ++k) {
     const int node = in.index("a node", 0, group.matrices[side.soft].pattern->rows);
     side.nodes.push_back({node, in.get<double>()});
@@ -227,7 +228,7 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   if (in.get<std::uint32_t>() != 0) in.fail(kMagic.size() + 4, "the file is damaged", "0 is wanted here");
   const auto length = in.get<std::uint64_t>(), checksum = in.get<std::uint64_t>();
   if (bytes.size() - kHead != length)
-    in.fail(bytes.size() < kHead + length ? bytes.size() : kHead + length, bytes.size() - kHead < length ? "the file ends early" : "the file goes on behind its end",
+    in.fail(std::min<std::uint64_t>(bytes.size(), kHead + length), bytes.size() - kHead < length ? "the file ends early" : "the file goes on behind its end",
             fmt::format("{} bytes behind the head are wanted, {} are there", length, bytes.size() - kHead));
   if (const std::uint64_t found = fnv1a(std::string_view(bytes).substr(kHead)); found != checksum)
     in.fail(kMagic.size() + 16, "the file is damaged", fmt::format("checksum {:016x} is wanted, {:016x} was found", checksum, found));

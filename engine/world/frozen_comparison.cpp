@@ -159,7 +159,8 @@ std::string FrozenRuler::applies(const LcpSolver& solver) const {
   return "";
 }
 
-FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver, const ResponseSettings& settings, const FrozenRuler* ruler) {
+FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver, const ResponseSettings& settings,
+                           const FrozenRuler* ruler) {
   FrozenOutcome outcome;
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     ThawedGroup thawed = thaw(step.groups[g], step.linear_solver);

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kExact = 1e-12;
 constexpr int kMostExactIterations = 2000;
+constexpr double kQuick = 100.0;  // ms: shorter runs are repeated
+constexpr int kRepeats = 3;
 
 std::string regimes(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
   int open = 0, stick = 0, slip = 0;
@@ -57,8 +59,15 @@ double distance(const ConeProblem& problem, std::vector<Vec3> lambda, const std:
   return size > 0.0 ? error / size : error;
 }
 
+/// The shortest of several, where they are short: what else the machine does shows less.
+Solved timed(const LcpSolver& solver, const ConeProblem& problem, const LcpSettings& settings) {
+  Solved solved = solve(solver, problem, settings);
+  for (int k = 1; k < kRepeats && solved.ms < kQuick; ++k) solved.ms = std::min(solved.ms, solve(solver, problem, settings).ms);
+  return solved;
+}
+
 MethodReport report_of(const Entry<LcpSolver>& entry, const ConeProblem& problem, const LcpSettings& settings, const std::vector<Vec3>& exact) {
-  Solved solved = solve(*entry.make(), problem, settings);
+  Solved solved = timed(*entry.make(), problem, settings);
   const Residual r = judge(problem, solved.lambda);
   MethodReport report;
   report.method = entry.name;
@@ -83,7 +92,7 @@ void take_curves(const Entry<LcpSolver>& entry, const ConeProblem& problem, cons
   own.history = nullptr;
   for (const int stop : early_stops(report.iterations)) {
     own.max_iterations = stop;
-    const Solved solved = solve(*solver, problem, own);
+    const Solved solved = timed(*solver, problem, own);
     report.work.push_back({stop, solved.ms, judge(problem, solved.lambda).siconos, distance(problem, solved.lambda, exact)});
   }
   report.work.push_back({report.iterations, report.ms, report.residual, report.distance});
@@ -125,7 +134,7 @@ int step_published(const Arguments& arguments) {
 
   StepReport report{std::filesystem::path(arguments.a).filename().string(), "residual (Siconos), relative", "", false, "mu,", {}, {}};
   for (const double mu : problem.mu) report.solution_columns.push_back(fmt::format("{},", mu));
-  TablePrinter table;
+  TablePrinter table(false);
   for (const Entry<LcpSolver>* entry : applying) {
     report.methods.push_back(report_of(*entry, problem, settings, exact));
     table.row(report.methods.back());

@@ -19,9 +19,9 @@ std::vector<int> early_stops(int most) {
   return stops;
 }
 
-TablePrinter::TablePrinter() {
-  fmt::print("{:<42}{:>11}{:>7}{:>11}{:>11}{:>13}{:>9}{:>11}{:>11}  {}\n", "method", "iterations", "outer", "ms", "residual", "natural map", "contact", "momentum", "distance",
-             "stop");
+TablePrinter::TablePrinter(bool has_bodies) : has_bodies_(has_bodies) {
+  fmt::print("{:<42}{:>11}{}{:>11}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", "method", "iterations", has_bodies ? "  outer" : "", "ms", "residual", "natural map", "relative", "contact",
+             has_bodies ? "   momentum" : "", "distance", "stop");
 }
 
 void TablePrinter::row(const MethodReport& r) {
@@ -30,8 +30,9 @@ void TablePrinter::row(const MethodReport& r) {
     if (name.substr(0, at) != response_) fmt::print("{}\n", response_ = name.substr(0, at));
     name = "  " + name.substr(at + 1);
   }
-  fmt::print("{:<42}{:>11}{:>7}{:>11.2f}{:>11.2e}{:>13.2e}{:>9}{:>11.2e}{:>11.2e}  {}\n", name, r.iterations, r.outer_iterations, r.ms, r.residual, r.natural_map, r.worst_contact,
-             r.momentum, r.distance, r.stop_reason);
+  const std::string outer = has_bodies_ ? fmt::format("{:>7}", r.outer_iterations) : "", momentum = has_bodies_ ? fmt::format("{:>11.2e}", r.momentum) : "";
+  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11.2e}{:>13.2e}{:>11.2e}{:>9}{}{:>11.2e}  {}\n", name, r.iterations, outer, r.ms, r.residual, r.natural_map, r.natural_map_relative,
+             r.worst_contact, momentum, r.distance, r.stop_reason);
   std::fflush(stdout);
 }
 

@@ -47,10 +47,12 @@ std::vector<int> early_stops(int most);
 /// Prints as the reports come in. RESPONSE-SOLVER stands as a solver under the line of its response.
 class TablePrinter {
  public:
-  TablePrinter();
+  /// A published problem has neither outer iterations nor momentum.
+  explicit TablePrinter(bool has_bodies);
   void row(const MethodReport& report);
 
  private:
+  bool has_bodies_;
   std::string response_;
 };
 

@@ -119,8 +119,8 @@ class Painter {
   void draw_series(std::size_t i) const {
     const PlotSeries& s = plot_.series[i];
     std::vector<ImVec2> line;
-    const auto flush = [&] {
-      if (line.size() > 1) pen_.list.AddPolyline(line.data(), static_cast<int>(line.size()), packed(color(i)), 0, 2.0f * u_);
+    const auto flush = [&] {  // segment by segment: joins of one polyline grow thin where it turns back sharply
+      for (std::size_t k = 1; k < line.size(); ++k) pen_.list.AddLine(line[k - 1], line[k], packed(color(i)), 2.0f * u_);
       line.clear();
     };
     std::vector<ImVec2> marks;

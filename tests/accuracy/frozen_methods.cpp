@@ -1,0 +1,109 @@
+// Constraint anticipation, its iterative form and a monolithic KKT system on the same frozen step: two deformable cubes on a floor,
+// and the hardest frame of the seed's dragon scene. And W by several routes.
+#include <catch2/catch.hpp>
+
+#include "engine/world/frozen_comparison.hpp"
+#include "tests/support/frozen_reference.hpp"
+#include "tests/support/soft_stack.hpp"
+#include "viewer/controller/session.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+FrozenOutcome solved(const FrozenStep& step, const char* response, const char* solver, double tolerance, int outer = 20000) {
+  ResponseSettings settings;
+  settings.lcp = {tolerance, 20000};
+  settings.max_outer_iterations = outer;
+  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(), settings);
+}
+
+/// ‖Δv_x - Δv_y‖_A / ‖Δv_y‖_A of a step of one group.
+double difference(const FrozenStep& step, const GroupAnswer& x, const GroupAnswer& y) {
+  return energy_distance(step.groups[0], x, y) / std::sqrt(energy_product(step.groups[0], y, y));
+}
+
+void check_frictionless(const FrozenStep& step, double tolerance) {
+  const FrozenStep smooth = without_friction(step);
+  const GroupAnswer kkt = kkt_answer(smooth.groups[0]);
+  const FrozenOutcome exact = solved(smooth, "constraint_anticipation", "semismooth_newton", 1e-12);
+  const FrozenOutcome iterative = solved(smooth, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance);
+  CHECK(exact.converged);
+  CHECK(iterative.converged);
+  CHECK(difference(smooth, exact.answers[0], kkt) < 1e-6);
+  CHECK(difference(smooth, iterative.answers[0], exact.answers[0]) < 1e-6);
+  CHECK(difference(smooth, iterative.answers[0], kkt) < 1e-6);
+  const FrozenRuler ruler(smooth);
+  CHECK(ruler.judge(ruler.exact()).residual < 1e-12);
+  CHECK(ruler.judge(exact.answers).distance < 1e-9);
+}
+
+void check_friction(const FrozenStep& step, double tolerance) {
+  const FrozenRuler ruler(step);
+  CHECK(ruler.judge(ruler.exact()).residual < 1e-12);
+  for (const char* solver : {"projected_gauss_seidel", "nonsmooth_nonlinear_conjugate_gradient", "semismooth_newton"}) {
+    const FrozenVerdict verdict = ruler.judge(solved(step, "constraint_anticipation", solver, 1e-9).answers);
+    CAPTURE(solver, verdict.distance);
+    CHECK(verdict.natural_map_relative < 1e-8);
+    CHECK(verdict.residual < 1e-8);
+    CHECK(verdict.cone_violation < 1e-12);
+  }
+  const FrozenVerdict verdict = ruler.judge(solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance).answers);
+  CAPTURE(verdict.distance);
+  CHECK(verdict.natural_map_relative < 1e-8);
+  CHECK(verdict.residual < 1e-8);
+  CHECK(verdict.distance < 1e-4);
+}
+
+void check_routes(const FrozenGroup& group, bool dense) {
+  const MatX w = w_assembled(group, "automatic");
+  const double size = w.norm();
+  CHECK((w - w.transpose()).norm() <= 1e-13 * size);
+  const MatX solves = w_by_whole_solves(group, "automatic");
+  CHECK((solves - solves.transpose()).norm() <= 1e-12 * size);
+  CHECK((w - solves).norm() <= 1e-12 * size);
+  CHECK((w - w_assembled(group, "simplicial_llt")).norm() <= 1e-12 * size);
+  if (dense) CHECK((w - w_by_dense_inverse(group)).norm() <= 1e-12 * size);
+}
+
+/// The frame of most contacts among the first `frames`.
+FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
+  const std::filesystem::path scene = std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/dragon_spheres";
+  Session session(scene.string() + ".toml", overrides, scene.string() + ".script");
+  FrozenStep hardest, step;
+  session.advance();
+  for (int frame = 1; frame <= frames; ++frame) {
+    session.advance(&step);
+    if (step.contacts() > hardest.contacts()) hardest = std::move(step);
+  }
+  return hardest;
+}
+
+}  // namespace
+
+TEST_CASE("two stacked cubes: exact, iterative and monolithic answers agree without friction, and with it each is one") {
+  for (const double young : {1e4, 1e5, 1e6})
+    for (const bool rigid : {false, true}) {
+      CAPTURE(young, rigid);
+      const SoftStack stack = make_soft_stack({.young = young, .friction = 0.4, .cells = {4, 3}, .rigid_on_top = rigid});
+      const FrozenStep step = frozen_of(stack.group);
+      check_frictionless(step, 1e-9);
+      check_friction(step, 1e-9);
+      check_routes(step.groups[0], true);
+    }
+}
+
+TEST_CASE("the dragon's hardest frame: exact, iterative and monolithic answers agree", "[long]") {
+  FrozenStep step = hardest_frame({}, 25);
+  CAPTURE(step.frame, step.contacts());
+  REQUIRE(step.contacts() > 200);
+  // the group of most contacts
+  std::swap(step.groups[0], *std::max_element(step.groups.begin(), step.groups.end(), [](const FrozenGroup& l, const FrozenGroup& r) {
+              return l.system.contacts.size() < r.system.contacts.size();
+            }));
+  step.groups.resize(1);
+  check_frictionless(step, 1e-10);
+  check_friction(step, 1e-9);
+  check_routes(step.groups[0], false);
+}

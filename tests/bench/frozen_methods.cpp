@@ -1,0 +1,90 @@
+// The hardest frame (most contacts) of the seed's dragon scene, as it is and with a dragon of 1e4, 1e5, 1e6 Pa: constraint anticipation (CA),
+// its iterative form (ICA) and a monolithic KKT system without friction; natural maps with friction; W by several routes.
+// Distances are of Δv in A's norm, relative to CA's. usage: bench_frozen_methods [frames = 30]
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "engine/world/frozen_comparison.hpp"
+#include "tests/support/frozen_reference.hpp"
+#include "viewer/controller/session.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
+  const std::filesystem::path scene = std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/dragon_spheres";
+  Session session(scene.string() + ".toml", overrides, scene.string() + ".script");
+  FrozenStep hardest, step;
+  session.advance();
+  for (int frame = 1; frame <= frames; ++frame) {
+    session.advance(&step);
+    if (step.contacts() > hardest.contacts()) hardest = std::move(step);
+  }
+  return hardest;
+}
+
+FrozenOutcome solved(const FrozenStep& step, const char* response, const char* solver, double tolerance) {
+  ResponseSettings settings;
+  settings.lcp = {tolerance, 20000};
+  settings.max_outer_iterations = 20000;
+  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(), settings);
+}
+
+double difference(const FrozenStep& step, const std::vector<GroupAnswer>& x, const std::vector<GroupAnswer>& y) {
+  double error = 0.0, size = 0.0;
+  for (std::size_t g = 0; g < step.groups.size(); ++g) {
+    error += std::pow(energy_distance(step.groups[g], x[g], y[g]), 2);
+    size += energy_product(step.groups[g], y[g], y[g]);
+  }
+  return std::sqrt(error / size);
+}
+
+void print(const char* label, const FrozenRuler& ruler, const FrozenOutcome& o) {
+  const FrozenVerdict v = ruler.judge(o.answers);
+  std::printf("  %-44s %7d sweeps %6d outer %9.1f ms  residual %.1e  natural map %.1e  distance %.1e  %s\n", label, o.iterations, o.outer_iterations, o.ms, v.residual,
+              v.natural_map_relative, v.distance, o.stop.c_str());
+  std::fflush(stdout);
+}
+
+void routes(const FrozenStep& step) {
+  double symmetric = 0.0, eigen = 0.0, whole = 0.0, dense = 0.0;
+  for (const FrozenGroup& group : step.groups) {
+    const MatX w = w_assembled(group, "automatic");
+    const double size = w.norm();
+    const MatX solves = w_by_whole_solves(group, "automatic");
+    symmetric = std::max(symmetric, (solves - solves.transpose()).norm() / size);
+    whole = std::max(whole, (solves - w).norm() / size);
+    eigen = std::max(eigen, (w_assembled(group, "simplicial_llt") - w).norm() / size);
+    dense = std::max(dense, (w_by_dense_inverse(group) - w).norm() / size);
+  }
+  std::printf("  W: half solves are symmetric by construction, whole ones to %.1e; half solves of the other factorization %.1e, whole solves %.1e, dense inverse %.1e away\n", symmetric,
+              eigen, whole, dense);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int frames = argc > 1 ? std::atoi(argv[1]) : 30;
+  for (const char* young : {"", "1e4", "1e5", "1e6"}) {
+    std::vector<std::string> overrides;
+    if (*young != '\0') overrides.push_back(std::string("body.dragon.material.young=") + young);
+    const FrozenStep step = hardest_frame(overrides, frames);
+    std::printf("dragon E %s: frame %d, %zu contacts, %zu groups\n", *young != '\0' ? young : "as is", step.frame, step.contacts(), step.groups.size());
+    routes(step);
+    const FrozenStep smooth = without_friction(step);
+    const FrozenRuler smooth_ruler(smooth), ruler(step);
+    std::vector<GroupAnswer> kkt;
+    for (const FrozenGroup& group : smooth.groups) kkt.push_back(kkt_answer(group));
+    std::printf("  without friction: KKT against CA (%s) %.1e\n", smooth_ruler.exact_method().c_str(), difference(smooth, kkt, smooth_ruler.exact()));
+    for (const double tolerance : {1e-8, 1e-9, 1e-10, 1e-11})
+      print(("ICA 1e" + std::to_string(static_cast<int>(std::lround(std::log10(tolerance))))).c_str(), smooth_ruler, solved(smooth, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance));
+    std::printf("  friction 0.3\n");
+    for (const char* solver : {"projected_gauss_seidel", "nonsmooth_nonlinear_conjugate_gradient", "semismooth_newton"})
+      print((std::string("CA 1e-9 ") + solver).c_str(), ruler, solved(step, "constraint_anticipation", solver, 1e-9));
+    for (const double tolerance : {1e-8, 1e-9, 1e-10, 1e-11})
+      print(("ICA 1e" + std::to_string(static_cast<int>(std::lround(std::log10(tolerance))))).c_str(), ruler, solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance));
+  }
+}
