@@ -3,6 +3,7 @@
 
 namespace impinge {
 
+Entry<LcpSolver> automatic_solver();
 Entry<LcpSolver> projected_gauss_seidel_solver();
 Entry<LcpSolver> nonsmooth_nonlinear_conjugate_gradient_solver();
 Entry<LcpSolver> accelerated_projected_gradient_solver();
@@ -16,6 +17,7 @@ std::string_view name_of(StopReason reason) {
 
 const Registry<LcpSolver>& lcp_solvers() {
   static const Registry<LcpSolver> list = {
+      automatic_solver(),
       projected_gauss_seidel_solver(),
       nonsmooth_nonlinear_conjugate_gradient_solver(),
       accelerated_projected_gradient_solver(),

@@ -39,7 +39,7 @@ struct Parameters {
     int max_iterations = 2000;
   } response;
   struct Lcp {
-    std::string method = "projected_gauss_seidel";
+    std::string method = "automatic";
     double tolerance = 1e-8;
     int max_iterations = 1000;
   } lcp;

@@ -1,0 +1,148 @@
+// Rigid scenes on which sequential solvers fall over: unlike masses, high stacks at 1/60 s, a pile that must come to rest. All
+// with the defaults of response and solver, one sub-step a frame, sleeping off. Figures of other engines are in tests/README.md.
+#include <catch2/catch.hpp>
+
+#include "tests/support/random.hpp"
+#include "tests/support/worlds.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+void prepare(World& world) {
+  world.parameters.simulation.sleeping = false;
+  world.parameters.simulation.substeps = 1;
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+}
+
+void add_stack(World& world, int boxes) {
+  prepare(world);
+  for (int i = 0; i < boxes; ++i) world.add_body(cube("box" + std::to_string(i), 1.0, Vec3(0, i + 0.5, 0)));
+}
+
+/// A light cube on the floor, one of `ratio` times its mass upon it.
+void add_heavy_on_light(World& world, double ratio) {
+  prepare(world);
+  BodyDescription light = cube("light", 1.0, {0, 0.5, 0}), heavy = cube("heavy", 1.0, {0, 1.5, 0});
+  light.mass = 1.0;
+  heavy.mass = ratio;
+  world.add_body(light);
+  world.add_body(heavy);
+}
+
+/// Deepest overlap that a contact ends the frame with, m.
+double overlap(const World& world) {
+  double deepest = 0.0;
+  for (const ContactRecord& c : world.record().contacts) deepest = std::max(deepest, -c.gap);
+  return deepest;
+}
+
+double fastest(const World& world) {
+  double speed = 0.0;
+  for (const RigidBody& b : world.bodies())
+    if (b.is_dynamic()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+  return speed;
+}
+
+/// Vertical force between the bodies before and from `first` on, N, in the last frame: what carries all above.
+double force_across(const World& world, int first) {
+  double sum = 0.0;
+  for (const ContactRecord& c : world.record().contacts) {
+    const Vec3 tangent = tangent1(c.normal);
+    const Vec3 force = c.lambda.x() * c.normal + c.lambda.y() * tangent + c.lambda.z() * c.normal.cross(tangent);
+    if ((c.body_a >= first) != (c.body_b >= first)) sum += (c.body_a >= first ? 1.0 : -1.0) * force.y();
+  }
+  return sum / world.parameters.simulation.time_step();
+}
+
+}  // namespace
+
+TEST_CASE("a heavy box stands on a light one for ten seconds, up to 10,000 times its mass") {
+  for (const double ratio : {1.0, 10.0, 100.0, 1000.0, 10000.0}) {
+    CAPTURE(ratio);
+    World world;
+    add_heavy_on_light(world, ratio);
+    world.start();
+    double deepest = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      world.step();
+      deepest = std::max(deepest, overlap(world));
+    }
+    CHECK(deepest <= 1e-6);
+    CHECK(std::abs(world.bodies()[2].pose.position.y() - 1.5) <= 1e-6);
+    CHECK(tilt_degrees(world.bodies()[2]) < 1e-4);
+    CHECK(world.record().stats.unconverged == 0);
+  }
+}
+
+TEST_CASE("Gauss-Seidel alone drops a box of 10,000 times the mass, and says that it did not converge") {
+  World world;
+  add_heavy_on_light(world, 1e4);
+  world.parameters.lcp.method = "projected_gauss_seidel";
+  world.start();
+  bool warned = false;
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    warned = warned || world.record().stats.unconverged > 0;
+  }
+  CHECK(warned);
+  CHECK(world.bodies()[2].pose.position.y() < 1.4);
+}
+
+TEST_CASE("every interface of a stack of ten carries what is above it") {
+  World world;
+  add_stack(world, 10);
+  world.start();
+  run(world, 120);
+  std::vector<double> force(10, 0.0);
+  const int frames = 60;
+  for (int f = 0; f < frames; ++f) {
+    world.step();
+    for (int i = 0; i < 10; ++i) force[i] += force_across(world, 1 + i) / frames;
+  }
+  const double weight = 9.81 * world.bodies()[1].mass;
+  for (int i = 0; i < 10; ++i) CHECK(force[i] == Approx((10 - i) * weight).epsilon(1e-6));
+}
+
+TEST_CASE("a stack of fifty boxes stands at 1/60 s", "[long]") {
+  World world;
+  add_stack(world, 50);
+  world.start();
+  double drift = 0.0, deepest = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    const Vec3 top = world.bodies().back().pose.position - Vec3(0, 49.5, 0);
+    drift = std::max(drift, std::hypot(top.x(), top.z()));
+    deepest = std::max(deepest, overlap(world));
+  }
+  CHECK(drift < 1e-5);
+  CHECK(deepest < 1e-6);
+  CHECK(std::abs(world.bodies().back().pose.position.y() - 49.5) < 1e-6);
+}
+
+TEST_CASE("a pile of a thousand boxes comes to rest without sleeping", "[long]") {
+  World world;
+  prepare(world);
+  Random random(4242);
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 at = Vec3(0.6 * (k % 10) - 2.7, 0.6 * (k / 100) + 0.35, 0.6 * (k / 10 % 10) - 2.7) + 0.02 * random.vector();
+    BodyDescription box = cube("box" + std::to_string(k), 0.5, at);
+    box.mass = 1.0;
+    box.rotation = 28.6 * random.vector();
+    world.add_body(box);
+  }
+  for (const Vec3& n : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
+    world.add_body(fixed_plane(n.x() + n.z() > 0 ? (n.x() != 0 ? "w0" : "w1") : (n.x() != 0 ? "w2" : "w3"), n, -3.2));
+  world.start();
+  int still = -1;
+  for (int i = 0; i < 300; ++i) {
+    world.step();
+    if (fastest(world) >= 1e-3)
+      still = -1;
+    else if (still < 0)
+      still = i;
+  }
+  WARN("a pile of 1,000 boxes: every speed below 1 mm/s from frame " << still << " of 60 a second on; now " << fastest(world) << " m/s");
+  CHECK(still >= 0);
+}
