@@ -63,7 +63,8 @@ double ratio(double value, double scale) { return scale > 0.0 ? value / scale : 
 std::string stop_of(const WatchedSolver& solver, const ResponseResult& result, const ResponseSettings& settings) {
   if (solver.calls == 1 && result.outer_iterations <= 1) return std::string(name_of(solver.last.reason));
   if (result.converged) return std::string(name_of(StopReason::converged));
-  const bool at_cap = result.outer_iterations >= settings.max_outer_iterations || result.iterations >= settings.lcp.max_iterations;
+  const bool has_loop = result.outer_iterations > 1;  // whose steps are capped then, not the sum of what it does inside
+  const bool at_cap = has_loop ? result.outer_iterations >= settings.max_outer_iterations : result.iterations >= settings.lcp.max_iterations;
   return std::string(name_of(at_cap ? StopReason::iteration_cap : StopReason::stagnated));
 }
 

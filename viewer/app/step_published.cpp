@@ -109,8 +109,8 @@ int step_published(const Arguments& arguments) {
   LcpSettings settings{arguments.step_tolerance, arguments.max_iterations};
   settings.measure = Measure::siconos;
   const auto [least, most] = std::minmax_element(problem.mu.begin(), problem.mu.end());
-  fmt::print("{}: {} contacts, friction {}, {} of {} blocks of W\n", arguments.a, problem.q.size(), *least == *most ? fmt::format("{}", *least) : fmt::format("{} to {}", *least, *most),
-             read.w->blocks().size(), problem.q.size() * problem.q.size());
+  const std::string friction = *least == *most ? fmt::format("{}", *least) : fmt::format("{} to {}", *least, *most);
+  fmt::print("{}: {} contacts, friction {}, {} of {} blocks of W\n", arguments.a, problem.q.size(), friction, read.w->blocks().size(), problem.q.size() * problem.q.size());
 
   std::vector<const Entry<LcpSolver>*> applying;
   std::vector<std::string> left_out;

@@ -20,8 +20,8 @@ std::vector<int> early_stops(int most) {
 }
 
 TablePrinter::TablePrinter(bool has_bodies) : has_bodies_(has_bodies) {
-  fmt::print("{:<42}{:>11}{}{:>11}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", "method", "iterations", has_bodies ? "  outer" : "", "ms", "residual", "natural map", "relative", "contact",
-             has_bodies ? "   momentum" : "", "distance", "stop");
+  fmt::print("{:<42}{:>11}{}{:>11}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", "method", "iterations", has_bodies ? "  outer" : "", "ms", "residual", "natural map",
+             "relative", "contact", has_bodies ? "   momentum" : "", "distance", "stop");
 }
 
 void TablePrinter::row(const MethodReport& r) {
@@ -31,8 +31,8 @@ void TablePrinter::row(const MethodReport& r) {
     name = "  " + name.substr(at + 1);
   }
   const std::string outer = has_bodies_ ? fmt::format("{:>7}", r.outer_iterations) : "", momentum = has_bodies_ ? fmt::format("{:>11.2e}", r.momentum) : "";
-  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11.2e}{:>13.2e}{:>11.2e}{:>9}{}{:>11.2e}  {}\n", name, r.iterations, outer, r.ms, r.residual, r.natural_map, r.natural_map_relative,
-             r.worst_contact, momentum, r.distance, r.stop_reason);
+  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11.2e}{:>13.2e}{:>11.2e}{:>9}{}{:>11.2e}  {}\n", name, r.iterations, outer, r.ms, r.residual, r.natural_map,
+             r.natural_map_relative, r.worst_contact, momentum, r.distance, r.stop_reason);
   std::fflush(stdout);
 }
 
@@ -43,8 +43,8 @@ std::string methods_table(const StepReport& report) {
       "method,iterations,ms,residual,stop_reason,natural_map_m_per_s,natural_map_relative,worst_contact,complementarity_J,cone_violation_Ns,outer_iterations,"
       "momentum_m_per_s,distance_to_exact\n";
   for (const MethodReport& r : report.methods)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.method, r.iterations, r.ms, r.residual, r.stop_reason, r.natural_map, r.natural_map_relative, r.worst_contact,
-                        r.complementarity, r.cone_violation, r.outer_iterations, r.momentum, r.distance);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.method, r.iterations, r.ms, r.residual, r.stop_reason, r.natural_map,
+                        r.natural_map_relative, r.worst_contact, r.complementarity, r.cone_violation, r.outer_iterations, r.momentum, r.distance);
   return text;
 }
 
