@@ -3,7 +3,8 @@
 // takes the same way everywhere.
 //
 // Price in sweeps: some 15 factorizations of 2/3 (3n)³ operations at full speed against 18 n² a sweep at a fraction of it,
-// about 6 n. Above kMostForNewton contacts W is not written out, and the sweeps are made conjugate instead.
+// about 6 n. With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored) the sweeps are made
+// conjugate instead.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int kFirstSweeps = 20;            // before the rate is looked at
 constexpr int kWindow = 10;                 // sweeps that the rate is taken over
-constexpr std::size_t kMostForNewton = 300;
+constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
 constexpr double kSweepsPerContact = 6.0;   // the price of Newton's method
 constexpr double kSweepsOfConjugate = 50.0; // what conjugate sweeps cost beside what they save
 
@@ -28,7 +29,7 @@ class Automatic : public LcpSolver {
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     const std::size_t n = lambda.size();
-    const bool newton = n <= kMostForNewton;
+    const bool newton = n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
     const double price = newton ? kSweepsPerContact * static_cast<double>(n) : kSweepsOfConjugate;
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);

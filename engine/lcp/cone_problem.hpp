@@ -27,6 +27,8 @@ class Delassus {
   // Whole products and copies, for methods that go by more than one contact at a time. By default they are made of the
   // functions above; an operator that can do better overrides them.
 
+  /// Whether a sweep costs as much as there are contacts, not its square.
+  virtual bool has_factors() const { return false; }
   /// y = W x. The present λ becomes x.
   virtual void apply(const std::vector<Vec3>& x, std::vector<Vec3>& y);
   /// W written out, 3 contacts x 3 contacts. Changes the present λ.

@@ -17,6 +17,7 @@ class FactoredDelassus : public Delassus {
   /// nodes, 1/kg; it must outlive this.
   explicit FactoredDelassus(GroupSystem& group, const std::vector<std::vector<Mat3>>* node_inverse = nullptr);
 
+  bool has_factors() const override { return true; }
   std::size_t contacts() const override { return diagonal_.size(); }
   const Mat3& diagonal(std::size_t i) const override { return diagonal_[i]; }
   void begin(const std::vector<Vec3>& lambda) override;
