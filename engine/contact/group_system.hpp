@@ -54,6 +54,8 @@ struct ContactRows {
   double gap = 0.0;                ///< g0, metres
   double bound = 0.0;              ///< J v >= bound along n, m/s
   double friction = 0.0;           ///< 0: a contact without tangential rows
+  double restitution = 0.0;        ///< e of the pair; where this is an impact the bound holds its bounce already
+  double velocity_before = 0.0;    ///< J v along n before the sub-step, m/s: what a bounce is a part of
   bool has_one_row() const { return kind == RowKind::sliding || (kind == RowKind::contact && friction == 0.0); }
 };
 
@@ -64,6 +66,9 @@ struct GroupSystem {
   std::vector<Vec3> lambda;        ///< in: where to start; out: impulses (n, t1, t2), N·s
   std::vector<Vec3> delta_velocity, delta_angular_velocity;  ///< out: Δv = A⁻¹ J^T λ by rigid body
   std::vector<VecX> soft_delta;    ///< out: the same by deformable body, over its free nodes
+  /// Out, or empty: velocities beside v* + Δv by which positions move in this sub-step and no later one, by rigid body, in groups
+  /// without deformable ones: of responses that tell recovery from overlap and motion apart.
+  std::vector<Vec3> position_velocity, position_angular_velocity;
   /// W = J A⁻¹ J^T, 1/kg, once a response has assembled it. Copies share it; whoever changes A, directions, arms or nodes resets
   /// it. Velocities, bounds, kinds and friction are free to change; the solvers keep their factorizations with it.
   std::shared_ptr<const MatX> assembled;

@@ -12,7 +12,7 @@ namespace impinge {
 namespace {
 
 constexpr std::string_view kMagic = "impinge frozen step\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHead = kMagic.size() + 24;
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
@@ -49,6 +49,7 @@ void put_group(LittleEndianWriter& out, const FrozenGroup& group) {
     for (const int index : {at.body_a, at.body_b, at.triangle_a, at.triangle_b}) out.put(std::int32_t{index});
     out.put(at.point_a), out.put(at.point_b), out.put(at.feature);
     out.put(rows.directions), out.put(rows.surface), out.put(rows.gap), out.put(rows.bound), out.put(rows.friction);
+    out.put(rows.restitution), out.put(rows.velocity_before);
     out.put(system.lambda[i]), out.put(group.answer.lambda[i]);
     put_side(out, rows.a), put_side(out, rows.b);
   }
@@ -167,6 +168,7 @@ void read_contact(Reader& in, std::int64_t bodies, FrozenGroup& group) {
   at.point_a = in.vec3(), at.point_b = in.vec3(), at.feature = in.get<std::uint64_t>();
   rows.directions = in.mat3(), rows.surface = in.vec3(), rows.gap = in.get<double>(), rows.bound = in.get<double>();
   rows.friction = in.positive("friction", true);
+  rows.restitution = in.positive("restitution", true), rows.velocity_before = in.get<double>();
   group.system.lambda.push_back(in.vec3());
   group.answer.lambda.push_back(in.vec3());
   rows.a = read_side(in, group), rows.b = read_side(in, group);
@@ -195,12 +197,26 @@ FrozenGroup read_group(Reader& in, std::int64_t bodies) {
     block.velocity = in.numbers(unknowns), block.displacement_velocity = in.numbers(unknowns);
     group.system.soft.push_back(std::move(block));
   }
-  const std::size_t contacts = in.count("contacts", 300);
+  const std::size_t contacts = in.count("contacts", 316);
   for (std::size_t i = 0; i < contacts; ++i) read_contact(in, bodies, group);
   for (std::size_t b = 0; b < rigid; ++b) group.answer.delta_velocity.push_back(in.vec3()), group.answer.delta_angular_velocity.push_back(in.vec3());
   for (const BlockMatrix& a : group.matrices) group.answer.soft_delta.push_back(in.numbers(static_cast<std::size_t>(a.rows())));
   group.system.clear_delta();
   return group;
+}
+
+/// What responses with a law of their own were set to.
+void read_laws(Reader& in, ResponseSettings& s) {
+  constexpr std::int64_t kEnd = std::int64_t{1} << 31;
+  s.max_push_out = in.positive("the fastest recovery", true), s.restitution_threshold = in.positive("the slowest bounce", true);
+  s.impulse_iterations = in.index("sweeps", 0, kEnd);
+  const std::size_t at = in.at();
+  s.penalty_form = in.text();
+  if (s.penalty_form != "implicit" && s.penalty_form != "explicit") in.fail(at, fmt::format("form '{}'", s.penalty_form), "implicit or explicit is wanted");
+  s.penalty_stiffness = in.positive("a stiffness", true), s.penalty_damping = in.positive("a damping", true);
+  s.penalty_slip_speed = in.positive("the full friction's speed", false);
+  s.soft_frequency = in.positive("a frequency", false), s.soft_damping_ratio = in.positive("a damping ratio", true);
+  s.soft_iterations = in.index("sweeps", 0, kEnd), s.soft_relax_iterations = in.index("sweeps", 0, kEnd);
 }
 
 }  // namespace
@@ -211,6 +227,10 @@ void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step
   out.put_text(step.integrator), out.put_text(step.linear_solver), out.put_text(step.response), out.put_text(step.settings.form);
   out.put_text(step.settings.stop), out.put_text(step.lcp), out.put(step.settings.lcp.tolerance);
   out.put(std::int32_t{step.settings.lcp.max_iterations}), out.put(std::int32_t{step.settings.max_outer_iterations});
+  const ResponseSettings& s = step.settings;
+  out.put(s.max_push_out), out.put(s.restitution_threshold), out.put(std::int32_t{s.impulse_iterations}), out.put_text(s.penalty_form);
+  out.put(s.penalty_stiffness), out.put(s.penalty_damping), out.put(s.penalty_slip_speed), out.put(s.soft_frequency), out.put(s.soft_damping_ratio);
+  out.put(std::int32_t{s.soft_iterations}), out.put(std::int32_t{s.soft_relax_iterations});
   out.put_count(step.bodies.size());
   for (const std::string& name : step.bodies) out.put_text(name);
   out.put_count(step.groups.size());
@@ -248,6 +268,8 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   step.settings.lcp.tolerance = in.positive("the tolerance", true);
   step.settings.lcp.max_iterations = in.index("max_iterations", 0, std::int64_t{1} << 31);
   step.settings.max_outer_iterations = in.index("max_iterations", 0, std::int64_t{1} << 31);
+  read_laws(in, step.settings);
+  step.settings.time_step = step.time_step;
   for (std::size_t n = in.count("bodies", 4); n > 0; --n) step.bodies.push_back(in.text());
   for (std::size_t n = in.count("groups", 12); n > 0; --n) step.groups.push_back(read_group(in, static_cast<std::int64_t>(step.bodies.size())));
   if (!in.at_end()) in.fail(in.at(), "more behind the last group", "the file ends there");

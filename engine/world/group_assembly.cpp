@@ -202,9 +202,10 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
     if (c >= collisions) continue;
     const Collision& collision = view.collisions[c];
     const double free_velocity = system.contact_velocity(system.contacts.size() - 1, false).x();
-    system.contacts.back().bound = row_bound(collision.gap, free_velocity, collision.normal.dot(velocity_before),
-                                             pair_restitution(bodies[collision.body_a], bodies[collision.body_b], view.parameters), view.parameters,
-                                             view.time_step);
+    ContactRows& row = system.contacts.back();
+    row.restitution = pair_restitution(bodies[collision.body_a], bodies[collision.body_b], view.parameters);
+    row.velocity_before = collision.normal.dot(velocity_before);
+    row.bound = row_bound(collision.gap, free_velocity, row.velocity_before, row.restitution, view.parameters, view.time_step);
   }
   group.contacts = std::move(kept);
   system.lambda.assign(system.contacts.size(), Vec3::Zero());
@@ -238,7 +239,7 @@ GroupSystem make_push_out_system(const GroupSystem& solved, const Parameters& pa
     }
     const double gap_after = rows.gap + time_step * solved.displacement_velocity(i).x();
     rows.surface.setZero();
-    rows.friction = 0.0;
+    rows.friction = rows.restitution = 0.0;
     // an overlap is measured after the velocities have moved the bodies: separation that they bring is not added twice
     rows.bound = gap_after >= 0.0 ? -gap_after / time_step : std::min(-gap_after / time_step, parameters.contact.max_push_out);
   }

@@ -1,9 +1,12 @@
 // Stages 9 and 10 of a sub-step for one group: its system, the response, and what follows from the impulses.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "engine/response/group_judge.hpp"
+#include "engine/response/least_violation.hpp"
 #include "engine/world/world_stages.hpp"
 
 namespace impinge {
@@ -56,7 +59,25 @@ void World::Stages::freeze_geometry(std::span<const RigidBody> bodies, std::span
 }
 
 ResponseSettings response_settings(const Parameters& p) {
-  return {{p.lcp.tolerance, p.lcp.max_iterations}, p.response.form, p.response.stop, p.response.max_iterations, {}};
+  ResponseSettings s;
+  s.lcp.tolerance = p.lcp.tolerance;
+  s.lcp.max_iterations = p.lcp.max_iterations;
+  s.form = p.response.form;
+  s.stop = p.response.stop;
+  s.max_outer_iterations = p.response.max_iterations;
+  s.time_step = p.simulation.time_step();
+  s.max_push_out = p.contact.max_push_out;
+  s.restitution_threshold = p.contact.restitution_threshold;
+  s.impulse_iterations = p.response.impulse_iterations;
+  s.penalty_stiffness = p.response.penalty_stiffness;
+  s.penalty_damping = p.response.penalty_damping;
+  s.penalty_form = p.response.penalty_form;
+  s.penalty_slip_speed = p.response.penalty_slip_speed;
+  s.soft_frequency = p.response.soft_frequency;
+  s.soft_damping_ratio = p.response.soft_damping_ratio;
+  s.soft_iterations = p.response.soft_iterations;
+  s.soft_relax_iterations = p.response.soft_relax_iterations;
+  return s;
 }
 
 GroupSystem World::solve_group(CollisionGroup& group, double h) {
@@ -78,7 +99,16 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
     }
     if (s.freezing) frozen = freeze(system);  // before a later Newton iteration takes A anew
     const StageTimer timer(times.response_ms);
-    const ResponseResult result = s.response->solve(system, *s.lcp, settings);
+    const ResponseResult result = [&] {
+      try {
+        return s.response->solve(system, *s.lcp, settings);
+      } catch (const DivergenceError& error) {  // a response knows neither frame nor names
+        std::string names;
+        for (int b : group.bodies)
+          if (bodies_[b].soft) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", bodies_[b].name);
+        throw DivergenceError(fmt::format("frame {}, group {}, body {}: {}; use more sub-steps or a softer material", frame_, &group - s.groups.data(), names, error.what()));
+      }
+    }();
     s.frame_stats.lcp_iterations += result.iterations;
     s.frame_stats.outer_iterations += result.outer_iterations;
     return result.converged;
@@ -107,6 +137,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
     start = system.lambda;
     converged = solve();
   }
+  if (!converged && !s.response->lives_on_overlap()) settle_contradiction(system);
   if (!converged || !at_root) ++s.frame_stats.unconverged;
   if (frozen) {
     frozen->answer = {system.lambda, system.delta_velocity, system.delta_angular_velocity, system.soft_delta};
@@ -122,24 +153,32 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
 }
 
 void World::push_out(const GroupSystem& solved, const CollisionGroup& group, double h) {
-  if (!needs_push_out(solved, parameters, h)) return;
   Stages& s = *stages_;
+  const auto move = [&](const std::vector<Vec3>& velocity, const std::vector<Vec3>& angular, const std::vector<VecX>& nodes) {
+    int rigid = 0, soft = 0;
+    for (int b : group.bodies) {
+      if (bodies_[b].soft) {
+        s.soft_push[b] = h * nodes[soft++];
+      } else {
+        s.push[b] = {h * velocity[rigid], h * angular[rigid]};
+        ++rigid;
+      }
+    }
+  };
+  if (!solved.position_velocity.empty()) return move(solved.position_velocity, solved.position_angular_velocity, {});
+  if (s.response->lives_on_overlap() || !needs_push_out(solved, parameters, h)) return;
   const StageTimer timer(s.frame_stats.times.response_ms);
   GroupSystem recovery = make_push_out_system(solved, parameters, h);
   // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
-  const ResponseSettings loose{{1e-3, parameters.lcp.max_iterations}, "accelerated", "residual", parameters.response.max_iterations};
+  ResponseSettings loose = response_settings(parameters);
+  loose.lcp.tolerance = 1e-3;
+  loose.form = "accelerated";
+  loose.stop = "residual";
   const ResponseResult result = s.response->solve(recovery, *s.lcp, loose);
   s.frame_stats.lcp_iterations += result.iterations;
   s.frame_stats.outer_iterations += result.outer_iterations;
-  int rigid = 0, soft = 0;
-  for (int b : group.bodies) {
-    if (bodies_[b].soft) {
-      s.soft_push[b] = h * recovery.soft_delta[soft++];
-    } else {
-      s.push[b] = {h * recovery.delta_velocity[rigid], h * recovery.delta_angular_velocity[rigid]};
-      ++rigid;
-    }
-  }
+  if (!result.converged) settle_contradiction(recovery);
+  move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.soft_delta);
 }
 
 void World::take_group(const GroupSystem& system, int g) {

@@ -49,6 +49,19 @@ void Parameters::bind(ParameterSet& set) {
   set.add("response.form", response.form, {"accelerated", "seed"}, "iterative_constraint_anticipation: the convergent form, or the one that the seed prints.");
   set.add("response.stop", response.stop, {"residual", "change"}, "Its stop rule: a true residual (lcp.tolerance), or the seed's change of less than 5 %.");
   set.add("response.max_iterations", response.max_iterations, {1, 1000000, true}, "", "Its outer iterations at most for a group and sub-step.");
+  set.add("response.impulse_iterations", response.impulse_iterations, {1, 1000000, true}, "", "sequential_impulse, simultaneous_impulse: sweeps at most for a group and sub-step.");
+  set.add("response.penalty_form", response.penalty_form, {"implicit", "explicit"},
+          "penalty: forces of the end of the sub-step (implicit), or of its start, stable for short sub-steps only (explicit).");
+  set.add("response.penalty_stiffness", response.penalty_stiffness, {0.0, 1e15}, "N/m",
+          "penalty: spring of each contact; 0: by the mass that the contact feels and the sub-step.");
+  set.add("response.penalty_damping", response.penalty_damping, {0.0, 1e15}, "N·s/m",
+          "penalty: damper of each contact; 0 beside an automatic stiffness: critical damping.");
+  set.add("response.penalty_slip_speed", response.penalty_slip_speed, {0.0, 1e3, true}, "m/s", "penalty: friction is full from this sliding speed on, and less below it.");
+  set.add("response.soft_frequency", response.soft_frequency, {0.0, 1e6, true}, "Hz", "soft_constraint: of each contact's spring; at most a quarter of the sub-steps' rate is used.");
+  set.add("response.soft_damping_ratio", response.soft_damping_ratio, {0.0, 1e6}, "", "soft_constraint: of each contact's spring, 1 is critical.");
+  set.add("response.soft_iterations", response.soft_iterations, {1, 1000000, true}, "", "soft_constraint: sweeps for a group and sub-step.");
+  set.add("response.soft_relax_iterations", response.soft_relax_iterations, {0, 1000000}, "",
+          "soft_constraint: sweeps after the positions, which take out the velocity that recovery from overlap brought.");
   set.add("lcp.method", lcp.method, names_of(lcp_solvers()), "Solver of the cone complementarity problem.");
   set.add("lcp.tolerance", lcp.tolerance, {1e-15, 1.0, true}, "", "Natural-map residual to reach, relative to the largest right-hand side.");
   set.add("lcp.max_iterations", lcp.max_iterations, {0, 10000000, true}, "", "Sweeps at most for a group and sub-step.");

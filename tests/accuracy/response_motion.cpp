@@ -1,0 +1,278 @@
+// What every response makes of motion that formulas know: rolling, pivoting, bouncing, sliding deformable pads, lost energy.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/response/response.hpp"
+#include "tests/support/soft_bodies.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+constexpr double kGravity = 9.81;
+
+bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->lives_on_overlap(); }
+
+void use(World& world, std::string_view response) {
+  world.parameters.response.method = response;
+  world.parameters.simulation.sleeping = false;
+}
+
+}  // namespace
+
+TEST_CASE("balls and rods roll down an incline or slip, on both sides of the friction that rolling needs (AT-06)") {
+  const double angle = M_PI / 6.0, radius = 0.2;
+  const Vec3 normal(-std::sin(angle), std::cos(angle), 0.0), down(-std::cos(angle), -std::sin(angle), 0.0);
+  for (const auto& e : responses())
+    for (const bool rod : {false, true}) {
+      BodyDescription body = dynamic_body("body", rod ? Shape(Capsule{radius, 0.3}) : Shape(Sphere{radius}), radius * normal);
+      body.mass = 2.0;
+      if (rod) body.rotation = Vec3(90, 0, 0);
+      World probe;
+      probe.add_body(body);
+      const double k = 1.0 / (probe.bodies()[0].world_inertia()(2, 2) / (2.0 * radius * radius));  // m R²/I
+      if (!rod) CHECK(k == Approx(2.5));
+      const double needed = std::tan(angle) / (1.0 + k);
+      for (const double mu : {1.05 * needed, 0.95 * needed}) {
+        CAPTURE(e.name, rod, mu / needed);
+        World world;
+        use(world, e.name);
+        world.parameters.contact.friction = mu;
+        world.parameters.response.impulse_iterations = 2000;
+        world.add_body(fixed_plane("slope", normal, 0.0));
+        world.add_body(body);
+        world.start();
+        run(world, 60);
+        const RigidBody& b = world.bodies()[1];
+        const double v = b.velocity.dot(down), spin = std::abs(b.angular_velocity().z()) * radius;
+        const double exact = mu > needed ? kGravity * std::sin(angle) * k / (1.0 + k) : kGravity * (std::sin(angle) - mu * std::cos(angle));
+        const double exact_spin = mu > needed ? exact : k * mu * kGravity * std::cos(angle);
+        const double allowed = regularised(e.name) ? 1e-2 : 1e-5;  // springs carry nothing in the first sub-steps
+        CHECK(v == Approx(exact).epsilon(allowed));
+        CHECK(spin == Approx(exact_spin).epsilon(allowed));
+      }
+    }
+}
+
+TEST_CASE("a box is pushed over the floor, twenty-five balls roll on it (AT-07)") {
+  const double big = 10.0, small = 1.0, force = 150.0;
+  const int balls = 25;
+  const double f1 = 0.4 * (big + balls * small) * kGravity, f2 = (force - f1) / big / (3.5 / small + balls / big);
+  const double a_box = (force - f1 - balls * f2) / big, a_ball = f2 / small;
+  const Vec3 push = Vec3(0.5, 0, std::sqrt(0.75));
+  for (const auto& e : responses()) {
+    CAPTURE(e.name);
+    World world;
+    use(world, e.name);
+    world.parameters.simulation.frame_time = 1e-3;
+    world.parameters.simulation.substeps = 1;
+    world.parameters.response.impulse_iterations = 4000;
+    BodyDescription floor = fixed_plane("floor", Vec3::UnitY(), 0.0);
+    floor.friction = 0.2;  // 0.4 is the geometric mean with the box
+    world.add_body(floor);
+    BodyDescription box = dynamic_body("box", Box{Vec3(10, 0.05, 10)}, Vec3(0, 0.05, 0));
+    box.mass = big;
+    box.friction = 0.8;
+    world.add_body(box);
+    for (int i = 0; i < balls; ++i) {
+      BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.2}, Vec3(i % 5 - 2, 0.3, i / 5 - 2));
+      ball.mass = small;
+      ball.friction = 0.8;
+      world.add_body(ball);
+    }
+    world.start();
+    double error = 0.0;
+    const int steps = 150;
+    for (int i = 1; i <= steps; ++i) {
+      world.bodies()[1].velocity += 1e-3 * force / big * push;
+      world.step();
+      const double t = 1e-3 * i;
+      error += ((world.bodies()[1].velocity - a_box * t * push).squaredNorm() + (world.bodies()[2].velocity - a_ball * t * push).squaredNorm()) / steps;
+    }
+    WARN(e.name << ": mean squared error of the pushed box and a ball " << error << " m²/s²");
+    if (!regularised(e.name)) CHECK(error < 1e-6);
+    CHECK(error < 1e-2);
+  }
+}
+
+TEST_CASE("three legs hold a torque up to µ m g R, and slip beyond it (AT-08)") {
+  const double radius = 1.5, mass = 3.0, mu = 2.0 / 3.0, g = 10.0, h = 0.01, inertia = 2.0;
+  for (const auto& e : responses()) {
+    if (regularised(e.name)) continue;
+    for (const double torque : {20.0, 29.7, 30.3}) {
+      CAPTURE(e.name, torque);
+      GroupSystem group;
+      BodyBlock block;
+      block.inverse_mass = 1.0 / mass;
+      block.inverse_inertia = Mat3::Identity() / inertia;
+      block.velocity = {0, 0, -g * h};
+      block.angular_velocity = {0, 0, torque * h / inertia};
+      group.bodies = {block};
+      for (int k = 0; k < 3; ++k) {
+        ContactRows rows;
+        const double a = 2.0 * M_PI * k / 3.0 + 0.1;
+        rows.a.rigid = 0;
+        rows.a.arm = radius * Vec3(std::cos(a), std::sin(a), 0);
+        rows.directions << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+        rows.friction = mu;
+        group.contacts.push_back(rows);
+      }
+      group.lambda.assign(3, Vec3::Zero());
+      group.clear_delta();
+      ResponseSettings settings;
+      settings.lcp = {1e-13, 100000};
+      settings.impulse_iterations = 100000;
+      CHECK(find_entry(responses(), e.name)->make()->solve(group, *lcp_solvers().front().make(), settings).converged);
+      const double spin = torque * h / inertia + group.delta_angular_velocity[0].z();
+      if (torque < 30.0)
+        CHECK(std::abs(spin) < 1e-10);
+      else
+        CHECK(spin == Approx((torque - 30.0) * h / inertia).epsilon(1e-6));
+      for (const Vec3& lambda : group.lambda) {
+        CHECK(lambda.x() == Approx(mass * g * h / 3.0).epsilon(1e-8));
+        if (torque > 30.0) CHECK(lambda.tail<2>().norm() == Approx(mu * mass * g * h / 3.0).epsilon(1e-8));
+      }
+    }
+  }
+}
+
+namespace {
+
+/// Drops a ball from 1 m at h = 1e-4 s and checks when its bouncing ends; a penalty's bounce is its damper's, not e.
+void check_bounce(std::string_view response, double e) {
+  CAPTURE(response, e);
+  World world;
+  use(world, response);
+  world.parameters.simulation.frame_time = 1e-4;
+  world.parameters.simulation.substeps = 1;
+  world.parameters.contact.restitution = e;
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+  world.add_body(dynamic_body("ball", Sphere{0.1}, Vec3(0, 1.1, 0)));
+  world.start();
+  const double fall = std::sqrt(2.0 / kGravity), total = fall * (1.0 + e) / (1.0 - e);
+  int bounces = 0;
+  double last = 0.0, before = 0.0;
+  for (int i = 1; i < 1.1 * total / 1e-4; ++i) {
+    world.step();
+    const double v = world.bodies()[1].velocity.y();
+    if (before < -0.05 && v > 0.0) {
+      ++bounces;
+      CHECK(std::abs(v + e * before) < 1.1 * (1.0 + e) * kGravity * 1e-4);  // either law is exact to what falls in a step
+    }
+    if (std::abs(v) > 0.02) last = 1e-4 * i;
+    before = v;
+  }
+  CHECK(bounces > 4);
+  CHECK(last == Approx(total).epsilon(1e-2));
+}
+
+}  // namespace
+
+TEST_CASE("a ball of restitution 0.5 stops bouncing after √(2h/g) (1+e)/(1-e) (AT-14)") {
+  for (const auto& e : responses())
+    if (e.name != "penalty") check_bounce(e.name, 0.5);
+}
+
+TEST_CASE("a ball of restitution 0.8 bounces for four seconds (AT-14)", "[long]") {
+  for (const auto& e : responses())
+    if (e.name != "penalty") check_bounce(e.name, 0.8);
+}
+
+TEST_CASE("three touching balls hit by one: responses that know one law for all contacts give (-1, 2, 2)/3 (AT-15)") {
+  for (const char* name : {"constraint_anticipation", "iterative_constraint_anticipation", "simultaneous_impulse"}) {
+    CAPTURE(name);
+    World world;
+    use(world, name);
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.simulation.substeps = 1;
+    world.parameters.contact.restitution = 1.0;
+    world.parameters.contact.friction = 0.0;
+    world.parameters.lcp.tolerance = 1e-13;
+    world.parameters.response.impulse_iterations = 10000;
+    for (int i = 0; i < 3; ++i) {
+      BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {0.2 * i, 0, 0});
+      if (i == 0) ball.velocity = Vec3(1, 0, 0);
+      world.add_body(ball);
+    }
+    world.start();
+    world.step();
+    const double expected[] = {-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};
+    for (int i = 0; i < 3; ++i) CHECK(world.bodies()[i].velocity.x() == Approx(expected[i]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a deformable pad slides with µ ΣN against it, and sticks below that (AT-36)") {
+  const double mu = 0.4;
+  for (const auto& e : responses())
+    for (const bool slips : {true, false}) {
+      CAPTURE(e.name, slips);
+      World world;
+      use(world, e.name);
+      world.parameters.contact.friction = mu;
+      world.parameters.response.impulse_iterations = 4000;
+      world.parameters.response.soft_iterations = 50;
+      world.parameters.simulation.frame_time = 1.0 / 240.0;
+      world.parameters.simulation.substeps = 1;  // so that every force is in the record
+      world.parameters.simulation.gravity = slips ? Vec3(4.0, -kGravity, 0) : Vec3(0.25 * kGravity, -kGravity, 0);
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+      BodyDescription pad = soft_box("pad", {0.02, 0.01, 0.02}, {2, 1, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.01, "corotational"});
+      if (slips) pad.velocity = Vec3(1.0, 0, 0);
+      world.add_body(pad);
+      world.start();
+      run(world, 120);
+      Vec3 sum = Vec3::Zero();
+      const double before = world.bodies()[1].soft->fem.center_of_mass().x();
+      const int frames = 120;
+      for (int i = 0; i < frames; ++i) {
+        world.step();
+        sum += contact_force_on(world, 1) / frames;
+      }
+      const double moved = world.bodies()[1].soft->fem.center_of_mass().x() - before, weight = kGravity * world.bodies()[1].mass;
+      CHECK(sum.y() == Approx(weight).epsilon(1e-3));
+      if (slips) {
+        CHECK(-sum.x() == Approx(mu * sum.y()).epsilon(1e-3));
+        CHECK(std::abs(sum.z()) < 1e-3 * sum.y());
+      } else {
+        CHECK(-sum.x() == Approx(0.25 * weight).epsilon(2e-3));
+        // a regularised law creeps by less than ε f⁻¹(F_t/µN)
+        CHECK(std::abs(moved) < (e.name == "penalty" ? 1e-3 * frames / 240.0 : 1e-6));
+      }
+    }
+}
+
+TEST_CASE("two deformable cubes that collide without friction and gravity: kinetic and elastic energy never rise") {
+  for (const auto& e : responses()) {
+    CAPTURE(e.name);
+    World world;
+    use(world, e.name);
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.simulation.linear_solver = "simplicial_llt";
+    world.parameters.contact.friction = 0.0;
+    world.parameters.lcp.tolerance = 1e-12;
+    world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 20000;
+    world.parameters.response.max_iterations = 20000;
+    for (const double side : {-1.0, 1.0}) {
+      BodyDescription d = soft_cube(side < 0 ? "left" : "right", 0.2, side < 0 ? 1 : 2, {side < 0 ? -0.21 : 0.01, 0.01 * side, 0.02 * side}, {1e5, 0.3, 1000.0, 0.0, "linear"});
+      d.velocity = Vec3(-side, 0, 0);
+      world.add_body(d);
+    }
+    world.start();
+    const auto energy = [&] { return world.record().stats.kinetic + world.record().stats.elastic; };
+    double before = energy(), rise = 0.0;
+    const double first = before;
+    std::int64_t contacts = 0;
+    for (int i = 0; i < 40; ++i) {
+      world.step();
+      rise = std::max(rise, (energy() - before) / first);
+      before = energy();
+      contacts += world.record().stats.contacts;
+    }
+    CHECK(contacts > 0);
+    CHECK(world.bodies()[0].velocity.x() < 0.5);
+    if (regularised(e.name))
+      WARN(e.name << ": largest rise of kinetic and elastic energy in a frame " << rise << " of what there was");
+    else
+      CHECK(rise < 1e-12);
+  }
+}

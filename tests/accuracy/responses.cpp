@@ -1,0 +1,299 @@
+// What each response leaves of the exact answer, against formulas: how deep bodies rest, how friction sticks, what impacts keep.
+#include <catch2/catch.hpp>
+
+#include "engine/response/response.hpp"
+#include "engine/world/judge.hpp"
+#include "tests/support/soft_bodies.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+constexpr double kGravity = 9.81;
+
+bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->lives_on_overlap(); }
+
+void use(World& world, std::string_view response) {
+  world.parameters.response.method = response;
+  world.parameters.simulation.sleeping = false;
+}
+
+double floor_force(const World& world) { return -contact_force_on(world, 0).y(); }
+
+}  // namespace
+
+TEST_CASE("a resting box: exact responses leave it on the floor, springs sink by weight over stiffness") {
+  for (const auto& e : responses()) {
+    CAPTURE(e.name);
+    World world;
+    use(world, e.name);
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    BodyDescription box = cube("box", 0.5, {0, 0.25, 0});
+    box.mass = 2.0;
+    world.add_body(box);
+    world.parameters.response.penalty_stiffness = 2e4;
+    world.parameters.response.penalty_damping = 50.0;
+    world.start();
+    run(world, 300);
+    CHECK(world.record().stats.contacts == 4);
+    CHECK(floor_force(world) == Approx(2.0 * kGravity).epsilon(1e-5));
+    const double depth = judge_overlap(world.bodies()).penetration;
+    if (e.name == "penalty")
+      CHECK(depth == Approx(2.0 * kGravity / (4 * 2e4)).epsilon(1e-2));
+    else if (!regularised(e.name))
+      CHECK(depth < 1e-6);
+    else
+      CHECK(depth > 1e-5);
+    CHECK(world.bodies()[1].velocity.norm() < 1e-5);
+  }
+}
+
+TEST_CASE("explicit penalty rests at the same depth, and flies off where its step is too long") {
+  for (const double stiffness : {2e4, 4e5}) {
+    World world;
+    use(world, "penalty");
+    world.parameters.contact.restitution = 0.0;
+    world.parameters.response.penalty_form = "explicit";
+    world.parameters.response.penalty_stiffness = stiffness;
+    world.parameters.response.penalty_damping = 50.0;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    BodyDescription box = cube("box", 0.5, {0, 0.25, 0});
+    box.mass = 2.0;
+    world.add_body(box);
+    world.start();
+    double highest = 0.0;
+    for (int i = 0; i < 240; ++i) {
+      world.step();
+      highest = std::max(highest, world.bodies()[1].pose.position.y());
+    }
+    // 4 contacts of 2e4 N/m on 2 kg: 200 rad/s, Δt < 2/ω = 10 ms; 4e5: 894 rad/s, 2.2 ms with a Δt of 4.2 ms
+    if (stiffness == 2e4)
+      CHECK(judge_overlap(world.bodies()).penetration == Approx(2.0 * kGravity / (4 * stiffness)).epsilon(1e-2));
+    else
+      CHECK(highest > 0.251);
+  }
+}
+
+TEST_CASE("a ball on a soft constraint sinks by g/ω², whatever its mass") {
+  for (const double mass : {0.1, 50.0}) {
+    World world;
+    use(world, "soft_constraint");
+    world.parameters.response.soft_frequency = 8.0;
+    world.parameters.response.soft_damping_ratio = 1.0;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    BodyDescription ball = dynamic_body("ball", Sphere{0.2}, {0, 0.2, 0});
+    ball.mass = mass;
+    world.add_body(ball);
+    world.start();
+    run(world, 240);
+    const double omega = 2.0 * M_PI * 8.0;
+    CHECK(0.2 - world.bodies()[1].pose.position.y() == Approx(kGravity / (omega * omega)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("incline: true cones hold the block, regularised friction creeps by its law (AT-01, AT-02)") {
+  const double angle = std::atan(0.5);
+  const Vec3 normal(-std::sin(angle), std::cos(angle), 0.0), down(-std::cos(angle), -std::sin(angle), 0.0);
+  for (const auto& e : responses())
+    for (const double mu : {0.6, 0.51, 0.49}) {
+      CAPTURE(e.name, mu);
+      World world;
+      use(world, e.name);
+      world.parameters.contact.friction = mu;
+      world.parameters.response.soft_iterations = 20;
+      world.add_body(fixed_plane("slope", normal, 0.0));
+      BodyDescription block = dynamic_body("block", Box{Vec3(0.5, 0.1, 0.5)}, 0.1 * normal);
+      block.rotation = Vec3(0, 0, angle * 180.0 / M_PI);
+      block.mass = 5.0;
+      world.add_body(block);
+      world.start();
+      run(world, 150);
+      const Vec3 moved = world.bodies()[1].pose.position - 0.1 * normal;
+      const double t = 2.5, h = world.parameters.simulation.time_step(), a = kGravity * (std::sin(angle) - mu * std::cos(angle));
+      if (mu < 0.5) {
+        CHECK(moved.dot(down) == Approx(0.5 * a * t * (t + h)).epsilon(5e-3));
+      } else if (e.name == "penalty") {
+        const double creep = world.parameters.response.penalty_slip_speed * (1.0 - std::sqrt(1.0 - 0.5 / mu));
+        CHECK(world.bodies()[1].velocity.dot(down) == Approx(creep).epsilon(1e-2));
+      } else {
+        CHECK(std::abs(moved.dot(down)) < 1e-4);
+      }
+    }
+}
+
+TEST_CASE("stopping distance v²/2µg in every direction, for every response (AT-03, AT-04)") {
+  const double v = 3.0, mu = 0.5, exact = v * v / (2 * mu * kGravity);
+  for (const auto& e : responses())
+    for (int degrees = 0; degrees <= 45; degrees += 15) {
+      CAPTURE(e.name, degrees);
+      World world;
+      use(world, e.name);
+      world.parameters.contact.friction = mu;
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+      const double a = degrees * M_PI / 180.0;
+      const Vec3 direction(std::cos(a), 0, std::sin(a));
+      BodyDescription block = dynamic_body("block", Box{Vec3(0.5, 0.02, 0.5)}, Vec3(0, 0.02, 0));
+      block.velocity = v * direction;
+      block.mass = 5.0;
+      world.add_body(block);
+      world.start();
+      run(world, 60);
+      const Vec3 moved = world.bodies()[1].pose.position - Vec3(0, 0.02, 0), flat(moved.x(), 0, moved.z());
+      CHECK(flat.norm() == Approx(exact - 0.5 * v * world.parameters.simulation.time_step()).epsilon(5e-3));
+      CHECK((flat - flat.dot(direction) * direction).norm() < 1e-3 * exact);
+    }
+}
+
+TEST_CASE("from sliding to rolling, for every response (AT-05)") {
+  for (const auto& e : responses()) {
+    CAPTURE(e.name);
+    World world;
+    use(world, e.name);
+    world.parameters.contact.friction = 0.2;
+    world.parameters.simulation.substeps = 16;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    BodyDescription ball = dynamic_body("ball", Sphere{0.25}, Vec3(0, 0.25, 0));
+    ball.velocity = Vec3(7, 0, 0);
+    ball.mass = 5.0;
+    world.add_body(ball);
+    world.start();
+    run(world, 90);
+    const double t = 2.0 * 7.0 / (7.0 * 0.2 * kGravity), x = 12.0 * 49.0 / (49.0 * 0.2 * kGravity);
+    CHECK(world.bodies()[1].velocity.x() == Approx(5.0).epsilon(2e-3));
+    CHECK(world.bodies()[1].pose.position.x() == Approx(x + 5.0 * (1.5 - t)).epsilon(3e-3));
+  }
+}
+
+TEST_CASE("a collision of two free bodies keeps momentum and angular momentum, for every response") {
+  for (const auto& e : responses())
+    for (const bool soft : {false, true}) {
+      CAPTURE(e.name, soft);
+      World world;
+      use(world, e.name);
+      world.parameters.simulation.gravity.setZero();
+      world.parameters.contact.friction = 0.4;
+      world.parameters.lcp.tolerance = 1e-12;
+      if (soft) {
+        BodyDescription left = soft_cube("left", 0.2, 2, {-0.25, 0, 0}, {1e5, 0.3, 1000.0, 0.0, "linear"});
+        left.velocity = Vec3(1, 0, 0);
+        world.add_body(left);
+      } else {
+        BodyDescription left = cube("left", 0.2, {-0.2, 0.1, 0.1});
+        left.rotation = Vec3(20, 30, 10);
+        left.velocity = Vec3(1, 0, 0.2);
+        world.add_body(left);
+      }
+      BodyDescription right = dynamic_body("right", Sphere{0.1}, {0.1, 0.13, 0.08});
+      right.velocity = Vec3(-1, 0, 0);
+      right.angular_velocity = Vec3(3, 1, 0);
+      world.add_body(right);
+      world.start();
+      const Vec3 p0 = world.record().stats.momentum, l0 = world.record().stats.angular_momentum;
+      const double p_scale = world.bodies()[0].mass + world.bodies()[1].mass;
+      bool touched = false;
+      for (int i = 0; i < 30; ++i) {
+        world.step();
+        touched = touched || world.record().stats.contacts > 0;
+      }
+      CHECK(touched);
+      CHECK(world.bodies()[1].velocity.x() > -0.9);
+      CHECK((world.record().stats.momentum - p0).norm() < 1e-8 * p_scale);
+      if (!soft) CHECK((world.record().stats.angular_momentum - l0).norm() < 1e-8 * p_scale);
+    }
+}
+
+TEST_CASE("a deformable cube rests on the floor under every response and weighs what it weighs") {
+  for (const auto& e : responses()) {
+    CAPTURE(e.name);
+    World world;
+    use(world, e.name);
+    world.parameters.simulation.substeps = 2;
+    world.parameters.response.penalty_stiffness = 2e4;
+    world.parameters.response.impulse_iterations = 2000;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0));
+    world.add_body(soft_cube("cube", 0.2, 2, {0, 0.002, 0}, {1e5, 0.4, 1000.0, 0.01, "corotational"}));
+    world.start();
+    run(world, 180);
+    double force = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      world.step();
+      force += floor_force(world) / 20;
+    }
+    CHECK(force == Approx(kGravity * world.bodies()[1].mass).epsilon(1e-3));
+    CHECK(fastest_node(world) < 1e-3);
+    const double depth = judge_overlap(world.bodies()).penetration;
+    WARN(e.name << ": overlap of the resting deformable cube " << depth << " m");
+    if (!regularised(e.name)) CHECK(depth < 1e-4 * 0.2);
+    if (e.name == "penalty") {
+      // at least what an even share of the weight makes, and no contact bears more than a third of it
+      const double share = kGravity * world.bodies()[1].mass / 2e4;
+      CHECK(depth > share / world.record().stats.contacts);
+      CHECK(depth < share / 3.0);
+    }
+  }
+}
+
+TEST_CASE("a shot runs through Newton's cradle with sequential impulses, and spreads where all contacts act at once") {
+  for (const std::string name : {"sequential_impulse", "constraint_anticipation"}) {
+    CAPTURE(name);
+    World world;
+    use(world, name);
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.contact.restitution = 1.0;
+    world.parameters.contact.friction = 0.0;
+    for (int i = 0; i < 5; ++i) {
+      BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {0.2 * i - (i == 0 ? 0.05 : 0.0), 0, 0});
+      if (i == 0) ball.velocity = Vec3(1, 0, 0);
+      world.add_body(ball);
+    }
+    world.start();
+    run(world, 10);
+    double energy = 0.0;
+    for (const RigidBody& b : world.bodies()) energy += b.velocity.squaredNorm();
+    if (name == "sequential_impulse") {
+      CHECK(world.bodies()[4].velocity.x() == Approx(1.0).epsilon(1e-9));
+      for (int i = 0; i < 4; ++i) CHECK(std::abs(world.bodies()[i].velocity.x()) < 1e-9);
+      CHECK(energy == Approx(1.0).epsilon(1e-9));
+    } else {
+      CHECK(world.bodies()[3].velocity.x() > 0.1);  // one law for all contacts at once can't tell the last ball from the others
+    }
+  }
+}
+
+TEST_CASE("without gravity and friction impulses never raise the energy; springs say by how much they do") {
+  for (const auto& e : responses())
+    for (const double restitution : {0.0, 0.6, 1.0}) {
+      if (restitution == 1.0 && e.name.find("impulse") == std::string_view::npos) continue;
+      CAPTURE(e.name, restitution);
+      World world;
+      use(world, e.name);
+      world.parameters.simulation.gravity.setZero();
+      world.parameters.contact.restitution = restitution;
+      world.parameters.contact.friction = 0.0;
+      world.parameters.lcp.tolerance = 1e-13;
+      world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 20000;
+      for (int i = 0; i < 12; ++i) {
+        const double a = 2.399963 * i, r = 0.25 * std::sqrt(i + 0.5);  // a sunflower of balls, falling together
+        BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.09 + 0.004 * (i % 3)}, {r * std::cos(a), 0.02 * (i % 5), r * std::sin(a)});
+        ball.velocity = -1.5 * ball.position;
+        world.add_body(ball);
+      }
+      world.start();
+      double energy = world.record().stats.kinetic, rise = 0.0;
+      const double first = energy;
+      std::int64_t contacts = 0;
+      for (int i = 0; i < 60; ++i) {
+        world.step();
+        const double now = world.record().stats.kinetic;
+        rise = std::max(rise, (now - energy) / first);
+        energy = now;
+        contacts += world.record().stats.contacts;
+      }
+      CHECK(contacts > 3);
+      if (regularised(e.name))
+        WARN(e.name << ": largest rise of kinetic energy in a frame " << rise << " of what there was");
+      else
+        CHECK(rise < 1e-12);
+    }
+}
