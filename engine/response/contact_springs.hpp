@@ -28,8 +28,8 @@ struct SpringsResult {
 };
 
 /// Fills group.lambda with the impulses of the velocities that they leave; a: of this group. Friction goes by the normal
-/// impulse of the iterate, so it is that of the answer at convergence.
-SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, GroupSystem& group);
+/// impulse of the iterate, so it is that of the answer at convergence: A Δv - J^T λ of `tolerance` times what the forces change.
+SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance, GroupSystem& group);
 
 /// Δv = A⁻¹ J^T λ of group.lambda as it stands, by conjugate gradients. False if they didn't get there.
 bool apply_springs(const GroupOperator& a, GroupSystem& group);

@@ -2,7 +2,7 @@
 // a load, weight/k at rest, and the work grows linearly with the contacts.
 //
 // Explicit: the forces of the sub-step's start; stable for Δt below about 2 √(m/k) only. Friction, which stops at most what slides,
-// lags by a sub-step too: what is pulled creeps by up to a part of the pull's acceleration times Δt.
+// lags by a sub-step too: a body that should stick creeps at (m W - 1) a Δt, a what pulls it, W the tangential mobility at a contact.
 // Implicit: those of its end, d = g0 + Δt u, which makes A + Δt² k n n^T + Δt b n n^T of A. Normal forces are those of a convex
 // potential (contact_springs.hpp).
 //
@@ -60,7 +60,7 @@ class Penalty : public Response {
         const double mobility = a.block_mobility(i)(0, 0);
         law.push_back(implicit_law(group.contacts[i], spring_of(settings, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0), settings));
       }
-      const SpringsResult springs = solve_springs(a, law, group);
+      const SpringsResult springs = solve_springs(a, law, std::max(1e-12, settings.lcp.tolerance), group);
       result.iterations = springs.iterations;
       result.converged = springs.converged;
     } else {

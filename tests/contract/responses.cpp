@@ -176,6 +176,7 @@ TEST_CASE("the implicit penalty obeys its own law: λ of the velocities that it 
     CAPTURE(seed);
     RandomGroup group(seed, 2, 1, false, 10);
     ResponseSettings settings;
+    settings.lcp.tolerance = 1e-11;
     settings.penalty_stiffness = 1e5;
     settings.penalty_damping = 20.0;
     const ResponseResult result = find_entry(responses(), "penalty")->make()->solve(group.system, *lcp_solvers().front().make(), settings);
