@@ -1,0 +1,46 @@
+// A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, residual, overlap, and the
+// frame from which on every speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s).
+// usage: bench_pile [boxes = 1000] [frames = 60] [response[:solver] …]
+#include <cstdio>
+#include <cstdlib>
+
+#include "engine/response/response.hpp"
+#include "tests/support/pile.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+int main(int argc, char** argv) {
+  const int boxes = argc > 1 ? std::atoi(argv[1]) : 1000, frames = argc > 2 ? std::atoi(argv[2]) : 60;
+  std::vector<std::string> methods(argv + std::min(argc, 3), argv + argc);
+  if (methods.empty()) {
+    for (const auto& e : responses()) methods.emplace_back(e.name);
+    methods.emplace_back("constraint_anticipation:projected_gauss_seidel");
+    methods.emplace_back("constraint_anticipation:accelerated_projected_gradient");
+  }
+  std::printf("%d boxes, %d frames\n%-58s %12s %12s %12s %12s %12s %8s\n", boxes, frames, "", "response ms", "of the last", "residual", "overlap m", "speed m/s", "still");
+  for (const std::string& method : methods) {
+    World world;
+    world.parameters.simulation.sleeping = false;
+    world.parameters.simulation.substeps = 1;
+    world.parameters.response.method = method.substr(0, method.find(':'));
+    if (method.find(':') != std::string::npos) world.parameters.lcp.method = method.substr(method.find(':') + 1);
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    Random random(4242);
+    add_pile(world, random, boxes);
+    world.start();
+    double ms = 0.0, last = 0.0, overlap = 0.0, speed = 0.0;
+    int still = -1;
+    for (int i = 0; i < frames; ++i) {
+      world.step();
+      ms += last = world.record().stats.times.response_ms;
+      speed = overlap = 0.0;
+      for (const RigidBody& b : world.bodies())
+        if (b.is_dynamic()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+      for (const ContactRecord& c : world.record().contacts) overlap = std::max(overlap, -c.gap);
+      still = speed >= 1e-3 ? -1 : still < 0 ? i : still;
+    }
+    std::printf("%-58s %12.1f %12.1f %12.1e %12.1e %12.1e %8d\n", method.c_str(), ms / frames, last, world.record().stats.residual, overlap, speed, still);
+    std::fflush(stdout);
+  }
+}
