@@ -204,7 +204,8 @@ void box_box(ContactSink& sink) {
   if (face.separation > sink.reach()) return;
   const EdgeAxis edge = best_edge(boxes);
   if (edge.separation > sink.reach()) return;
-  if (std::max(face.separation, edge.separation) > 0.0)
+  // within rounding of touching the crossing's own axis is a direction, and the points' difference is none
+  if (std::max(face.separation, edge.separation) > boxes.tie)
     separated(sink, boxes, face);
   else
     overlapping(sink, boxes, face, edge);
