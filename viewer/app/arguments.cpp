@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <thread>
 
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
@@ -14,9 +15,9 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step"};
-const std::vector<std::string> kReserved = {"debug", "sweep", "test", "compare", "verify"};
-const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--ids"}}, {"diff", {"--update"}}};
+const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step", "sweep"};
+const std::vector<std::string> kReserved = {"debug", "test", "compare", "verify"};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--ids"}}, {"diff", {"--update"}}, {"sweep", {"--filter", "--repeat", "--coarse-first", "--engine"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
@@ -91,7 +92,7 @@ std::vector<std::string> words_between_commas(const std::string& text, const cha
 struct Raw {
   std::string response, lcp, step_tolerance, max_iterations, freeze;
   std::string size, frames, threads, tolerance, export_format;
-  std::string scene, script, out;
+  std::string scene, script, out, jobs;
   bool no_images = false;
 };
 
@@ -102,6 +103,7 @@ void take_raw(const Raw& raw, Arguments& arguments) {
   options.out = raw.out;
   options.images = !raw.no_images;
   if (!raw.frames.empty()) options.frames = whole(raw.frames, "--frames", 0, 100'000'000);
+  if (!raw.jobs.empty()) arguments.jobs = whole(raw.jobs, "--jobs", 1, 4096);
   if (!raw.threads.empty()) arguments.threads = whole(raw.threads, "--threads", 1, 4096);
   if (!raw.tolerance.empty()) arguments.tolerance = whole(raw.tolerance, "--tolerance", 0, 255);
   if (!raw.freeze.empty()) options.freeze = whole(raw.freeze, "--freeze", 0, 100'000'000);
@@ -120,6 +122,18 @@ void take_raw(const Raw& raw, Arguments& arguments) {
     options.height = whole(std::string_view(raw.size).substr(x + 1), "the height in --size", 16, 8192);
   }
   if (!arguments.video.empty() && !options.images) refuse("--video in a run without pictures", "pictures are wanted", "leave out --no-images");
+}
+
+void check_sweep(Raw& raw, Arguments& arguments) {
+  if (!arguments.job.empty()) {
+    if (!raw.scene.empty() || !arguments.vary.empty()) refuse("--job beside a scene or --vary", "a job's folder says what it runs; --job HASH --out DIR is wanted", "leave out the rest");
+    if (raw.out.empty()) refuse("--job without --out", "the folder of the sweep is wanted", "add --out DIR");
+    return;
+  }
+  if (raw.scene.empty()) refuse("no SCENE", "a scene file is wanted", "see impinge sweep --help");
+  if (arguments.vary.empty()) refuse("no --vary", "at least one PATH=SPEC is wanted", "add --vary contact.friction=0.1,0.5");
+  if (raw.out.empty()) raw.out = "out/" + std::filesystem::path(raw.scene).stem().string() + "-sweep";
+  arguments.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 }  // namespace
@@ -184,6 +198,24 @@ Arguments parse_arguments(int count, const char* const* words) {
   step->add_option("--max-iterations", raw.max_iterations, "iterations at most (default: 2000)");
   step->add_option("--out", arguments.out, "folder for methods.csv, solution_METHOD.csv, history_METHOD.csv, work_precision.csv and their plots");
 
+  CLI::App* sweep = app.add_subcommand("sweep", "run a scene with many settings and put what came out side by side");
+  sweep->add_option("SCENE", raw.scene, "scene file (TOML), or the run.toml of a run");
+  sweep->add_option("--set", arguments.run_options.overrides, "PATH=VALUE: the same in every job")->take_all()->allow_extra_args(false);
+  sweep->add_option("--vary", arguments.vary, "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n): a job for each value, and for each combination of several --vary")->take_all()->allow_extra_args(false);
+  sweep->add_flag("--zip", arguments.zip, "the first values of all --vary together, then the second ones, ..., instead of all combinations");
+  sweep->add_option("--reference", arguments.reference, "PATH=VALUE: each job's error is its distance from the same job with these settings (all runs then write their surfaces)")
+      ->take_all()->allow_extra_args(false);
+  sweep->add_option("--script", raw.script, "script file: commands by frame, and expectations");
+  sweep->add_option("--frames", raw.frames, "the last frame's number (default: 240, or the script's last if that is later)");
+  sweep->add_option("--size", raw.size, "WIDTHxHEIGHT of the pictures (default: 1280x720)");
+  sweep->add_flag("--no-images", raw.no_images, "no pictures, figures only");
+  sweep->add_option("--jobs", raw.jobs, "jobs at once, each in a process and on a thread of its own (default: all cores)");
+  sweep->add_option("--job", arguments.job, "HASH: run only this job of the sweep in --out");
+  sweep->add_option("--out", raw.out, "folder to write to (default: out/SCENE-sweep)");
+  sweep->add_flag("--resume", arguments.run_options.resume, "take a folder that holds another sweep too, and keep the jobs that both have (the same sweep always goes on)");
+  sweep->add_flag("--yes", arguments.yes, "more than 10000 jobs are meant");
+  sweep->add_flag("--quiet", arguments.quiet, "say nothing but errors");
+
   try {
     app.parse(count, words);
   } catch (const CLI::CallForHelp&) {
@@ -200,6 +232,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   const std::string command = app.get_subcommands().front()->get_name();
   arguments.kind = static_cast<Arguments::Kind>(std::find(kBuilt.begin(), kBuilt.end(), command) - kBuilt.begin());
   if (command == "run" && raw.out.empty()) raw.out = "out/" + std::filesystem::path(raw.scene).stem().string();
+  if (command == "sweep") check_sweep(raw, arguments);
   take_raw(raw, arguments);
   return arguments;
 }

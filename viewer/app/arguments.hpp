@@ -9,7 +9,7 @@
 namespace impinge {
 
 struct Arguments {
-  enum Kind { run, replay, diff, check, info, list, step, print };
+  enum Kind { run, replay, diff, check, info, list, step, sweep, print };
   Kind kind = print;
   std::string text;             ///< of print: help or version
   RunOptions run_options;       ///< run; check and info use scene and overrides
@@ -23,6 +23,11 @@ struct Arguments {
   std::vector<std::string> lcp;  ///< step: names of solvers, empty for all
   double step_tolerance = 1e-8;  ///< step: relative residual
   int max_iterations = 2000;     ///< step
+  std::vector<std::string> vary;       ///< sweep: PATH=SPEC
+  std::vector<std::string> reference;  ///< sweep: PATH=VALUE, empty for no errors
+  std::string job;               ///< sweep: the hash of the one job to run, "" for all
+  int jobs = 1;                  ///< sweep: at once
+  bool zip = false, yes = false;  ///< sweep
 };
 
 /// Throws InputError with one message about the first thing that is wrong.

@@ -13,5 +13,6 @@ int check_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
 int list_command(const Arguments& arguments);
 int step_command(const Arguments& arguments);
+int sweep_command(const Arguments& arguments);
 
 }  // namespace impinge

@@ -1,0 +1,90 @@
+// One job of a sweep: what it runs, what it is called, and its folder DIR/jobs/HASH.
+//
+//   job.toml    what it runs: enough to run it alone
+//   lock        held by the process that works on it, and by its child
+//   run/        the run's own folder
+//   output.txt  what the run said
+//   done        how it ended, written last; a job that a crash ended has `failed` instead and is tried again
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+
+#include "viewer/controller/run.hpp"
+
+namespace impinge {
+
+struct SweepJob {
+  RunOptions options;                ///< scene, script, --set and the rest, the same for all jobs but for `out`
+  std::vector<std::string> changes;  ///< PATH=VALUE on top of options.overrides
+  std::string hash;                  ///< of the resolved input, 16 hex digits
+  std::string reference;             ///< hash of the job it is measured against, "" for none
+};
+
+/// A scene loaded once, to name the jobs that differ from it by a few values.
+class SweepBase {
+ public:
+  /// Throws InputError as the run itself would.
+  explicit SweepBase(const RunOptions& options);
+  /// Of everything that decides the run: program version, scene, script, surface files, parameters with `changes`
+  /// applied, frames, pictures. Where the files lie doesn't enter. A value that is no change gives the base's own hash.
+  std::string hash(const std::vector<std::string>& changes) const;
+  const Session& session() const { return session_; }
+  int last_frame() const { return last_frame_; }
+
+ private:
+  RunOptions options_;
+  Session session_;
+  int last_frame_ = 0;
+};
+
+void write_sweep_job(const std::filesystem::path& folder, const SweepJob& job);
+/// Throws InputError if the folder holds no job.
+SweepJob read_sweep_job(const std::filesystem::path& folder);
+
+/// How a job ended.
+struct SweepOutcome {
+  enum Status { done, failed, diverged, refused, crashed, interrupted, open };
+  Status status = open;
+  std::string reason;    ///< one line, "" when done
+  double wall_ms = 0.0;  ///< of the attempt that ended it
+  /// Whether running it again could only say the same.
+  bool is_final() const { return status == done || status == failed || status == diverged; }
+};
+const char* status_name(SweepOutcome::Status status);
+
+SweepOutcome read_sweep_outcome(const std::filesystem::path& folder);
+
+/// A job being run by a child process of this one.
+class SweepWorker {
+ public:
+  enum Start { started, already_done, busy };
+  /// Takes the job's lock and starts its run, which goes on where an earlier one stopped. `busy`: another process has it.
+  Start start(const std::filesystem::path& folder, const SweepJob& job);
+  /// Whether it has ended; if so its outcome is written.
+  bool poll();
+  void interrupt() const;
+  SweepOutcome outcome() const { return outcome_; }
+
+ private:
+  std::filesystem::path folder_;
+  pid_t child_ = -1;
+  int lock_ = -1;
+  std::chrono::steady_clock::time_point begin_;
+  SweepOutcome outcome_;
+};
+
+/// A file that one process at a time holds; waits for it. Throws InputError where it can't be made.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& file);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace impinge
