@@ -58,8 +58,10 @@ std::string SweepBase::hash(const std::vector<std::string>& changes) const {
   for (const std::string& change : changes) {
     const std::size_t equals = change.find('=');
     const Parameter* row = session_.rows().find(change.substr(0, equals));
-    if (change.rfind("body.", 0) == 0 || row == nullptr) {
+    if (row == nullptr) {
       apply_override(root, change);
+    } else if (change.rfind("body.", 0) == 0) {  // bodies are recorded as given: a real number has a point, as in most scenes
+      apply_override(root, change.substr(0, equals + 1) + format_toml(toml_node(parse_value(*row, change.substr(equals + 1)))));
     } else {
       before.emplace_back(row, row->get());
       row->set(parse_value(*row, change.substr(equals + 1)));

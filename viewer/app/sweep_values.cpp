@@ -104,8 +104,8 @@ SweepAxis read_sweep_axis(const std::string& text, const Session& session, const
         const ParameterValue checked = parse_value(*row, value);
         if (row->kind != ParameterKind::text_list) value = format_value(checked);
       } else {
-        value = format_toml(parse_toml_value(value, place));
         load(axis.path + "=" + value);
+        value = format_toml(parse_toml_value(value, place));
       }
     } catch (const InputError& error) {
       const std::string message = error.what();
