@@ -222,7 +222,7 @@ TEST_CASE("the command line names what is wrong with it") {
   const auto refused = [&](const std::vector<std::string>& words, const std::string& contains) { check_refused(folder, words, "command line: ", contains); };
   refused({"rum", "s.toml"}, "did you mean 'run'?");
   refused({"debug", "s.toml"}, "not part of this version");
-  refused({"sweep", "s.toml"}, "not part of this version");
+  refused({"compare", "s.toml"}, "not part of this version");
   refused({"run", "s.toml", "--ids"}, "not part of this version");
   refused({"diff", "a", "b", "--update"}, "not part of this version");
   refused({"run"}, "SCENE");
