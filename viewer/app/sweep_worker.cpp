@@ -43,11 +43,12 @@ std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   return words;
 }
 
-// the line that says why: a divergence if there is one, else the first
+// the line that says why: a divergence if there is one, else the first that is no mere note
 std::string reason_in(const fs::path& output) {
   const std::string text = fs::is_regular_file(output) ? read_file(output, std::uint64_t{1} << 30) : "";
   const std::size_t diverged = text.rfind("diverged: ");
-  const std::size_t begin = diverged == std::string::npos ? 0 : diverged + 10;
+  std::size_t begin = diverged == std::string::npos ? 0 : diverged + 10;
+  while (text.compare(begin, 6, "note: ") == 0 && text.find('\n', begin) != std::string::npos) begin = text.find('\n', begin) + 1;
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
