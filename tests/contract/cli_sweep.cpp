@@ -269,6 +269,10 @@ TEST_CASE("errors against a reference are distances of surfaces") {
   std::size_t points = 0;
   for (std::size_t at = 0; (at = report.find("<a href=\"jobs/", at + 1)) != std::string::npos;) points += report.compare(report.find('>', at), 8, "><circle") == 0 ? 1 : 0;
   CHECK(points == 3);
+  for (std::size_t at = 0; (at = report.find("<circle cx=\"", at + 1)) != std::string::npos;) {
+    CHECK(std::stod(report.substr(at + 12)) > 0);
+    CHECK(std::stod(report.substr(report.find("cy=\"", at) + 4)) > 0);
+  }
   CHECK(fs::exists(files.folder / "out/work_precision.png"));
 }
 

@@ -20,7 +20,7 @@ struct Point {
 
 struct Line {
   std::string name;
-  std::vector<Point> points;  ///< by error, largest first
+  std::vector<Point> points;  ///< in the order of the sweep
 };
 
 // as in the plots of the panels: after Okabe & Ito
@@ -61,7 +61,6 @@ std::vector<Line> lines_of(const SweepReport& report) {
     if (line == lines.end()) line = lines.insert(lines.end(), {name, {}});
     line->points.push_back({row.error, row.work_ms, &row});
   }
-  for (Line& line : lines) std::stable_sort(line.points.begin(), line.points.end(), [](const Point& a, const Point& b) { return a.error > b.error; });
   return lines;
 }
 
@@ -115,7 +114,7 @@ std::string svg(const SweepReport& report, const std::vector<Line>& lines) {
     for (const Point& p : lines[i].points) path += fmt::format("{:.1f},{:.1f} ", x.at(p.ms), y.at(p.error));
     out += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", path, color);
     for (const Point& p : lines[i].points) {
-      const double px = x.at(p.error), py = y.at(p.ms);
+      const double px = x.at(p.ms), py = y.at(p.error);
       if (is_best(p, lines)) out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\" fill=\"none\" stroke=\"#555\"/>", px, py);
       out += fmt::format("<a href=\"jobs/{}/run/\"><circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"><title>{}error {:.3g} m, {:.3g} ms</title></circle></a>\n", p.row->hash, px, py, color,
                          escaped(values_of(report, *p.row)), p.error, p.ms);
