@@ -20,7 +20,7 @@ struct Point {
 
 struct Line {
   std::string name;
-  std::vector<Point> points;  ///< by error, largest first
+  std::vector<Point> points;  ///< in the order of the sweep
 };
 
 // as in the plots of the panels: after Okabe & Ito
@@ -61,7 +61,6 @@ std::vector<Line> lines_of(const SweepReport& report) {
     if (line == lines.end()) line = lines.insert(lines.end(), {name, {}});
     line->points.push_back({row.error, row.work_ms, &row});
   }
-  for (Line& line : lines) std::stable_sort(line.points.begin(), line.points.end(), [](const Point& a, const Point& b) { return a.error > b.error; });
   return lines;
 }
 
