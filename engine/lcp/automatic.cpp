@@ -19,8 +19,8 @@ Entry<LcpSolver> semismooth_newton_solver();
 
 namespace {
 
-constexpr int kFirstSweeps = 20;            // before the rate is looked at
-constexpr int kWindow = 10;                 // sweeps that the rate is taken over
+constexpr int kFirstSweeps = 30;            // before the rate is looked at
+constexpr int kWindow = 10;                 // of them that it is taken over
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
 constexpr double kSweepsPerContact = 2.0;   // the price of Newton's method
 constexpr double kSweepsOfConjugate = 50.0; // what conjugate sweeps cost beside what they save
@@ -42,7 +42,7 @@ class Automatic : public LcpSolver {
       if (stop.solved(lambda, change)) return {sweep, StopReason::converged};
       if (change == 0.0) return {sweep, StopReason::stagnated};
       changes.push_back(change);
-      if (sweep < kFirstSweeps + kWindow || sweep == settings.max_iterations) continue;
+      if (sweep < kFirstSweeps || sweep == settings.max_iterations) continue;
       if (sweeps_left(changes, goal) > std::min(price, static_cast<double>(settings.max_iterations - sweep)))
         return go_on(newton ? semismooth_newton_solver() : nonsmooth_nonlinear_conjugate_gradient_solver(), problem, settings, sweep, lambda);
     }

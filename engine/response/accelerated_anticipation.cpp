@@ -46,10 +46,9 @@ double inner(const Vectors& a, const Vectors& b) {
 
 class Solver {
  public:
-  Solver(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings) : group_(group), settings_(settings) {
+  Solver(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings) : group_(group), settings_(settings), scale_(velocity_scale(base)) {
     for (const SoftBlock& block : group.soft) inverse_.emplace_back(block);
     rows_ = std::make_unique<SplitRows>(group, inverse_, base.q);
-    for (const Vec3& q : base.q) scale_ = std::max(scale_, q.norm());
     for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
       for (const SoftBlock& block : group.soft) v->push_back(VecX::Zero(block.velocity.size()));
   }
@@ -270,6 +269,7 @@ class Solver {
 
   GroupSystem& group_;
   const ResponseSettings& settings_;
+  const double scale_;      // m/s, what residuals are relative to
   std::vector<NodeInverse> inverse_;
   std::unique_ptr<SplitRows> rows_;
   Vectors x_, last_, y_, a_x_, a_last_, a_y_, f_, r_, step_;
@@ -277,7 +277,6 @@ class Solver {
   std::vector<Vec3> earlier_;  // λ before the last sweeps
   int drifting_ = 0;
   std::vector<char> acts_;  // contacts with an impulse
-  double scale_ = 0.0;
   double least_ = 0.0;      // |F|² since the last restart
   double least_error_ = -1.0;  // of balance and contacts, m/s, and when it was last bettered
   int least_error_at_ = 0;

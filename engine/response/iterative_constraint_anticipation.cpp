@@ -44,8 +44,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   FactoredDelassus w(group, &inverse);
   ConeProblem problem = base;
   problem.w = &w;
-  double scale = 0.0;
-  for (const Vec3& q : base.q) scale = std::max(scale, q.norm());
+  const double scale = velocity_scale(base);
   const double tolerance = settings.lcp.tolerance * scale;
 
   std::vector<VecX> x, a_x, drift;  // Δv, A Δv and D⁻¹ (L + U) Δv

@@ -19,8 +19,7 @@ class SequentialImpulse : public Response {
     const bool impacts = std::any_of(group.contacts.begin(), group.contacts.end(), [](const ContactRows& c) { return is_impact(c); });
     if (impacts) group.lambda.assign(m, Vec3::Zero());  // the impulses of a resting state say nothing about an impact
     ContactMobility mobility(group);
-    double scale = 0.0;
-    for (const Vec3& q : make_cone_problem(group).q) scale = std::max(scale, q.norm());
+    const double scale = velocity_scale(make_cone_problem(group));
 
     ResponseResult result;
     result.converged = false;

@@ -14,8 +14,7 @@ class SimultaneousImpulse : public Response {
  public:
   ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
     ContactMobility mobility(group);
-    double scale = 0.0;
-    for (const Vec3& q : make_cone_problem(group).q) scale = std::max(scale, q.norm());
+    const double scale = velocity_scale(make_cone_problem(group));
     ResponseResult result;
     result.converged = false;
     std::vector<Vec3> change(group.contacts.size());

@@ -89,9 +89,7 @@ FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
     ThawedGroup thawed = thaw(group, step.linear_solver);
     w_diagonal_.push_back(w_diagonal(thawed));
     const ConeProblem problem = make_cone_problem(thawed.system);
-    double scale = 0.0;
-    for (std::size_t i = 0; i < problem.q.size(); ++i) scale = std::max(scale, problem.has_one_row(i) ? std::abs(problem.q[i].x()) : problem.q[i].norm());
-    scale_.push_back(scale);
+    scale_.push_back(velocity_scale(problem));
     // the nearest of what there is; the first is near enough unless the problem is ill-posed or too large for it
     double best = std::numeric_limits<double>::infinity();
     std::string method;

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace impinge {
-namespace {
-
-constexpr int kManyRightHandSides = 100;  // as world/soft_step.cpp has for contact, or another solver would be chosen
-
-}  // namespace
-
 std::size_t FrozenStep::contacts() const {
   std::size_t sum = 0;
   for (const FrozenGroup& group : groups) sum += group.system.contacts.size();
@@ -33,7 +27,7 @@ ThawedGroup thaw(const FrozenGroup& group, const std::string& linear_solver) {
   thawed.system = group.system;
   for (std::size_t s = 0; s < group.matrices.size(); ++s) {
     const BlockMatrix& a = group.matrices[s];
-    thawed.solvers.push_back(make_linear_solver(linear_solver, a.rows(), kManyRightHandSides));
+    thawed.solvers.push_back(make_linear_solver(linear_solver, a.rows(), kContactRightHandSides));
     thawed.solvers.back()->analyze(*a.pattern);
     thawed.system.soft[s].a = &a;
     thawed.system.soft[s].solver = thawed.solvers.back().get();

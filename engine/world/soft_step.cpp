@@ -9,7 +9,6 @@
 namespace impinge {
 namespace {
 
-constexpr int kManyRightHandSides = 100;  // three a contact
 
 void check_solved(const DeformableStep& step, const RigidBody& body, int frame) {
   if (step.linear_status != SolveStatus::not_finite && step.linear_status != SolveStatus::not_positive_definite) return;
@@ -21,7 +20,7 @@ void check_solved(const DeformableStep& step, const RigidBody& body, int frame) 
 
 void SoftStep::choose_solvers(const DeformableBody& body, const std::string& name) {
   iterative = make_linear_solver(name, body.dofs(), 1);
-  direct = make_linear_solver(name, body.dofs(), kManyRightHandSides);
+  direct = make_linear_solver(name, body.dofs(), kContactRightHandSides);
   iterative->analyze(*body.free_pattern());
   direct->analyze(*body.free_pattern());
 }

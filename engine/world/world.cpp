@@ -41,7 +41,8 @@ void check_finite(const RigidBody& body, int frame, int group) {
                                       "sub-steps, or a more stable material or integrator",
                                       frame, group, body.name, kLargest));
   }
-  const bool fine = body.pose.position.cwiseAbs().maxCoeff() < kLargest && body.velocity.cwiseAbs().maxCoeff() < kLargest &&
+  // a maximum alone may pass over NaN
+  const bool fine = body.pose.position.allFinite() && body.velocity.allFinite() && body.pose.position.cwiseAbs().maxCoeff() < kLargest && body.velocity.cwiseAbs().maxCoeff() < kLargest &&
                     body.angular_momentum.allFinite() && body.pose.rotation.allFinite();
   if (fine) return;
   throw DivergenceError(fmt::format("frame {}, group {}, body '{}': position or velocity is no longer a finite number below {:g}; use more "

@@ -2,22 +2,14 @@
 // and the hardest frame of the seed's dragon scene. And W by several routes.
 #include <catch2/catch.hpp>
 
-#include "engine/world/frozen_comparison.hpp"
+#include "tests/support/frozen_dragon.hpp"
 #include "tests/support/frozen_reference.hpp"
 #include "tests/support/soft_stack.hpp"
-#include "viewer/controller/session.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-FrozenOutcome solved(const FrozenStep& step, const char* response, const char* solver, double tolerance, int outer = 20000) {
-  ResponseSettings settings;
-  settings.lcp = {tolerance, 20000};
-  settings.max_outer_iterations = outer;
-  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(), settings);
-}
 
 /// ‖Δv_x - Δv_y‖_A / ‖Δv_y‖_A of a step of one group.
 double difference(const FrozenStep& step, const GroupAnswer& x, const GroupAnswer& y) {
@@ -65,19 +57,6 @@ void check_routes(const FrozenGroup& group, bool dense) {
   CHECK((w - solves).norm() <= 1e-12 * size);
   CHECK((w - w_assembled(group, "simplicial_llt")).norm() <= 1e-12 * size);
   if (dense) CHECK((w - w_by_dense_inverse(group)).norm() <= 1e-12 * size);
-}
-
-/// The frame of most contacts among the first `frames`.
-FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
-  const std::filesystem::path scene = std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/dragon_spheres";
-  Session session(scene.string() + ".toml", overrides, scene.string() + ".script");
-  FrozenStep hardest, step;
-  session.advance();
-  for (int frame = 1; frame <= frames; ++frame) {
-    session.advance(&step);
-    if (step.contacts() > hardest.contacts()) hardest = std::move(step);
-  }
-  return hardest;
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 #include "engine/core/parallel.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/least_violation.hpp"
-#include "engine/response/response.hpp"
 #include "engine/world/frozen_comparison.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/frozen_reference.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/response_worlds.hpp"
 #include "tests/support/soft_bodies.hpp"
 #include "tests/support/soft_stack.hpp"
 
@@ -17,10 +17,6 @@ using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-constexpr double kGravity = 9.81;
-
-bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->lives_on_overlap(); }
 
 ResponseResult solve(std::string_view name, GroupSystem& group, const ResponseSettings& settings, const char* lcp = "projected_gauss_seidel") {
   return find_entry(responses(), name)->make()->solve(group, *find_entry(lcp_solvers(), lcp)->make(), settings);

@@ -2,24 +2,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "engine/response/response.hpp"
+#include "tests/support/response_worlds.hpp"
 #include "tests/support/soft_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
-
-namespace {
-
-constexpr double kGravity = 9.81;
-
-bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->lives_on_overlap(); }
-
-void use(World& world, std::string_view response) {
-  world.parameters.response.method = response;
-  world.parameters.simulation.sleeping = false;
-}
-
-}  // namespace
 
 TEST_CASE("balls and rods roll down an incline or slip, on both sides of the friction that rolling needs (AT-06)") {
   const double angle = M_PI / 6.0, radius = 0.2;

@@ -1,23 +1,14 @@
 // What each response leaves of the exact answer, against formulas: how deep bodies rest, how friction sticks, what impacts keep.
 #include <catch2/catch.hpp>
 
-#include "engine/response/response.hpp"
 #include "engine/world/judge.hpp"
+#include "tests/support/response_worlds.hpp"
 #include "tests/support/soft_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-constexpr double kGravity = 9.81;
-
-bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->lives_on_overlap(); }
-
-void use(World& world, std::string_view response) {
-  world.parameters.response.method = response;
-  world.parameters.simulation.sleeping = false;
-}
 
 double floor_force(const World& world) { return -contact_force_on(world, 0).y(); }
 

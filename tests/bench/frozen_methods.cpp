@@ -6,33 +6,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "engine/world/frozen_comparison.hpp"
+#include "tests/support/frozen_dragon.hpp"
 #include "tests/support/frozen_reference.hpp"
-#include "viewer/controller/session.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
-  const std::filesystem::path scene = std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/dragon_spheres";
-  Session session(scene.string() + ".toml", overrides, scene.string() + ".script");
-  FrozenStep hardest, step;
-  session.advance();
-  for (int frame = 1; frame <= frames; ++frame) {
-    session.advance(&step);
-    if (step.contacts() > hardest.contacts()) hardest = std::move(step);
-  }
-  return hardest;
-}
-
-FrozenOutcome solved(const FrozenStep& step, const char* response, const char* solver, double tolerance) {
-  ResponseSettings settings;
-  settings.lcp = {tolerance, 20000};
-  settings.max_outer_iterations = 20000;
-  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(), settings);
-}
 
 double difference(const FrozenStep& step, const std::vector<GroupAnswer>& x, const std::vector<GroupAnswer>& y) {
   double error = 0.0, size = 0.0;

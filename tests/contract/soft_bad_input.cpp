@@ -69,7 +69,7 @@ void refused_material(const std::string& keys, const std::string& place, const s
   check_refused_at(kMaterial, "material = { " + keys + " }", "s.toml:12:" + place, contains);
 }
 
-void refused_fixed(const std::string& value, const std::string& place, const std::string& contains) {
+void check_refused_fixed(const std::string& value, const std::string& place, const std::string& contains) {
   check_refused_at(kFixed, "fixed = " + value, "s.toml:14:" + place, contains);
 }
 
@@ -159,34 +159,34 @@ TEST_CASE("materials that don't exist are refused at the right place") {
 }
 
 TEST_CASE("held regions that hold nothing, or make no sense, are refused at the right place") {
-  refused_fixed("3", "9", "an integer");
-  refused_fixed("{}", "9", "names 0 regions");
-  refused_fixed("[]", "9", "lists no region");
-  refused_fixed("[3]", "10", "fixed[0] is 3");
-  refused_fixed("{ bx = {} }", "11", "did you mean 'box'?");
-  refused_fixed("{ box = 3 }", "17", "a table { ... } is wanted");
-  refused_fixed("{ box = {} }", "17", "has no min");
-  refused_fixed("{ box = { min = [0, 0, 0] } }", "17", "has no max");
-  refused_fixed("{ box = { min = [1, 1, 1], max = [0, 0, 0] } }", "17", "exchange them");
-  refused_fixed("{ box = { min = [0, 0], max = [1, 1, 1] } }", "25", "[x, y, z]");
-  refused_fixed("{ box = { min = [5, 5, 5], max = [6, 6, 6] } }", "9", "holds no node; the body's nodes lie in [-0.1");
-  refused_fixed("{ sphere = { radius = 1 } }", "20", "has no center");
-  refused_fixed("{ sphere = { center = [0, 0, 0] } }", "20", "has no radius");
-  refused_fixed("{ sphere = { center = [0, 0, 0], radius = 0 } }", "51", "greater than 0");
-  refused_fixed("{ sphere = { center = [0, 0, nan], radius = 1 } }", "38", "nan");
-  refused_fixed("{ nodes = [0], sphere = { center = [0, 0, 0], radius = 1 } }", "9", "names 2 regions");
-  refused_fixed("{ nodes = [] }", "19", "lists no node");
-  refused_fixed("{ nodes = 3 }", "19", "nodes is an integer");
-  refused_fixed("{ nodes = [0, 1.5] }", "23", "holds a fraction");
-  refused_fixed("{ nodes = [-1] }", "20", "[0, 1e+09]");
-  refused_fixed("{ nodes = [\"a\"] }", "20", "a real number");
-  refused_fixed("{ nodes = [0, 99999] }", "9", "the body has nodes 0 to ");
-  refused_fixed("[ { nodes = [7] }, { nodes = [0, 1, 2, -0] }, { nodes = [7] } ]", "55", "fixed[2] holds no node that the regions before it leave");
-  refused_fixed("{ nodes = [0], motion = 3 }", "33", "motion is an integer");
-  refused_fixed("{ nodes = [0], motion = [] }", "33", "no key frames");
-  refused_fixed("{ nodes = [0], motion = [ { position = [0, 0, 0] } ] }", "35", "has no time");
-  refused_fixed("{ nodes = [0], motion = [ { time = 1 }, { time = 0 } ] }", "58", "times must increase");
-  refused_fixed("{ nodes = [0], motion = [ { time = 0, velocity = [0, 0, 0] } ] }", "47", "allowed: time, position, rotation");
+  check_refused_fixed("3", "9", "an integer");
+  check_refused_fixed("{}", "9", "names 0 regions");
+  check_refused_fixed("[]", "9", "lists no region");
+  check_refused_fixed("[3]", "10", "fixed[0] is 3");
+  check_refused_fixed("{ bx = {} }", "11", "did you mean 'box'?");
+  check_refused_fixed("{ box = 3 }", "17", "a table { ... } is wanted");
+  check_refused_fixed("{ box = {} }", "17", "has no min");
+  check_refused_fixed("{ box = { min = [0, 0, 0] } }", "17", "has no max");
+  check_refused_fixed("{ box = { min = [1, 1, 1], max = [0, 0, 0] } }", "17", "exchange them");
+  check_refused_fixed("{ box = { min = [0, 0], max = [1, 1, 1] } }", "25", "[x, y, z]");
+  check_refused_fixed("{ box = { min = [5, 5, 5], max = [6, 6, 6] } }", "9", "holds no node; the body's nodes lie in [-0.1");
+  check_refused_fixed("{ sphere = { radius = 1 } }", "20", "has no center");
+  check_refused_fixed("{ sphere = { center = [0, 0, 0] } }", "20", "has no radius");
+  check_refused_fixed("{ sphere = { center = [0, 0, 0], radius = 0 } }", "51", "greater than 0");
+  check_refused_fixed("{ sphere = { center = [0, 0, nan], radius = 1 } }", "38", "nan");
+  check_refused_fixed("{ nodes = [0], sphere = { center = [0, 0, 0], radius = 1 } }", "9", "names 2 regions");
+  check_refused_fixed("{ nodes = [] }", "19", "lists no node");
+  check_refused_fixed("{ nodes = 3 }", "19", "nodes is an integer");
+  check_refused_fixed("{ nodes = [0, 1.5] }", "23", "holds a fraction");
+  check_refused_fixed("{ nodes = [-1] }", "20", "[0, 1e+09]");
+  check_refused_fixed("{ nodes = [\"a\"] }", "20", "a real number");
+  check_refused_fixed("{ nodes = [0, 99999] }", "9", "the body has nodes 0 to ");
+  check_refused_fixed("[ { nodes = [7] }, { nodes = [0, 1, 2, -0] }, { nodes = [7] } ]", "55", "fixed[2] holds no node that the regions before it leave");
+  check_refused_fixed("{ nodes = [0], motion = 3 }", "33", "motion is an integer");
+  check_refused_fixed("{ nodes = [0], motion = [] }", "33", "no key frames");
+  check_refused_fixed("{ nodes = [0], motion = [ { position = [0, 0, 0] } ] }", "35", "has no time");
+  check_refused_fixed("{ nodes = [0], motion = [ { time = 1 }, { time = 0 } ] }", "58", "times must increase");
+  check_refused_fixed("{ nodes = [0], motion = [ { time = 0, velocity = [0, 0, 0] } ] }", "47", "allowed: time, position, rotation");
 }
 
 TEST_CASE("attachments that join nothing are refused at the right place") {
