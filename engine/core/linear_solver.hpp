@@ -52,10 +52,10 @@ const Registry<LinearSolver>& linear_solvers();
 /// linear_solver.cpp for the measurements behind it.
 std::string_view automatic_linear_solver(int unknowns, int right_hand_sides);
 
-/// A solver by registered name, or the automatic one for "automatic". Throws InternalError on an unknown name.
 /// What a body that may be in contact asks its solver for at a time: three a contact.
 inline constexpr int kContactRightHandSides = 100;
 
+/// A solver by registered name, or the automatic one for "automatic". Throws InternalError on an unknown name.
 std::unique_ptr<LinearSolver> make_linear_solver(std::string_view name, int unknowns = 0, int right_hand_sides = 1);
 
 }  // namespace impinge

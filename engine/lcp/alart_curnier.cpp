@@ -4,6 +4,14 @@
 #include <cmath>
 
 namespace impinge {
+namespace {
+
+/// Where both bodies are held ρ is 0, and nothing answers to λ.
+bool is_equation(const ConeProblem& problem, std::size_t i, const Vec2& rho) {
+  return problem.kind_of(i) != RowKind::contact && (rho.x() > 0.0 || rho.y() > 0.0);
+}
+
+}  // namespace
 
 Vec2 alart_curnier_scale(const ConeProblem& problem, std::size_t i) {
   const Mat3& w_ii = problem.w->diagonal(i);
@@ -14,7 +22,7 @@ Vec2 alart_curnier_scale(const ConeProblem& problem, std::size_t i) {
 AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho) {
   const double mu = problem.mu[i];
   AlartCurnier e{lambda, Mat3::Zero(), Mat3::Identity(), true};
-  if (problem.kind_of(i) != RowKind::contact && !problem.is_held(i)) {
+  if (is_equation(problem, i, rho)) {
     e.value = Vec3(rho.x(), rho.y(), rho.y()).cwiseProduct(u);  // ρ_t is 0 where there are no tangential rows
     e.by_u.diagonal() << rho.x(), rho.y(), rho.y();
     e.by_lambda.diagonal() << 0.0, rho.y() > 0.0 ? 0.0 : 1.0, rho.y() > 0.0 ? 0.0 : 1.0;
@@ -63,7 +71,7 @@ AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3
 
 Vec3 alart_curnier_value(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho) {
   const double mu = problem.mu[i];
-  if (problem.kind_of(i) != RowKind::contact && !problem.is_held(i)) return Vec3(rho.x(), rho.y(), rho.y()).cwiseProduct(u);
+  if (is_equation(problem, i, rho)) return Vec3(rho.x(), rho.y(), rho.y()).cwiseProduct(u);
   const double z_n = std::max(0.0, lambda.x() - rho.x() * u.x());
   if (mu == 0.0) return {lambda.x() - z_n, 0.0, 0.0};
   Vec2 z = lambda.tail<2>() - rho.y() * u.tail<2>();

@@ -10,7 +10,7 @@
 // scheme on a convex problem.
 // Two stacked 0.2 m cubes of 4³ and 3³ cells, mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule
 // alone 39 / 50 / 46 s, factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have
-// nodes, the sweeps carry impulse along the null space of J: see follow_drift and is_stalled.
+// nodes, the sweeps carry impulse along the null space of J: see follow_drift; where that stalls multiplier_newton.cpp ends it.
 //
 // The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold: a resting
 // group is recognized, and no work is spent on a λ that is far off.
@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "engine/contact/friction_cone.hpp"
+#include "engine/response/multiplier_newton.hpp"
 #include "engine/response/split_rows.hpp"
 
 namespace impinge {
@@ -46,7 +47,7 @@ double inner(const Vectors& a, const Vectors& b) {
 
 class Solver {
  public:
-  Solver(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings) : group_(group), settings_(settings), scale_(velocity_scale(base)) {
+  Solver(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings) : group_(group), base_(base), settings_(settings), scale_(velocity_scale(base)) {
     for (const SoftBlock& block : group.soft) inverse_.emplace_back(block);
     rows_ = std::make_unique<SplitRows>(group, inverse_, base.q);
     for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
@@ -94,17 +95,34 @@ class Solver {
         result.converged = contacts_hold && momentum <= tolerance;
       }
       if (result.converged) break;
-      if (is_stalled(std::max(momentum, change), result.outer_iterations)) break;
+      if (is_stalled(std::max(momentum, change), result.outer_iterations)) return settings_.stop == "change" ? finish(result) : finish_by_multipliers(result, tolerance);
       drifting_ = momentum <= std::max(tolerance, 0.1 * change) ? drifting_ + 1 : 0;
       if (drifting_ == kDrift) follow_drift();
       choose_next(result.outer_iterations);
     }
+    return finish(result);
+  }
+
+ private:
+  ResponseResult finish(const ResponseResult& result) {
     rows_->move_rigid(group_.lambda);
     group_.soft_delta = x_;
     return result;
   }
 
- private:
+  ResponseResult finish_by_multipliers(ResponseResult result, double tolerance) {
+    finish(result);
+    const GroupOperator a(group_);
+    VecX x = a.load(group_);
+    const MultipliersResult rest = solve_by_multipliers(a, base_, tolerance, group_, x);
+    a.store(x, group_);
+    if (settings_.observe) settings_.observe(group_);
+    result.iterations += rest.newton_steps;
+    result.outer_iterations += rest.multiplier_steps;
+    result.converged = rest.converged;
+    return result;
+  }
+
   /// x = y = A⁻¹ J^T λ, nearly.
   void start(double tolerance) {
     if (momentum_norm() == 0.0) return;
@@ -268,6 +286,7 @@ class Solver {
   }
 
   GroupSystem& group_;
+  const ConeProblem& base_;
   const ResponseSettings& settings_;
   const double scale_;      // m/s, what residuals are relative to
   std::vector<NodeInverse> inverse_;

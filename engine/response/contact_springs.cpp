@@ -7,6 +7,7 @@ namespace impinge {
 namespace {
 
 constexpr int kNewtonIterations = 200;
+constexpr int kHalvings = 8;
 constexpr double kInnerTolerance = 1e-2;  // friction is followed step by step anyway: solving each exactly pays nothing
 
 /// Where the potential's slope along p has fallen to a tenth: 1 in the usual case, or by bisection, since it only rises.
@@ -60,6 +61,57 @@ Mat3 SpringLaw::stiffness(const Vec3& u, double n) const {
   return h;
 }
 
+Mat3 SpringLaw::derivative(const Vec3& u) const {
+  const double n = normal(u), speed = std::hypot(u.y(), u.z());
+  Mat3 h = stiffness(u, n);
+  if (kind == RowKind::contact && n > 0.0 && friction > 0.0 && speed > 0.0)
+    h.block<2, 1>(1, 0) = -friction * slope * resistance(speed) / speed * u.tail<2>();
+  return h;
+}
+
+namespace {
+
+/// Newton's method on A Δv = J^T λ(u) with friction that follows the normal impulse: no potential has these forces, so steps are
+/// measured by what is left. False where none serves; ax and u stay at the best then.
+bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance, GroupSystem& group, VecX& ax, std::vector<Vec3>& u,
+                          int& steps) {
+  const std::size_t m = law.size();
+  std::vector<Vec3> along(m), trial(m);
+  std::vector<Mat3> h(m);
+  double size = 0.0;
+  const auto left = [&](const std::vector<Vec3>& at, const VecX& a_at) {
+    VecX r = VecX::Zero(a.size());
+    for (std::size_t i = 0; i < m; ++i) a.add_impulse(i, group.lambda[i] = law[i].impulse(at[i], law[i].normal(at[i])), r);
+    size = std::max(size, a.norm(r));
+    return VecX(r - a_at);
+  };
+  VecX r = left(u, ax);
+  double residual = a.norm(r);
+  while (residual > tolerance * size) {
+    if (steps == kNewtonIterations) return false;
+    ++steps;
+    for (std::size_t i = 0; i < m; ++i) h[i] = law[i].derivative(u[i]);
+    VecX p = VecX::Zero(a.size());
+    a.solve_unsymmetric(h, r, kInnerTolerance, p);
+    const VecX ap = a.multiply(p);
+    for (std::size_t i = 0; i < m; ++i) along[i] = a.row(i, p);
+    double length = 1.0, next = 0.0;
+    for (int k = 0;; ++k, length *= 0.5) {
+      if (k > kHalvings) return false;
+      for (std::size_t i = 0; i < m; ++i) trial[i] = u[i] + length * along[i];
+      r = left(trial, ax + length * ap);
+      next = a.norm(r);
+      if (next <= (1.0 - 0.1 * length) * residual) break;
+    }
+    ax += length * ap;
+    u.swap(trial);
+    residual = next;
+  }
+  return true;
+}
+
+}  // namespace
+
 SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance, GroupSystem& group) {
   const std::size_t m = law.size();
   std::vector<Vec3> u, step(m);
@@ -69,6 +121,9 @@ SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>
   VecX ax = VecX::Zero(a.size());
   double size = 0.0, part = 1.0, before = 0.0;
   SpringsResult result;
+  if (std::any_of(law.begin(), law.end(), [](const SpringLaw& l) { return l.kind == RowKind::contact && l.friction > 0.0; }) &&
+      newton_with_friction(a, law, tolerance, group, ax, u, result.iterations))
+    return {result.iterations, true};
   while (true) {
     VecX r = VecX::Zero(a.size()), change = VecX::Zero(a.size());
     for (std::size_t i = 0; i < m; ++i) {

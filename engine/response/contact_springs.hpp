@@ -20,6 +20,8 @@ struct SpringLaw {
   Vec3 impulse(const Vec3& u, double n) const;
   /// -dλ/du with n kept: symmetric, positive semidefinite.
   Mat3 stiffness(const Vec3& u, double n) const;
+  /// -dλ/du with the friction of the normal impulse at u: not symmetric.
+  Mat3 derivative(const Vec3& u) const;
 };
 
 struct SpringsResult {

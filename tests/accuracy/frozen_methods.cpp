@@ -2,6 +2,9 @@
 // and the hardest frame of the seed's dragon scene. And W by several routes.
 #include <catch2/catch.hpp>
 
+#include "engine/lcp/residual.hpp"
+#include "engine/response/multiplier_newton.hpp"
+#include "engine/response/response.hpp"
 #include "tests/support/frozen_dragon.hpp"
 #include "tests/support/frozen_reference.hpp"
 #include "tests/support/soft_stack.hpp"
@@ -73,16 +76,53 @@ TEST_CASE("two stacked cubes: exact, iterative and monolithic answers agree with
     }
 }
 
-TEST_CASE("the dragon's hardest frame: exact, iterative and monolithic answers agree", "[long]") {
-  FrozenStep step = hardest_frame({}, 25);
-  CAPTURE(step.frame, step.contacts());
-  REQUIRE(step.contacts() > 200);
-  // the group of most contacts
-  std::swap(step.groups[0], *std::max_element(step.groups.begin(), step.groups.end(), [](const FrozenGroup& l, const FrozenGroup& r) {
-              return l.system.contacts.size() < r.system.contacts.size();
-            }));
-  step.groups.resize(1);
-  check_frictionless(step, 1e-10);
-  check_friction(step, 1e-9);
-  check_routes(step.groups[0], false);
+TEST_CASE("the method of multipliers finds the same velocities from nothing, with friction and without") {
+  for (const double friction : {0.0, 0.4}) {
+    const SoftStack stack = make_soft_stack({.young = 1e4, .friction = friction, .cells = {4, 3}});
+    const FrozenStep step = frozen_of(stack.group);
+    GroupSystem group = stack.group;
+    group.clear_delta();
+    group.lambda.assign(group.contacts.size(), Vec3::Zero());
+    const GroupOperator a(group);
+    const ConeProblem problem = make_cone_problem(group);
+    VecX x = VecX::Zero(a.size());
+    const MultipliersResult result = solve_by_multipliers(a, problem, 1e-9 * velocity_scale(problem), group, x);
+    a.store(x, group);
+    CAPTURE(friction, result.newton_steps, result.multiplier_steps);
+    CHECK(result.converged);
+    const FrozenVerdict verdict = FrozenRuler(step).judge({{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.soft_delta}});
+    CHECK(verdict.residual < 1e-8);
+    CHECK(verdict.distance < 1e-6);
+  }
+}
+
+TEST_CASE("the dragon's hardest frame: exact, iterative and monolithic answers agree at every stiffness", "[long]") {
+  for (const char* young : {"", "1e4", "1e5", "1e6"}) {
+    std::vector<std::string> overrides;
+    if (*young != 0) overrides.push_back(std::string("body.dragon.material.young=") + young);
+    FrozenStep step = hardest_frame(overrides, 25);
+    CAPTURE(young, step.frame, step.contacts());
+    REQUIRE(step.contacts() > 200);
+    // the group of most contacts
+    std::swap(step.groups[0], *std::max_element(step.groups.begin(), step.groups.end(), [](const FrozenGroup& l, const FrozenGroup& r) {
+                return l.system.contacts.size() < r.system.contacts.size();
+              }));
+    step.groups.resize(1);
+    check_frictionless(step, 1e-10);
+    check_friction(step, 1e-9);
+    check_routes(step.groups[0], false);
+  }
+}
+
+TEST_CASE("iterative anticipation ends where its sweeps stall: more rows than a soft surface has unknowns, and friction", "[long]") {
+  const std::vector<FrozenStep> steps = dragon_frames({"body.dragon.material.young=1e4"}, 19);
+  for (const int frame : {14, 16, 19}) {
+    const FrozenStep& step = steps[frame - 1];
+    const FrozenOutcome outcome = solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", 1e-9);
+    const FrozenVerdict verdict = FrozenRuler(step).judge(outcome.answers);
+    CAPTURE(frame, step.contacts(), outcome.ms, outcome.outer_iterations, verdict.distance);
+    CHECK(outcome.converged);
+    CHECK(verdict.natural_map_relative < 1e-8);
+    CHECK(verdict.residual < 1e-8);
+  }
 }

@@ -1,22 +1,27 @@
 // The seed's dragon scene, frozen where it is hardest.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/world/frozen_comparison.hpp"
 #include "viewer/controller/session.hpp"
 
 namespace impinge::test {
 
-/// The frame of most contacts among the first `frames`.
-inline FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
+/// The last sub-step of each of the first `frames`.
+inline std::vector<FrozenStep> dragon_frames(const std::vector<std::string>& overrides, int frames) {
   const std::filesystem::path scene = std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/dragon_spheres";
   Session session(scene.string() + ".toml", overrides, scene.string() + ".script");
-  FrozenStep hardest, step;
+  std::vector<FrozenStep> steps(static_cast<std::size_t>(frames));
   session.advance();
-  for (int frame = 1; frame <= frames; ++frame) {
-    session.advance(&step);
-    if (step.contacts() > hardest.contacts()) hardest = std::move(step);
-  }
-  return hardest;
+  for (FrozenStep& step : steps) session.advance(&step);
+  return steps;
+}
+
+/// The frame of most contacts among them.
+inline FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
+  std::vector<FrozenStep> steps = dragon_frames(overrides, frames);
+  return std::move(*std::max_element(steps.begin(), steps.end(), [](const FrozenStep& l, const FrozenStep& r) { return l.contacts() < r.contacts(); }));
 }
 
 /// Solved far beyond what a run asks for.
