@@ -26,7 +26,7 @@ bool has_rows_below(const ParameterSet& rows, const std::string& path) {
 
 [[noreturn]] void refuse_key(const ParameterSet& rows, const TomlEntry& entry, const std::string& path) {
   if (entry.value.kind == TomlNode::table && path.find('.') == std::string::npos) {
-    std::vector<std::string> tables = {"body", "attachment", "scene"};
+    std::vector<std::string> tables = {"body", "attachment", "scene", "sweep"};
     for (const Parameter& row : rows.all()) {
       const std::string table = row.path.substr(0, row.path.find('.'));
       if (std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
@@ -111,8 +111,10 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
     scene.run = read_run_record(run->value);
     scene.folder = scene.run->folder;
   }
+  if (const TomlEntry* sweep = root.find("sweep"); sweep != nullptr && sweep->value.find("scene") != nullptr)
+    refuse(sweep->value.find("scene")->place, "a sweep of another scene", "a scene is wanted here", "run it by impinge sweep");
   TomlNode parameters = root;
-  std::erase_if(parameters.entries, [](const TomlEntry& entry) { return entry.key == "body" || entry.key == "attachment" || entry.key == "run" || entry.key == "scene"; });
+  std::erase_if(parameters.entries, [](const TomlEntry& entry) { return entry.key == "body" || entry.key == "attachment" || entry.key == "run" || entry.key == "scene" || entry.key == "sweep"; });  // [sweep] is `impinge sweep`'s
   read_parameters(parameters, "", rows, scene);
   if (const TomlEntry* table = root.find("scene")) {
     check_keys(scene_table(table->value, "scene"), "scene", {"allow_outside_files"});

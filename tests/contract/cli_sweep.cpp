@@ -13,7 +13,7 @@
 #include <set>
 #include <thread>
 
-#include "tests/support/refusal.hpp"
+#include "tests/support/sweep_results.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -21,66 +21,10 @@ using namespace impinge::test;
 namespace {
 
 namespace fs = std::filesystem;
-using Row = std::map<std::string, std::string>;
+using Files = SweepFiles;
 
-constexpr const char* kScene = R"([simulation]
-substeps = 2
-[[body]]
-name = "floor"
-kind = "static"
-shape = { plane = { normal = [0, 1, 0], offset = 0 } }
-[[body]]
-name = "crate"
-kind = "dynamic"
-shape = { box = { size = [1, 0.5, 1] } }
-position = [0, 0.4, 0]
-rotation = [0, 30, 10]
-velocity = [1, 0, 0]
-)";
-
-// a cell in quotes may hold commas
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> list(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    else if (c == ',' && !quoted) list.emplace_back();
-    else list.back() += c;
-  }
-  return list;
-}
-
-// without the columns that measure time
-std::vector<Row> results(const fs::path& sweep) {
-  std::vector<Row> rows;
-  std::vector<std::string> names;
-  const std::string text = slurp(sweep / "results.csv");
-  REQUIRE(!text.empty());
-  for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    const std::vector<std::string> list = cells(text.substr(begin, end - begin));
-    if (names.empty()) {
-      names = list;
-      continue;
-    }
-    REQUIRE(list.size() == names.size());
-    Row& row = rows.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (!names[i].ends_with("_ms")) row[names[i]] = list[i];
-  }
-  return rows;
-}
-
-std::vector<std::string> sweep(const std::string& out, const std::vector<std::string>& more) {
-  std::vector<std::string> words = {"sweep", "s.toml", "--out", out, "--no-images", "--jobs", "2"};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-struct Files {
-  TempFolder folder;
-  Files() { folder.write("s.toml", kScene); }
-  Outcome run(const std::string& out, const std::vector<std::string>& more) const { return impinge_run(folder.path(), sweep(out, more)); }
-};
+std::vector<std::string> sweep(const std::string& out, const std::vector<std::string>& more) { return SweepFiles::words(out, more); }
+std::vector<Row> results(const fs::path& folder) { return sweep_results(folder); }
 
 std::size_t folders_in(const fs::path& folder) { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator())); }
 
@@ -278,7 +222,7 @@ TEST_CASE("errors against a reference are distances of surfaces") {
 
 TEST_CASE("sweeps that can't be are refused with one message, before anything is written") {
   const TempFolder folder;
-  folder.write("s.toml", kScene);
+  folder.write("s.toml", kCrateScene);
   folder.write("taken/other.txt", "x");
   folder.write("file", "x");
   const auto refused = [&](const std::vector<std::string>& more, const std::string& start, const std::string& contains) { check_refused(folder, sweep("out", more), start, contains); };
@@ -302,7 +246,10 @@ TEST_CASE("sweeps that can't be are refused with one message, before anything is
   refused({"--vary", "contact.friction=0,1", "--reference", "simulation.substep=64"}, "--reference simulation.substep=64: ", "simulation.substeps");
   refused({}, "command line: no --vary", "--vary");
   check_refused(folder, {"sweep", "s.toml", "--vary", "contact.friction=0,1", "--jobs", "0"}, "command line: --jobs is '0'", "1 to");
-  refused({"--vary", "contact.friction=0,1", "--repeat", "3"}, "command line: '--repeat' is not part of this version", "");
+  refused({"--vary", "contact.friction=0,1", "--repeat", "0"}, "command line: --repeat is '0'", "1 to");
+  refused({"--vary", "contact.friction=0,1", "--engine", "slrum"}, "command line: --engine is 'slrum'", "did you mean 'slurm'?");
+  refused({"--vary", "contact.friction=0,1", "--window", "2"}, "--window 2: ", "without a reference");
+  refused({"--vary", "contact.friction=0,1", "--reference", "contact.friction=1", "--window", "soon"}, "--window soon: ", "seconds");
   refused({"--job", "0123456789abcdef"}, "command line: --job beside", "");
   check_refused(folder, sweep("taken", {"--vary", "contact.friction=0,1"}), "taken: ", "holds other.txt");
   check_refused(folder, sweep("file", {"--vary", "contact.friction=0,1"}), "file: ", "a folder is wanted");

@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step", "sweep"};
 const std::vector<std::string> kReserved = {"debug", "test", "compare", "verify"};
-const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--ids"}}, {"diff", {"--update"}}, {"sweep", {"--filter", "--repeat", "--coarse-first", "--engine"}}};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--ids"}}, {"diff", {"--update"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
@@ -92,7 +92,8 @@ std::vector<std::string> words_between_commas(const std::string& text, const cha
 struct Raw {
   std::string response, lcp, step_tolerance, max_iterations, freeze;
   std::string size, frames, threads, tolerance, export_format;
-  std::string scene, script, out, jobs;
+  std::string scene, script, out, jobs, repeat, filter, window, job;
+  std::vector<std::string> vary, reference, columns;
   bool no_images = false;
 };
 
@@ -103,7 +104,8 @@ void take_raw(const Raw& raw, Arguments& arguments) {
   options.out = raw.out;
   options.images = !raw.no_images;
   if (!raw.frames.empty()) options.frames = whole(raw.frames, "--frames", 0, 100'000'000);
-  if (!raw.jobs.empty()) arguments.jobs = whole(raw.jobs, "--jobs", 1, 4096);
+  if (!raw.jobs.empty()) arguments.sweep_options.jobs = whole(raw.jobs, "--jobs", 1, 4096);
+  if (!raw.repeat.empty()) arguments.sweep_options.repeat = whole(raw.repeat, "--repeat", 1, 1000);
   if (!raw.threads.empty()) arguments.threads = whole(raw.threads, "--threads", 1, 4096);
   if (!raw.tolerance.empty()) arguments.tolerance = whole(raw.tolerance, "--tolerance", 0, 255);
   if (!raw.freeze.empty()) options.freeze = whole(raw.freeze, "--freeze", 0, 100'000'000);
@@ -125,15 +127,26 @@ void take_raw(const Raw& raw, Arguments& arguments) {
 }
 
 void check_sweep(Raw& raw, Arguments& arguments) {
-  if (!arguments.job.empty()) {
-    if (!raw.scene.empty() || !arguments.vary.empty()) refuse("--job beside a scene or --vary", "a job's folder says what it runs; --job HASH --out DIR is wanted", "leave out the rest");
+  SweepOptions& sweep = arguments.sweep_options;
+  for (const std::string& text : raw.vary) sweep.vary.push_back({text});
+  for (const std::string& text : raw.reference) sweep.reference.push_back({text});
+  for (const std::string& text : raw.columns) sweep.columns.push_back({text});
+  sweep.filter.text = raw.filter;
+  sweep.window.text = raw.window;
+  sweep.size_given = !raw.size.empty();
+  const std::vector<std::string> engines = {"local", "list", "slurm"};
+  if (std::find(engines.begin(), engines.end(), sweep.engine) == engines.end()) {
+    const std::string near = nearest_word(sweep.engine, engines);
+    refuse(fmt::format("--engine is '{}'", sweep.engine), fmt::format("allowed: {}", fmt::join(engines, ", ")), near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+  }
+  if (!raw.job.empty()) {
+    if (!raw.scene.empty() || !sweep.vary.empty()) refuse("--job beside a scene or --vary", "a job's folder says what it runs; --job HASH --out DIR is wanted", "leave out the rest");
     if (raw.out.empty()) refuse("--job without --out", "the folder of the sweep is wanted", "add --out DIR");
+    sweep.jobs_alone = words_between_commas(raw.job, "--job");
     return;
   }
-  if (raw.scene.empty()) refuse("no SCENE", "a scene file is wanted", "see impinge sweep --help");
-  if (arguments.vary.empty()) refuse("no --vary", "at least one PATH=SPEC is wanted", "add --vary contact.friction=0.1,0.5");
+  if (raw.scene.empty()) refuse("no SCENE", "a scene file, or a file with a [sweep] table, is wanted", "see impinge sweep --help");
   if (raw.out.empty()) raw.out = "out/" + std::filesystem::path(raw.scene).stem().string() + "-sweep";
-  arguments.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 }  // namespace
@@ -199,21 +212,28 @@ Arguments parse_arguments(int count, const char* const* words) {
   step->add_option("--out", arguments.out, "folder for methods.csv, solution_METHOD.csv, history_METHOD.csv, work_precision.csv and their plots");
 
   CLI::App* sweep = app.add_subcommand("sweep", "run a scene with many settings and put what came out side by side");
-  sweep->add_option("SCENE", raw.scene, "scene file (TOML), or the run.toml of a run");
-  sweep->add_option("--set", arguments.run_options.overrides, "PATH=VALUE: the same in every job")->take_all()->allow_extra_args(false);
-  sweep->add_option("--vary", arguments.vary, "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n): a job for each value, and for each combination of several --vary")->take_all()->allow_extra_args(false);
-  sweep->add_flag("--zip", arguments.zip, "the first values of all --vary together, then the second ones, ..., instead of all combinations");
-  sweep->add_option("--reference", arguments.reference, "PATH=VALUE: each job's error is its distance from the same job with these settings (all runs then write their surfaces)")
-      ->take_all()->allow_extra_args(false);
+  const auto words_of = [&](const char* name, std::vector<std::string>& to, const char* doc) { sweep->add_option(name, to, doc)->take_all()->allow_extra_args(false); };
+  sweep->add_option("SCENE", raw.scene, "scene file (TOML), or the run.toml of a run, or a file with a [sweep] table that says the rest");
+  words_of("--set", arguments.run_options.overrides, "PATH=VALUE: the same in every job");
+  words_of("--vary", raw.vary, "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n): a job for each value, and for each combination of several --vary");
+  sweep->add_flag("--zip", arguments.sweep_options.zip, "the first values of all --vary together, then the second ones, ..., instead of all combinations");
+  sweep->add_option("--filter", raw.filter, "EXPR: only combinations for which it holds, such as 'simulation.substeps <= 8 || response.method == \"penalty\"'");
+  words_of("--reference", raw.reference,
+           "PATH=VALUE: each job's errors are against the same job with these settings; or 'finest': with the sweep's smallest time step; or 'case:NAME': against a formula (free_fall, sliding, bouncing)");
+  sweep->add_option("--window", raw.window, "seconds that errors are taken over; 'all'; or 'automatic' (default): as long as a reference run started 1e-9 scene sizes aside stays within 1e-3 of it");
+  words_of("--column", raw.columns, "NAME=EXPR: one more column, over last(), max(), min(), mean(), sum() of a column of stats.csv and over varied paths");
+  sweep->add_option("--repeat", raw.repeat, "runs of each job: columns of times are then medians, with columns spread_..._ms (largest less smallest)");
+  sweep->add_flag("--coarse-first", arguments.sweep_options.coarse_first, "run the ends and middles of all ranges first; changes no result");
   sweep->add_option("--script", raw.script, "script file: commands by frame, and expectations");
   sweep->add_option("--frames", raw.frames, "the last frame's number (default: 240, or the script's last if that is later)");
   sweep->add_option("--size", raw.size, "WIDTHxHEIGHT of the pictures (default: 1280x720)");
   sweep->add_flag("--no-images", raw.no_images, "no pictures, figures only");
-  sweep->add_option("--jobs", raw.jobs, "jobs at once, each in a process and on a thread of its own (default: all cores)");
-  sweep->add_option("--job", arguments.job, "HASH: run only this job of the sweep in --out");
+  sweep->add_option("--jobs", raw.jobs, "jobs at once, each in a process and on a thread of its own (default: all cores; with slurm: as many as it gives)");
+  sweep->add_option("--engine", arguments.sweep_options.engine, "local: run here (default); list: print a command a job, for GNU parallel or a render farm; slurm: submit a job array, wait and collect");
+  sweep->add_option("--job", raw.job, "HASH[,HASH...]: run only these jobs of the sweep in --out");
   sweep->add_option("--out", raw.out, "folder to write to (default: out/SCENE-sweep)");
   sweep->add_flag("--resume", arguments.run_options.resume, "take a folder that holds another sweep too, and keep the jobs that both have (the same sweep always goes on)");
-  sweep->add_flag("--yes", arguments.yes, "more than 10000 jobs are meant");
+  sweep->add_flag("--yes", arguments.sweep_options.yes, "more than 10000 jobs are meant");
   sweep->add_flag("--quiet", arguments.quiet, "say nothing but errors");
 
   try {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "viewer/app/sweep_options.hpp"
 #include "viewer/controller/run.hpp"
 
 namespace impinge {
@@ -23,11 +24,7 @@ struct Arguments {
   std::vector<std::string> lcp;  ///< step: names of solvers, empty for all
   double step_tolerance = 1e-8;  ///< step: relative residual
   int max_iterations = 2000;     ///< step
-  std::vector<std::string> vary;       ///< sweep: PATH=SPEC
-  std::vector<std::string> reference;  ///< sweep: PATH=VALUE, empty for no errors
-  std::string job;               ///< sweep: the hash of the one job to run, "" for all
-  int jobs = 1;                  ///< sweep: at once
-  bool zip = false, yes = false;  ///< sweep
+  SweepOptions sweep_options;   ///< sweep
 };
 
 /// Throws InputError with one message about the first thing that is wrong.

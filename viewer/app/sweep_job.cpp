@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/scene_overrides.hpp"
 #include "engine/io/scene_values.hpp"
@@ -44,7 +45,7 @@ std::string SweepBase::hash(const std::vector<std::string>& changes) const {
   record.scene = record.folder = record.script_file = "";
   record.frames = last_frame_;
   record.images = options_.images;
-  record.contacts = false;
+  record.contacts = options_.contacts;
   record.export_ply = options_.export_ply;
   record.width = options_.width;
   record.height = options_.height;
@@ -77,8 +78,8 @@ void write_sweep_job(const fs::path& folder, const SweepJob& job) {
   const RunOptions& o = job.options;
   std::string text = "# one job of a sweep; impinge sweep --job runs it alone\n";
   text += fmt::format("hash = \"{}\"\nreference = \"{}\"\nscene = {}\nscript = {}\n", job.hash, job.reference, toml_string(o.scene.string()), toml_string(o.script.string()));
-  text += fmt::format("set = {}\nvary = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\nsurfaces = {}\n", text_list(o.overrides), text_list(job.changes), o.frames.value_or(0), o.width, o.height, o.images,
-                      o.export_ply);
+  text += fmt::format("set = {}\nvary = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\nsurfaces = {}\ncontacts = {}\n", text_list(o.overrides), text_list(job.changes), o.frames.value_or(0), o.width, o.height, o.images,
+                      o.export_ply, o.contacts);
   write_file(folder / "job.toml", text);
 }
 
@@ -99,11 +100,12 @@ SweepJob read_sweep_job(const fs::path& folder) {
   job.options.height = whole_of(size.items[1], "size");
   job.options.images = scene_flag(need(table, "images"), "images");
   job.options.export_ply = scene_flag(need(table, "surfaces"), "surfaces");
+  job.options.contacts = scene_flag(need(table, "contacts"), "contacts");
   return job;
 }
 
 const char* status_name(SweepOutcome::Status status) {
-  constexpr const char* kNames[] = {"done", "failed", "diverged", "refused", "crashed", "interrupted", "open"};
+  constexpr const char* kNames[] = {"done", "failed", "diverged", "refused", "crashed", "interrupted", "unequal", "open"};
   return kNames[status];
 }
 
@@ -121,6 +123,16 @@ SweepOutcome read_sweep_outcome(const fs::path& folder) {
     return outcome;
   }
   return outcome;
+}
+
+fs::path job_folder(const fs::path& out, const std::string& hash) { return out / "jobs" / hash; }
+
+fs::path repeat_folder(const fs::path& job, int k) { return k <= 1 ? job : job / "repeats" / std::to_string(k); }
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error.message()));
 }
 
 }  // namespace impinge

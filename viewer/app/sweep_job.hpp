@@ -5,6 +5,7 @@
 //   run/        the run's own folder
 //   output.txt  what the run said
 //   done        how it ended, written last; a job that a crash ended has `failed` instead and is tried again
+//   repeats/2   the second run of --repeat, with lock, run/, output.txt and done of its own, without pictures, surfaces and contacts
 #pragma once
 
 #include <sys/types.h>
@@ -45,7 +46,7 @@ SweepJob read_sweep_job(const std::filesystem::path& folder);
 
 /// How a job ended.
 struct SweepOutcome {
-  enum Status { done, failed, diverged, refused, crashed, interrupted, open };
+  enum Status { done, failed, diverged, refused, crashed, interrupted, unequal, open };  // unequal: repeats differ
   Status status = open;
   std::string reason;    ///< one line, "" when done
   double wall_ms = 0.0;  ///< of the attempt that ended it
@@ -56,6 +57,12 @@ const char* status_name(SweepOutcome::Status status);
 
 SweepOutcome read_sweep_outcome(const std::filesystem::path& folder);
 
+std::filesystem::path job_folder(const std::filesystem::path& out, const std::string& hash);
+/// Of the k-th run of a job, k >= 1; the first is the job's own folder.
+std::filesystem::path repeat_folder(const std::filesystem::path& job, int k);
+/// The folder with all above it. Throws InputError.
+void make_folder(const std::filesystem::path& folder);
+
 /// A job being run by a child process of this one.
 class SweepWorker {
  public:
@@ -65,6 +72,8 @@ class SweepWorker {
   /// Whether it has ended; if so its outcome is written.
   bool poll();
   void interrupt() const;
+  /// Returns when any child has ended and is not yet polled, a signal has come, or the time is up.
+  static void wait_for_any(std::chrono::milliseconds most);
   SweepOutcome outcome() const { return outcome_; }
 
  private:

@@ -24,26 +24,6 @@ std::string cell(const std::string& text) {
   return out + "\"";
 }
 
-// whole lines only: an interrupted run may end in half a line
-std::vector<StatsLine> stats_in(const std::filesystem::path& file) {
-  std::vector<StatsLine> lines;
-  if (!std::filesystem::is_regular_file(file)) return lines;
-  const std::string text = read_file(file, kMostBytes);
-  std::size_t begin = text.find('\n');
-  if (begin == std::string::npos || text.substr(0, begin) != stats_header(false)) return lines;
-  for (++begin; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    try {
-      lines.push_back(parse_stats_row(std::string_view(text).substr(begin, end - begin), false));
-    } catch (const InputError&) {
-      break;
-    }
-    begin = end + 1;
-  }
-  return lines;
-}
-
 std::string number(double value) { return shortest(value); }
 std::string three_digits(const std::string& text) {
   if (text.empty()) return "-";
@@ -63,65 +43,150 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   return out;
 }
 
+std::size_t figure(const char* name) {
+  const std::vector<std::string>& names = figure_names(false);
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+double sum(const std::vector<StatsLine>& lines, const char* name) {
+  double total = 0.0;
+  for (const StatsLine& line : lines) total += line.figures[figure(name)];
+  return total;
+}
+
+std::string spread(const std::vector<double>& values) {
+  if (values.empty()) return "";
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return number(*high - *low);
+}
+
 }  // namespace
 
 const std::vector<std::string>& sweep_figure_columns() {
   static const std::vector<std::string> kColumns = {"frames", "penetration_last_m", "penetration_max_m", "residual_last", "residual_max", "contacts_last", "contacts_max",
-                                                    "unconverged", "energy_drift_last_J", "energy_drift_max_J", "state_hash", "step_ms", "render_ms"};
+                                                    "unconverged", "energy_drift_last_J", "energy_drift_max_J", "momentum_drift_max_Ns", "state_hash", "step_ms", "render_ms"};
   return kColumns;
 }
 
-void measure_sweep_job(const std::filesystem::path& folder, SweepRow& row) {
-  row.outcome = read_sweep_outcome(folder);
-  row.cells.assign(sweep_figure_columns().size(), "");
-  const std::vector<StatsLine> lines = stats_in(folder / "run" / "stats.csv");
-  if (lines.empty()) return;
-  const std::vector<std::string>& names = figure_names(false);
-  const auto column = [&](const char* name) { return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()); };
-  const auto largest = [&](const char* name) {
-    double most = 0.0;
-    for (const StatsLine& line : lines) most = std::max(most, line.figures[column(name)]);
-    return most;
-  };
-  const auto sum = [&](const char* name) {
-    double total = 0.0;
-    for (const StatsLine& line : lines) total += line.figures[column(name)];
-    return total;
-  };
-  const auto energy = [&](const StatsLine& line) { return line.figures[column("kinetic_J")] + line.figures[column("potential_J")] + line.figures[column("elastic_J")]; };
-  const auto last = [&](const char* name) { return lines.back().figures[column(name)]; };
-  double drift = 0.0;
-  for (const StatsLine& line : lines) drift = std::max(drift, std::abs(energy(line) - energy(lines.front())));
-  row.work_ms = sum("step_ms");
-  row.cells = {number(last("frame")), number(last("max_penetration_m")), number(largest("max_penetration_m")), number(last("residual")), number(largest("residual")),
-               number(last("contacts")), number(largest("contacts")), number(sum("unconverged")), number(energy(lines.back()) - energy(lines.front())), number(drift),
-               lines.back().state_hash, number(row.work_ms), number(sum("render_ms"))};
+const std::vector<std::string>& sweep_error_columns() {
+  static const std::vector<std::string> kColumns = {"error_force_N", "error_force_relative", "error_penetration_m", "error_energy_J", "error_momentum_Ns", "window_s", "window_reason"};
+  return kColumns;
 }
 
-std::string sweep_csv(const std::vector<std::string>& paths, const std::vector<SweepRow>& rows, bool has_reference) {
+const std::vector<std::string>& sweep_spread_columns() {
+  static const std::vector<std::string> kColumns = {"spread_step_ms", "spread_render_ms", "spread_wall_ms"};
+  return kColumns;
+}
+
+bool is_sweep_column(const std::string& name) {
+  static const std::vector<std::string> kOthers = {"hash", "status", "reason", "reference", "error_rms_m", "error_relative", "wall_ms"};
+  for (const std::vector<std::string>* list : {&sweep_figure_columns(), &sweep_error_columns(), &sweep_spread_columns(), &kOthers})
+    if (std::find(list->begin(), list->end(), name) != list->end()) return true;
+  return false;
+}
+
+std::vector<StatsLine> sweep_stats(const std::filesystem::path& run) {
+  std::vector<StatsLine> lines;
+  if (!std::filesystem::is_regular_file(run / "stats.csv")) return lines;
+  const std::string text = read_file(run / "stats.csv", kMostBytes);
+  std::size_t begin = text.find('\n');
+  if (begin == std::string::npos || text.substr(0, begin) != stats_header(false)) return lines;
+  for (++begin; begin < text.size();) {  // whole lines only: an interrupted run may end in half a line
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    try {
+      lines.push_back(parse_stats_row(std::string_view(text).substr(begin, end - begin), false));
+    } catch (const InputError&) {
+      break;
+    }
+    begin = end + 1;
+  }
+  return lines;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats, SweepRow& row) {
+  row.outcome = read_sweep_outcome(folder);
+  row.cells.assign(sweep_figure_columns().size(), "");
+  SweepMeasure measure;
+  measure.spreads.assign(sweep_spread_columns().size(), "");
+  measure.runs.reserve(static_cast<std::size_t>(repeats));  // `lines` refers to the first
+  measure.runs.push_back(sweep_stats(folder / "run"));
+  const std::vector<StatsLine>& lines = measure.runs.front();
+  if (lines.empty()) return measure;
+  std::vector<double> walls;
+  if (row.outcome.wall_ms > 0.0) walls.push_back(row.outcome.wall_ms);
+  for (int k = 2; k <= repeats; ++k) {
+    const SweepOutcome outcome = read_sweep_outcome(repeat_folder(folder, k));
+    if (!outcome.is_final()) continue;
+    std::vector<StatsLine> again = sweep_stats(repeat_folder(folder, k) / "run");
+    std::size_t frame = 0;
+    while (frame < again.size() && frame < lines.size() && again[frame].state_hash == lines[frame].state_hash) ++frame;
+    if (row.outcome.is_final() && (again.size() != lines.size() || frame < lines.size()) && row.outcome.status != SweepOutcome::unequal) {
+      row.outcome.status = SweepOutcome::unequal;
+      row.outcome.reason = frame < lines.size() && frame < again.size() ? fmt::format("repeat {} has another state in frame {} than the first run", k, frame)
+                                                                        : fmt::format("repeat {} has {} frames and the first run {}", k, again.size(), lines.size());
+    }
+    walls.push_back(outcome.wall_ms);
+    measure.runs.push_back(std::move(again));
+  }
+  std::vector<double> steps, renders;
+  for (const std::vector<StatsLine>& run : measure.runs) steps.push_back(sum(run, "step_ms")), renders.push_back(sum(run, "render_ms"));
+  if (repeats > 1) measure.spreads = {spread(steps), spread(renders), spread(walls)};
+  if (!walls.empty()) row.outcome.wall_ms = median(walls);
+
+  const auto largest = [&](const char* name) {
+    double most = 0.0;
+    for (const StatsLine& line : lines) most = std::max(most, line.figures[figure(name)]);
+    return most;
+  };
+  const auto energy = [&](const StatsLine& line) { return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")]; };
+  const auto momentum = [&](const StatsLine& line) { return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")], line.figures[figure("momentum_z")]); };
+  const auto last = [&](const char* name) { return lines.back().figures[figure(name)]; };
+  double drift = 0.0, push = 0.0;
+  for (const StatsLine& line : lines) {
+    drift = std::max(drift, std::abs(energy(line) - energy(lines.front())));
+    push = std::max(push, (momentum(line) - momentum(lines.front())).norm());
+  }
+  row.work_ms = median(steps);
+  row.cells = {number(last("frame")), number(last("max_penetration_m")), number(largest("max_penetration_m")), number(last("residual")), number(largest("residual")),
+               number(last("contacts")), number(largest("contacts")), number(sum(lines, "unconverged")), number(energy(lines.back()) - energy(lines.front())), number(drift),
+               number(push), lines.back().state_hash, number(row.work_ms), number(median(renders))};
+  return measure;
+}
+
+std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows) {
   std::string out = "hash";
-  for (const std::string& path : paths) out += "," + cell(path);
+  for (const std::string& path : table.paths) out += "," + cell(path);
   out += ",status,reason";
   for (const std::string& name : sweep_figure_columns()) out += "," + name;
-  if (has_reference) out += ",reference,error_rms_m,error_relative";
+  if (table.has_reference) out += ",reference,error_rms_m,error_relative";
+  for (const std::string& name : table.more) out += "," + name;
   out += ",wall_ms\n";
   for (const SweepRow& row : rows) {
     out += row.hash;
     for (const std::string& value : row.values) out += "," + cell(value);
     out += fmt::format(",{},{}", status_name(row.outcome.status), cell(row.outcome.reason));
     for (const std::string& figure : row.cells) out += "," + figure;
-    if (has_reference) out += fmt::format(",{},{},{}", row.reference, row.error < 0 ? "" : number(row.error), row.relative_error < 0 ? "" : number(row.relative_error));
+    if (table.has_reference) out += fmt::format(",{},{},{}", row.reference, row.error < 0 ? "" : number(row.error), row.relative_error < 0 ? "" : number(row.relative_error));
+    for (const std::string& value : row.more) out += "," + cell(value);
     out += fmt::format(",{}\n", row.outcome.wall_ms > 0 ? fmt::format("{:.3f}", row.outcome.wall_ms) : "");
   }
   return out;
 }
 
-std::string sweep_summary(const std::vector<std::string>& paths, const std::vector<SweepRow>& rows, bool has_reference) {
+std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& rows) {
+  const std::vector<std::string>& paths = table.paths;
   std::vector<std::vector<std::string>> lines(1);
   lines[0] = {"job"};
   lines[0].insert(lines[0].end(), paths.begin(), paths.end());
   for (const char* name : {"status", "frames", "penetration max (m)", "residual max", "contacts max", "energy drift (J)", "step (ms)"}) lines[0].push_back(name);
-  if (has_reference) lines[0].push_back("error (m)");
+  if (table.has_reference) lines[0].push_back("error (m)");
   const std::vector<std::string>& names = sweep_figure_columns();
   const auto figure = [&](const SweepRow& row, const char* name) { return row.cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]; };
   std::string reasons;
@@ -132,7 +197,7 @@ std::string sweep_summary(const std::vector<std::string>& paths, const std::vect
     line.push_back(status_name(row.outcome.status));
     line.push_back(figure(row, "frames").empty() ? "-" : figure(row, "frames"));
     for (const char* name : {"penetration_max_m", "residual_max", "contacts_max", "energy_drift_last_J", "step_ms"}) line.push_back(three_digits(figure(row, name)));
-    if (has_reference) line.push_back(row.error < 0 ? "-" : fmt::format("{:.3g}", row.error));
+    if (table.has_reference) line.push_back(row.error < 0 ? "-" : fmt::format("{:.3g}", row.error));
     if (!row.outcome.reason.empty()) reasons += fmt::format("{}: {}: {}\n", row.hash.substr(0, 8), status_name(row.outcome.status), row.outcome.reason);
   }
   return aligned(lines) + reasons;

@@ -1,35 +1,52 @@
-// What came out of a sweep, a row a job: results.csv, a table for the terminal, and the errors against references.
+// What came out of a sweep, a row a job: results.csv and a table for the terminal.
 #pragma once
 
 #include "viewer/app/sweep_job.hpp"
+#include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
 
 struct SweepRow {
   std::string hash, reference;      ///< reference "" without one
+  std::string perturbed;            ///< the reference's run from a start aside, "" without one
   std::vector<std::string> values;  ///< of the varied paths
   SweepOutcome outcome;
-  std::vector<std::string> cells;   ///< figures(), in the order of figure_columns(); empty where there is no figure
-  double work_ms = 0.0;             ///< sum of step_ms
+  std::vector<std::string> cells;   ///< of sweep_figure_columns(); empty where there is no figure
+  std::vector<std::string> more;    ///< of SweepTable::more
+  double work_ms = 0.0;             ///< sum of step_ms, the median of repeats
   double error = -1.0;              ///< metres, -1 for none
   double relative_error = -1.0;     ///< in sizes of the scene
 };
 
-/// Columns between `reason` and the errors: of the last frame and the largest of all; energies relative to frame 0.
-const std::vector<std::string>& sweep_figure_columns();
-
-/// Fills outcome, cells and work from a job's folder.
-void measure_sweep_job(const std::filesystem::path& folder, SweepRow& row);
-
-/// Distance between the surfaces that two runs exported: the root of the mean square over points and over the frames
-/// that both have at the same time, for the named bodies, in metres; and the diagonal of the box around those bodies at the
-/// reference's frame 0.
-struct SurfaceDistance {
-  double rms = -1.0, scene_size = 0.0;  ///< rms -1: no frame or no body in common
+/// The shape of the table.
+struct SweepTable {
+  std::vector<std::string> paths;   ///< varied
+  bool has_reference = false;
+  std::vector<std::string> more;    ///< columns after the errors
 };
-SurfaceDistance surface_distance(const std::filesystem::path& run, const std::filesystem::path& reference, const std::vector<std::string>& bodies);
 
-std::string sweep_csv(const std::vector<std::string>& paths, const std::vector<SweepRow>& rows, bool has_reference);
-std::string sweep_summary(const std::vector<std::string>& paths, const std::vector<SweepRow>& rows, bool has_reference);
+/// Columns between `reason` and the errors: of the last frame and the largest of all; energies and momenta relative to frame 0.
+const std::vector<std::string>& sweep_figure_columns();
+/// Columns of errors beside error_rms_m and error_relative, and those of repeats, in the order of SweepTable::more.
+const std::vector<std::string>& sweep_error_columns();
+const std::vector<std::string>& sweep_spread_columns();
+/// Whether results.csv has, or may have, a column of that name.
+bool is_sweep_column(const std::string& name);
+
+/// The whole frames of a run's stats.csv; empty where there is none.
+std::vector<StatsLine> sweep_stats(const std::filesystem::path& run);
+
+/// What a job's folder says: outcome, figures, times as medians over the repeats and their spreads (largest less smallest).
+struct SweepMeasure {
+  std::vector<std::vector<StatsLine>> runs;  ///< the job's own first, then the repeats'
+  std::vector<std::string> spreads;          ///< of sweep_spread_columns()
+};
+/// Fills outcome, cells and work. A repeat whose states differ from the first run's makes the outcome `unequal`, with where.
+SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats, SweepRow& row);
+
+double median(std::vector<double> values);
+
+std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows);
+std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& rows);
 
 }  // namespace impinge

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
@@ -79,10 +80,11 @@ std::vector<std::string> range_texts(const std::vector<double>& values, const Pa
 
 }  // namespace
 
-SweepAxis read_sweep_axis(const std::string& text, const Session& session, const std::function<void(const std::string&)>& load) {
-  const std::string place = "--vary " + text;
+SweepAxis read_sweep_axis(const char* option, const SweepSetting& setting, const Session& session, const std::function<void(const std::string&)>& load) {
+  const std::string place = setting.where(option), &text = setting.text;
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) refuse(place, "no PATH=SPEC", "a parameter's path, =, and its values are wanted", "write --vary contact.friction=0.1,0.5");
+  if (equals == std::string::npos || equals == 0)
+    refuse(place, setting.place.empty() ? "no PATH=SPEC" : fmt::format("'{}' is no PATH=SPEC", text), "a parameter's path, =, and its values are wanted", "write contact.friction=0.1,0.5");
   SweepAxis axis;
   axis.path = trimmed(text.substr(0, equals));
   const Parameter* row = session.rows().find(axis.path);
@@ -92,7 +94,8 @@ SweepAxis read_sweep_axis(const std::string& text, const Session& session, const
   if (spec.empty()) refuse(place, "no values", "a,b,c or lo:hi:n or log(lo,hi,n) is wanted", "name some");
   const bool logarithmic = spec.rfind("log(", 0) == 0 && spec.back() == ')';
   const std::vector<std::string> colons = split_outside(spec, ':');
-  if (logarithmic) axis.values = range_texts(spaced(place, split_outside(spec.substr(4, spec.size() - 5), ','), true), row);
+  if (!setting.values.empty()) axis.values = setting.values;
+  else if (logarithmic) axis.values = range_texts(spaced(place, split_outside(spec.substr(4, spec.size() - 5), ','), true), row);
   else if (colons.size() > 1) axis.values = range_texts(spaced(place, colons, false), row);
   else axis.values = split_outside(spec, ',');
 
@@ -108,27 +111,32 @@ SweepAxis read_sweep_axis(const std::string& text, const Session& session, const
         value = format_toml(parse_toml_value(value, place));
       }
     } catch (const InputError& error) {
-      const std::string message = error.what();
-      if (message.rfind("--set ", 0) == 0) throw InputError("--vary " + message.substr(6));
-      throw InputError(message.rfind("--vary ", 0) == 0 ? message : fmt::format("{}: {}; change the value", place, message));
+      const std::string message = error.what(), tried = fmt::format("{}={}: ", axis.path, value);
+      if (message.rfind("--set " + tried, 0) == 0) throw InputError((setting.place.empty() ? option + (" " + tried) : place + ": " + tried) + message.substr(6 + tried.size()));
+      throw InputError(message.rfind(place, 0) == 0 ? message : fmt::format("{}: {}; change the value", place, message));
     }
     if (!seen.insert(value).second) refuse(place, fmt::format("{} twice", value), "values that differ are wanted", "leave one out");
   }
   return axis;
 }
 
-std::size_t count_sweep_jobs(const std::vector<SweepAxis>& axes, bool zip, std::size_t most) {
+bool is_numeric(const SweepAxis& axis) {
+  return std::all_of(axis.values.begin(), axis.values.end(), [](const std::string& value) { return number_in<double>(value).has_value(); });
+}
+
+std::size_t count_sweep_jobs(const std::vector<SweepAxis>& axes, const std::vector<SweepSetting>& settings, bool zip, std::size_t most) {
   std::set<std::string> paths;
   std::size_t count = zip ? axes.front().values.size() : 1;
-  for (const SweepAxis& axis : axes) {
-    const std::string place = "--vary " + axis.path;
-    if (!paths.insert(axis.path).second) refuse(place, "varied twice", "a path once is wanted", "put its values into one --vary");
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const SweepAxis& axis = axes[i];
+    const std::string place = settings[i].place.empty() ? "--vary " + axis.path : settings[i].place;
+    if (!paths.insert(axis.path).second) refuse(place, axis.path + " varied twice", "a path once is wanted", "put its values into one list");
     if (zip && axis.values.size() != count)
-      refuse(place, fmt::format("{} values", axis.values.size()), fmt::format("--zip wants as many as {} has, {}", axes.front().path, count), "add or leave out values");
+      refuse(place, fmt::format("{} values of {}", axis.values.size(), axis.path), fmt::format("--zip wants as many as {} has, {}", axes.front().path, count), "add or leave out values");
     if (!zip) count = axis.values.size() > std::size_t{1'000'000'000} / count ? std::size_t{1'000'000'000} : count * axis.values.size();
   }
   if (count > most)
-    refuse("--vary", fmt::format("{}{} jobs", count, count >= 1'000'000'000 ? " or more" : ""), fmt::format("at most {} are taken", most),
+    refuse(settings.front().place.empty() ? "--vary" : settings.front().place, fmt::format("{}{} jobs", count, count >= 1'000'000'000 ? " or more" : ""), fmt::format("at most {} are taken", most),
            most < 1'000'000 ? "vary less, or say --yes" : "vary less");
   return count;
 }
@@ -141,6 +149,24 @@ std::vector<std::string> sweep_job_values(const std::vector<SweepAxis>& axes, bo
     if (!zip) job /= all.size();
   }
   return values;
+}
+
+int sweep_job_level(const std::vector<SweepAxis>& axes, bool zip, std::size_t job) {
+  int level = 0;
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    const std::size_t count = axes[i].values.size(), at = zip ? job : job % count;
+    if (!zip) job /= count;
+    if (!is_numeric(axes[i])) continue;
+    int own = 0;
+    for (std::size_t low = 0, high = count - 1; at != low && at != high;) {
+      const std::size_t middle = low + (high - low) / 2;
+      ++own;
+      if (at == middle) break;
+      (at < middle ? high : low) = middle;
+    }
+    level = std::max(level, own);
+  }
+  return level;
 }
 
 }  // namespace impinge

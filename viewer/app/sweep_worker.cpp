@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <thread>
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
@@ -37,6 +38,7 @@ std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   if (o.frames) add({"--frames", std::to_string(*o.frames)});
   for (const std::string& text : o.overrides) add({"--set", text});
   for (const std::string& text : job.changes) add({"--set", text});
+  if (o.contacts) add({"--contacts"});
   if (o.export_ply) add({"--export", "ply"});
   if (o.images) add({"--size", fmt::format("{}x{}", o.width, o.height)});
   else add({"--no-images"});
@@ -133,6 +135,15 @@ bool SweepWorker::poll() {
                fmt::format("status = \"{}\"\nreason = {}\nwall_ms = {:.3f}\n", status_name(outcome_.status), toml_string(outcome_.reason), outcome_.wall_ms));
   close(lock_);
   return true;
+}
+
+void SweepWorker::wait_for_any(std::chrono::milliseconds most) {
+  const auto end = std::chrono::steady_clock::now() + most;
+  siginfo_t info{};
+  do {  // WNOWAIT leaves the child to poll()
+    if (waitid(P_ALL, 0, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  } while (std::chrono::steady_clock::now() < end);
 }
 
 void SweepWorker::interrupt() const { kill(child_, SIGTERM); }

@@ -16,16 +16,23 @@ using Operation = Expression::Operation;
 using Step = Expression::Step;
 constexpr int kMostDepth = 64;
 
-// descends the grammar of the header; each function says whether what it read is a condition
+enum class Type { number, condition, text };
+constexpr const char* kTypeNames[] = {"a number", "a condition", "a text"};
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; }
+
+// descends the grammar of the header; each function says what it read
 class Parser {
  public:
-  Parser(const PlacedText& text, const std::vector<std::string>& names, std::vector<Step>& steps) : text_(text), names_(names), steps_(steps) {}
+  Parser(const PlacedText& text, const ExpressionWords& words, std::vector<Step>& steps) : text_(text), words_(words), names_(words.names), steps_(steps) {}
 
   void parse() {
-    const bool condition = read_or();
+    const Type type = read_or();
     skip_blanks();
     if (at_ < text_.text.size()) here().refuse(found(), "an operator or the end of the condition should stand here", "mend the condition");
-    if (!condition) text_.refuse(fmt::format("'{}' is a number", text_.text), "a condition is wanted", "compare it: < <= > >= == !=");
+    if (type == Type::condition || (type == Type::number && words_.takes_number)) return;
+    text_.refuse(fmt::format("'{}' is {}", text_.text, kTypeNames[static_cast<int>(type)]), words_.takes_number ? "a number is wanted" : "a condition is wanted",
+                 type == Type::text ? "compare it: == !=" : "compare it: < <= > >= == !=");
   }
 
  private:
@@ -41,128 +48,172 @@ class Parser {
     return true;
   }
   void emit(Operation operation) { steps_.push_back({operation}); }
-  void want(bool is, bool wanted, const PlacedText& where) const {
-    if (is != wanted) where.refuse(is ? "a condition" : "a number", wanted ? "a condition should stand here" : "a number should stand here", "use parentheses or a comparison");
+  void want(Type is, Type wanted, const PlacedText& where) const {
+    if (is != wanted) where.refuse(kTypeNames[static_cast<int>(is)], fmt::format("{} should stand here", kTypeNames[static_cast<int>(wanted)]), "use parentheses or a comparison");
   }
 
-  bool read_or() {
+  Type read_or() {
     const PlacedText start = here();
-    bool condition = read_and();
+    Type type = read_and();
     while (take("||")) {
-      want(condition, true, start);
-      want(read_and(), true, start);
+      want(type, Type::condition, start);
+      want(read_and(), Type::condition, start);
       emit(Operation::logical_or);
     }
-    return condition;
+    return type;
   }
-  bool read_and() {
+  Type read_and() {
     const PlacedText start = here();
-    bool condition = read_not();
+    Type type = read_not();
     while (take("&&")) {
-      want(condition, true, start);
-      want(read_not(), true, start);
+      want(type, Type::condition, start);
+      want(read_not(), Type::condition, start);
       emit(Operation::logical_and);
     }
-    return condition;
+    return type;
   }
-  bool read_not() {
+  Type read_not() {
     skip_blanks();
     const bool negation = at_ < text_.text.size() && text_.text[at_] == '!' && text_.text.substr(at_, 2) != "!=";
     if (!negation) return read_compare();
     const PlacedText start = here();
     ++at_;
     deepen();
-    want(read_not(), true, start);
+    want(read_not(), Type::condition, start);
     --depth_;
     emit(Operation::logical_not);
-    return true;
+    return Type::condition;
   }
-  bool read_compare() {
+  Type read_compare() {
     const PlacedText start = here();
-    const bool condition = read_sum();
+    const Type type = read_sum();
     constexpr std::pair<std::string_view, Operation> kOperators[] = {{"<=", Operation::less_equal}, {">=", Operation::greater_equal}, {"==", Operation::equal},
                                                                      {"!=", Operation::unequal},    {"<", Operation::less},           {">", Operation::greater}};
     for (const auto& [symbol, operation] : kOperators) {
       if (!take(symbol)) continue;
-      want(condition, false, start);
-      want(read_sum(), false, start);
+      const bool is_text = type == Type::text && (operation == Operation::equal || operation == Operation::unequal);
+      if (!is_text) want(type, Type::number, start);
+      skip_blanks();
+      const PlacedText right = here();
+      want(read_sum(), type, right);
       emit(operation);
-      return true;
+      return Type::condition;
     }
-    return condition;
+    return type;
   }
-  bool read_sum() {
+  Type read_sum() {
     const PlacedText start = here();
-    const bool condition = read_product();
+    const Type type = read_product();
     for (;;) {
       const Operation operation = take("+") ? Operation::add : take("-") ? Operation::subtract : Operation::number;
-      if (operation == Operation::number) return condition;
-      want(condition, false, start);
-      want(read_product(), false, start);
+      if (operation == Operation::number) return type;
+      want(type, Type::number, start);
+      want(read_product(), Type::number, start);
       emit(operation);
     }
   }
-  bool read_product() {
+  Type read_product() {
     const PlacedText start = here();
-    const bool condition = read_unary();
+    const Type type = read_unary();
     for (;;) {
       const Operation operation = take("*") ? Operation::multiply : take("/") ? Operation::divide : Operation::number;
-      if (operation == Operation::number) return condition;
-      want(condition, false, start);
-      want(read_unary(), false, start);
+      if (operation == Operation::number) return type;
+      want(type, Type::number, start);
+      want(read_unary(), Type::number, start);
       emit(operation);
     }
   }
-  bool read_unary() {
+  Type read_unary() {
     skip_blanks();
     const PlacedText start = here();
     if (take("-")) {
       deepen();
-      want(read_unary(), false, start);
+      want(read_unary(), Type::number, start);
       --depth_;
       emit(Operation::negate);
-      return false;
+      return Type::number;
     }
     if (take("(")) {
       deepen();
-      const bool condition = read_or();
+      const Type type = read_or();
       --depth_;
       if (!take(")")) here().refuse(found(), "')' should stand here", "close the parenthesis");
-      return condition;
+      return type;
     }
     const char c = at_ < text_.text.size() ? text_.text[at_] : '\0';
-    if ((c >= '0' && c <= '9') || c == '.') read_number();
-    else if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_') read_name();
-    else here().refuse(found(), "a number, a figure's name or '(' should stand here", "mend the condition");
-    return false;
+    if ((c >= '0' && c <= '9') || c == '.') return read_number();
+    if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_') return read_name();
+    if ((c == '"' || c == '\'') && !words_.texts.empty()) return read_quoted(c);
+    here().refuse(found(), "a number, a figure's name or '(' should stand here", "mend the condition");
   }
-  void read_number() {
+  Type read_number() {
     Step step{Operation::number};
     const char* begin = text_.text.data() + at_;
     const auto [end, error] = std::from_chars(begin, text_.text.data() + text_.text.size(), step.number);
     if (error != std::errc()) here().refuse(found(), "a number that a double holds is wanted", "change it");
     at_ += static_cast<std::size_t>(end - begin);
     steps_.push_back(step);
+    return Type::number;
   }
-  void read_name() {
+  // the longest name that stands here: body names may hold a minus
+  std::size_t longest_name() const {
+    std::size_t longest = 0;
+    for (const std::string& name : names_)
+      if (name.size() > longest && text_.text.substr(at_, name.size()) == name && (at_ + name.size() == text_.text.size() || !is_word(text_.text[at_ + name.size()]))) longest = name.size();
+    return longest;
+  }
+  Type read_name() {
     const std::size_t begin = at_;
-    while (at_ < text_.text.size() && (std::isalnum(static_cast<unsigned char>(text_.text[at_])) || text_.text[at_] == '_')) ++at_;
-    const std::string name(text_.text.substr(begin, at_ - begin));
+    if (const std::size_t longest = longest_name(); longest > 0) at_ += longest;
+    else
+      while (at_ < text_.text.size() && is_word(text_.text[at_])) ++at_;
+    std::string name(text_.text.substr(begin, at_ - begin));
+    if (std::any_of(names_.begin(), names_.end(), [&](const std::string& n) { return n.rfind(name + "(", 0) == 0; }) && take("(")) {
+      skip_blanks();
+      const std::size_t inner = at_;
+      while (at_ < text_.text.size() && is_word(text_.text[at_])) ++at_;
+      name += "(" + std::string(text_.text.substr(inner, at_ - inner)) + ")";
+      if (!take(")")) here().refuse(found(), "')' should stand here", "close the parenthesis");
+    }
     const auto it = std::find(names_.begin(), names_.end(), name);
     if (it == names_.end()) {
-      const std::string near = nearest_word(name, names_);
-      text_.part(begin, name.size()).refuse(fmt::format("unknown figure '{}'", name), fmt::format("allowed: {}", fmt::join(names_, ", ")),
+      if (std::find(words_.texts.begin(), words_.texts.end(), name) != words_.texts.end()) return emit_text(name);
+      std::vector<std::string> all = names_;
+      all.insert(all.end(), words_.texts.begin(), words_.texts.end());
+      const std::string near = nearest_word(name, all);
+      text_.part(begin, at_ - begin).refuse(fmt::format("unknown figure '{}'", name), words_.allowed.empty() ? fmt::format("allowed: {}", fmt::join(names_, ", ")) : words_.allowed,
                                             near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
     }
     Step step{Operation::name};
     step.name = static_cast<int>(it - names_.begin());
     steps_.push_back(step);
+    return static_cast<std::size_t>(step.name) < words_.is_text.size() && words_.is_text[step.name] ? Type::text : Type::number;
+  }
+  Type read_quoted(char quote) {
+    const std::size_t begin = at_++;
+    const std::size_t end = text_.text.find(quote, at_);
+    if (end == std::string_view::npos) text_.part(begin).refuse("a text without end", "a quote should close it", "close it");
+    const std::string text(text_.text.substr(at_, end - at_));
+    at_ = end + 1;
+    if (std::find(words_.texts.begin(), words_.texts.end(), text) == words_.texts.end()) {
+      const std::string near = nearest_word(text, words_.texts);
+      text_.part(begin).refuse(fmt::format("'{}', which nothing here is", text), fmt::format("allowed: {}", fmt::join(words_.texts, ", ")),
+                               near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+    }
+    return emit_text(text);
+  }
+  Type emit_text(const std::string& text) {
+    Step step{Operation::number};
+    step.number = static_cast<double>(std::find(words_.texts.begin(), words_.texts.end(), text) - words_.texts.begin());
+    steps_.push_back(step);
+    return Type::text;
   }
   void deepen() {
     if (++depth_ > kMostDepth) here().refuse("nesting deeper than 64", "flatter conditions are wanted", "unfold it");
   }
 
   PlacedText text_;
+  const ExpressionWords& words_;
   const std::vector<std::string>& names_;
   std::vector<Step>& steps_;
   std::size_t at_ = 0;
@@ -189,7 +240,13 @@ double apply(Operation operation, double l, double r) {
 
 }  // namespace
 
-Expression::Expression(const PlacedText& text, const std::vector<std::string>& names) : text_(text.text) { Parser(text, names, steps_).parse(); }
+Expression::Expression(const PlacedText& text, const ExpressionWords& words) : text_(text.text) { Parser(text, words, steps_).parse(); }
+
+Expression::Expression(const PlacedText& text, const std::vector<std::string>& names) : Expression(text, ExpressionWords{names, {}, {}, "", false}) {}
+
+bool Expression::uses(std::size_t name) const {
+  return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) { return step.operation == Operation::name && step.name == static_cast<int>(name); });
+}
 
 double Expression::evaluate(std::span<const double> values) const {
   std::vector<double> stack;

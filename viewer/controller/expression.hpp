@@ -3,7 +3,9 @@
 //   or      = and { "||" and }          compare = sum [ ( < <= > >= == != ) sum ]
 //   and     = not { "&&" not }          sum     = product { ( + - ) product }
 //   not     = "!" not | compare         product = unary { ( * / ) unary }
-//                                       unary   = "-" unary | number | name | "(" or ")"
+//                                       unary   = "-" unary | number | name | text | "(" or ")"
+//
+// A name may hold dots and be a function of one word, `max(contacts)`; a text, bare or in quotes, is compared by == and !=.
 #pragma once
 
 #include <span>
@@ -12,8 +14,18 @@
 
 namespace impinge {
 
+/// What an expression may speak of, when that is more than figures.
+struct ExpressionWords {
+  std::vector<std::string> names;   ///< by position in `values`; "f(x)" is written as a call
+  std::vector<bool> is_text;        ///< by name: its value is a position in `texts`; may be shorter than `names`
+  std::vector<std::string> texts;   ///< all that such names may be
+  std::string allowed;              ///< for messages, instead of all names
+  bool takes_number = false;        ///< whether the whole may be a number too
+};
+
 class Expression {
  public:
+  Expression(const PlacedText& text, const ExpressionWords& words);
   /// `names` are the figures there are, by position in `values` below. Throws InputError at the first word that is wrong.
   Expression(const PlacedText& text, const std::vector<std::string>& names);
 
@@ -21,6 +33,7 @@ class Expression {
   double evaluate(std::span<const double> values) const;
   bool holds(std::span<const double> values) const { return evaluate(values) != 0.0; }
   const std::string& text() const { return text_; }
+  bool uses(std::size_t name) const;  ///< whether that name stands in it
   /// The named figures with their values, "contacts = 12, groups = 3": for messages.
   std::string describe(std::span<const double> values, const std::vector<std::string>& names) const;
 
