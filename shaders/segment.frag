@@ -6,7 +6,11 @@ flat in vec4 ink;
 uniform float head;
 uniform float rim;
 uniform float opacity;
+#ifdef IDS
+out uvec2 result;  // object, triangle
+#else
 out vec4 result;
+#endif
 
 float box(vec2 p, vec2 low, vec2 high) {
   vec2 d = abs(p - 0.5 * (low + high)) - 0.5 * (high - low);
@@ -31,10 +35,16 @@ void main() {
   }
   float body = clamp(0.5 - d, 0.0, 1.0);
   float whole = clamp(0.5 + rim - d, 0.0, 1.0);
+#ifdef IDS
+  if (whole < 0.3) discard;  // hardly to be seen
+  uvec4 bytes = uvec4(255.0 * ink + 0.5);
+  result = uvec2(bytes.r | bytes.g << 8 | bytes.b << 16 | bytes.a << 24, 0xffffffffu);
+#else
   if (whole <= 0.0) discard;
   // a line thinner than a pixel fades instead of breaking up
   float thin = min(width_px, 1.0);
   float edge = 0.75 * (whole - body);
   float alpha = body + edge;
   result = vec4(mix(vec3(0.05, 0.06, 0.08), ink.rgb, body / alpha), ink.a * alpha * opacity * thin);
+#endif
 }

@@ -13,7 +13,11 @@ uniform vec3 heat_colors[33];
 uniform float cut;           // 1: by the clip plane
 uniform vec4 clip;           // in the eye's axes: normal, and how high the eye is over the plane
 uniform vec4 cut_edge;       // colour and width of the line along the cut, pixels
+#ifdef IDS
+out uvec2 result;  // object, triangle
+#else
 out vec4 result;
+#endif
 
 void main() {
   float on_edge = 0.0;
@@ -23,6 +27,10 @@ void main() {
     if (height > 0.0) discard;
     if (outline_only == 0.0) on_edge = clamp(cut_edge.w + 0.5 + height / pixel, 0.0, 1.0);
   }
+#ifdef IDS
+  uvec4 bytes = uvec4(255.0 * color + 0.5);
+  result = uvec2(bytes.r | bytes.g << 8 | bytes.b << 16 | bytes.a << 24, uint(gl_PrimitiveID));
+#else
   vec3 view = normalize(-eye_position);
   vec3 n = normalize(eye_normal);
   bool inside = dot(n, view) < 0.0 && !gl_FrontFacing;
@@ -64,4 +72,5 @@ void main() {
   c = c / (1.0 + 0.12 * c);
   float alpha = mix(color.a, 0.05 + 0.10 * rim, outline_only);
   result = vec4(mix(sqrt(clamp(c, 0.0, 1.0)), cut_edge.rgb, on_edge), alpha);
+#endif
 }

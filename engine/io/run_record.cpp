@@ -11,7 +11,7 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kKeys = {"version", "scene", "folder", "script_file", "script", "frames", "images", "contacts", "judge", "export", "size", "surfaces"};
+const std::vector<std::string> kKeys = {"version", "scene", "folder", "script_file", "script", "frames", "images", "ids", "contacts", "judge", "export", "size", "surfaces"};
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
@@ -40,6 +40,7 @@ RunRecord read_run_record(const TomlNode& table) {
   for (const TomlNode& line : need("script").items) run.script.push_back(scene_text(line, "run.script"));
   run.frames = static_cast<int>(scene_real(need("frames"), "run.frames", {0, 1e9}));
   run.images = scene_flag(need("images"), "run.images");
+  if (const TomlEntry* ids = table.find("ids")) run.ids = scene_flag(ids->value, "run.ids");
   run.contacts = scene_flag(need("contacts"), "run.contacts");
   run.judge = scene_flag(need("judge"), "run.judge");
   run.export_ply = scene_text(need("export"), "run.export") == "ply";
@@ -67,7 +68,7 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
   out += fmt::format("version = {}\nscene = {}\nfolder = {}\nscript_file = {}\n", toml_string(run.version), toml_string(run.scene), toml_string(run.folder), toml_string(run.script_file));
   out += "script = [\n";
   for (const std::string& line : run.script) out += fmt::format("  {},\n", toml_string(line));
-  out += fmt::format("]\nframes = {}\nimages = {}\ncontacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n", run.frames, run.images, run.contacts, run.judge,
+  out += fmt::format("]\nframes = {}\nimages = {}\n{}contacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n", run.frames, run.images, run.ids ? "ids = true\n" : "", run.contacts, run.judge,
                      run.export_ply ? "ply" : "", run.width, run.height);
   for (const SurfaceFile& file : scene.surfaces) out += fmt::format("  {{ file = {}, hash = \"{}\" }},\n", toml_string(file.name), hex64(file.hash));
   out += "]\n";

@@ -222,9 +222,7 @@ TEST_CASE("the command line names what is wrong with it") {
   const auto refused = [&](const std::vector<std::string>& words, const std::string& contains) { check_refused(folder, words, "command line: ", contains); };
   refused({"rum", "s.toml"}, "did you mean 'run'?");
   refused({"debug", "s.toml"}, "not part of this version");
-  refused({"compare", "s.toml"}, "not part of this version");
-  refused({"run", "s.toml", "--ids"}, "not part of this version");
-  refused({"diff", "a", "b", "--update"}, "not part of this version");
+  refused({"verify"}, "not part of this version");
   refused({"run"}, "SCENE");
   refused({"run", "s.toml", "--frame", "3"}, "--frames");
   refused({"run", "s.toml", "--frames", "-3"}, "whole number");
@@ -232,6 +230,8 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"run", "s.toml", "--size", "1280"}, "WIDTHxHEIGHT");
   refused({"run", "s.toml", "--size", "0x0"}, "width");
   refused({"run", "s.toml", "--threads", "0"}, "--threads");
+  refused({"run", "s.toml", "--ids", "--no-images"}, "--ids");
+  refused({"compare", "a"}, "B");
   refused({"run", "s.toml", "--export", "obj"}, "ply is wanted");
   refused({"list", "parameter"}, "did you mean 'parameters'?");
   CHECK(impinge_run(folder.path(), {"--help"}).code == 0);

@@ -15,9 +15,9 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step", "sweep"};
-const std::vector<std::string> kReserved = {"debug", "test", "compare", "verify"};
-const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"run", {"--ids"}}, {"diff", {"--update"}}};
+const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step", "sweep", "test", "compare"};
+const std::vector<std::string> kReserved = {"debug", "verify"};
+const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"debug", {"--vnc"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
@@ -175,6 +175,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   run->add_flag("--no-images", raw.no_images, "no pictures, figures only");
   run->add_option("--export", raw.export_format, "ply: the bodies' surfaces of each frame");
   run->add_flag("--contacts", arguments.run_options.contacts, "write contacts.csv");
+  run->add_flag("--ids", arguments.run_options.ids, "write ids/NNNNNN.png too: what each pixel of a frame shows, for impinge diff to name what changed");
   run->add_flag("--judge", arguments.run_options.judge, "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
   run->add_option("--freeze", raw.freeze, "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_of(run);
@@ -187,11 +188,12 @@ Arguments parse_arguments(int count, const char* const* words) {
   threads_of(replay);
 
   CLI::App* diff = app.add_subcommand("diff", "compare two pictures or two folders of pictures");
-  diff->add_option("A", arguments.a, "PNG file or folder")->required();
-  diff->add_option("B", arguments.b, "PNG file or folder")->required();
-  diff->add_option("--out", arguments.out, "folder for three-panel pictures of the differences");
+  diff->add_option("A", arguments.a, "PNG file or folder: what is wanted")->required();
+  diff->add_option("B", arguments.b, "PNG file or folder: what there is")->required();
+  diff->add_option("--out", arguments.out, "folder for report.html and three-panel pictures of the differences");
   diff->add_option("--tolerance", raw.tolerance, "largest difference of a channel, of 255, that counts as equal (default: 3)");
   diff->add_option("--mask", arguments.mask, "PNG: black pixels are not compared");
+  diff->add_flag("--update", arguments.update, "make A what B is where they differ beyond the limits, and say what was rewritten");
 
   CLI::App* check = app.add_subcommand("check", "check a scene (and a script) and do nothing else");
   scene_of(check);
@@ -210,6 +212,21 @@ Arguments parse_arguments(int count, const char* const* words) {
   step->add_option("--tolerance", raw.step_tolerance, "relative residual to reach: of a frozen step the natural map, of a published problem Siconos' (default: 1e-8)");
   step->add_option("--max-iterations", raw.max_iterations, "iterations at most (default: 2000)");
   step->add_option("--out", arguments.out, "folder for methods.csv, solution_METHOD.csv, history_METHOD.csv, work_precision.csv and their plots");
+
+  CLI::App* test = app.add_subcommand("test", "run every scene of a folder that has a script of the same name, and check its expectations and pictures");
+  test->add_option("DIR", arguments.a, "folder of NAME.toml and NAME.script; pictures as the scripts' `expect image` lines name them")->required();
+  test->add_option("--junit", arguments.junit, "XML file of the outcome, as continuous integration reads it");
+  test->add_option("--out", arguments.out, "folder for the runs and the reports of failures (default: out/DIR-test)");
+  test->add_option("--size", raw.size, "WIDTHxHEIGHT of pictures without a baseline yet (default: 320x180)");
+  test->add_flag("--update", arguments.update, "write the pictures that `expect image` lines name where they differ or are missing, and say which");
+  threads_of(test);
+
+  CLI::App* compare = app.add_subcommand("compare", "two runs: what was set differently, and in which frame, body and field they part");
+  compare->add_option("A", arguments.a, "folder of a run")->required();
+  compare->add_option("B", arguments.b, "folder of a run")->required();
+  compare->add_option("--out", arguments.out, "folder for difference.csv, its plot, and frames of A and B side by side");
+  compare->add_option("--tolerance", raw.tolerance, "of pictures: largest difference of a channel, of 255, that counts as equal (default: 3)");
+  threads_of(compare);
 
   CLI::App* sweep = app.add_subcommand("sweep", "run a scene with many settings and put what came out side by side");
   const auto words_of = [&](const char* name, std::vector<std::string>& to, const char* doc) { sweep->add_option(name, to, doc)->take_all()->allow_extra_args(false); };
@@ -253,6 +270,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   arguments.kind = static_cast<Arguments::Kind>(std::find(kBuilt.begin(), kBuilt.end(), command) - kBuilt.begin());
   if (command == "run" && raw.out.empty()) raw.out = "out/" + std::filesystem::path(raw.scene).stem().string();
   if (command == "sweep") check_sweep(raw, arguments);
+  if (command == "test" && raw.size.empty()) raw.size = "320x180";
   take_raw(raw, arguments);
   return arguments;
 }

@@ -10,16 +10,18 @@
 namespace impinge {
 
 struct Arguments {
-  enum Kind { run, replay, diff, check, info, list, step, sweep, print };
+  enum Kind { run, replay, diff, check, info, list, step, sweep, test, compare, print };
   Kind kind = print;
   std::string text;             ///< of print: help or version
   RunOptions run_options;       ///< run; check and info use scene and overrides
   std::string video;            ///< run: file, "" for none
   int threads = 0;              ///< 0: as many as the machine has cores
   bool quiet = false;
-  std::string a, b;             ///< diff: the two sides; replay: a is the folder; list: a is the topic; step: a is the file
-  std::string out, mask;        ///< diff; step: out
-  int tolerance = 3;            ///< diff, of 255
+  std::string a, b;             ///< diff, compare: the two sides; replay, test: a is the folder; list: a is the topic; step: a is the file
+  std::string out, mask;        ///< diff; step, test, compare: out
+  std::string junit;            ///< test: file, "" for none
+  bool update = false;          ///< diff, test: rewrite baselines
+  int tolerance = 3;            ///< diff, compare, of 255
   std::vector<std::string> responses;  ///< step: names, empty for all
   std::vector<std::string> lcp;  ///< step: names of solvers, empty for all
   double step_tolerance = 1e-8;  ///< step: relative residual

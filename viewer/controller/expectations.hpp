@@ -10,8 +10,8 @@ namespace impinge {
 class Expectations {
  public:
   /// `report` gets one line for each failure. The script must outlive this.
-  /// `judged`: the figures have those of --judge.
-  Expectations(const Script& script, bool judged, std::function<void(const std::string&)> report) : script_(script), judged_(judged), report_(std::move(report)) {}
+  /// `judged`: the figures have those of --judge. `pictures`: `expect image` lines are judged too.
+  Expectations(const Script& script, bool judged, bool pictures, std::function<void(const std::string&)> report) : script_(script), judged_(judged), pictures_(pictures), report_(std::move(report)) {}
 
   /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is compared.
   void check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture);
@@ -24,7 +24,7 @@ class Expectations {
 
  private:
   const Script& script_;
-  bool judged_ = false;
+  bool judged_ = false, pictures_ = true;
   std::function<void(const std::string&)> report_;
   int failures_ = 0;
 };

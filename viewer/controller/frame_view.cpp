@@ -47,8 +47,9 @@ void FrameView::move_camera(const CameraCommand& command, const StepRecord& reco
   settings_.camera_given = true;
 }
 
-void FrameView::open(const std::string& scene_name) {
+void FrameView::open(const std::string& scene_name, bool ids) {
   scene_name_ = scene_name;
+  with_ids_ = ids;
   try {
     painter_ = std::make_unique<FramePainter>(width_, height_);
   } catch (const InternalError& error) {
@@ -61,7 +62,9 @@ void FrameView::open(const std::string& scene_name) {
 double FrameView::draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder) {
   const auto start = std::chrono::steady_clock::now();
   Image image;
-  painter_->paint(record, settings_, image);
+  IdImage ids;
+  if (with_ids_) painter_->paint(record, settings_, image, ids);
+  else painter_->paint(record, settings_, image);
   const double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
   std::vector<std::string> lines;
@@ -71,15 +74,22 @@ double FrameView::draw(const StepRecord& record, std::span<const Command> comman
                   {"impinge:commands", fmt::format("{}", fmt::join(lines, "\n"))},
                   {"impinge:state_hash", hex64(record.stats.state_hash)},
                   {"impinge:renderer", painter_->renderer_name()}};
-  if (pictures_ == nullptr) pictures_ = std::make_unique<PngSequence>(folder);
+  if (with_ids_) {
+    keep_visible_objects(ids);
+    if (id_pictures_ == nullptr) id_pictures_ = std::make_unique<PngSequence>(folder / "ids");
+    id_pictures_->add(record.stats.frame, id_picture(ids), id_text(ids));
+  }
+  if (pictures_ == nullptr) pictures_ = std::make_unique<PngSequence>(folder / "frames");
   pictures_->add(record.stats.frame, std::move(image), std::move(text));
   return milliseconds;
 }
 
 void FrameView::finish() {
-  if (pictures_ == nullptr) return;
-  pictures_->finish();
-  pictures_.reset();  // a finished sequence takes no more
+  for (std::unique_ptr<PngSequence>* sequence : {&pictures_, &id_pictures_}) {
+    if (*sequence == nullptr) continue;
+    (*sequence)->finish();
+    sequence->reset();  // a finished sequence takes no more
+  }
 }
 
 std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance) {

@@ -21,9 +21,11 @@ class FrameView {
   void settle(const StepRecord& record, int width, int height);
   void move_camera(const CameraCommand& command, const StepRecord& record);
 
-  /// Makes ready to draw pictures of the settled size; without it no OpenGL is touched. Throws InputError without OpenGL.
-  void open(const std::string& scene_name);
-  /// Draws the frame and hands the picture on, to be written into `folder`; returns the milliseconds of drawing.
+  /// Makes ready to draw pictures of the settled size; without it no OpenGL is touched. `ids`: id pictures too. Throws
+  /// InputError without OpenGL.
+  void open(const std::string& scene_name, bool ids = false);
+  /// Draws the frame and hands the picture on, to be written into `folder`/frames, and what its pixels show into
+  /// `folder`/ids; returns the milliseconds of drawing.
   double draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder);
   /// Returns when all pictures are on the disk. Throws InputError where one can't be written.
   void finish();
@@ -33,7 +35,8 @@ class FrameView {
   int width_ = 1280, height_ = 720;  // pixels
   std::string scene_name_;
   std::unique_ptr<FramePainter> painter_;
-  std::unique_ptr<PngSequence> pictures_;
+  bool with_ids_ = false;
+  std::unique_ptr<PngSequence> pictures_, id_pictures_;
 };
 
 /// What sets two pictures apart beyond the tolerance (of 255), in words; "" if nothing does.

@@ -19,6 +19,7 @@ RunRecord record_of(const RunOptions& options, const Session& session, int last_
   RunRecord record = session.run_record();
   record.frames = last_frame;
   record.images = options.images;
+  record.ids = options.ids;
   record.contacts = options.contacts;
   record.export_ply = options.export_ply;
   record.width = options.width;
@@ -35,21 +36,22 @@ int RunResult::exit_code() const {
 }
 
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
-  Session session(options.scene, options.overrides, options.script, {options.width, options.height, options.judge});
+  Session session(options.scene, options.overrides, options.script, {options.width, options.height, options.judge, !options.compares_pictures});
   const int last_frame = options.frames.value_or(session.default_last_frame());
   if (!options.images && !session.script().images().empty())
     throw InputError(session.script().images().front().place + ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
+  if (!options.images && options.ids) throw InputError("command line: --ids in a run without pictures; pictures are wanted; leave out --no-images");
   if (options.freeze && (*options.freeze < 1 || *options.freeze > last_frame))
     throw InputError(fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; change it, or --frames", *options.freeze, last_frame));
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
-  if (options.images) view.open(session.scene().path.filename().string());
+  if (options.images) view.open(session.scene().path.filename().string(), options.ids);
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume);
 
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = session.is_judged();
-  Expectations expectations(session.script(), judged, watcher.message);
+  Expectations expectations(session.script(), judged, options.compares_pictures, watcher.message);
   const auto judge = [&](int frame, std::span<const double> figures) {
     expectations.check(frame, figures, [&] { return folder.picture(frame); });
     if (!expectations.breaks(frame, figures)) return false;
@@ -79,7 +81,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     }
     const int frame = session.frame();
     FrameExtras extras;
-    extras.render_ms = options.images ? view.draw(session.record(), commands, folder.picture(frame).parent_path()) : 0.0;
+    extras.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
     if (judged) {
       const OverlapVerdict verdict = judge_overlap(session.world().bodies());
       extras.judged_penetration = verdict.penetration;

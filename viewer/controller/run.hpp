@@ -16,7 +16,8 @@ struct RunOptions {
   std::optional<int> freeze;             ///< the frame whose last sub-step is written as a frozen step
   std::vector<std::string> overrides;    ///< PATH=VALUE
   int width = 1280, height = 720;        ///< pixels
-  bool images = true, contacts = false, export_ply = false, judge = false, resume = false;
+  bool images = true, ids = false, contacts = false, export_ply = false, judge = false, resume = false;
+  bool compares_pictures = true;         ///< false: `expect image` lines are left to the caller, and their files may be missing
 };
 
 /// Whoever watches a run. Called in the thread of run().

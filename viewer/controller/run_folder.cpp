@@ -108,6 +108,7 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   clear_markers();
   make_folder(folder_ / "snapshots");
   if (run_.images) make_folder(folder_ / "frames");
+  if (run_.ids) make_folder(folder_ / "ids");
   if (run_.export_ply) make_folder(folder_ / "surfaces");
   const std::string log = read_if_there(folder_ / "commands.log");
   commands_ = AppendFile(folder_ / "commands.log", resume_frame() < 0 ? 0 : bytes_up_to(log, resume_frame(), false, frame_of_command));
@@ -142,7 +143,7 @@ int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
   int pictures = static_cast<int>(rows.size());
   if (run_.images) {
     int there = 0;
-    while (there < pictures && fs::exists(picture(there))) ++there;
+    while (there < pictures && fs::exists(picture(there)) && (!run_.ids || fs::exists(id_picture(there)))) ++there;
     pictures = there;
   }
   for (int frame = pictures - 1; frame >= 0; --frame)
@@ -160,6 +161,7 @@ void RunFolder::clear_markers() const {
 
 fs::path RunFolder::snapshot(int frame) const { return folder_ / "snapshots" / (six_digits(frame) + ".bin"); }
 fs::path RunFolder::picture(int frame) const { return folder_ / "frames" / (six_digits(frame) + ".png"); }
+fs::path RunFolder::id_picture(int frame) const { return folder_ / "ids" / (six_digits(frame) + ".png"); }
 
 fs::path RunFolder::frozen_step(int frame) const { return folder_ / "frozen" / (six_digits(frame) + ".step"); }
 

@@ -25,6 +25,7 @@ class RunFolder {
   int resume_frame() const { return static_cast<int>(kept_.size()) - 1; }
   std::filesystem::path snapshot(int frame) const;
   std::filesystem::path picture(int frame) const;
+  std::filesystem::path id_picture(int frame) const;
   std::filesystem::path frozen_step(int frame) const;
   const std::filesystem::path& path() const { return folder_; }
 

@@ -36,7 +36,8 @@ class Script {
 
   Script() = default;
   /// `name` is the file's in messages, `folder` what image paths are relative to. Throws InputError `file:line:column`.
-  Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines, const ParameterSet& rows, const std::vector<std::string>& figures);
+  Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines, const ParameterSet& rows, const std::vector<std::string>& figures,
+         bool pictures_may_be_missing = false);
 
   /// What takes effect with the frame, in the order of the lines; ramps as `set`.
   std::vector<Command> commands_at(int frame) const;
@@ -63,6 +64,7 @@ class Script {
   std::vector<ImageExpectation> images_;
   std::vector<Break> breaks_;
   int last_frame_ = -1;
+  bool pictures_may_be_missing_ = false;
 };
 
 /// The lines of a script file. Throws InputError.

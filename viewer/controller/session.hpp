@@ -16,6 +16,7 @@ class ByteWriter;
 struct SessionOptions {
   int width = 1280, height = 720;  ///< of pictures, pixels: a camera that the scene doesn't give is fitted to them
   bool judge = false;              ///< whether the judged figures exist, for scripts to name
+  bool pictures_may_be_missing = false;  ///< those that the script's `expect image` lines name
 };
 
 class Session {

@@ -94,6 +94,12 @@ struct ColorBar {
   bool exceeded = false;  ///< whether something in the picture lies beyond
 };
 
+/// How much of a draw list there was when a layer had drawn.
+struct DrawnLayer {
+  std::string_view name;
+  std::size_t points = 0, lines = 0, arrows = 0, surfaces = 0, triangles = 0, planes = 0;
+};
+
 struct DrawList {
   std::vector<DrawPoint> points;
   std::vector<DrawLine> lines;
@@ -103,8 +109,11 @@ struct DrawList {
   std::vector<DrawPlane> planes;
   std::vector<DrawLabel> labels;
   std::optional<ColorBar> color_bar;
+  std::vector<DrawnLayer> layers;  ///< in the order of drawing; may be empty
 
   void clear();
+  /// What was added since the last such call belongs to that layer.
+  void end_layer(std::string_view name);
   /// The twelve edges of a box given in the frame of `pose`.
   void add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth, PickId pick);
 };

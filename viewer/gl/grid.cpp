@@ -21,7 +21,7 @@ double round_length(double length) {
 
 }  // namespace
 
-Grid::Grid() {
+Grid::Grid(bool ids) : program_("grid", ids ? "IDS" : "") {
   array_.floats(0, 3, sizeof(Corner), offsetof(Corner, position));
   array_.floats(1, 2, sizeof(Corner), offsetof(Corner, in_plane));
   array_.floats(2, 2, sizeof(Corner), offsetof(Corner, from_center));

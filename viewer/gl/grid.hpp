@@ -10,12 +10,13 @@ namespace impinge {
 
 class Grid {
  public:
-  Grid();
+  /// `ids`: for id buffers; colours are then ids (gl/id_buffer.hpp).
+  explicit Grid(bool ids = false);
   /// Before the surfaces: it writes depth, so that what is below the floor stays hidden.
   void draw(const DrawPlane& plane, const Camera& camera, const ViewTransform& view, float pixel_scale);
 
  private:
-  Program program_{"grid"};
+  Program program_;
   VertexArray array_;
 };
 

@@ -29,7 +29,10 @@ void with_depth(Depth depth, const std::function<void(float)>& draw) {
 
 }  // namespace
 
-Marks::Marks() {
+Marks::Marks(bool ids)
+    : segment_program_("segment", ids ? "IDS" : ""),
+      point_program_("point", ids ? "IDS" : ""),
+      flat_program_("flat", ids ? "IDS" : "") {
   segment_array_.floats(0, 3, sizeof(Segment), offsetof(Segment, a), true);
   segment_array_.floats(1, 3, sizeof(Segment), offsetof(Segment, b), true);
   segment_array_.bytes(2, 4, sizeof(Segment), offsetof(Segment, color), true);

@@ -12,8 +12,8 @@ namespace impinge {
 
 class Marks {
  public:
-  /// A context must be current, here and in every call.
-  Marks();
+  /// A context must be current, here and in every call. `ids`: for id buffers; colours are then ids (gl/id_buffer.hpp).
+  explicit Marks(bool ids = false);
 
   /// Draws them over the surfaces whose depth is in the bound framebuffer; `pixel_scale` multiplies sizes in pixels.
   void draw(const DrawList& list, const ViewTransform& view, float pixel_scale);
@@ -42,7 +42,7 @@ class Marks {
   void draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale, bool arrows,
                      Depth depth);
 
-  Program segment_program_{"segment"}, point_program_{"point"}, flat_program_{"flat"};
+  Program segment_program_, point_program_, flat_program_;
   VertexArray segment_array_, point_array_, flat_array_;
 };
 

@@ -5,11 +5,13 @@
 namespace impinge {
 namespace {
 
-GLuint compile(GLenum stage, const std::string& file) {
+GLuint compile(GLenum stage, const std::string& file, const std::string& define) {
   const auto source = shader_sources().find(file);
   if (source == shader_sources().end()) throw InternalError("no shader " + file);
   const GLuint shader = glCreateShader(stage);
-  const char* text = source->second.c_str();
+  std::string whole = source->second;
+  if (!define.empty()) whole.insert(whole.find('\n') + 1, "#define " + define + "\n");  // after #version
+  const char* text = whole.c_str();
   glShaderSource(shader, 1, &text, nullptr);
   glCompileShader(shader);
   GLint good = 0;
@@ -24,9 +26,9 @@ GLuint compile(GLenum stage, const std::string& file) {
 
 }  // namespace
 
-Program::Program(const std::string& name) {
-  const GLuint vertex = compile(GL_VERTEX_SHADER, name + ".vert"),
-               fragment = compile(GL_FRAGMENT_SHADER, name + ".frag");
+Program::Program(const std::string& name, const std::string& define) {
+  const GLuint vertex = compile(GL_VERTEX_SHADER, name + ".vert", define),
+               fragment = compile(GL_FRAGMENT_SHADER, name + ".frag", define);
   id_ = glCreateProgram();
   glAttachShader(id_, vertex);
   glAttachShader(id_, fragment);

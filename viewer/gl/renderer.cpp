@@ -91,23 +91,23 @@ void Renderer::draw_backdrop(const Backdrop& backdrop) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::draw_surface(const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip) {
+void Renderer::draw_surface(Program& program, const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip) {
   SurfaceBuffers& buffers = buffers_of(item);
-  surface_program_.use();
-  surface_program_.set("model_view", view.model_view(item.placement()));
-  surface_program_.set("color", Eigen::Vector4f(item.color.r, item.color.g, item.color.b, item.color.a));
-  surface_program_.set("outline_only", item.see_through ? 1.0f : 0.0f);
-  surface_program_.set("heated", item.heat ? 1.0f : 0.0f);
+  program.use();
+  program.set("model_view", view.model_view(item.placement()));
+  program.set("color", Eigen::Vector4f(item.color.r, item.color.g, item.color.b, item.color.a));
+  program.set("outline_only", item.see_through ? 1.0f : 0.0f);
+  program.set("heated", item.heat ? 1.0f : 0.0f);
   float bands = 0.0f;
   if (item.striped) bands = 9.0f / std::max(item.bounds().sizes().sum(), 1e-12f);
   const Color stripe = role::kScriptedStripe;
-  surface_program_.set("stripes", Eigen::Vector4f(stripe.r, stripe.g, stripe.b, bands));
-  surface_program_.set("cut", left_of(item, clip) == Left::some ? 1.0f : 0.0f);
+  program.set("stripes", Eigen::Vector4f(stripe.r, stripe.g, stripe.b, bands));
+  program.set("cut", left_of(item, clip) == Left::some ? 1.0f : 0.0f);
   buffers.array.bind();
   glDrawElements(GL_TRIANGLES, buffers.indices, GL_UNSIGNED_INT, nullptr);
 }
 
-void Renderer::draw_see_through(const DrawList& list, const ViewTransform& view, const ClipPlane& clip) {
+void Renderer::draw_see_through(Program& program, const DrawList& list, const ViewTransform& view, const ClipPlane& clip) {
   std::vector<const DrawSurface*> order;
   for (const DrawSurface& item : list.surfaces)
     if (item.see_through && left_of(item, clip) != Left::none) order.push_back(&item);
@@ -118,36 +118,37 @@ void Renderer::draw_see_through(const DrawList& list, const ViewTransform& view,
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   glEnable(GL_CULL_FACE);
-  for (const DrawSurface* item : order) draw_surface(*item, view, clip);
+  for (const DrawSurface* item : order) draw_surface(program, *item, view, clip);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
 }
 
-void Renderer::draw_surfaces(const DrawList& list, const ViewTransform& view, const RenderStyle& style) {
+void Renderer::prepare(Program& program, const DrawList& list, const ViewTransform& view, const RenderStyle& style) {
   // a surface that is gone may leave its address to another
   std::erase_if(buffers_, [](const auto& entry) { return entry.second.surface.expired(); });
-  surface_program_.use();
-  surface_program_.set("projection", view.projection);
-  surface_program_.set("eye_up", view.eye_up);
-  surface_program_.set("heat_colors[0]", heat_table_);
-  if (style.clip.is_on()) {
-    const Eigen::Vector3f normal = (view.rotation * style.clip.normal.normalized()).cast<float>();
-    const auto eye_height = static_cast<float>(style.clip.height(view.eye));
-    surface_program_.set("clip", Eigen::Vector4f(normal.x(), normal.y(), normal.z(), eye_height));
-    const Color edge = role::kInk;
-    surface_program_.set("cut_edge", Eigen::Vector4f(edge.r, edge.g, edge.b, 0.8f + style.pixel_scale));
-  }
+  program.use();
+  program.set("projection", view.projection);
+  program.set("eye_up", view.eye_up);
+  program.set("heat_colors[0]", heat_table_);
+  if (!style.clip.is_on() || list.surfaces.empty()) return;
+  const Eigen::Vector3f normal = (view.rotation * style.clip.normal.normalized()).cast<float>();
+  const auto eye_height = static_cast<float>(style.clip.height(view.eye));
+  program.set("clip", Eigen::Vector4f(normal.x(), normal.y(), normal.z(), eye_height));
+  const Color edge = role::kInk;
+  program.set("cut_edge", Eigen::Vector4f(edge.r, edge.g, edge.b, 0.8f + style.pixel_scale));
+}
+
+void Renderer::draw_solid(Program& program, const DrawList& list, const ViewTransform& view, const RenderStyle& style) {
   for (const DrawSurface& item : list.surfaces) {
     const Left left = left_of(item, style.clip);
     if (item.see_through || left == Left::none) continue;
     if (style.backs != Backs::shown || (left == Left::all && hides_its_backs(item, view))) glEnable(GL_CULL_FACE);
     glCullFace(style.backs == Backs::only ? GL_FRONT : GL_BACK);
-    draw_surface(item, view, style.clip);
+    draw_surface(program, item, view, style.clip);
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
   }
-  draw_see_through(list, view, style.clip);
 }
 
 void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target) {
@@ -161,9 +162,26 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyl
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view, style.pixel_scale);
-  draw_surfaces(list, view, style);
+  prepare(surface_program_, list, view, style);
+  draw_solid(surface_program_, list, view, style);
+  draw_see_through(surface_program_, list, view, style.clip);
   if (style.smooth_edges) target.smooth_edges();
   marks_.draw(list, view, style.pixel_scale);
+}
+
+void Renderer::draw_ids(const DrawList& coded, const Camera& camera, const RenderStyle& style, IdBuffer& target) {
+  if (id_pass_ == nullptr) id_pass_ = std::make_unique<IdPass>();
+  const ViewTransform view = make_view_transform(camera, bounds_of(coded), target.width(), target.height());
+  target.bind_cleared();
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  // see-through walls first: they count only where nothing else is
+  prepare(id_pass_->surfaces, coded, view, style);
+  draw_see_through(id_pass_->surfaces, coded, view, style.clip);
+  for (const DrawPlane& plane : coded.planes) id_pass_->grid.draw(plane, camera, view, style.pixel_scale);
+  id_pass_->surfaces.use();
+  draw_solid(id_pass_->surfaces, coded, view, style);
+  id_pass_->marks.draw(coded, view, style.pixel_scale);
 }
 
 }  // namespace impinge

@@ -6,6 +6,7 @@
 #include "viewer/draw/clip_plane.hpp"
 #include "viewer/gl/framebuffer.hpp"
 #include "viewer/gl/grid.hpp"
+#include "viewer/gl/id_buffer.hpp"
 #include "viewer/gl/marks.hpp"
 
 namespace impinge {
@@ -31,6 +32,9 @@ class Renderer {
   /// Draws into `target`, which is left bound.
   void draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target);
 
+  /// What draw() shows, pixel by pixel. `coded`: the list with colours that are ids, see code_colors().
+  void draw_ids(const DrawList& coded, const Camera& camera, const RenderStyle& style, IdBuffer& target);
+
  private:
   struct SurfaceBuffers {
     std::weak_ptr<const ShadedSurface> surface;
@@ -41,10 +45,17 @@ class Renderer {
   };
 
   SurfaceBuffers& buffers_of(const DrawSurface& item);
+  struct IdPass {
+    Program surfaces{"surface", "IDS"};
+    Grid grid{true};
+    Marks marks{true};
+  };
+
   void draw_backdrop(const Backdrop& backdrop);
-  void draw_surfaces(const DrawList& list, const ViewTransform& view, const RenderStyle& style);
-  void draw_surface(const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip);
-  void draw_see_through(const DrawList& list, const ViewTransform& view, const ClipPlane& clip);
+  void prepare(Program& program, const DrawList& list, const ViewTransform& view, const RenderStyle& style);
+  void draw_solid(Program& program, const DrawList& list, const ViewTransform& view, const RenderStyle& style);
+  void draw_surface(Program& program, const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip);
+  void draw_see_through(Program& program, const DrawList& list, const ViewTransform& view, const ClipPlane& clip);
 
   Program surface_program_{"surface"}, backdrop_program_{"backdrop"};
   VertexArray nothing_;  // a core profile draws nothing without a vertex array
@@ -52,6 +63,7 @@ class Renderer {
   std::map<const ShadedSurface*, SurfaceBuffers> buffers_;
   Grid grid_;
   Marks marks_;
+  std::unique_ptr<IdPass> id_pass_;  // made when it is first needed
 };
 
 }  // namespace impinge

@@ -84,10 +84,12 @@ std::string describe(const Difference& d) {
   std::string text = fmt::format("{} of {} pixels differ by more than {} levels (at most {} may), the most by {}",
                                  d.differing, d.compared, s.tolerance, d.allowed, d.max_level);
   if (d.differing > 0) {
-    text += fmt::format("; {:.2g} % of the {} drawn ones", 100 * d.share_of_drawn, d.drawn);
+    text += fmt::format("; {:.3g} % of the {} drawn ones", 100 * d.share_of_drawn, d.drawn);
     text += fmt::format("; {} in the {} x {} window at ({}, {}) (at most {} may)", d.worst_window, s.window, s.window,
                         d.worst_at[0], d.worst_at[1], s.allowed_in_window);
     text += fmt::format("; all within {} x {} at ({}, {})", d.box[2], d.box[3], d.box[0], d.box[1]);
+    if (d.too_many && d.too_dense) text += "; breaks the limit on the whole picture and that on a window";
+    else if (!d.same) text += d.too_many ? "; breaks the limit on the whole picture" : "; breaks the limit on a window";
   }
   return (d.same ? "same: " : "different: ") + text;
 }
@@ -126,7 +128,9 @@ Difference compare(const Image& a, const Image& b, const DifferenceSettings& set
   difference.allowed =
       static_cast<std::int64_t>(std::min(std::ceil(settings.allowed_per_megapixel * difference.compared / 1e6),
                                          std::floor(settings.allowed_of_drawn * difference.drawn)));
-  difference.same = difference.differing <= difference.allowed && difference.worst_window <= settings.allowed_in_window;
+  difference.too_many = difference.differing > difference.allowed;
+  difference.too_dense = difference.worst_window > settings.allowed_in_window;
+  difference.same = !difference.too_many && !difference.too_dense;
   difference.reason = describe(difference);
   return difference;
 }

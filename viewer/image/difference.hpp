@@ -32,6 +32,8 @@ struct Difference {
   std::array<int, 4> box = {0, 0, 0, 0};  ///< x, y, width, height around the differing pixels
   int worst_window = 0;                   ///< differing pixels in the fullest window
   std::array<int, 2> worst_at = {0, 0};   ///< x, y of its upper left corner: the first such one, row by row
+  bool too_many = false;                  ///< more than `allowed` in all
+  bool too_dense = false;                 ///< more than settings.allowed_in_window in a window
   DifferenceSettings settings;
   std::string reason;  ///< one line: what was found and which limits it breaks
 };
@@ -45,6 +47,9 @@ Difference compare(const Image& a, const Image& b, const DifferenceSettings& set
 /// A, B and, over a dim grey A, the pixels that differ (yellow to red as the difference grows; tolerated ones blue),
 /// side by side, with the fullest window framed and `difference.reason` below. Small pictures are enlarged.
 Image difference_panels(const Image& a, const Image& b, const Difference& difference, const Image* mask = nullptr);
+
+/// The third of the panels alone, as large as the pictures; pixels that differ get `surround` dark red ones on every side.
+Image difference_overlay(const Image& a, const Image& b, int tolerance, int surround, const Image* mask = nullptr);
 
 /// Largest difference of a channel between two pixels.
 int channel_difference(const std::uint8_t* l, const std::uint8_t* r);

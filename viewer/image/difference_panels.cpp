@@ -28,8 +28,24 @@ Rgb heat(int level, int tolerance) {
   return {255, static_cast<std::uint8_t>(std::clamp(green, 0, 255)), 0};
 }
 
-/// Dim grey A; pixels that differ get `surround` dark red ones on every side, for a single one to be seen.
-Image amplified(const Image& a, const Image& b, int tolerance, int surround, const Image* mask) {
+/// `text` in lines of at most `width` pixels, broken at blanks where there are any.
+std::vector<std::string> wrap(std::string text, int width, int scale) {
+  const auto room = static_cast<std::size_t>(std::max(width / (6 * scale), 1));
+  std::vector<std::string> lines;
+  while (text.size() > room) {
+    const std::size_t blank = text.rfind(' ', room);
+    const bool breaks = blank != std::string::npos && blank > 0;
+    lines.push_back(text.substr(0, breaks ? blank : room));
+    text.erase(0, breaks ? blank + 1 : room);
+  }
+  lines.push_back(text);
+  return lines;
+}
+
+}  // namespace
+
+// over a dim grey A; the surround lets a single pixel be seen
+Image difference_overlay(const Image& a, const Image& b, int tolerance, int surround, const Image* mask) {
   Image out(a.width, a.height);
   if (a.width != b.width || a.height != b.height) return out;
   const auto compared = [&](int x, int y) {
@@ -57,22 +73,6 @@ Image amplified(const Image& a, const Image& b, int tolerance, int surround, con
   return out;
 }
 
-/// `text` in lines of at most `width` pixels, broken at blanks where there are any.
-std::vector<std::string> wrap(std::string text, int width, int scale) {
-  const auto room = static_cast<std::size_t>(std::max(width / (6 * scale), 1));
-  std::vector<std::string> lines;
-  while (text.size() > room) {
-    const std::size_t blank = text.rfind(' ', room);
-    const bool breaks = blank != std::string::npos && blank > 0;
-    lines.push_back(text.substr(0, breaks ? blank : room));
-    text.erase(0, breaks ? blank + 1 : room);
-  }
-  lines.push_back(text);
-  return lines;
-}
-
-}  // namespace
-
 Image difference_panels(const Image& a, const Image& b, const Difference& difference, const Image* mask) {
   const int width = std::max({a.width, b.width, 1}), height = std::max({a.height, b.height, 1});
   const int zoom = std::max(1, kMinPanelWidth / width);
@@ -82,7 +82,7 @@ Image difference_panels(const Image& a, const Image& b, const Difference& differ
   Image sheet(sheet_width, top + height * zoom + kGap + static_cast<int>(lines.size()) * line);
   fill_rectangle(sheet, 0, 0, sheet.width, sheet.height, kPaper);
 
-  const Image third = amplified(a, b, difference.settings.tolerance, zoom > 1 ? 0 : 2, mask);
+  const Image third = difference_overlay(a, b, difference.settings.tolerance, zoom > 1 ? 0 : 2, mask);
   const Image* const images[] = {&a, &b, &third};
   const std::string captions[] = {
       fmt::format("A {} x {}", a.width, a.height), fmt::format("B {} x {}", b.width, b.height),

@@ -48,9 +48,9 @@ class Painter {
 
  private:
   float letter() const { return pen_.text_width("0"); }
-  double decade_x(double x) const { return plot_.x_counts && x == 0.0 ? -kZeroShift : std::log10(x); }
+  double decade_x(double x) const { return plot_.x_linear ? x : plot_.x_counts && x == 0.0 ? -kZeroShift : std::log10(x); }
   static double decade_y(double y) { return std::log10(std::clamp(y, kLowest, kHighest)); }
-  bool is_drawn(const Vec2& p) const { return std::isfinite(p.x()) && !std::isnan(p.y()) && p.y() >= 0.0 && (p.x() > 0.0 || (plot_.x_counts && p.x() == 0.0)); }
+  bool is_drawn(const Vec2& p) const { return std::isfinite(p.x()) && !std::isnan(p.y()) && p.y() >= 0.0 && (p.x() > 0.0 || ((plot_.x_counts || plot_.x_linear) && p.x() == 0.0)); }
 
   void find_ranges() {
     double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
@@ -61,6 +61,11 @@ class Painter {
         y0 = std::min(y0, decade_y(p.y())), y1 = std::max(y1, decade_y(p.y()));
       }
     if (x0 > x1) x0 = 0.0, x1 = 1.0, y0 = -1.0, y1 = 0.0;
+    if (plot_.x_linear) {
+      x_.low = 0.0, x_.high = std::max(x1, 1.0);
+      y_.low = std::floor(y0), y_.high = std::max(std::ceil(y1), y_.low + 1.0);
+      return;
+    }
     // time axes end where the data do, rounded to thirds of a decade; counts begin at 0 or 1
     x_.low = plot_.x_counts ? std::min(x0, 0.0) : std::floor(3.0 * x0 - 0.2) / 3.0;
     x_.high = std::max(x_.low + 0.5, std::ceil(3.0 * x1 + 0.1) / 3.0);
@@ -75,6 +80,13 @@ class Painter {
       pen_.list.AddLine({x_.from, y}, {x_.to, y}, line, u_);
       const std::string text = d == 0 ? "1" : fmt::format("1e{}", d);
       pen_.text(x_.from - pen_.text_width(text) - 7.0f * u_, y - 0.5f * pen_.text_size, kInk, text);
+    }
+    if (plot_.x_linear) {
+      const double raw = x_.high / 10.0, power = std::pow(10.0, std::floor(std::log10(raw))), mantissa = raw / power;
+      const double step = power * (mantissa <= 1.0 ? 1.0 : mantissa <= 2.0 ? 2.0 : mantissa <= 5.0 ? 5.0 : 10.0);
+      for (int k = 0; k * step <= x_.high * (1.0 + 1e-9); ++k) tick_x(k * step, fmt::format("{:g}", k * step), line);
+      pen_.list.AddRect({x_.from, y_.to}, {x_.to, y_.from}, ink, 0.0f, 0, u_);
+      return;
     }
     // a short axis has room for 2 and 5 in each decade
     const bool fine = x_.high - x_.low < 3.5;

@@ -1,4 +1,4 @@
-// A plot with logarithmic axes, drawn with a pen: what it shows as data, and how it looks.
+// A plot with logarithmic axes (or x in equal steps), drawn with a pen: what it shows as data, and how it looks.
 #pragma once
 
 #include <string>
@@ -19,6 +19,7 @@ struct Plot {
   std::vector<PlotSeries> series;
   /// x counts from 0, which a logarithmic axis doesn't have: 0 stands apart at its left end.
   bool x_counts = false;
+  bool x_linear = false;  ///< x from 0 on, in equal steps
 };
 
 /// Fills the whole picture: dark on white, a colour and a kind of mark a series, colours after Okabe & Ito.

@@ -6,7 +6,7 @@
 
 #include "engine/world/step_record.hpp"
 #include "viewer/draw/view_settings.hpp"
-#include "viewer/image/image.hpp"
+#include "viewer/image/id_image.hpp"
 
 namespace impinge {
 
@@ -21,6 +21,8 @@ class FramePainter {
   FramePainter& operator=(const FramePainter&) = delete;
 
   void paint(const StepRecord& record, const ViewSettings& settings, Image& out);
+  /// The same picture, and what each of its pixels shows; panels are objects too. Labels belong to what is behind them.
+  void paint(const StepRecord& record, const ViewSettings& settings, Image& out, IdImage& ids);
   /// What draws, with its version: "llvmpipe (LLVM 15.0.6, 256 bits) 22.3.6".
   std::string renderer_name() const;
 
