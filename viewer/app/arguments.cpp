@@ -15,8 +15,8 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step", "sweep", "test", "compare"};
-const std::vector<std::string> kReserved = {"debug", "verify"};
+const std::vector<std::string> kBuilt = {"run", "replay", "diff", "check", "info", "list", "step", "sweep", "test", "compare", "debug"};
+const std::vector<std::string> kReserved = {"verify"};
 const std::map<std::string, std::vector<std::string>> kReservedOptions = {{"debug", {"--vnc"}}};
 
 [[noreturn]] void refuse(const std::string& found, const std::string& allowed, const std::string& remedy) {
@@ -90,7 +90,7 @@ std::vector<std::string> words_between_commas(const std::string& text, const cha
 }
 
 struct Raw {
-  std::string response, lcp, step_tolerance, max_iterations, freeze;
+  std::string scale, memory, response, lcp, step_tolerance, max_iterations, freeze;
   std::string size, frames, threads, tolerance, export_format;
   std::string scene, script, out, jobs, repeat, filter, window, job;
   std::vector<std::string> vary, reference, columns;
@@ -113,6 +113,9 @@ void take_raw(const Raw& raw, Arguments& arguments) {
   if (!raw.lcp.empty()) arguments.lcp = words_between_commas(raw.lcp, "--lcp");
   if (!raw.step_tolerance.empty()) arguments.step_tolerance = real(raw.step_tolerance, "--tolerance", 1e-16, 1.0);
   if (!raw.max_iterations.empty()) arguments.max_iterations = whole(raw.max_iterations, "--max-iterations", 1, 100'000'000);
+  if (!raw.scale.empty()) arguments.scale = whole(raw.scale, "--scale", 1, 8);
+  if (!raw.memory.empty()) arguments.memory = whole(raw.memory, "--memory", 1, 1 << 20);
+  if (arguments.window && arguments.headless) refuse("--window and --headless", "one of them is allowed", "leave one out");
   if (!raw.export_format.empty()) {
     if (raw.export_format != "ply") refuse(fmt::format("--export is '{}'", raw.export_format), "ply is wanted", "write --export ply");
     options.export_ply = true;
@@ -227,6 +230,20 @@ Arguments parse_arguments(int count, const char* const* words) {
   compare->add_option("--out", arguments.out, "folder for difference.csv, its plot, and frames of A and B side by side");
   compare->add_option("--tolerance", raw.tolerance, "of pictures: largest difference of a channel, of 255, that counts as equal (default: 3)");
   threads_of(compare);
+
+  CLI::App* debug = app.add_subcommand("debug", "the interactive debugger: play, step, go back, pick and change; what is done by hand is a script");
+  debug->add_option("SCENE", raw.scene, "scene file (TOML), or the folder of a run, which is shown without being simulated again where it has a snapshot")->required();
+  debug->add_option("--script", raw.script, "script file: lines by frame as for run, and lines done one after another (viewer/README.md)");
+  debug->add_option("--record", arguments.record, "file that gets what was done, as lines of a script that do it again");
+  debug->add_flag("--window", arguments.window, "show a window, after the script if there is one (default where there is a screen)");
+  debug->add_flag("--headless", arguments.headless, "no window: the script drives it");
+  debug->add_option("--out", raw.out, "folder that `shot FILE` lines write into (default: here)");
+  debug->add_option("--size", raw.size, "WIDTHxHEIGHT of the window in pixels (default: 1280x720)");
+  debug->add_option("--scale", raw.scale, "size of text, in steps of 13 pixels (default: by the height)");
+  debug->add_option("--memory", raw.memory, "megabytes of states kept for going back (default: 256)");
+  debug->add_option("--set", arguments.run_options.overrides, "PATH=VALUE: override a parameter of the scene (repeatable)")->take_all()->allow_extra_args(false);
+  debug->add_flag("--quiet", arguments.quiet, "say nothing but problems");
+  threads_of(debug);
 
   CLI::App* sweep = app.add_subcommand("sweep", "run a scene with many settings and put what came out side by side");
   const auto words_of = [&](const char* name, std::vector<std::string>& to, const char* doc) { sweep->add_option(name, to, doc)->take_all()->allow_extra_args(false); };

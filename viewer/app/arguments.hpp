@@ -10,7 +10,7 @@
 namespace impinge {
 
 struct Arguments {
-  enum Kind { run, replay, diff, check, info, list, step, sweep, test, compare, print };
+  enum Kind { run, replay, diff, check, info, list, step, sweep, test, compare, debug, print };
   Kind kind = print;
   std::string text;             ///< of print: help or version
   RunOptions run_options;       ///< run; check and info use scene and overrides
@@ -26,6 +26,10 @@ struct Arguments {
   std::vector<std::string> lcp;  ///< step: names of solvers, empty for all
   double step_tolerance = 1e-8;  ///< step: relative residual
   int max_iterations = 2000;     ///< step
+  std::string record;           ///< debug: file, "" for none
+  bool window = false, headless = false;  ///< debug
+  int scale = 0;                ///< debug: of text; 0: by the height
+  int memory = 256;             ///< debug: megabytes
   SweepOptions sweep_options;   ///< sweep
 };
 

@@ -14,6 +14,7 @@ int info_command(const Arguments& arguments);
 int list_command(const Arguments& arguments);
 int step_command(const Arguments& arguments);
 int sweep_command(const Arguments& arguments);
+int debug_command(const Arguments& arguments);
 int test_command(const Arguments& arguments);
 int compare_command(const Arguments& arguments);
 

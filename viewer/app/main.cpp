@@ -20,6 +20,7 @@ int dispatch(const impinge::Arguments& arguments) {
     case Arguments::list: return impinge::list_command(arguments);
     case Arguments::step: return impinge::step_command(arguments);
     case Arguments::sweep: return impinge::sweep_command(arguments);
+    case Arguments::debug: return impinge::debug_command(arguments);
     case Arguments::test: return impinge::test_command(arguments);
     case Arguments::compare: return impinge::compare_command(arguments);
     case Arguments::print: std::fputs(arguments.text.c_str(), stdout); return 0;

@@ -19,6 +19,7 @@ class FrameView {
   void bind(ParameterSet& rows) { settings_.bind(rows); }
   /// Fixes the proportions of the pictures, and the camera, fitted to the record unless the scene gives one.
   void settle(const StepRecord& record, int width, int height);
+  const ViewSettings& settings() const { return settings_; }
   void move_camera(const CameraCommand& command, const StepRecord& record);
 
   /// Makes ready to draw pictures of the settled size; without it no OpenGL is touched. `ids`: id pictures too. Throws

@@ -73,7 +73,7 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   fs::path folder = script_file.parent_path();
   if (!script_file.empty()) {
     script_name_ = script_file.string();
-    script_lines_ = read_lines(script_file);
+    script_lines_ = options.script_lines ? *options.script_lines : read_lines(script_file);
   } else if (scene_.run) {
     script_name_ = scene_.run->script_file;
     script_lines_ = scene_.run->script;
@@ -98,7 +98,8 @@ std::vector<Command> Session::advance(FrozenStep* frozen) {
   if (frame_ < 0) {
     if (!commands.empty()) start();  // the constructor started the world without them
   } else {
-    if (!commands.empty()) world_.parameters_changed();
+    if (!commands.empty() || changed_) world_.parameters_changed();
+    changed_ = false;
     if (frozen != nullptr) {
       *frozen = world_.step_and_freeze();
       frozen->scene = scene_.path.filename().string();
@@ -108,6 +109,11 @@ std::vector<Command> Session::advance(FrozenStep* frozen) {
   }
   ++frame_;
   return commands;
+}
+
+void Session::change(const Command& command) {
+  apply(command);
+  changed_ = true;
 }
 
 void Session::apply(const Command& command) {
@@ -161,6 +167,7 @@ void Session::restore(ByteReader& in) {
   // after the rows: setting a body's row derives state from it, and the snapshot's bits must stand
   world_.restore(in);
   frame_ = frame;
+  changed_ = false;
 }
 
 }  // namespace impinge

@@ -17,6 +17,7 @@ struct SessionOptions {
   int width = 1280, height = 720;  ///< of pictures, pixels: a camera that the scene doesn't give is fitted to them
   bool judge = false;              ///< whether the judged figures exist, for scripts to name
   bool pictures_may_be_missing = false;  ///< those that the script's `expect image` lines name
+  std::optional<std::vector<std::string>> script_lines = {};  ///< instead of what the script file holds
 };
 
 class Session {
@@ -30,6 +31,9 @@ class Session {
   /// Applies the next frame's commands, then makes that frame: the first call gives frame 0. Returns what was applied.
   /// `frozen`, if given, gets the frame's last sub-step; frame 0 has none. Throws DivergenceError.
   std::vector<Command> advance(FrozenStep* frozen = nullptr);
+
+  /// Applies a command between frames, as if the script had it for the next one. Frame 0 must have been made.
+  void change(const Command& command);
 
   /// The last frame to make when nobody says otherwise: a run.toml's, or the larger of 240 and the script's last.
   int default_last_frame() const;
@@ -45,6 +49,7 @@ class Session {
   const Scene& scene() const { return scene_; }
   const Script& script() const { return script_; }
   FrameView& view() { return view_; }
+  const FrameView& view() const { return view_; }
   bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
   /// The scene's, script's and program's part of run.toml.
   RunRecord run_record() const;
@@ -61,6 +66,7 @@ class Session {
   std::vector<std::string> script_lines_;
   std::string script_name_;
   bool judge_ = false;
+  bool changed_ = false;  // by hand, since the last frame
   int frame_ = -1;
 };
 

@@ -35,6 +35,12 @@ void Framebuffer::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+void Framebuffer::clear(Color color) {
+  bind();
+  glClearColor(color.r, color.g, color.b, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
 void Framebuffer::read_rows() {
   rows_.resize(static_cast<std::size_t>(width_) * height_ * 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
@@ -49,6 +55,13 @@ void Framebuffer::smooth_edges() {
   glBindTexture(GL_TEXTURE_2D, color_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, smooth_rows_.data());
+}
+
+void Framebuffer::copy_to(Framebuffer& target, int x, int y) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer_);
+  const int bottom = target.height_ - y - height_;
+  glBlitFramebuffer(0, 0, width_, height_, x, bottom, x + width_, bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::read(Image& out) {

@@ -1,6 +1,7 @@
 // What is drawn to: an own framebuffer object, one sample a pixel.
 #pragma once
 
+#include "viewer/draw/palette.hpp"
 #include "viewer/image/image.hpp"
 
 namespace impinge {
@@ -16,8 +17,12 @@ class Framebuffer {
   int width() const { return width_; }
   int height() const { return height_; }
   void bind() const;
+  /// Binds it, all of one colour.
+  void clear(Color color);
   /// Smooths the edges of what has been drawn; its depth stays.
   void smooth_edges();
+  /// Copies itself into `target`, its upper left corner at (x, y) from there.
+  void copy_to(Framebuffer& target, int x, int y) const;
   /// Top row first.
   void read(Image& out);
 

@@ -1,0 +1,274 @@
+#include "viewer/controller/debugger.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "viewer/controller/snapshot_file.hpp"
+#include "viewer/controller/stats_table.hpp"
+
+namespace impinge {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kConsoleLines = 500;
+
+bool changes_model(const Command& command) {
+  const auto* set = std::get_if<SetCommand>(&command);
+  return set != nullptr && !set->path.starts_with("view.");
+}
+
+}  // namespace
+
+Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overrides, const fs::path& script, const DebuggerOptions& options)
+    : session_(scene, overrides, script, options.session), ring_(options.most_bytes), run_folder_(options.run_folder),
+      expectations_(session_.script(), session_.is_judged(), false, [this](const std::string& text) { say(ConsoleLine::problem, text); }) {
+  model_.scene = session_.scene().path.filename().string();
+  model_.wanted_last = session_.default_last_frame();
+  if (!run_folder_.empty()) {
+    model_.scene = run_folder_.filename().string();
+    const std::string text = read_file(run_folder_ / "stats.csv", std::uint64_t{1} << 32);
+    std::size_t begin = text.find('\n');
+    for (std::size_t end; begin != std::string::npos && (end = text.find('\n', begin + 1)) != std::string::npos; begin = end) {
+      StatsLine row = parse_stats_row(std::string_view(text).substr(begin + 1, end - begin - 1), session_.is_judged());
+      hashes_.push_back(std::stoull(row.state_hash, nullptr, 16));
+      history_.push_back(std::move(row.figures));
+    }
+  }
+  session_.rows().find("view.panel.figures")->set(false);  // the panels say it
+  advance();
+}
+
+bool Debugger::advance() {
+  const int next = session_.frame() + 1;
+  // again where they were applied already: a value set twice is the same value
+  if (const auto it = by_hand_.find(next); it != by_hand_.end())
+    for (const Command& command : it->second) session_.change(command);
+  try {
+    if (!session_.advance().empty()) changed_frames_.insert(next);
+  } catch (const DivergenceError& error) {
+    playing_ = false;
+    say(ConsoleLine::problem, fmt::format("diverged: {}", error.what()));
+    restore_before(next - 1);
+    while (session_.frame() < next - 1 && advance()) {
+    }
+    return false;
+  }
+  note_frame();
+  return true;
+}
+
+void Debugger::note_frame() {
+  const StepRecord& record = session_.record();
+  const auto frame = static_cast<std::size_t>(session_.frame());
+  std::vector<double> figures = figure_values(record.stats, {}, session_.is_judged());
+  if (frame < hashes_.size()) {
+    if (hashes_[frame] != record.stats.state_hash)
+      say(ConsoleLine::problem, fmt::format("frame {} came out as {:016x}, not {:016x} as before: a bug of impinge", frame, record.stats.state_hash, hashes_[frame]));
+  } else {
+    history_.push_back(std::move(figures));
+    hashes_.push_back(record.stats.state_hash);
+    expectations_.check(session_.frame(), history_.back(), [] { return fs::path(); });
+    if (expectations_.breaks(session_.frame(), history_.back())) playing_ = false;
+  }
+  if (!ring_.has(session_.frame())) {
+    ByteWriter state;
+    session_.save(state);
+    ring_.put(session_.frame(), state.bytes());
+  }
+  follow_selection();
+}
+
+void Debugger::restore_before(int frame) {
+  std::vector<std::pair<const Parameter*, ParameterValue>> view;  // stays as it is
+  for (const Parameter& row : session_.rows().all())
+    if (row.path.starts_with("view.")) view.emplace_back(&row, row.get());
+  const std::optional<int> in_memory = ring_.at_or_before(frame);
+  const std::optional<int> in_folder = last_snapshot_before(frame);
+  if (in_folder && (!in_memory || *in_folder > *in_memory)) {
+    restore_snapshot(snapshot_file(*in_folder), session_);
+  } else {
+    ByteReader state(ring_.state(*in_memory));
+    session_.restore(state);
+  }
+  for (const auto& [row, value] : view) row->set(value);
+}
+
+fs::path Debugger::snapshot_file(int frame) const { return run_folder_ / "snapshots" / fmt::format("{:06}.bin", frame); }
+
+std::optional<int> Debugger::last_snapshot_before(int frame) const {
+  for (int k = frame; !run_folder_.empty() && k >= 0; --k)
+    if (is_valid_snapshot(snapshot_file(k))) return k;
+  return std::nullopt;
+}
+
+void Debugger::seek(int frame) {
+  const bool back = frame < session_.frame(), known = frame < static_cast<int>(hashes_.size());
+  if (back || (known && std::max(ring_.at_or_before(frame).value_or(0), last_snapshot_before(frame).value_or(0)) > session_.frame())) restore_before(frame);
+  while (session_.frame() < frame && advance()) {
+  }
+  follow_selection();
+}
+
+void Debugger::do_command(const Command& command) {
+  if (changes_model(command)) {
+    const int next = session_.frame() + 1;
+    by_hand_.erase(by_hand_.upper_bound(next), by_hand_.end());
+    changed_frames_.erase(changed_frames_.upper_bound(next), changed_frames_.end());
+    ring_.cut(session_.frame());
+    history_.resize(static_cast<std::size_t>(next));
+    hashes_.resize(static_cast<std::size_t>(next));
+    run_folder_.clear();  // its later frames are of another run now
+    std::vector<Command>& commands = by_hand_[next];
+    std::erase_if(commands, [&](const Command& c) { return std::get<SetCommand>(c).path == std::get<SetCommand>(command).path; });
+    commands.push_back(command);
+    changed_frames_.insert(next);
+  }
+  session_.change(command);
+}
+
+void Debugger::do_transport(const TransportLine& line) {
+  switch (line.verb) {
+    case TransportLine::play: playing_ = true; break;
+    case TransportLine::pause: playing_ = false; break;
+    case TransportLine::step: seek(session_.frame() + line.frames); break;
+    case TransportLine::back: seek(std::max(0, session_.frame() - line.frames)); break;
+    case TransportLine::seek: seek(line.frames);
+  }
+}
+
+void Debugger::do_select(Selection s) {
+  if (s.kind == Selection::contact) s.pair_id = session_.record().contacts[static_cast<std::size_t>(s.index)].pair_id;
+  model_.selection = s;
+}
+
+void Debugger::follow_selection() {
+  Selection& s = model_.selection;
+  if (s.kind != Selection::contact) return;
+  const std::vector<ContactRecord>& contacts = session_.record().contacts;
+  const auto it = std::find_if(contacts.begin(), contacts.end(), [&](const ContactRecord& c) { return c.pair_id == s.pair_id; });
+  s.index = it == contacts.end() ? -1 : static_cast<int>(it - contacts.begin());
+}
+
+void Debugger::do_panel(const PanelLine& line) {
+  PanelState& p = model_.state;
+  switch (line.verb) {
+    case PanelLine::sort: p.sort = line.name, p.descending = line.on; break;
+    case PanelLine::fold: p.folded.insert(line.name); break;
+    case PanelLine::unfold: p.folded.erase(line.name); break;
+    case PanelLine::plot:
+      for (const auto& [column, on] : line.columns) {
+        std::erase(p.plots, column);
+        if (on) p.plots.push_back(column);
+      }
+      break;
+    case PanelLine::filter: p.filter = line.name; break;
+    case PanelLine::scroll: p.scroll[line.name] = line.pixels; break;
+    case PanelLine::help: p.help = line.on;
+  }
+}
+
+std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
+  DebugLine parsed = parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+  if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<ShotLine>(parsed) || std::holds_alternative<QuitLine>(parsed)) return parsed;
+  if (const auto* command = std::get_if<Command>(&parsed)) do_command(*command);
+  if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
+  if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
+  if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
+  record(std::string(line.text));
+  return std::nullopt;
+}
+
+std::optional<DebugLine> Debugger::try_execute(const std::string& line) {
+  static const std::string kConsole = "console";
+  try {
+    return execute({line, &kConsole, 1, 1});
+  } catch (const InputError& error) {
+    say(ConsoleLine::problem, error.what());
+    return std::nullopt;
+  }
+}
+
+bool Debugger::play_on() {
+  if (!playing_) return false;
+  if (advance()) record("step");
+  return true;
+}
+
+void Debugger::say(ConsoleLine::Kind kind, const std::string& text) {
+  model_.console.push_back({kind, text});
+  if (model_.console.size() > kConsoleLines) model_.console.erase(model_.console.begin());
+}
+
+void Debugger::record_input(const std::string& line) { record(line); }
+
+/// Lines that only the last of a row matters of become one.
+void Debugger::record(const std::string& line) {
+  const auto word = [](const std::string& text, int n) {
+    std::size_t begin = 0;
+    for (; n > 0; --n) begin = std::min(text.find(' ', begin), text.size() - 1) + 1;
+    return text.substr(begin, text.find(' ', begin) - begin);
+  };
+  const auto replace_last = [&](const std::string& with) {
+    recorded_.back() = with;
+    if (!model_.console.empty() && model_.console.back().kind == ConsoleLine::command) model_.console.back().text = with;
+    else say(ConsoleLine::command, with);
+  };
+  const std::string verb = word(line, 0);
+  if (verb == "play" || verb == "pause") return;  // what counts is how many frames were made
+  const bool same = !recorded_.empty() && word(recorded_.back(), 0) == verb;
+  if (verb == "step" && same) {
+    const auto frames = [&](const std::string& text) { return text.find(' ') == std::string::npos ? 1 : std::stoi(word(text, 1)); };
+    return replace_last(fmt::format("step {}", frames(recorded_.back()) + frames(line)));
+  }
+  if (same && verb == "seek") return replace_last(line);
+  if (same && (verb == "set" || verb == "panel") && word(recorded_.back(), 1) == word(line, 1) &&
+      (verb == "set" || word(line, 1) == "filter" || (word(line, 1) == "scroll" && word(recorded_.back(), 2) == word(line, 2))))
+    return replace_last(line);
+  if (verb == "camera") {
+    const Camera& camera = view().camera;
+    const std::string eye = fmt::format("camera eye {} {} {}", shortest(camera.eye.x()), shortest(camera.eye.y()), shortest(camera.eye.z()));
+    const std::string target = fmt::format("camera target {} {} {}", shortest(camera.target.x()), shortest(camera.target.y()), shortest(camera.target.z()));
+    const std::size_t n = recorded_.size();
+    if (word(line, 1) == "orbit" || word(line, 1) == "pan" || word(line, 1) == "zoom" || word(line, 1) == "fit") {
+      if (n >= 2 && recorded_[n - 1].starts_with("camera target") && recorded_[n - 2].starts_with("camera eye")) {
+        recorded_[n - 2] = eye;
+        if (model_.console.size() >= 2 && model_.console[model_.console.size() - 2].kind == ConsoleLine::command) model_.console[model_.console.size() - 2].text = eye;
+        return replace_last(target);
+      }
+      recorded_.push_back(eye);
+      say(ConsoleLine::command, eye);
+      recorded_.push_back(target);
+      return say(ConsoleLine::command, target);
+    }
+  }
+  recorded_.push_back(line);
+  say(ConsoleLine::command, line);
+}
+
+std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
+  std::vector<std::string> lines = recorded_;
+  lines.push_back(fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y())));
+  return lines;
+}
+
+const DebugModel& Debugger::model() {
+  model_.record = &session_.record();
+  model_.rows = &session_.rows();
+  model_.view = &view();
+  model_.frame = session_.frame();
+  model_.known_last = static_cast<int>(hashes_.size()) - 1;
+  model_.playing = playing_;
+  model_.figure_names = &figure_names(session_.is_judged());
+  model_.history = &history_;
+  model_.changed_frames = &changed_frames_;
+  model_.snapshots = ring_.count();
+  model_.snapshot_bytes = ring_.bytes();
+  model_.most_snapshot_bytes = ring_.most();
+  return model_;
+}
+
+}  // namespace impinge

@@ -1,0 +1,31 @@
+// What was done, as the lines that do it again; and a place to write some.
+#include <cstring>
+
+#include "viewer/panels/panel_frame.hpp"
+
+namespace impinge {
+
+void draw_console_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
+  const float below = ImGui::GetFrameHeight() + 4.0f * ui.unit();
+  PanelFrame frame(ui, model, "console", "console", area, lines, below);
+  // newest last, and in sight
+  const float height = ImGui::GetTextLineHeightWithSpacing();
+  const auto fitting = static_cast<std::size_t>(std::max(1.0f, ImGui::GetContentRegionAvail().y / height));
+  const std::size_t n = model.console.size(), first = n > fitting ? n - fitting : 0;
+  for (std::size_t i = first; i < n; ++i) {
+    const ConsoleLine& line = model.console[i];
+    const ImVec4 ink = line.kind == ConsoleLine::problem ? ImVec4(1.0f, 0.55f, 0.45f, 1.0f) : line.kind == ConsoleLine::message ? dim() : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::TextColored(ink, "%s", line.text.c_str());
+    if (ImGui::CalcTextSize(line.text.c_str()).x > ImGui::GetContentRegionAvail().x) tooltip(line.text);
+  }
+  frame.end_content();
+  static char text[512];  // what is being typed: one console a program
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool entered = ImGui::InputTextWithHint("##line", "a command, e.g. set contact.friction 0.5", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.name("console/line");
+  if (!entered) return;
+  if (*text != 0) lines.push_back(text);
+  *text = 0;
+}
+
+}  // namespace impinge

@@ -1,0 +1,100 @@
+// The frame's contacts as a table. A heading sorts, a row selects.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "viewer/panels/panel_frame.hpp"
+
+namespace impinge {
+namespace {
+
+double value_of(const ContactRecord& c, std::size_t column) {
+  switch (column) {
+    case 1: return c.body_a;
+    case 2: return c.body_b;
+    case 3: return c.gap;
+    case 4: return c.lambda.x();
+    case 5: return std::hypot(c.lambda.y(), c.lambda.z());
+    case 6: return static_cast<double>(c.state);
+    default: return 0.0;
+  }
+}
+
+Color state_color(ContactState state) { return state == ContactState::stick ? role::kStick : state == ContactState::slip ? role::kSlip : role::kOpen; }
+
+std::vector<int> sorted(const DebugModel& model) {
+  const std::vector<ContactRecord>& contacts = model.record->contacts;
+  std::vector<int> order(contacts.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto column = static_cast<std::size_t>(std::find(contact_columns().begin(), contact_columns().end(), model.state.sort) - contact_columns().begin());
+  const bool down = model.state.descending;
+  if (column == 0 && down) std::reverse(order.begin(), order.end());
+  if (column > 0)
+    std::stable_sort(order.begin(), order.end(), [&](int l, int r) {
+      const double a = value_of(contacts[static_cast<std::size_t>(l)], column), b = value_of(contacts[static_cast<std::size_t>(r)], column);
+      return down ? a > b : a < b;
+    });
+  return order;
+}
+
+}  // namespace
+
+const std::vector<std::string>& contact_columns() {
+  static const std::vector<std::string> names = {"index", "a", "b", "gap", "normal", "friction", "state"};
+  return names;
+}
+
+void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
+  const std::vector<ContactRecord>& contacts = model.record->contacts;
+  const PanelFrame frame(ui, model, "contacts", fmt::format("contacts: {}   mm, N s", contacts.size()).c_str(), area, lines);
+  static constexpr const char* kHeads[] = {"#", "A", "B", "gap", "n", "t", ""};
+  static constexpr const char* kTips[] = {"index in this frame", "the body that stands earlier in the scene", "the other body", "mm, negative: they overlap", "normal impulse of the last sub-step, N s",
+                                          "size of the friction impulse, N s", "open, stick or slip"};
+  const ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
+  if (!ImGui::BeginTable("rows", 7, flags)) return;
+  constexpr float kWeights[] = {0.75f, 1.2f, 1.2f, 1.9f, 1.65f, 1.65f, 0.5f};
+  for (int k = 0; k < 7; ++k) ImGui::TableSetupColumn(kHeads[k], ImGuiTableColumnFlags_WidthStretch, kWeights[k]);
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (std::size_t k = 0; k < contact_columns().size(); ++k) {
+    ImGui::TableNextColumn();
+    const bool by = model.state.sort == contact_columns()[k];
+    const std::string label = fmt::format("{}{}##{}", kHeads[k], by ? (model.state.descending ? " v" : " ^") : "", k);
+    if (ImGui::Selectable(label.c_str(), by)) lines.push_back(fmt::format("panel sort {}{}", contact_columns()[k], by && !model.state.descending ? " down" : ""));
+    ui.name("contacts/sort:" + contact_columns()[k]);
+    tooltip(kTips[k]);
+  }
+  const std::vector<int> order = sorted(model);
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(order.size()));
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const int index = order[static_cast<std::size_t>(i)];
+      const ContactRecord& c = contacts[static_cast<std::size_t>(index)];
+      const auto body = [&](int b) { return std::string(model.record->bodies[static_cast<std::size_t>(b)].name); };
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      const bool is_selected = model.selection.kind == Selection::contact && model.selection.index == index;
+      if (ImGui::Selectable(fmt::format("{}##{}", index, i).c_str(), is_selected, ImGuiSelectableFlags_SpanAllColumns)) lines.push_back(fmt::format("select contact {}", index));
+      ui.name(fmt::format("contacts/row:{}", i));
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(body(c.body_a).c_str());
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(body(c.body_b).c_str());
+      ImGui::TableNextColumn();
+      ImGui::Text("%.2g", 1e3 * c.gap);
+      ImGui::TableNextColumn();
+      ImGui::Text("%.2g", c.lambda.x());
+      ImGui::TableNextColumn();
+      ImGui::Text("%.2g", std::hypot(c.lambda.y(), c.lambda.z()));
+      ImGui::TableNextColumn();
+      const Color s = state_color(c.state);
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float half = 0.5f * ImGui::GetTextLineHeight();
+      ImGui::GetWindowDrawList()->AddCircleFilled({at.x + half, at.y + half}, 0.7f * half, ImGui::ColorConvertFloat4ToU32({s.r, s.g, s.b, 1.0f}));
+    }
+  ImGui::EndTable();
+}
+
+}  // namespace impinge

@@ -1,0 +1,51 @@
+// What each stage of the last frame had to do, and, where view.panel.timings is on, how long it took.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viewer/panels/panel_frame.hpp"
+
+namespace impinge {
+
+void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
+  const PanelFrame frame(ui, model, "stages", "stages of the frame", area, lines);
+  const FrameStats& s = model.record->stats;
+  struct Row {
+    const char* name;
+    double ms;
+    std::string work;
+  };
+  const Row rows[] = {{"broad", s.times.broad_ms, fmt::format("{} body pairs", s.broad_pairs)},
+                      {"narrow", s.times.narrow_ms, fmt::format("{} triangle pairs", s.triangle_pairs)},
+                      {"assemble", s.times.assemble_ms, fmt::format("{} unknowns, {} contacts", s.dofs, s.contacts)},
+                      {"response", s.times.response_ms, s.contacts == 0 ? "nothing to solve" : fmt::format("{} groups, {} iterations", s.groups, s.lcp_iterations)},
+                      {"integrate", s.times.integrate_ms, fmt::format("{} sub-steps", s.substeps)}};
+  bool timed = model.view->show_timings;
+  if (!ImGui::BeginTable("stages", 2, ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 66.0f * ui.unit());
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
+  for (const Row& row : rows) {
+    ImGui::TableNextColumn();
+    ImGui::TextColored(dim(), "%s", row.name);
+    ImGui::TableNextColumn();
+    if (!timed) {
+      ImGui::TextUnformatted(row.work.c_str());
+      continue;
+    }
+    const float share = s.times.step_ms > 0.0 ? static_cast<float>(row.ms / s.times.step_ms) : 0.0f;
+    ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
+    ImGui::ProgressBar(std::clamp(share, 0.0f, 1.0f), {-1.0f, ImGui::GetTextLineHeight()}, fmt::format("{:.2f} ms", row.ms).c_str());
+    ImGui::PopStyleColor();
+    tooltip(row.work);
+  }
+  ImGui::EndTable();
+  if (ImGui::Checkbox("times", &timed)) lines.push_back(fmt::format("set view.panel.timings {}", timed ? "true" : "false"));
+  ui.name("stages/times");
+  tooltip("wall-clock times: pictures with them are not the same twice");
+  if (timed) {
+    ImGui::SameLine();
+    ImGui::Text("%.2f ms a frame", s.times.step_ms);
+  }
+}
+
+}  // namespace impinge

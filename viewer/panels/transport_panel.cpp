@@ -1,0 +1,46 @@
+// Play, pause, step, step back; a slider over the frames that are known.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viewer/panels/panel_frame.hpp"
+
+namespace impinge {
+
+void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
+  const PanelFrame frame(ui, model, "transport", "", area, lines);
+  if (named_button(ui, "transport/first", "|<")) lines.push_back("seek 0");
+  tooltip("first frame (home)");
+  ImGui::SameLine();
+  if (named_button(ui, "transport/back", "<") && model.frame > 0) lines.push_back("back");
+  tooltip("a frame back (left)");
+  ImGui::SameLine();
+  if (named_button(ui, "transport/play", model.playing ? "pause" : "play ", model.playing)) lines.push_back(model.playing ? "pause" : "play");
+  tooltip("space");
+  ImGui::SameLine();
+  if (named_button(ui, "transport/step", ">")) lines.push_back("step");
+  tooltip("a frame on (right)");
+  ImGui::SameLine();
+  if (named_button(ui, "transport/last", ">|")) lines.push_back(fmt::format("seek {}", model.known_last));
+  tooltip("last frame that was made (end)");
+  ImGui::SameLine();
+
+  const std::string memory = fmt::format("{} states, {:.1f} of {:.0f} MB", model.snapshots, static_cast<double>(model.snapshot_bytes) / 1048576.0,
+                                         static_cast<double>(model.most_snapshot_bytes) / 1048576.0);
+  const std::string time = fmt::format("{:.4f} s", model.record->stats.time);
+  const float right = ImGui::CalcTextSize(memory.c_str()).x + ImGui::CalcTextSize(time.c_str()).x + 40.0f * ui.unit();
+  ImGui::SetNextItemWidth(std::max(80.0f * ui.unit(), ImGui::GetContentRegionAvail().x - right));
+  int at = model.frame;
+  const int last = std::max(1, model.known_last);
+  if (ImGui::SliderInt("##frame", &at, 0, last, fmt::format("frame %d of {}", model.known_last).c_str(), ImGuiSliderFlags_AlwaysClamp) && at != model.frame)
+    lines.push_back(fmt::format("seek {}", std::min(at, model.known_last)));
+  ui.name("transport/frame", {{}, false, true, true, 0.0, static_cast<double>(last), false});
+  tooltip("drag to any frame that was made: the nearest state kept is taken and the frames after it are made again");
+  ImGui::SameLine();
+  ImGui::TextUnformatted(time.c_str());
+  ImGui::SameLine();
+  ImGui::TextColored(dim(), "%s", memory.c_str());
+  tooltip("states kept for going back; where there are too many the ones that are missed least go");
+}
+
+}  // namespace impinge

@@ -1,0 +1,131 @@
+#include "viewer/present/debug_window.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace impinge {
+namespace {
+
+constexpr Color kSelected = hex(0xfff2a8);
+constexpr float kDegreesPerPixel = 0.4f;
+constexpr double kZoomPerStep = 1.15;
+constexpr float kClick = 3.0f;  // pixels that the pointer may move in a click
+
+}  // namespace
+
+DebugWindow::DebugWindow(int width, int height, int scale)
+    : context_(make_offscreen_context()),
+      window_(width, height),
+      ui_(scale > 0 ? scale : debug_scale(height)),
+      layout_(debug_layout(width, height, ui_.unit())),
+      scene_(static_cast<int>(layout_.view.width), static_cast<int>(layout_.view.height)) {}
+
+DebugWindow::~DebugWindow() { context_->make_current(); }
+
+std::string DebugWindow::scene_key(const DebugModel& model) const {
+  std::string key = fmt::format("{} {:016x} {} {} {} {}", model.frame, model.record->stats.state_hash, static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
+                                static_cast<const void*>(model.record));
+  for (const Parameter& row : model.rows->all())
+    if (row.path.starts_with("view.")) key += ' ' + format_value(row.get());
+  return key;
+}
+
+CommandLines DebugWindow::paint(const DebugModel& model) {
+  context_->make_current();
+  std::string key = scene_key(model);
+  if (key != painted_) {
+    scene_.paint(*model.record, *model.view, [&](DrawList& list) { mark_selection(model, list); });
+    painted_ = std::move(key);
+  }
+  CommandLines lines;
+  ui_.begin(width(), height());
+  keys_to_lines(ui_, model, lines);
+  draw_layers_panel(ui_, model, layout_.layers, lines);
+  draw_parameters_panel(ui_, model, layout_.parameters, lines);
+  draw_inspector_panel(ui_, model, layout_.inspector, lines);
+  draw_contacts_panel(ui_, model, layout_.contacts, lines);
+  draw_stages_panel(ui_, model, layout_.stages, lines);
+  draw_transport_panel(ui_, model, layout_.transport, lines);
+  draw_timeline_panel(ui_, model, layout_.timeline, lines);
+  draw_console_panel(ui_, model, layout_.console, lines);
+  draw_help_panel(ui_, model, layout_.view);
+  use_mouse(model, lines);
+  window_.clear(hex(0x0f1216));  // between the panels
+  scene_.target().copy_to(window_, static_cast<int>(layout_.view.x), static_cast<int>(layout_.view.y));
+  window_.bind();
+  ui_.end();
+  return lines;
+}
+
+void DebugWindow::read(Image& out) {
+  context_->make_current();
+  window_.read(out);
+}
+
+void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
+  const float x = ui_.mouse_x(), y = ui_.mouse_y();
+  const bool over = layout_.view.holds(x, y) && !ui_.takes_mouse();
+  for (int button = 0; button < 3; ++button)
+    if (over && ui_.went_down(button) && held_ < 0) held_ = button, pressed_x_ = last_x_ = x, pressed_y_ = last_y_ = y, dragged_ = false;
+  if (over && ui_.wheel() != 0.0f) lines.push_back(fmt::format("camera zoom {}", shortest(std::pow(kZoomPerStep, ui_.wheel()))));
+  if (held_ < 0) return;
+  const float dx = x - last_x_, dy = y - last_y_;
+  dragged_ |= std::hypot(x - pressed_x_, y - pressed_y_) > kClick * ui_.unit();
+  if (dragged_ && (dx != 0.0f || dy != 0.0f)) {
+    if (held_ == 0) {
+      const double turn = kDegreesPerPixel / ui_.unit();
+      lines.push_back(fmt::format("camera orbit {} {}", shortest(-turn * dx), shortest(turn * dy)));
+    } else {
+      const double pixel = model.view->camera.pixel_size_at(model.view->camera.target, scene_.height());
+      lines.push_back(fmt::format("camera pan {} {}", shortest(-pixel * dx), shortest(pixel * dy)));
+    }
+    last_x_ = x;
+    last_y_ = y;
+  }
+  if (!ui_.went_up(held_)) return;
+  if (held_ == 0 && !dragged_) lines.push_back(pick(model, x, y));
+  held_ = -1;
+}
+
+std::string DebugWindow::pick(const DebugModel& model, float x, float y) {
+  IdImage ids;
+  scene_.read_ids(*model.record, *model.view, ids);
+  const int px = static_cast<int>(x - layout_.view.x), py = static_cast<int>(y - layout_.view.y);
+  if (px < 0 || py < 0 || px >= ids.width || py >= ids.height) return "select none";
+  // a contact's point is small: within two pixels it is what was meant
+  const IdObject* object = ids.object_at(px, py);
+  for (int ring = 1; ring <= 2 && (object == nullptr || object->contact_index < 0); ++ring)
+    for (int i = -ring; i <= ring; ++i)
+      for (int j = -ring; j <= ring; ++j) {
+        if (px + i < 0 || py + j < 0 || px + i >= ids.width || py + j >= ids.height) continue;
+        const IdObject* near = ids.object_at(px + i, py + j);
+        if (near != nullptr && near->contact_index >= 0) object = near;
+      }
+  if (object == nullptr || (object->contact_index < 0 && object->body_index < 0)) return "select none";
+  if (object->contact_index >= 0) return fmt::format("select contact {}", object->contact_index);
+  const auto i = static_cast<std::size_t>(py) * static_cast<std::size_t>(ids.width) + static_cast<std::size_t>(px);
+  std::string line = fmt::format("select body {}", object->body);
+  if (!ids.part.empty() && ids.part[i] != IdImage::kNoPart) line += fmt::format(" {}", ids.part[i]);
+  return line;
+}
+
+void DebugWindow::mark_selection(const DebugModel& model, DrawList& list) const {
+  const Selection& s = model.selection;
+  if (!s.is_there()) return;
+  if (s.kind == Selection::contact) {
+    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
+    list.points.push_back({c.point_a, kSelected, 17.0f, Depth::on_top});
+    list.points.push_back({c.point_a, hex(0x20242a), 9.0f, Depth::on_top});
+    list.arrows.push_back({c.point_a, c.normal, kSelected, 60.0f, 3.5f, Depth::on_top});
+    return;
+  }
+  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
+  if (!body.bounds.is_empty() && !std::holds_alternative<Plane>(*body.shape)) list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
+  const auto* mesh = std::get_if<MeshPointer>(body.shape);
+  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>((*mesh)->mesh.triangles.size())) return;
+  const auto& t = (*mesh)->mesh.triangles[static_cast<std::size_t>(s.triangle)];
+  list.triangles.push_back({{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])], body.vertices[static_cast<std::size_t>(t[2])]}, kSelected, Depth::on_top});
+}
+
+}  // namespace impinge

@@ -1,0 +1,47 @@
+// The debugger's window as pixels: the view of the scene and the panels around it in one framebuffer, with or without a screen.
+#pragma once
+
+#include "viewer/gl/context.hpp"
+#include "viewer/image/image.hpp"
+#include "viewer/panels/debug_panels.hpp"
+#include "viewer/present/scene_painter.hpp"
+
+namespace impinge {
+
+class DebugWindow {
+ public:
+  /// `scale`: of text, 0: by the height. Throws std::runtime_error without OpenGL.
+  DebugWindow(int width, int height, int scale = 0);
+  ~DebugWindow();
+  DebugWindow(const DebugWindow&) = delete;
+  DebugWindow& operator=(const DebugWindow&) = delete;
+
+  int width() const { return window_.width(); }
+  int height() const { return window_.height(); }
+  /// Of the part that shows the scene.
+  double view_aspect() const { return layout_.view.width / layout_.view.height; }
+  Ui& ui() { return ui_; }
+  std::string renderer_name() const { return context_->renderer_name(); }
+
+  /// Takes the next input, draws, and says what the input asks for, as command lines. The scene is drawn again only where it changed.
+  CommandLines paint(const DebugModel& model);
+  void read(Image& out);
+
+ private:
+  void use_mouse(const DebugModel& model, CommandLines& lines);
+  std::string pick(const DebugModel& model, float x, float y);
+  void mark_selection(const DebugModel& model, DrawList& list) const;
+  std::string scene_key(const DebugModel& model) const;
+
+  std::unique_ptr<GlContext> context_;
+  Framebuffer window_;
+  Ui ui_;
+  DebugLayout layout_;
+  ScenePainter scene_;
+  std::string painted_;          // key of what scene_ shows
+  int held_ = -1;                // button that went down over the view
+  float pressed_x_ = 0.0f, pressed_y_ = 0.0f, last_x_ = 0.0f, last_y_ = 0.0f;
+  bool dragged_ = false;
+};
+
+}  // namespace impinge

@@ -1,0 +1,36 @@
+// Turns a step record into pixels of a framebuffer: layers -> draw list -> renderer -> figures, legend and labels.
+#pragma once
+
+#include <functional>
+
+#include "viewer/gl/id_buffer.hpp"
+#include "viewer/gl/renderer.hpp"
+#include "viewer/panels/panels.hpp"
+
+namespace impinge {
+
+/// The same record and settings give the same pixels, whatever was painted before.
+class ScenePainter {
+ public:
+  /// A context must be current, here and in every call. Throws InternalError if the size cannot be had.
+  ScenePainter(int width, int height);
+
+  int width() const { return target_.width(); }
+  int height() const { return target_.height(); }
+  /// `more` adds to what the layers draw, such as what is selected.
+  const Framebuffer& paint(const StepRecord& record, const ViewSettings& settings, const std::function<void(DrawList&)>& more = {});
+  Framebuffer& target() { return target_; }
+  /// What each pixel of what was painted last shows; panels are objects too. Labels belong to what is behind them.
+  void read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids);
+
+ private:
+  Framebuffer target_;
+  Renderer renderer_;
+  std::unique_ptr<Overlay> overlay_;
+  SurfaceCache surfaces_;
+  DrawList list_;
+  PanelArea figures_, legend_, bar_;  // of the last picture
+  std::unique_ptr<IdBuffer> ids_;
+};
+
+}  // namespace impinge

@@ -1,0 +1,14 @@
+// A window of the desktop that shows the debugger's pixels and hands its input on. Nothing else knows a window system.
+#pragma once
+
+#include "viewer/present/debug_loop.hpp"
+
+namespace impinge {
+
+/// Whether there is a screen that a window can be opened on.
+bool has_screen();
+
+/// Shows the debugger until it is closed or quits. Throws InputError where no window can be had.
+void show_window(DebugLoop& loop, DebugWindow& window, const std::string& title);
+
+}  // namespace impinge
