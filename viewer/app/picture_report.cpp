@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;
 constexpr std::size_t kMostEmbedded = std::size_t{24} << 20;  // bytes of pictures in one page
 
-constexpr const char* kStyle = R"(body{font:14px/1.45 sans-serif;margin:1.5em 2em;color:#222;background:#fff}h1{font-size:20px;margin:0 0 .3em}
-.cols{display:flex;gap:1.5em;align-items:flex-start;flex-wrap:wrap}.list{max-height:82vh;overflow:auto;border:1px solid #ddd}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #eee}
+constexpr const char* kStyle = R"(body{font:14px/1.45 sans-serif;margin:1em 1.2em;color:#222;background:#fff}h1{font-size:20px;margin:0 0 .3em}
+.cols{display:flex;gap:1em;align-items:flex-start;flex-wrap:wrap}.list{max-height:82vh;overflow:auto;border:1px solid #ddd}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 7px;text-align:left;white-space:nowrap;border-bottom:1px solid #eee}
 th{background:#f4f4f4;position:sticky;top:0}td.n{text-align:right}tbody tr{cursor:pointer}tbody tr.on{background:#dcebf7}tbody tr:hover{background:#f0f6fb}
 .stage{position:relative;overflow:hidden;background:#181a1e;user-select:none;cursor:ew-resize}.stage img{position:absolute;left:0;top:0;image-rendering:pixelated}
 .cut{position:absolute;top:0;bottom:0;width:2px;background:#ffd23c;margin-left:-1px}.box{position:absolute;border:2px solid #50dcff;box-sizing:content-box;margin:-2px}

@@ -38,17 +38,18 @@ std::string plural(const std::string& mark, int count) { return count == 1 || ma
 
 std::string ObjectChange::text() const {
   const std::string where = body.empty() ? "" : other.empty() ? " of " + body : fmt::format(" between {} and {}", body, other);
+  const std::string size = fmt::format("{} pixel{}", pixels, pixels == 1 ? "" : "s");
   const char* what = missing > 0 ? "missing" : added > 0 ? "new" : "changed";
-  if (is_solid(mark)) return fmt::format("{}: {} {} ({} pixels)", layer, body, what, pixels);
-  if (body.empty()) return fmt::format("{}: {} {} ({} pixels)", layer, mark, what, pixels);
+  if (is_solid(mark)) return fmt::format("{}: {} {} ({})", layer, body, what, size);
+  if (body.empty()) return fmt::format("{}: {} {} ({})", layer, mark, what, size);
   // all marks that a layer draws for a body are one object
-  if (other.empty()) return fmt::format("{}: {}{} {} ({} pixels)", layer, plural(mark, 2), where, what, pixels);
+  if (other.empty()) return fmt::format("{}: {}{} {} ({})", layer, plural(mark, 2), where, what, size);
   std::vector<std::string> parts;
   const auto say = [&](int count, const char* how) {
     if (count > 0) parts.push_back(fmt::format("{} {}{} {}", count, plural(mark, count), where, how));
   };
   say(missing, "missing"), say(added, "new"), say(changed, "changed");
-  return fmt::format("{}: {} (of {} in A; {} pixels)", layer, fmt::join(parts, ", "), in_a, pixels);
+  return fmt::format("{}: {} (of {} in A; {})", layer, fmt::join(parts, ", "), in_a, size);
 }
 
 std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const IdImage& ids_a, const IdImage& ids_b, int tolerance, const Image* mask) {
