@@ -1,6 +1,7 @@
 // impinge diff and run --ids, as a user runs them.
 #include <catch2/catch.hpp>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -137,6 +138,20 @@ TEST_CASE("the report stands alone and shows each picture that differs, the wors
   CHECK_FALSE(fs::exists(runs.folder / "shown/000000.png"));  // the same state and picture
   const std::size_t begin = page.find("<tbody>"), row = page.find("<tr><td>", begin);
   CHECK(page.substr(row + 8, 10) == "000006.png");
+  // used in a real browser
+  const fs::path tools = fs::path(IMPINGE_SOURCE_DIR) / "tests/tools";
+  const TempFolder said;
+  const int status = std::system(fmt::format("python3 {}/diff_in_browser.py {} > {} 2>&1", tools.string(), (runs.folder / "shown/report.html").string(), (said / "out").string()).c_str());
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code == 77 || code == 127) {
+    WARN("not opened: this needs python3 and chromium");
+    return;
+  }
+  const std::string checks = slurp(said / "out");
+  INFO(checks);
+  CHECK(code == 0);
+  CHECK_FALSE(holds(checks, "FAILED"));
+  CHECK(holds(checks, "ok      the slider wipes"));
 }
 
 TEST_CASE("--update makes the baselines what there is, says so, and leaves alone what is within the limits") {

@@ -133,7 +133,8 @@ TEST_CASE("marks are told apart by layer, kind and contact, and panels hide what
       CHECK(object.body == record.bodies[static_cast<std::size_t>(c.body_a)].name);
       CHECK(object.other == record.bodies[static_cast<std::size_t>(c.body_b)].name);
       contacts[object.layer + " " + object.mark].insert(object.identity);
-    } else if (object.mark == "surface") {
+    } else if (object.mark == "surface" || object.mark == "fixed surface") {
+      CHECK((object.mark == "surface") == (record.bodies[static_cast<std::size_t>(object.body_index)].kind != BodyKind::fixed));
       bodies.insert(object.body);
     }
   }

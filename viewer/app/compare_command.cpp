@@ -86,11 +86,25 @@ class Comparison {
     for (const std::string& name : alone) fmt::print("body:   {}\n", name);
     if (fields.empty())
       fmt::print("body:   {}; what contacts remember (warm start), sleep timers or the time differ\n", alone.empty() ? "none differs in position or velocity" : "those in both don't differ");
-    for (std::size_t i = 0; i < fields.size() && i < kMostLines; ++i) {
-      const FieldDifference& f = fields[i];
-      fmt::print("{} {}: {}{}{}\n", i == 0 ? "body:  " : "       ", f.body, f.field, f.unit.empty() ? "" : fmt::format(" by {:.3g} {}", f.largest, f.unit), f.where.empty() ? "" : " at " + f.where);
+    say_bodies(fields);
+  }
+
+  /// A line a body, those that moved the farthest first.
+  static void say_bodies(const std::vector<FieldDifference>& fields) {
+    struct Line {
+      std::string body, text;
+      double moved = 0.0;
+    };
+    std::vector<Line> lines;
+    for (const FieldDifference& f : fields) {
+      if (lines.empty() || lines.back().body != f.body) lines.push_back({f.body, "", 0.0});
+      Line& line = lines.back();
+      line.text += fmt::format("{}{}{}{}", line.text.empty() ? "" : ", ", f.field, f.unit.empty() ? "" : fmt::format(" by {:.3g} {}", f.largest, f.unit), f.where.empty() ? "" : " at " + f.where);
+      if (f.field == "position") line.moved = f.largest;
     }
-    if (fields.size() > kMostLines) fmt::print("        and {} more\n", fields.size() - kMostLines);
+    std::stable_sort(lines.begin(), lines.end(), [](const Line& l, const Line& r) { return l.moved > r.moved; });
+    for (std::size_t i = 0; i < lines.size() && i < kMostLines; ++i) fmt::print("{} {}: {}\n", i == 0 ? "body:  " : "       ", lines[i].body, lines[i].text);
+    if (lines.size() > kMostLines) fmt::print("        and {} more bodies\n", lines.size() - kMostLines);
   }
 
   bool go_to(int frame) {

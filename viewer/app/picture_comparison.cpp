@@ -63,7 +63,9 @@ PictureComparison compare_pictures(const std::string& name, const fs::path& a, c
   c.headline = c.difference.reason;
   if (const std::string cause = cause_text(c.facts_a, c.facts_b); !cause.empty()) c.details.push_back(cause);
   c.kind = change_kind(image_a, image_b, c.difference);
-  if (!c.kind.text.empty()) c.details.push_back("looks like: " + c.kind.text);
+  // a state that differs a little moves everything a little, which is no change of colour
+  const bool is_told = c.kind.kind == ChangeKind::recolored && (c.cause == ChangeCause::state || c.cause == ChangeCause::other_frame || c.cause == ChangeCause::other_scene);
+  if (!c.kind.text.empty() && !is_told) c.details.push_back("looks like: " + c.kind.text);
   compare_objects(c, image_a, image_b, rules);
   c.flip = flip(image_a, image_b).mean;
   c.details.push_back(fmt::format("FLIP: {:.4f} in the mean (0 the same, 1 the most; for information)", c.flip));

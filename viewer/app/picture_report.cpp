@@ -5,7 +5,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "viewer/app/html_text.hpp"
+#include "viewer/app/data_uri.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/image/png.hpp"
 
@@ -15,21 +15,21 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;
-constexpr std::size_t kMostEmbedded = std::size_t{40} << 20;  // bytes of pictures in one page
+constexpr std::size_t kMostEmbedded = std::size_t{24} << 20;  // bytes of pictures in one page
 
-constexpr const char* kStyle = R"(body{font:14px/1.45 sans-serif;margin:1.5em 2em;color:#222;background:#fff}h1{font-size:20px;margin:0 0 .3em}
-.cols{display:flex;gap:1.5em;align-items:flex-start;flex-wrap:wrap}.list{max-height:82vh;overflow:auto;border:1px solid #ddd}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #eee}
+constexpr const char* kStyle = R"(body{font:14px/1.45 sans-serif;margin:1em 1.2em;color:#222;background:#fff}h1{font-size:20px;margin:0 0 .3em}
+.cols{display:flex;gap:1em;align-items:flex-start;flex-wrap:wrap}.list{max-height:82vh;overflow:auto;border:1px solid #ddd}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:3px 7px;text-align:left;white-space:nowrap;border-bottom:1px solid #eee}
 th{background:#f4f4f4;position:sticky;top:0}td.n{text-align:right}tbody tr{cursor:pointer}tbody tr.on{background:#dcebf7}tbody tr:hover{background:#f0f6fb}
 .stage{position:relative;overflow:hidden;background:#181a1e;user-select:none;cursor:ew-resize}.stage img{position:absolute;left:0;top:0;image-rendering:pixelated}
 .cut{position:absolute;top:0;bottom:0;width:2px;background:#ffd23c;margin-left:-1px}.box{position:absolute;border:2px solid #50dcff;box-sizing:content-box;margin:-2px}
-.tag{position:absolute;top:6px;padding:1px 8px;background:#000a;color:#fff;font-weight:bold;border-radius:3px}.view{flex:1 1 640px;min-width:0}
+.tag{position:absolute;bottom:6px;padding:1px 8px;background:#000a;color:#fff;font-weight:bold;border-radius:3px}.view{flex:1 1 640px;min-width:0}
 .bar{margin:.4em 0;display:flex;gap:1em;align-items:center;flex-wrap:wrap}.bar input[type=range]{width:260px}#say{margin:.5em 0;padding-left:1.2em}
 .pan{max-width:100%;overflow:auto;border:1px solid #ddd})";
 
 // a click on a row shows it; the slider, or the pointer over the picture, wipes from A to B
 constexpr const char* kScript = R"(const $=i=>document.getElementById(i),rows=[...document.querySelectorAll('#frames tbody tr')];let now=0,mode='wipe';
-function wipe(v){$('a').style.clipPath='inset(0 '+(100-v)+'% 0 0)';$('cut').style.left=v+'%';}
+function wipe(v){$('a').style.clipPath='inset(0 '+(100-v)+'% 0 0)';$('cut').style.left=v+'%';$('ta').style.right='calc('+(100-v)+'% + 6px)';$('tb').style.left='calc('+v+'% + 6px)';}
 function fit(w){const room=$('view').clientWidth-4,all=[...$('zoom').options].map(o=>Number(o.value)).filter(z=>z*w<=room);return all.length?Math.max(...all):Number($('zoom').options[0].value);}
 let fitted=false;
 function show(i){const other=i!==now||!fitted;now=Math.max(0,Math.min(rows.length-1,i));const d=data[now];if(d.a&&!fitted){$('zoom').value=fit(d.w);fitted=true;}const z=Number($('zoom').value);if(other&&d.box&&mode==='wipe')$('wipe').value=100*(d.box[0]+d.box[2]/2)/d.w;rows.forEach((r,k)=>r.classList.toggle('on',k===now));
@@ -44,6 +44,19 @@ document.querySelectorAll('[name=mode]').forEach(e=>e.addEventListener('change',
 $('stage').addEventListener('pointermove',e=>{if(e.buttons&1&&mode==='wipe'){const r=$('stage').getBoundingClientRect();$('wipe').value=100*(e.clientX-r.left)/r.width;wipe($('wipe').value);}});
 document.addEventListener('keydown',e=>{if(e.target.tagName==='INPUT'&&e.target.type==='range')return;if(e.key==='ArrowDown'){show(now+1);e.preventDefault();}if(e.key==='ArrowUp'){show(now-1);e.preventDefault();}});
 if(rows.length)show(0);)";
+
+// for text and for attributes in double quotes
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') out += "&lt;";
+    else if (c == '>') out += "&gt;";
+    else if (c == '&') out += "&amp;";
+    else if (c == '"') out += "&quot;";
+    else out += c;
+  }
+  return out;
+}
 
 std::string json(const std::string& text) {
   std::string out = "\"";
@@ -84,7 +97,7 @@ std::string cause_word(const PictureComparison& c) {
 }
 
 std::string row(const PictureComparison& c) {
-  std::string out = fmt::format("<tr><td>{}</td><td>{}</td>", html_text(c.name), verdict_text(c));
+  std::string out = fmt::format("<tr><td>{}</td><td>{}</td>", escaped(c.name), verdict_text(c));
   if (c.verdict != PictureComparison::different) return out + "<td></td><td></td><td></td><td></td><td></td></tr>\n";
   const Difference& d = c.difference;
   return out + fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.4f}</td><td>{}</td></tr>\n", d.differing, d.worst_window, d.max_level, c.flip, cause_word(c));
@@ -133,7 +146,7 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
     make_folder(panels.parent_path());
     write_png(panels, difference_panels(a, b, c->difference, rules.mask));
   }
-  std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n", html_text(title), kStyle);
+  std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n", escaped(title), kStyle);
   page += fmt::format("<p>{} of {} pictures differ. A pixel counts once a channel differs by more than {} of 255; the limits are {:g} a megapixel, {:g} % of what is drawn, and {} in any {} x {} window. "
                       "Arrow keys change the row; drag over the picture, or the slider, to wipe from A to B.</p>\n",
                       order.size(), pictures.size(), rules.settings.tolerance, rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window,
@@ -146,7 +159,7 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
   for (const char* z : {"0.5", "1", "2", "3", "4", "8"}) page += fmt::format("<option>{}</option>", z);
   page += "</select></label><label><input type=\"checkbox\" id=\"frame\" checked> worst window</label></div>\n";
   page += "<div class=\"pan\"><div class=\"stage\" id=\"stage\" hidden><img id=\"b\" alt=\"B\" draggable=\"false\"><img id=\"a\" alt=\"A\" draggable=\"false\"><img id=\"d\" alt=\"difference\" draggable=\"false\" hidden>"
-          "<div class=\"cut\" id=\"cut\"></div><div class=\"box\" id=\"box\"></div><span class=\"tag\" id=\"ta\" style=\"left:6px\">A</span><span class=\"tag\" id=\"tb\" style=\"right:6px\">B</span></div></div><p id=\"none\" hidden></p><ul id=\"say\"></ul></div></div>\n";
+          "<div class=\"cut\" id=\"cut\"></div><div class=\"box\" id=\"box\"></div><span class=\"tag\" id=\"ta\">A</span><span class=\"tag\" id=\"tb\">B</span></div></div><p id=\"none\" hidden></p><ul id=\"say\"></ul></div></div>\n";
   page += "<script>const data=[" + entries + "];\n" + kScript + "</script>\n</body></html>\n";
   write_file(out / "report.html", page);
 }

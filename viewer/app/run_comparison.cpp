@@ -34,8 +34,9 @@ void flatten(const TomlNode& table, const std::string& prefix, Settings& out) {
     if (is_named_list(entry.value)) {
       for (const TomlNode& item : entry.value.items) flatten(item, path + "." + item.find("name")->value.string + ".", out);
     } else if (path == "run.script") {
-      int number = 0;
-      for (const TomlNode& line : entry.value.items) out.emplace_back(fmt::format("script line {}", ++number), format_toml(line));
+      // by what they say, not by their number; what says nothing counts for nothing
+      for (const TomlNode& line : entry.value.items)
+        if (const std::size_t begin = line.string.find_first_not_of(" \t"); begin != std::string::npos && line.string[begin] != '#') out.emplace_back("script: " + line.string.substr(begin), "there");
     } else if (entry.value.kind == TomlNode::table) {
       flatten(entry.value, path + ".", out);
     } else {

@@ -94,6 +94,7 @@ class Objects {
     } else if (pick > 0 && pick <= record_.bodies.size()) {
       o.body_index = static_cast<int>(pick - 1);
       o.body = name(o.body_index);
+      if (o.mark == "surface" && record_.bodies[pick - 1].kind == BodyKind::fixed) o.mark = "fixed surface";
     }
     return o;
   }

@@ -16,7 +16,7 @@ namespace impinge {
 /// Everything of one kind that a layer draws for a body or for a contact.
 struct IdObject {
   std::string layer;               ///< "panels" for what is written over the picture
-  std::string mark;                ///< surface, plane, point, line, arrow, triangle; figures, legend, bar
+  std::string mark;                ///< surface, fixed surface (of a static body), plane, point, line, arrow, triangle; figures, legend, bar
   std::string body, other;         ///< names; `other` of contacts only; "" for none
   std::uint64_t identity = 0;      ///< of a contact: ContactRecord::pair_id, the same from frame to frame
   // not in files, for pickers

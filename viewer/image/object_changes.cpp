@@ -14,8 +14,9 @@ namespace {
 using Key = std::tuple<std::string, std::string, std::string, std::string>;  // layer, mark, body, other
 Key key_of(const IdObject& o) { return {o.layer, o.mark, o.body, o.other}; }
 
-bool is_ground(const IdObject* object) { return object == nullptr || object->mark == "plane"; }
-bool is_mark(const IdObject& object) { return object.mark != "surface" && object.mark != "plane"; }
+bool is_ground(const IdObject* object) { return object == nullptr || object->mark == "plane" || object->mark == "fixed surface"; }
+bool is_solid(const std::string& mark) { return mark == "surface" || mark == "fixed surface" || mark == "plane"; }
+bool is_mark(const IdObject& object) { return !is_solid(object.mark); }
 
 /// The objects of a picture by kind, and the identities seen.
 std::map<Key, std::set<std::uint64_t>> seen_in(const IdImage& ids) {
@@ -37,16 +38,18 @@ std::string plural(const std::string& mark, int count) { return count == 1 || ma
 
 std::string ObjectChange::text() const {
   const std::string where = body.empty() ? "" : other.empty() ? " of " + body : fmt::format(" between {} and {}", body, other);
-  if (mark == "surface" || mark == "plane") {
-    const char* what = missing > 0 ? " missing" : added > 0 ? " new" : " changed";
-    return fmt::format("{}: {}{} ({} pixels)", layer, body, what, pixels);
-  }
+  const std::string size = fmt::format("{} pixel{}", pixels, pixels == 1 ? "" : "s");
+  const char* what = missing > 0 ? "missing" : added > 0 ? "new" : "changed";
+  if (is_solid(mark)) return fmt::format("{}: {} {} ({})", layer, body, what, size);
+  if (body.empty()) return fmt::format("{}: {} {} ({})", layer, mark, what, size);
+  // all marks that a layer draws for a body are one object
+  if (other.empty()) return fmt::format("{}: {}{} {} ({})", layer, plural(mark, 2), where, what, size);
   std::vector<std::string> parts;
-  const auto say = [&](int count, const char* what) {
-    if (count > 0) parts.push_back(fmt::format("{} {}{} {}", count, plural(mark, count), where, what));
+  const auto say = [&](int count, const char* how) {
+    if (count > 0) parts.push_back(fmt::format("{} {}{} {}", count, plural(mark, count), where, how));
   };
   say(missing, "missing"), say(added, "new"), say(changed, "changed");
-  return fmt::format("{}: {} (of {} in A; {} pixels)", layer, fmt::join(parts, ", "), in_a, pixels);
+  return fmt::format("{}: {} (of {} in A; {})", layer, fmt::join(parts, ", "), in_a, size);
 }
 
 std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const IdImage& ids_a, const IdImage& ids_b, int tolerance, const Image* mask) {

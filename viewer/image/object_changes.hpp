@@ -20,8 +20,8 @@ struct ObjectChange {
   std::string text() const;  ///< "contacts: 1 point between crate and floor missing (of 4; 57 pixels)"
 };
 
-/// The most pixels first. A pixel that differs belongs to what stands on top there, in A and in B; the backdrop and
-/// planes count only where both sides show nothing else. A pixel beside one whose object changed belongs to that change. Empty where the sizes are unlike.
+/// The most pixels first. A pixel that differs belongs to what stands on top there, in A and in B; the backdrop,
+/// planes and static bodies count only where both sides show nothing else. A pixel beside one whose object changed belongs to that change. Empty where the sizes are unlike.
 std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const IdImage& ids_a, const IdImage& ids_b, int tolerance, const Image* mask = nullptr);
 
 }  // namespace impinge
