@@ -93,6 +93,7 @@ TEST_CASE("a Slurm job array is the sweep") {
   for (int i = 0; i < 100 && std::system("test -z \"$(squeue --noheader)\"") != 0; ++i) std::system("sleep 0.2");
   CHECK(std::system("test -z \"$(squeue --noheader)\"") == 0);
   for (const std::string& status : column(sweep_results(folder / "long"), "status")) CHECK(status == "open");
+  for (const auto& job : fs::directory_iterator(folder / "long/jobs")) CHECK(!fs::exists(job.path() / "failed"));
 
   // what Slurm refuses is told in its words
   const Outcome refused = [&] {

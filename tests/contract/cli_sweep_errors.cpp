@@ -128,3 +128,17 @@ TEST_CASE("the automatic window ends where a start aside has grown as the scene'
   REQUIRE(files.run("all", {"--vary", "simulation.substeps=8,16", "--reference", "simulation.substeps=32", "--frames", "180", "--window", "all"}, "top.toml").code == 0);
   CHECK(std::stod(sweep_results(files.folder / "all")[0].at("window_s")) == Approx(3.0));
 }
+
+TEST_CASE("a reference that diverges leaves the errors empty, says so, and is not a success") {
+  const SweepFiles files;
+  files.folder.write("wild.toml", "[simulation]\nframe_time = 10\ngravity = [0, 0, 0]\n[[body]]\nname = \"box\"\nkind = \"dynamic\"\nshape = { box = { size = [1, 1, 1] } }\n");
+  const Outcome outcome = files.run("out", {"--vary", "simulation.gravity=[0,0,0],[0,1,0]", "--reference", "simulation.gravity=[0,1e4,0]", "--window", "all", "--frames", "1450"}, "wild.toml");
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.out.find("is diverged: ") != std::string::npos);
+  for (const Row& row : sweep_results(files.folder / "out")) {
+    CHECK(row.at("status") == "done");
+    CHECK(row.at("error_rms_m").empty());
+    CHECK(row.at("window_reason").find("the reference " + row.at("reference").substr(0, 8) + " is diverged") != std::string::npos);
+  }
+}

@@ -33,7 +33,12 @@ class ErrorTaker {
   std::vector<std::string> take(SweepRow& row) {
     std::vector<std::string> cells(sweep_error_columns().size());
     const bool is_analytic = sweep_.reference == SweepReferenceKind::analytic;
-    if (row.outcome.status > SweepOutcome::failed || (!is_analytic && !has_ended(out_, row.reference))) return cells;
+    if (row.outcome.status > SweepOutcome::failed) return cells;
+    if (!is_analytic && !has_ended(out_, row.reference)) {
+      const SweepOutcome outcome = read_sweep_outcome(job_folder(out_, row.reference));
+      cells[6] = fmt::format("no error: the reference {} is {}{}", row.reference.substr(0, 8), status_name(outcome.status), outcome.reason.empty() ? "" : ": " + outcome.reason);
+      return cells;
+    }
     const fs::path run = job_folder(out_, row.hash) / "run";
     ErrorWindow window = is_analytic ? given_window() : window_of(row);
     const SweepErrors errors = is_analytic ? against_formula(row, run, window) : sweep_errors(run, job_folder(out_, row.reference) / "run", bodies_, window.seconds);

@@ -129,7 +129,8 @@ int sweep_command(const Arguments& given) {
     fmt::print(stderr, "interrupted; the same command goes on\n");
     return 130;
   }
-  return done == sweep.rows.size() ? 0 : 1;
+  const bool lacks_reference = std::any_of(sweep.rows.begin(), sweep.rows.end(), [&](const SweepRow& row) { return !row.reference.empty() && read_sweep_outcome(job_folder(out, row.reference)).status > SweepOutcome::failed; });
+  return done == sweep.rows.size() && !lacks_reference ? 0 : 1;
 }
 
 }  // namespace impinge

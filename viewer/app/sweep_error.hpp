@@ -13,7 +13,7 @@ namespace impinge {
 /// Seconds from the start over which errors are taken, and why so long.
 struct ErrorWindow {
   double seconds = std::numeric_limits<double>::infinity();
-  std::string reason;  ///< one line without commas
+  std::string reason;  ///< one line
 };
 
 /// The time up to which the run that started aside stays within 1e-3 scene sizes of the reference, with how fast they part.

@@ -58,6 +58,10 @@ SweepOutcome outcome_of(int status, const fs::path& output) {
   SweepOutcome outcome;
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
+    if (signal == SIGTERM || signal == SIGINT) {  // asked to stop before it could listen
+      outcome.status = SweepOutcome::interrupted;
+      return outcome;
+    }
     outcome.status = SweepOutcome::crashed;
     outcome.reason = fmt::format("ended by signal {} ({})", signal, strsignal(signal));
     return outcome;
