@@ -27,6 +27,7 @@ struct Arguments {
   double step_tolerance = 1e-8;  ///< step: relative residual
   int max_iterations = 2000;     ///< step
   SweepOptions sweep_options;   ///< sweep
+  bool ablation = false;         ///< info; `out` is the folder for ablation.csv, "" for none
 };
 
 /// Throws InputError with one message about the first thing that is wrong.
