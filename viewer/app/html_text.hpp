@@ -8,7 +8,8 @@ namespace impinge {
 
 /// For text and for attributes in double quotes.
 std::string html_text(std::string_view text);
-/// "data:image/png;base64,..." of a PNG file's bytes.
-std::string png_data_uri(std::string_view bytes);
+/// "data:image/TYPE;base64,..." of the bytes of a picture's file.
+std::string data_uri(std::string_view type, std::string_view bytes);
+inline std::string png_data_uri(std::string_view bytes) { return data_uri("png", bytes); }
 
 }  // namespace impinge

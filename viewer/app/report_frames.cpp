@@ -36,7 +36,7 @@ std::string small_copy(const fs::path& file, std::pair<int, int>& size) {
   try {
     const Image image = read_png(file);
     size = {std::min(kWidth, image.width), std::max(1, image.height * std::min(kWidth, image.width) / image.width)};
-    return "data:image/jpeg;base64," + base64(encode_jpeg(reduce_image(image, size.first, size.second), kQuality));
+    return data_uri("jpeg", encode_jpeg(reduce_image(image, size.first, size.second), kQuality));
   } catch (const InputError&) {
     return "";
   }

@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
+#include "viewer/app/html_text.hpp"
 #include "viewer/app/report_table.hpp"
 #include "viewer/panels/heat_table.hpp"
 #include "viewer/panels/plot.hpp"
 
 namespace impinge {
 
-std::string html_text(const std::string& text);
 std::string json_text(const std::string& text);  ///< with its quotes; never holds "</"
 
 /// What the plots show before anybody chooses; -1: no such column.

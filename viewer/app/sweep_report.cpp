@@ -83,18 +83,6 @@ std::string page(const SweepReport& report, const ReportTable& table, const Repo
 
 }  // namespace
 
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
-  }
-  return out;
-}
-
 std::string json_text(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
