@@ -8,7 +8,7 @@
 #include "tests/support/pictures.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/view_scenes.hpp"
-#include "viewer/app/data_uri.hpp"
+#include "viewer/app/html_text.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/present/frame_painter.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "viewer/app/data_uri.hpp"
+#include "viewer/app/html_text.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/image/png.hpp"
 
@@ -44,19 +44,6 @@ document.querySelectorAll('[name=mode]').forEach(e=>e.addEventListener('change',
 $('stage').addEventListener('pointermove',e=>{if(e.buttons&1&&mode==='wipe'){const r=$('stage').getBoundingClientRect();$('wipe').value=100*(e.clientX-r.left)/r.width;wipe($('wipe').value);}});
 document.addEventListener('keydown',e=>{if(e.target.tagName==='INPUT'&&e.target.type==='range')return;if(e.key==='ArrowDown'){show(now+1);e.preventDefault();}if(e.key==='ArrowUp'){show(now-1);e.preventDefault();}});
 if(rows.length)show(0);)";
-
-// for text and for attributes in double quotes
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
-  }
-  return out;
-}
 
 std::string json(const std::string& text) {
   std::string out = "\"";
@@ -97,7 +84,7 @@ std::string cause_word(const PictureComparison& c) {
 }
 
 std::string row(const PictureComparison& c) {
-  std::string out = fmt::format("<tr><td>{}</td><td>{}</td>", escaped(c.name), verdict_text(c));
+  std::string out = fmt::format("<tr><td>{}</td><td>{}</td>", html_text(c.name), verdict_text(c));
   if (c.verdict != PictureComparison::different) return out + "<td></td><td></td><td></td><td></td><td></td></tr>\n";
   const Difference& d = c.difference;
   return out + fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.4f}</td><td>{}</td></tr>\n", d.differing, d.worst_window, d.max_level, c.flip, cause_word(c));
@@ -146,7 +133,7 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
     make_folder(panels.parent_path());
     write_png(panels, difference_panels(a, b, c->difference, rules.mask));
   }
-  std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n", escaped(title), kStyle);
+  std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n", html_text(title), kStyle);
   page += fmt::format("<p>{} of {} pictures differ. A pixel counts once a channel differs by more than {} of 255; the limits are {:g} a megapixel, {:g} % of what is drawn, and {} in any {} x {} window. "
                       "Arrow keys change the row; drag over the picture, or the slider, to wipe from A to B.</p>\n",
                       order.size(), pictures.size(), rules.settings.tolerance, rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window,
