@@ -204,6 +204,11 @@ Arguments parse_arguments(int count, const char* const* words) {
 
   CLI::App* info = app.add_subcommand("info", "what of a scene is modelled and what is left out");
   scene_of(info);
+  info->add_option("--script", raw.script, "script file");
+  info->add_flag("--ablation", arguments.ablation, "run the scene as it is and with each economy switched off: what it would cost, and what it would change");
+  info->add_option("--frames", raw.frames, "with --ablation: the last frame's number (default: 20)");
+  info->add_option("--out", arguments.out, "with --ablation: folder for ablation.csv; a sweep's folder shows it in its report");
+  info->add_option("--threads", raw.threads, "threads to use (default: all cores; one with --ablation)");
 
   CLI::App* names = app.add_subcommand("list", "parameters, layers and algorithms there are");
   names->add_option("TOPIC", arguments.a, "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|cases")->required();
@@ -288,6 +293,8 @@ Arguments parse_arguments(int count, const char* const* words) {
   if (command == "run" && raw.out.empty()) raw.out = "out/" + std::filesystem::path(raw.scene).stem().string();
   if (command == "sweep") check_sweep(raw, arguments);
   if (command == "test" && raw.size.empty()) raw.size = "320x180";
+  if (command == "info" && !arguments.ablation && (!raw.frames.empty() || !arguments.out.empty()))
+    refuse(raw.frames.empty() ? "--out without --ablation" : "--frames without --ablation", "info alone runs nothing", "add --ablation, or leave it out");
   take_raw(raw, arguments);
   return arguments;
 }

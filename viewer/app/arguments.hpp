@@ -31,6 +31,7 @@ struct Arguments {
   int scale = 0;                ///< debug: of text; 0: by the height
   int memory = 256;             ///< debug: megabytes
   SweepOptions sweep_options;   ///< sweep
+  bool ablation = false;         ///< info; `out` is the folder for ablation.csv, "" for none
 };
 
 /// Throws InputError with one message about the first thing that is wrong.

@@ -112,16 +112,16 @@ int sweep_command(const Arguments& given) {
   else run_sweep_jobs(out, sweep.jobs, sweep_options.repeats(), local_jobs(sweep_options), shows_progress);
 
   const SweepTable table = collect_sweep(out, sweep, sweep_options, base);
-  const std::string summary = sweep_summary(table, sweep.rows) + describe_errors(sweep, table);
+  const std::string errors = describe_errors(sweep, table), summary = sweep_summary(table, sweep.rows) + errors;
   std::size_t done = 0;
   for (const SweepRow& row : sweep.rows) done += row.outcome.status == SweepOutcome::done ? 1 : 0;
   {
     const FolderLock lock(out / "lock");
     write_file(out / "results.csv", sweep_csv(table, sweep.rows));
     write_file(out / "summary.txt", fmt::format("{}: {} of {} jobs done\n\n{}", options.scene.filename().string(), done, sweep.rows.size(), summary));
-    SweepReport report{options.scene.filename().string(), "", sweep.paths, sweep.reference_words, sweep.rows, base.session().world().parameters.simulation.frame_time * base.last_frame()};
-    for (const SweepSetting& setting : sweep_options.vary) report.command += (report.command.empty() ? "varied: " : sweep_options.zip ? " with " : " and ") + setting.text;
-    write_sweep_report(out, report);
+    write_sweep_report(out, {options.scene.filename().string(), sweep_options.zip, sweep.paths, sweep.reference_words, errors,
+                            base.session().world().parameters.simulation.frame_time * base.last_frame()},
+                       base.session());
   }
   if (!arguments.quiet)
     fmt::print("{}{} of {} jobs done\nresults: {}\nreport:  {}\n", summary, done, sweep.rows.size(), (out / "results.csv").string(), (out / "report.html").string());

@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 
 namespace impinge {
 namespace {
 
-constexpr Color kInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPaper = hex(0xffffff);
+constexpr Color kInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPaper = hex(0xffffff), kFront = hex(0x8a939c);
 constexpr std::array<Color, 7> kColors = {hex(0x0072b2), hex(0xd55e00), hex(0x009e73), hex(0xcc79a7), hex(0x56b4e9), hex(0xe69f00), hex(0x000000)};
 constexpr int kMarks = 4;             // circle, square, triangle, cross
 constexpr double kLowest = 1e-18, kHighest = 1e6;  // y beyond these is drawn at the edge
 constexpr double kZeroShift = 0.3;    // decades left of 1 where a count of 0 stands
+constexpr std::size_t kLegendLetters = 24;  // of a line of its note
 constexpr int kMarkEvery = 26;        // pixels between marks of one line
 
 ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
@@ -41,7 +43,9 @@ class Painter {
     pen_.text(0.5f * (x_.from + x_.to - pen_.text_width(plot_.x_label)), pen_.picture_height - margin - pen_.text_size, kInk, plot_.x_label);
     draw_grid();
     pen_.list.PushClipRect({x_.from - 5.0f * u_, y_.to - 5.0f * u_}, {x_.to + 5.0f * u_, y_.from + 5.0f * u_});
+    draw_front();
     for (std::size_t i = 0; i < plot_.series.size(); ++i) draw_series(i);
+    draw_rings();
     pen_.list.PopClipRect();
     draw_legend(x_.to + margin, y_.to);
   }
@@ -144,23 +148,51 @@ class Painter {
       const ImVec2 at{x_.at(decade_x(p.x())), y_.at(decade_y(p.y()))};
       // several points a pixel become one line anyway
       if (line.empty() || std::hypot(at.x - line.back().x, at.y - line.back().y) > 0.5f) line.push_back(at);
-      if (marks.empty() || std::hypot(at.x - marks.back().x, at.y - marks.back().y) > static_cast<float>(kMarkEvery) * u_ || &p == &s.points.back())
+      if (plot_.marks_all || marks.empty() || std::hypot(at.x - marks.back().x, at.y - marks.back().y) > static_cast<float>(kMarkEvery) * u_ || &p == &s.points.back())
         marks.push_back(at);
     }
     flush();
     for (const ImVec2& m : marks) draw_mark(m.x, m.y, i);
   }
 
+  ImVec2 place(const Vec2& p) const { return {x_.at(decade_x(p.x())), y_.at(decade_y(p.y()))}; }
+
+  // stairs through the best points: what lies below and left of them nothing reached
+  void draw_front() const {
+    std::vector<ImVec2> corners;
+    for (const Vec2& p : plot_.best)
+      if (is_drawn(p)) corners.push_back(place(p));
+    std::sort(corners.begin(), corners.end(), [](const ImVec2& a, const ImVec2& b) { return a.x < b.x; });
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+      dashes(corners[i - 1], {corners[i].x, corners[i - 1].y});
+      dashes({corners[i].x, corners[i - 1].y}, corners[i]);
+    }
+  }
+  void dashes(ImVec2 a, ImVec2 b) const {
+    const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 6.0f * u_;
+    for (float at = 0.0f; at < length; at += 2.0f * dash) {
+      const float s = at / length, e = std::min(1.0f, (at + dash) / length);
+      pen_.list.AddLine({a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, {a.x + e * (b.x - a.x), a.y + e * (b.y - a.y)}, packed(kFront), 1.4f * u_);
+    }
+  }
+  void draw_rings() const {
+    for (const Vec2& p : plot_.best)
+      if (is_drawn(p)) pen_.list.AddCircle(place(p), 9.5f * u_, packed(kInk), 32, 1.4f * u_);
+  }
+
   static Color color(std::size_t i) { return kColors[i % kColors.size()]; }
 
   static std::array<std::string, 2> lines_of(const std::string& name) {
-    const std::size_t at = name.find('-');
+    std::size_t at = name.find('-');
+    while (at != std::string::npos && (at + 1 == name.size() || !std::isalpha(static_cast<unsigned char>(name[at + 1])))) at = name.find('-', at + 1);  // 1e-6 is one word
     return at == std::string::npos ? std::array<std::string, 2>{name, ""} : std::array<std::string, 2>{name.substr(0, at), "  " + name.substr(at + 1)};
   }
   float legend_width() const {
     float width = 0.0f;
     for (const PlotSeries& s : plot_.series)
       for (const std::string& line : lines_of(s.name)) width = std::max(width, pen_.text_width(line));
+    if (!plot_.best.empty())
+      for (const std::string& line : wrapped(plot_.best_label)) width = std::max(width, pen_.text_width(line));
     return width + 40.0f * u_;
   }
   void draw_legend(float x, float y) const {
@@ -176,6 +208,23 @@ class Painter {
       }
       y += 5.0f * u_;
     }
+    if (plot_.best.empty() || plot_.best_label.empty()) return;
+    y += 6.0f * u_;
+    pen_.list.AddCircle({x + 14.0f * u_, y + 0.5f * pen_.text_size}, 9.5f * u_, packed(kInk), 32, 1.4f * u_);
+    for (const std::string& line : wrapped(plot_.best_label)) {
+      pen_.text(x + 36.0f * u_, y, kInk, line);
+      y += pen_.text_size + 2.0f * u_;
+    }
+  }
+  static std::vector<std::string> wrapped(const std::string& text) {
+    std::vector<std::string> lines(1);
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find(' ', begin), text.size());
+      if (!lines.back().empty() && lines.back().size() + end - begin >= kLegendLetters) lines.emplace_back();
+      lines.back() += (lines.back().empty() ? "" : " ") + text.substr(begin, end - begin);
+      begin = end + 1;
+    }
+    return lines;
   }
 
   const Pen& pen_;

@@ -10,7 +10,7 @@
 namespace impinge {
 
 struct PlotSeries {
-  std::string name;          ///< a '-' in it may become a line break in the legend
+  std::string name;          ///< a '-' before a letter may become a line break in the legend
   std::vector<Vec2> points;  ///< in order; what isn't finite or positive breaks the line
 };
 
@@ -20,6 +20,9 @@ struct Plot {
   /// x counts from 0, which a logarithmic axis doesn't have: 0 stands apart at its left end.
   bool x_counts = false;
   bool x_linear = false;  ///< x from 0 on, in equal steps
+  bool marks_all = false;      ///< a mark at every point, however close
+  std::vector<Vec2> best{};    ///< ringed, and joined by a dashed front
+  std::string best_label{};    ///< what that means, below the legend
 };
 
 /// Fills the whole picture: dark on white, a colour and a kind of mark a series, colours after Okabe & Ito.

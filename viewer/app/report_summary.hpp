@@ -1,0 +1,11 @@
+// The first lines of a sweep's report, for somebody who was not there.
+#pragma once
+
+#include "viewer/app/report_parts.hpp"
+#include "viewer/app/sweep_report.hpp"
+
+namespace impinge {
+
+std::string summary_html(const SweepReport& report, const ReportTable& table, const ReportChoice& choice, const Session& base);
+
+}  // namespace impinge

@@ -1,0 +1,11 @@
+# Writes one C++ file with every text of a folder as a raw string, so that the program needs no data folder: FUNCTION()
+# gives them by file name.
+set(body "#include <map>\n#include <string>\nnamespace impinge {\nconst std::map<std::string, std::string>& ${FUNCTION}() {\n  static const std::map<std::string, std::string> texts = {\n")
+file(GLOB FILES ${DIRECTORY}/*)
+foreach(file ${FILES})
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} text)
+  string(APPEND body "{\"${name}\", R\"TEXT(${text})TEXT\"},\n")
+endforeach()
+string(APPEND body "};\n  return texts;\n}\n}\n")
+file(WRITE ${OUTPUT} "${body}")

@@ -1,0 +1,16 @@
+// Small copies of pictures for pages that hold them: a tenth of a PNG file's bytes.
+#pragma once
+
+#include <string>
+
+#include "viewer/image/image.hpp"
+
+namespace impinge {
+
+/// A JPEG file; quality 1..100. Throws InternalError on an empty image.
+std::string encode_jpeg(const Image& image, int quality);
+
+/// The bytes as text for a data: address.
+std::string base64(const std::string& bytes);
+
+}  // namespace impinge
