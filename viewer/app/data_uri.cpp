@@ -4,9 +4,9 @@
 
 namespace impinge {
 
-std::string png_data_uri(std::string_view bytes) {
+std::string data_uri(std::string_view type, std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out = "data:image/png;base64,";
+  std::string out = "data:image/" + std::string(type) + ";base64,";
   out.reserve(out.size() + (bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;

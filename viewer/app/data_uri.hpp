@@ -6,7 +6,8 @@
 
 namespace impinge {
 
-/// "data:image/png;base64,..." of a PNG file's bytes [RFC 4648 §4].
-std::string png_data_uri(std::string_view bytes);
+/// "data:image/TYPE;base64,..." of the bytes of a picture's file [RFC 4648 §4].
+std::string data_uri(std::string_view type, std::string_view bytes);
+inline std::string png_data_uri(std::string_view bytes) { return data_uri("png", bytes); }
 
 }  // namespace impinge

@@ -5,6 +5,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "viewer/app/data_uri.hpp"
 #include "viewer/app/report_parts.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/jpeg.hpp"
@@ -36,7 +37,7 @@ std::string small_copy(const fs::path& file, std::pair<int, int>& size) {
   try {
     const Image image = read_png(file);
     size = {std::min(kWidth, image.width), std::max(1, image.height * std::min(kWidth, image.width) / image.width)};
-    return "data:image/jpeg;base64," + base64(encode_jpeg(reduce_image(image, size.first, size.second), kQuality));
+    return data_uri("jpeg", encode_jpeg(reduce_image(image, size.first, size.second), kQuality));
   } catch (const InputError&) {
     return "";
   }

@@ -9,7 +9,7 @@
 
 namespace impinge {
 
-std::string html_text(const std::string& text);
+std::string html_text(const std::string& text);  ///< for text and for attributes in double quotes
 std::string json_text(const std::string& text);  ///< with its quotes; never holds "</"
 
 /// What the plots show before anybody chooses; -1: no such column.

@@ -41,6 +41,9 @@ constexpr std::array kKnown = {
     Known{"window_s", "window of the errors", "simulated time over which the errors are taken", false},
     Known{"window_reason", "why this window", "", false},
     Known{"momentum_drift_max_Ns", "momentum drift, largest", "the largest change of the momentum since frame 0; gravity and the floor change it", false},
+    Known{"spread_step_ms", "spread of the time", "largest less smallest simulation time of a job's repeated runs", true},
+    Known{"spread_render_ms", "spread of the drawing time", "largest less smallest of the repeated runs", false},
+    Known{"spread_wall_ms", "spread of the wall time", "largest less smallest of the repeated runs", false},
     Known{"status", "status", "", true},
     Known{"reason", "reason", "what the run said", true},
 };
@@ -82,10 +85,6 @@ void describe(ReportColumn& column) {
   std::replace(stem.begin(), stem.end(), '_', ' ');
   column.label = stem;
   column.is_main = column.kind != ReportColumn::text && column.kind != ReportColumn::hash;
-  if (column.kind == ReportColumn::spread) {
-    column.doc = "largest less smallest of the repeated runs of a job";
-    column.is_main = column.name == "spread_step_ms";
-  }
 }
 
 }  // namespace

@@ -10,7 +10,4 @@ namespace impinge {
 /// A JPEG file; quality 1..100. Throws InternalError on an empty image.
 std::string encode_jpeg(const Image& image, int quality);
 
-/// The bytes as text for a data: address.
-std::string base64(const std::string& bytes);
-
 }  // namespace impinge
