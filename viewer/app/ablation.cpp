@@ -158,12 +158,17 @@ std::vector<AblationRow> ablate(const RunOptions& options, int last_frame, const
   };
   add({{"as it is", "", {}, ""}, static_cast<int>(base.frame_ms.size()), mean_of(base.frame_ms, base.frame_ms.size()), 1.0, 0.0, first.ended});
   add(measured({"as it is, once more", "shows the noise of the timings", {}, ""}));
+  std::vector<Economy> together;
+  std::string without;
   for (Economy& economy : list) {
     if (economy.name == "sleeping" && !economy.overrides.empty()) economy.instead += fmt::format(" (something slept in {} of {} frames)", base.frames_with_sleepers, base.frame_ms.size());
     if (economy.name == "frames without contact") economy.instead += fmt::format(" ({} of {} frames)", base.frames_without_contact, base.frame_ms.size());
-    if (!economy.overrides.empty()) add(measured(economy));
+    if (economy.overrides.empty()) continue;
+    add(measured(economy));
+    if (rows.back().ended.empty()) together.push_back(economy);  // what didn't get through alone won't with the others
+    else without += (without.empty() ? " but for " : ", ") + economy.name;
   }
-  add(measured({"all of these at once", "everything that can be modelled instead", all_overrides(list), ""}));
+  add(measured({"all of these at once", "everything that can be modelled instead" + without, all_overrides(together), ""}));
   for (const Economy& economy : list)
     if (economy.overrides.empty()) add({economy, 0, -1.0, -1.0, -1.0, ""});
   return rows;

@@ -28,7 +28,8 @@ struct AblationRow {
 /// Runs to `last_frame`; a setting that takes more than ten times as long as the scene as it is (and 5 s) ends early and
 /// is compared over the frames that it has made. The distance of a body is the root of the mean square over the points of its
 /// surface, the size of the scene the diagonal of the box round all bodies that can move at frame 0. The first row is the scene as
-/// it is, the second the same once more, which shows the noise of the timings; the last has all economies off at once.
+/// it is, the second the same once more, which shows the noise of the timings; the last that is run has all economies off at once
+/// but those that ended early.
 std::vector<AblationRow> ablate(const RunOptions& options, int last_frame, const std::function<void(const AblationRow&)>& ready);
 
 /// Throws InputError if there is nothing to run.

@@ -73,7 +73,7 @@ void describe(ReportColumn& column) {
   for (const auto& [suffix, unit] : kUnits)
     if (stem.ends_with(suffix) && stem.size() > std::string_view(suffix).size()) {
       column.unit = unit;
-      stem.resize(stem.size() - std::string_view(suffix).size());
+      stem = stem.substr(0, stem.size() - std::string_view(suffix).size());
       break;
     }
   if (column.name.rfind("residual_", 0) == 0) column.unit = "m/s";
