@@ -221,8 +221,9 @@ TEST_CASE("the command line names what is wrong with it") {
   folder.write("s.toml", kScene);
   const auto refused = [&](const std::vector<std::string>& words, const std::string& contains) { check_refused(folder, words, "command line: ", contains); };
   refused({"rum", "s.toml"}, "did you mean 'run'?");
-  refused({"debug", "s.toml"}, "not part of this version");
   refused({"verify"}, "not part of this version");
+  refused({"debug", "s.toml", "--vnc", "5900"}, "not part of this version");
+  refused({"debug", "s.toml", "--headless"}, "--script");
   refused({"run"}, "SCENE");
   refused({"run", "s.toml", "--frame", "3"}, "--frames");
   refused({"run", "s.toml", "--frames", "-3"}, "whole number");

@@ -73,7 +73,7 @@ std::string renderer_of(const fs::path& picture) {
 
 }  // namespace
 
-TEST_CASE("--ids changes no pixel and no state, and tells which bodies the changes belong to") {
+TEST_CASE("the id buffer of --ids changes no pixel and no state, and tells which bodies the changes belong to") {
   const Runs runs;
   runs.run("plain");
   runs.run("ids", {"--ids"});
@@ -154,7 +154,7 @@ TEST_CASE("the report stands alone and shows each picture that differs, the wors
   CHECK(holds(checks, "ok      the slider wipes"));
 }
 
-TEST_CASE("--update makes the baselines what there is, says so, and leaves alone what is within the limits") {
+TEST_CASE("a diff with --update makes the baselines what there is, says so, and leaves alone what is within the limits") {
   const Runs runs;
   runs.run("a");
   runs.run("b", {"--set", "simulation.gravity=[0,-30,0]"});

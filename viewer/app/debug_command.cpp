@@ -7,7 +7,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/app/commands.hpp"
-#include "viewer/present/sdl_window.hpp"
+#include "viewer/app/sdl_window.hpp"
 
 namespace impinge {
 namespace {

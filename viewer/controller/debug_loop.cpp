@@ -1,4 +1,4 @@
-#include "viewer/present/debug_loop.hpp"
+#include "viewer/controller/debug_loop.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 // A window of the desktop that shows the debugger's pixels and hands its input on. Nothing else knows a window system.
 #pragma once
 
-#include "viewer/present/debug_loop.hpp"
+#include "viewer/controller/debug_loop.hpp"
 
 namespace impinge {
 

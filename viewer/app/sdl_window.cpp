@@ -1,6 +1,6 @@
 // SDL's own ways to OpenGL and OSMesa in one process crash (both bring a dispatch table), so the window is drawn by SDL's software
 // renderer: a streaming texture that gets the pixels.
-#include "viewer/present/sdl_window.hpp"
+#include "viewer/app/sdl_window.hpp"
 
 #include <SDL.h>
 #include <fmt/format.h>
