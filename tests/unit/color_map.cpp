@@ -2,6 +2,7 @@
 
 #include "engine/core/types.hpp"
 #include "viewer/draw/color_map.hpp"
+#include "viewer/panels/debug_panels.hpp"
 
 using namespace impinge;
 
@@ -19,20 +20,26 @@ Vec3 lab(const Vec3& rgb) {
   return {116.0 * f(xyz[1]) - 16.0, 500.0 * (f(xyz[0]) - f(xyz[1])), 200.0 * (f(xyz[1]) - f(xyz[2]))};
 }
 
-}  // namespace
-
-TEST_CASE("the colours of quantities grow in lightness by even steps, for colour-blind eyes too") {
-  // linear RGB as dichromats see it (Machado, Oliveira & Fernandes 2009, severity 1): protan, deutan, tritan
+// linear RGB as normal eyes and dichromats see it (Machado, Oliveira & Fernandes 2009, severity 1): protan, deutan, tritan
+std::array<Mat3, 4> all_eyes() {
   std::array<Mat3, 4> eyes;
   eyes[0].setIdentity();
   eyes[1] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998;
   eyes[2] << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940, 0.968881;
   eyes[3] << 1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367, 0.303900;
-  for (const Mat3& eye : eyes) {
+  return eyes;
+}
+
+Vec3 seen(const Mat3& eye, const Color& c) { return lab((eye * linear(c)).cwiseMax(0.0).cwiseMin(1.0)); }
+
+}  // namespace
+
+TEST_CASE("the colours of quantities grow in lightness by even steps, for colour-blind eyes too") {
+  for (const Mat3& eye : all_eyes()) {
     double previous = -1.0, smallest = 1e9, largest = 0.0;
     Vec3 before = Vec3::Zero();
     for (int k = 0; k < kHeatColors; ++k) {
-      const Vec3 now = lab((eye * linear(heat_colors()[static_cast<std::size_t>(k)])).cwiseMax(0.0).cwiseMin(1.0));
+      const Vec3 now = seen(eye, heat_colors()[static_cast<std::size_t>(k)]);
       CHECK(now[0] > previous + 1.2);
       if (k > 0) {
         const double step = (now - before).norm();
@@ -55,4 +62,13 @@ TEST_CASE("colours between two of the table are between them, and beyond its end
   }
   CHECK(heat_color(-3.0) == table.front());
   CHECK(heat_color(7.0) == table.back());
+}
+
+TEST_CASE("plots and states of contacts are told apart by colour-blind eyes, and from what is behind them") {
+  std::vector<Color> plots = {hex(0x232931)}, states = {hex(0x1b1f25), role::kOpen, role::kStick, role::kSlip};
+  for (const std::uint32_t ink : kPlotInks) plots.push_back(hex(ink));
+  for (const Mat3& eye : all_eyes())
+    for (const auto& [colors, least] : {std::pair(plots, 9.0), {states, 30.0}})  // just noticeable is about 1
+      for (std::size_t i = 0; i < colors.size(); ++i)
+        for (std::size_t k = i + 1; k < colors.size(); ++k) CHECK((seen(eye, colors[i]) - seen(eye, colors[k])).norm() > least);
 }

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 /// A script may hold both: lines by frame (at, from, expect, break), and lines to be done one after another.
 struct DebugScript {
   std::string name;
+  bool has_timed = false;
   std::vector<std::string> timed, lines;  // as long as the file, with empty lines where the other has one
 };
 
@@ -28,6 +29,7 @@ DebugScript read_script(const fs::path& path) {
     const std::string bare = line.substr(0, line.find('#'));
     const std::vector<PlacedText> words = split_words({bare, &script.name, 1, 1});
     const bool timed = !words.empty() && (words[0].text == "at" || words[0].text == "from" || words[0].text == "expect" || words[0].text == "break");
+    script.has_timed |= timed;
     script.timed.push_back(timed ? line : "");
     script.lines.push_back(words.empty() || timed ? "" : bare.substr(0, bare.find_last_not_of(" \t\r") + 1));
   }
@@ -46,6 +48,17 @@ Source source_of(const RunOptions& options) {
   return {options.scene / "run.toml", options.scene};
 }
 
+/// What a recording is to be played with.
+std::string command_of(const Arguments& arguments) {
+  const RunOptions& options = arguments.run_options;
+  std::string text = fmt::format("# impinge debug {}", options.scene.string());
+  for (const std::string& set : options.overrides) text += fmt::format(" --set '{}'", set);
+  text += fmt::format(" --size {}x{}", options.width, options.height);
+  if (arguments.scale > 0) text += fmt::format(" --scale {}", arguments.scale);
+  if (arguments.memory != Arguments().memory) text += fmt::format(" --memory {}", arguments.memory);
+  return text + fmt::format(" --script {}\n", arguments.record);
+}
+
 }  // namespace
 
 int debug_command(const Arguments& arguments) {
@@ -53,12 +66,20 @@ int debug_command(const Arguments& arguments) {
   const bool windowed = arguments.window || (!arguments.headless && has_screen());
   if (!windowed && options.script.empty())
     throw InputError("command line: debug without a screen and without --script; one of them is wanted; set DISPLAY, or write --script FILE");
+  if (arguments.window && !has_screen()) throw InputError("command line: --window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
+  const int scale = arguments.scale > 0 ? arguments.scale : debug_scale(options.height);
+  if (options.width < scale * kLeastWidth || options.height < scale * kLeastHeight)
+    throw InputError(fmt::format("command line: --size is {}x{}; the panels want {}x{} at least with text of scale {}; choose a larger one{}", options.width, options.height, scale * kLeastWidth,
+                                 scale * kLeastHeight, scale, scale > 1 ? ", or a smaller --scale" : ""));
   const Source source = source_of(options);
   const DebugScript script = read_script(options.script);
+  if (!source.run_folder.empty() && script.has_timed)
+    throw InputError(fmt::format("{}: lines by frame (at, from, expect, break) with a finished run, which has its own; lines done one after another are wanted; debug the scene instead", script.name));
+  if (!arguments.record.empty()) write_file(arguments.record, "");  // better now than when there is something to lose
 
   std::unique_ptr<DebugWindow> window;
   try {
-    window = std::make_unique<DebugWindow>(options.width, options.height, arguments.scale);
+    window = std::make_unique<DebugWindow>(options.width, options.height, scale);
   } catch (const InternalError& error) {
     throw InputError(fmt::format("window of {}x{}: {}; a smaller one is wanted; change --size", options.width, options.height, error.what()));
   } catch (const std::runtime_error& error) {
@@ -67,10 +88,10 @@ int debug_command(const Arguments& arguments) {
   DebuggerOptions debug;
   debug.session.height = options.height;
   debug.session.width = static_cast<int>(options.height * window->view_aspect());  // what the camera is fitted to is the view
-  if (!script.timed.empty()) debug.session.script_lines = script.timed;
+  if (script.has_timed) debug.session.script_lines = script.timed;
   debug.most_bytes = static_cast<std::size_t>(arguments.memory) << 20;
   debug.run_folder = source.run_folder;
-  Debugger debugger(source.scene, options.overrides, options.script, debug);
+  Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);  // without: a finished run's own
   DebugLoop loop(debugger, *window, options.out);
 
   for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit(); ++i)
@@ -81,7 +102,9 @@ int debug_command(const Arguments& arguments) {
   if (windowed && !loop.has_quit()) show_window(loop, *window, "impinge " + source.scene.filename().string());
 
   if (!arguments.record.empty()) {
-    std::string text;
+    std::string text = command_of(arguments);
+    for (const std::string& line : script.timed)
+      if (!line.empty()) text += line + "\n";
     for (const std::string& line : debugger.recording(loop.pointer())) text += line + "\n";
     write_file(arguments.record, text);
   }

@@ -115,6 +115,7 @@ DebugLine parse_panel(const PlacedText& line, Words words, const DebugNames& nam
     case PanelLine::scroll:
       want(words, 4, 4, "panel scroll PANEL PIXELS");
       p.name = std::string(words[2].text);
+      find(words[2], "panel", {"layers", "parameters", "inspector", "contacts", "stages", "timeline", "console"});
       p.pixels = static_cast<float>(number(words[3], 0, 1e7));
       break;
     case PanelLine::help:

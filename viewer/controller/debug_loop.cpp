@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/error.hpp"
 #include "engine/core/archive.hpp"
@@ -23,8 +24,14 @@ void DebugLoop::draw() {
   fresh_ = false;
   for (const std::string& line : window_.paint(debugger_.model())) {
     fresh_ = true;
-    static const std::string kWindow = "window";
-    if (const std::optional<DebugLine> rest = debugger_.try_execute(line)) take(*rest, {line, &kWindow, 1, 1});
+    static const std::string kConsole = "console";
+    const std::optional<DebugLine> rest = debugger_.try_execute(line);
+    if (!rest) continue;
+    try {
+      take(*rest, {line, &kConsole, 1, 1});
+    } catch (const InputError& error) {
+      debugger_.say(ConsoleLine::problem, error.what());
+    }
   }
 }
 
@@ -87,7 +94,10 @@ void DebugLoop::input(const InputLine& line, const PlacedText& place) {
     case InputLine::drag: {
       const UiWidget widget = find(line.name, place);
       if (!widget.is_slider) place.refuse(fmt::format("'{}' is no slider", line.name), "a slider is wanted", "use ui click");
-      click(ui.slider_x(widget, line.x), std::round(widget.area.y + 0.5f * widget.area.height));
+      const double low = widget.logarithmic ? std::pow(10.0, widget.low) : widget.low, high = widget.logarithmic ? std::pow(10.0, widget.high) : widget.high;
+      if (line.x < low * (low > 0.0 ? 1.0 - 1e-9 : 1.0) || line.x > high * (1.0 + 1e-9))
+        place.refuse(fmt::format("{:.6g} on the slider '{}'", line.x, line.name), fmt::format("it goes from {:.6g} to {:.6g}", low, high), "choose a value in between, or write set");
+      click(std::round(ui.slider_x(widget, line.x)), std::round(widget.area.y + 0.5f * widget.area.height));
       break;
     }
     case InputLine::move: ui.add({UiEvent::move, static_cast<float>(line.x), static_cast<float>(line.y)}); break;
@@ -115,10 +125,10 @@ void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
     write_png(path, image,
               {{"impinge:scene", model.scene}, {"impinge:frame", std::to_string(model.frame)}, {"impinge:state_hash", hex64(debugger_.state_hash())}, {"impinge:renderer", window_.renderer_name()}});
-  } catch (const std::filesystem::filesystem_error& error) {
+  } catch (const std::exception&) {
     place.refuse(fmt::format("{} can't be written", path.string()), "a folder that may be written to is wanted", "change --out or the name");
   }
-  debugger_.say(ConsoleLine::message, "shot " + file);
+  debugger_.record_shot(file, pointer());  // now: a picture doesn't show itself in the console
 }
 
 }  // namespace impinge

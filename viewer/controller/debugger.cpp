@@ -7,6 +7,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/stats_table.hpp"
 
@@ -21,6 +22,14 @@ bool changes_model(const Command& command) {
   return set != nullptr && !set->path.starts_with("view.");
 }
 
+std::string pointer_line(const Vec2& pointer) { return fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y())); }
+
+std::string word_of(const std::string& line, int n) {
+  std::size_t begin = 0;
+  for (; n > 0 && begin < line.size(); --n) begin = std::min(line.find(' ', begin), line.size() - 1) + 1;
+  return line.substr(begin, line.find(' ', begin) - begin);
+}
+
 }  // namespace
 
 Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overrides, const fs::path& script, const DebuggerOptions& options)
@@ -30,16 +39,32 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
   model_.wanted_last = session_.default_last_frame();
   if (!run_folder_.empty()) {
     model_.scene = run_folder_.filename().string();
-    const std::string text = read_file(run_folder_ / "stats.csv", std::uint64_t{1} << 32);
-    std::size_t begin = text.find('\n');
-    for (std::size_t end; begin != std::string::npos && (end = text.find('\n', begin + 1)) != std::string::npos; begin = end) {
-      StatsLine row = parse_stats_row(std::string_view(text).substr(begin + 1, end - begin - 1), session_.is_judged());
-      hashes_.push_back(std::stoull(row.state_hash, nullptr, 16));
-      history_.push_back(std::move(row.figures));
-    }
+    read_run_folder();
   }
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
   advance();
+}
+
+void Debugger::read_run_folder() {
+  const fs::path file = run_folder_ / "stats.csv";
+  const std::string text = read_file(file, std::uint64_t{1} << 32);
+  std::vector<StatsLine> rows = whole_rows(text, session_.is_judged());
+  // a run that was cut off may have ended within a line, but not before one
+  if (const auto lines = std::count(text.begin(), text.end(), '\n'); rows.empty() || std::ssize(rows) + 1 < lines)
+    throw InputError(fmt::format("{}:{}: this line is no whole row of a frame; a run's table is wanted; run the scene again", file.string(), rows.empty() ? 1 : rows.size() + 2));
+  for (StatsLine& row : rows) {
+    hashes_.push_back(std::stoull(row.state_hash, nullptr, 16));
+    history_.push_back(std::move(row.figures));
+  }
+  folder_last_ = static_cast<int>(rows.size()) - 1;
+}
+
+void Debugger::check_hash(int frame) {
+  const std::uint64_t before = hashes_[static_cast<std::size_t>(frame)], now = state_hash();
+  if (before == now || told_of_hash_) return;
+  told_of_hash_ = true;  // what follows differs too
+  if (frame <= folder_last_) say(ConsoleLine::problem, fmt::format("frame {} came out as {:016x}; stats.csv has {:016x}: another program, machine or mesh made it", frame, now, before));
+  else say(ConsoleLine::problem, fmt::format("frame {} came out as {:016x}, not {:016x} as before: a bug of impinge", frame, now, before));
 }
 
 bool Debugger::advance() {
@@ -66,8 +91,7 @@ void Debugger::note_frame() {
   const auto frame = static_cast<std::size_t>(session_.frame());
   std::vector<double> figures = figure_values(record.stats, {}, session_.is_judged());
   if (frame < hashes_.size()) {
-    if (hashes_[frame] != record.stats.state_hash)
-      say(ConsoleLine::problem, fmt::format("frame {} came out as {:016x}, not {:016x} as before: a bug of impinge", frame, record.stats.state_hash, hashes_[frame]));
+    check_hash(session_.frame());
   } else {
     history_.push_back(std::move(figures));
     hashes_.push_back(record.stats.state_hash);
@@ -78,6 +102,7 @@ void Debugger::note_frame() {
     ByteWriter state;
     session_.save(state);
     ring_.put(session_.frame(), state.bytes());
+    ++puts_;
   }
   follow_selection();
 }
@@ -100,7 +125,7 @@ void Debugger::restore_before(int frame) {
 fs::path Debugger::snapshot_file(int frame) const { return run_folder_ / "snapshots" / fmt::format("{:06}.bin", frame); }
 
 std::optional<int> Debugger::last_snapshot_before(int frame) const {
-  for (int k = frame; !run_folder_.empty() && k >= 0; --k)
+  for (int k = std::min(frame, folder_last_); k >= 0; --k)
     if (is_valid_snapshot(snapshot_file(k))) return k;
   return std::nullopt;
 }
@@ -121,7 +146,7 @@ void Debugger::do_command(const Command& command) {
     ring_.cut(session_.frame());
     history_.resize(static_cast<std::size_t>(next));
     hashes_.resize(static_cast<std::size_t>(next));
-    run_folder_.clear();  // its later frames are of another run now
+    folder_last_ = std::min(folder_last_, session_.frame());  // its later frames are of another run now
     std::vector<Command>& commands = by_hand_[next];
     std::erase_if(commands, [&](const Command& c) { return std::get<SetCommand>(c).path == std::get<SetCommand>(command).path; });
     commands.push_back(command);
@@ -174,6 +199,8 @@ void Debugger::do_panel(const PanelLine& line) {
 std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   DebugLine parsed = parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
   if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<ShotLine>(parsed) || std::holds_alternative<QuitLine>(parsed)) return parsed;
+  known_before_ = static_cast<int>(hashes_.size());
+  puts_before_ = puts_;
   if (const auto* command = std::get_if<Command>(&parsed)) do_command(*command);
   if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
@@ -194,64 +221,82 @@ std::optional<DebugLine> Debugger::try_execute(const std::string& line) {
 
 bool Debugger::play_on() {
   if (!playing_) return false;
+  known_before_ = static_cast<int>(hashes_.size());
+  puts_before_ = puts_;
   if (advance()) record("step");
   return true;
 }
 
 void Debugger::say(ConsoleLine::Kind kind, const std::string& text) {
+  may_merge_ = kind == ConsoleLine::command;
   model_.console.push_back({kind, text});
   if (model_.console.size() > kConsoleLines) model_.console.erase(model_.console.begin());
 }
 
-void Debugger::record_input(const std::string& line) { record(line); }
-
-/// Lines that only the last of a row matters of become one.
-void Debugger::record(const std::string& line) {
-  const auto word = [](const std::string& text, int n) {
-    std::size_t begin = 0;
-    for (; n > 0; --n) begin = std::min(text.find(' ', begin), text.size() - 1) + 1;
-    return text.substr(begin, text.find(' ', begin) - begin);
-  };
-  const auto replace_last = [&](const std::string& with) {
-    recorded_.back() = with;
-    if (!model_.console.empty() && model_.console.back().kind == ConsoleLine::command) model_.console.back().text = with;
-    else say(ConsoleLine::command, with);
-  };
-  const std::string verb = word(line, 0);
-  if (verb == "play" || verb == "pause") return;  // what counts is how many frames were made
-  const bool same = !recorded_.empty() && word(recorded_.back(), 0) == verb;
-  if (verb == "step" && same) {
-    const auto frames = [&](const std::string& text) { return text.find(' ') == std::string::npos ? 1 : std::stoi(word(text, 1)); };
-    return replace_last(fmt::format("step {}", frames(recorded_.back()) + frames(line)));
-  }
-  if (same && verb == "seek") return replace_last(line);
-  if (same && (verb == "set" || verb == "panel") && word(recorded_.back(), 1) == word(line, 1) &&
-      (verb == "set" || word(line, 1) == "filter" || (word(line, 1) == "scroll" && word(recorded_.back(), 2) == word(line, 2))))
-    return replace_last(line);
-  if (verb == "camera") {
-    const Camera& camera = view().camera;
-    const std::string eye = fmt::format("camera eye {} {} {}", shortest(camera.eye.x()), shortest(camera.eye.y()), shortest(camera.eye.z()));
-    const std::string target = fmt::format("camera target {} {} {}", shortest(camera.target.x()), shortest(camera.target.y()), shortest(camera.target.z()));
-    const std::size_t n = recorded_.size();
-    if (word(line, 1) == "orbit" || word(line, 1) == "pan" || word(line, 1) == "zoom" || word(line, 1) == "fit") {
-      if (n >= 2 && recorded_[n - 1].starts_with("camera target") && recorded_[n - 2].starts_with("camera eye")) {
-        recorded_[n - 2] = eye;
-        if (model_.console.size() >= 2 && model_.console[model_.console.size() - 2].kind == ConsoleLine::command) model_.console[model_.console.size() - 2].text = eye;
-        return replace_last(target);
-      }
-      recorded_.push_back(eye);
-      say(ConsoleLine::command, eye);
-      recorded_.push_back(target);
-      return say(ConsoleLine::command, target);
-    }
-  }
+void Debugger::add_recorded(const std::string& line) {
   recorded_.push_back(line);
   say(ConsoleLine::command, line);
 }
 
+void Debugger::replace_recorded(const std::string& line) {
+  recorded_.back() = line;
+  model_.console.back().text = line;
+}
+
+/// Of lines that follow each other only the sum or the last is kept, but only where that comes to the same to the last bit: the
+/// frames that are known and the states that are kept show too.
+void Debugger::record(const std::string& line) {
+  const std::string verb = word_of(line, 0);
+  if (verb == "play" || verb == "pause") return;  // what counts is how many frames were made
+  if (verb == "step" || verb == "seek") return record_transport(line);
+  trace_ = other;
+  if (verb == "camera" && word_of(line, 1) != "fov") return record_camera();
+  if (may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb && word_of(recorded_.back(), 1) == word_of(line, 1)) {
+    const std::string what = verb == "panel" ? word_of(line, 1) : "";
+    if (verb == "set" || what == "filter" || (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2))) return replace_recorded(line);
+  }
+  add_recorded(line);
+}
+
+void Debugger::record_transport(const std::string& line) {
+  const std::string verb = word_of(line, 0);
+  const int known = static_cast<int>(hashes_.size()), made = known - known_before_;
+  const auto frames = [](const std::string& text) { return text.find(' ') == std::string::npos ? 1 : std::stoi(word_of(text, 1)); };
+  const Trace trace = known == known_before_ && puts_ == puts_before_ ? none : verb == "step" && made == frames(line) ? new_frames : other;
+  const bool same = may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb;
+  if (same && verb == "step" && trace == trace_ && trace != other) return replace_recorded(fmt::format("step {}", frames(recorded_.back()) + frames(line)));
+  const bool replaces = same && verb == "seek" && trace_ == none;
+  trace_ = trace;
+  if (replaces) replace_recorded(line);
+  else add_recorded(line);
+}
+
+/// Where the camera is, whatever moved it there.
+void Debugger::record_camera() {
+  const Camera& camera = view().camera;
+  const auto line = [](const char* what, const Vec3& v) { return fmt::format("camera {} {} {} {}", what, shortest(v.x()), shortest(v.y()), shortest(v.z())); };
+  const std::string eye = line("eye", camera.eye), target = line("target", camera.target);
+  const std::size_t n = recorded_.size(), shown = model_.console.size();
+  if (may_merge_ && n >= 2 && shown >= 2 && recorded_[n - 1].starts_with("camera target") && recorded_[n - 2].starts_with("camera eye") &&
+      model_.console[shown - 2].text == recorded_[n - 2]) {
+    recorded_[n - 2] = model_.console[shown - 2].text = eye;
+    return replace_recorded(target);
+  }
+  add_recorded(eye);
+  add_recorded(target);
+}
+
+void Debugger::record_shot(const std::string& file, const Vec2& pointer) {
+  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) add_recorded(pointer_line(pointer));
+  if (playing_) add_recorded("play");  // the button shows it
+  add_recorded("shot " + file);
+  if (playing_) add_recorded("pause");
+}
+
 std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
   std::vector<std::string> lines = recorded_;
-  lines.push_back(fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y())));
+  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) lines.push_back(pointer_line(pointer));
+  if (playing_) lines.push_back("play");
   return lines;
 }
 

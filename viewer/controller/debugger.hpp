@@ -38,10 +38,10 @@ class Debugger {
   std::uint64_t state_hash() const { return session_.record().stats.state_hash; }
   int failures() const { return expectations_.failures(); }
   void say(ConsoleLine::Kind kind, const std::string& text);
+  /// A picture was taken: with what was done, since it says where, and the pointer shows.
+  void record_shot(const std::string& file, const Vec2& pointer);
   /// What was done so far, as lines that do it again. `pointer`: where it is now, so that what it hovers over looks the same.
   std::vector<std::string> recording(const Vec2& pointer) const;
-  /// Input that no command stands for.
-  void record_input(const std::string& line);
 
  private:
   void do_command(const Command& command);
@@ -54,12 +54,19 @@ class Debugger {
   std::filesystem::path snapshot_file(int frame) const;
   std::optional<int> last_snapshot_before(int frame) const;
   void note_frame();
+  void read_run_folder();
+  void check_hash(int frame);
   void record(const std::string& line);
+  void record_transport(const std::string& line);
+  void record_camera();
+  void add_recorded(const std::string& line);
+  void replace_recorded(const std::string& line);
   void follow_selection();
 
   Session session_;
   SnapshotRing ring_;
   std::filesystem::path run_folder_;
+  int folder_last_ = -1;                          // last frame up to which the folder's snapshots are of this run
   std::vector<std::vector<double>> history_;      // figures by frame
   std::vector<std::uint64_t> hashes_;             // by frame
   std::map<int, std::vector<Command>> by_hand_;   // by the frame that shows them first
@@ -68,6 +75,11 @@ class Debugger {
   Expectations expectations_;
   bool playing_ = false;
   std::vector<std::string> recorded_;
+  bool may_merge_ = false;      // whether the next line may become one with the last: nothing was said in between
+  int known_before_ = 0;        // of the line being done: how many frames were known,
+  std::size_t puts_ = 0, puts_before_ = 0;  // and how many states had been kept
+  enum Trace { none, new_frames, other } trace_ = other;  // that the last line about frames left
+  bool told_of_hash_ = false;
 };
 
 }  // namespace impinge

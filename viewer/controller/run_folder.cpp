@@ -34,26 +34,6 @@ std::pair<std::string, int> split_frames(const std::string& run_toml) {
 
 std::string read_if_there(const fs::path& path) { return fs::is_regular_file(path) ? read_file(path, kMostBytes) : ""; }
 
-// leading lines that are whole and belong to frames 0, 1, 2, ...
-std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
-  std::vector<StatsLine> rows;
-  std::size_t begin = text.find('\n');
-  if (begin == std::string::npos || text.substr(0, begin) != stats_header(judged)) return rows;
-  for (++begin; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    try {
-      StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
-      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16) break;
-      rows.push_back(std::move(row));
-    } catch (const InputError&) {
-      break;
-    }
-    begin = end + 1;
-  }
-  return rows;
-}
-
 // how many bytes to keep so that no line of a frame after `frame` stays; `number` finds a line's frame
 template <class Number>
 std::uint64_t bytes_up_to(const std::string& text, int frame, bool header, Number number) {
@@ -96,6 +76,25 @@ bool is_our_number(const fs::path& path, const char* ending) {
 }
 
 }  // namespace
+
+std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
+  std::vector<StatsLine> rows;
+  std::size_t begin = text.find('\n');
+  if (begin == std::string::npos || text.substr(0, begin) != stats_header(judged)) return rows;
+  for (++begin; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    try {
+      StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
+      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 || row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos) break;
+      rows.push_back(std::move(row));
+    } catch (const InputError&) {
+      break;
+    }
+    begin = end + 1;
+  }
+  return rows;
+}
 
 RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume) : folder_(folder), run_(run) {
   check_new(resume, run_toml);

@@ -47,4 +47,7 @@ class RunFolder {
   AppendFile stats_, contacts_, commands_;
 };
 
+/// Leading rows of a stats.csv's text that are whole and belong to frames 0, 1, 2, ...
+std::vector<StatsLine> whole_rows(const std::string& text, bool judged);
+
 }  // namespace impinge

@@ -53,14 +53,17 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
   static constexpr const char* kTips[] = {"index in this frame", "the body that stands earlier in the scene", "the other body", "mm, negative: they overlap", "normal impulse of the last sub-step, N s",
                                           "size of the friction impulse, N s", "open, stick or slip"};
   const ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
-  if (!ImGui::BeginTable("rows", 7, flags)) return;
-  constexpr float kWeights[] = {0.75f, 1.2f, 1.2f, 1.9f, 1.65f, 1.65f, 0.5f};
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(2.0f * ui.unit(), 1.0f * ui.unit()));
+  const bool open = ImGui::BeginTable("rows", 7, flags);
+  ImGui::PopStyleVar();
+  if (!open) return;
+  constexpr float kWeights[] = {1.9f, 3.8f, 3.8f, 4.9f, 4.3f, 4.3f, 1.0f};
   for (int k = 0; k < 7; ++k) ImGui::TableSetupColumn(kHeads[k], ImGuiTableColumnFlags_WidthStretch, kWeights[k]);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (std::size_t k = 0; k < contact_columns().size(); ++k) {
     ImGui::TableNextColumn();
     const bool by = model.state.sort == contact_columns()[k];
-    const std::string label = fmt::format("{}{}##{}", kHeads[k], by ? (model.state.descending ? " v" : " ^") : "", k);
+    const std::string label = fmt::format("{}{} ###{}", kHeads[k], by ? (model.state.descending ? "v" : "^") : "", k);  // the space: of #### the first would not show
     if (ImGui::Selectable(label.c_str(), by)) lines.push_back(fmt::format("panel sort {}{}", contact_columns()[k], by && !model.state.descending ? " down" : ""));
     ui.name("contacts/sort:" + contact_columns()[k]);
     tooltip(kTips[k]);
@@ -78,16 +81,17 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
       const bool is_selected = model.selection.kind == Selection::contact && model.selection.index == index;
       if (ImGui::Selectable(fmt::format("{}##{}", index, i).c_str(), is_selected, ImGuiSelectableFlags_SpanAllColumns)) lines.push_back(fmt::format("select contact {}", index));
       ui.name(fmt::format("contacts/row:{}", i));
+      tooltip(fmt::format("{} and {}, {}", body(c.body_a), body(c.body_b), state_name(c.state)));
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(body(c.body_a).c_str());
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(body(c.body_b).c_str());
       ImGui::TableNextColumn();
-      ImGui::Text("%.2g", 1e3 * c.gap);
+      ImGui::TextUnformatted(brief(1e3 * c.gap).c_str());
       ImGui::TableNextColumn();
-      ImGui::Text("%.2g", c.lambda.x());
+      ImGui::TextUnformatted(brief(c.lambda.x()).c_str());
       ImGui::TableNextColumn();
-      ImGui::Text("%.2g", std::hypot(c.lambda.y(), c.lambda.z()));
+      ImGui::TextUnformatted(brief(std::hypot(c.lambda.y(), c.lambda.z())).c_str());
       ImGui::TableNextColumn();
       const Color s = state_color(c.state);
       const ImVec2 at = ImGui::GetCursorScreenPos();

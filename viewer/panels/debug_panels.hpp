@@ -13,6 +13,11 @@ struct DebugLayout {
   UiArea view, layers, parameters, inspector, contacts, stages, transport, timeline, console;
 };
 DebugLayout debug_layout(int width, int height, float unit);
+/// The smallest window that the panels have room in, for unit 1.
+constexpr int kLeastWidth = 800, kLeastHeight = 500;
+
+/// Of the plots in the timeline, which take turns; apart for colour-blind eyes too.
+constexpr std::uint32_t kPlotInks[] = {0x56b4e9, 0xe69f00, 0x2fbf93, 0xf0e442, 0xcc79a7, 0xd9dee6};
 
 /// Whole-number text scale for a window of that height.
 int debug_scale(int height);

@@ -45,7 +45,7 @@ void contact_rows(const DebugModel& model, const Selection& s) {
   row("B", side(c.body_b, c.triangle_b));
   row("point A, m", vector(c.point_a));
   row("normal", vector(c.normal));
-  row("gap", fmt::format("{:.3g} mm, solver saw {:.3g}", 1e3 * c.gap, 1e3 * c.gap0));
+  row("gap", fmt::format("{} mm, solver saw {}", brief(1e3 * c.gap, 3), brief(1e3 * c.gap0, 3)));
   row("impulse, N s", fmt::format("{:.4g} normal, {:.4g} friction", c.lambda.x(), std::hypot(c.lambda.y(), c.lambda.z())));
   row("friction", c.friction > 0.0 ? fmt::format("{:.3g}, {:.0f} % of it used", c.friction,
                                                   c.lambda.x() > 0.0 ? 100.0 * std::hypot(c.lambda.y(), c.lambda.z()) / (c.friction * c.lambda.x()) : 0.0)

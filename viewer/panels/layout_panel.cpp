@@ -15,7 +15,7 @@ DebugLayout debug_layout(int width, int height, float unit) {
   const float w = static_cast<float>(width), h = static_cast<float>(height), gap = std::max(1.0f, unit);
   const float side = whole(std::clamp(0.225f * w, 200.0f * unit, 330.0f * unit)), below = whole(std::clamp(0.24f * h, 150.0f * unit, 230.0f * unit));
   const float bar = 34.0f * unit, top = h - below - gap;
-  const float layers = whole(0.38f * top), inspector = whole(0.30f * top), stages = whole(std::min(0.30f * top, 178.0f * unit));
+  const float layers = whole(std::min(0.45f * top, 246.0f * unit)), inspector = whole(std::min(0.39f * top, 214.0f * unit)), stages = whole(std::min(0.28f * top, 150.0f * unit));
   DebugLayout l;
   l.layers = {0, 0, side, layers};
   l.parameters = {0, layers + gap, side, top - layers - gap};

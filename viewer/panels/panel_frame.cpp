@@ -44,6 +44,15 @@ bool named_button(Ui& ui, const std::string& name, const char* label, bool lit) 
   return clicked;
 }
 
+std::string brief(double v, int digits) {
+  std::string text = fmt::format("{:.{}g}", v + 0.0, digits);  // no -0
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  std::size_t zeros = e + 2;
+  while (zeros + 1 < text.size() && text[zeros] == '0') ++zeros;
+  return text.substr(0, e + 1) + (text[e + 1] == '-' ? "-" : "") + text.substr(zeros);
+}
+
 void tooltip(const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();

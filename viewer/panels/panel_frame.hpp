@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 #include "viewer/draw/palette.hpp"
 #include "viewer/panels/debug_panels.hpp"
 
@@ -27,6 +29,8 @@ inline ImVec4 dim() { return ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled); }
 
 /// A button with a name for scripts.
 bool named_button(Ui& ui, const std::string& name, const char* label, bool lit = false);
+/// A number in few letters: `digits` of it, and of an exponent only what is needed.
+std::string brief(double v, int digits = 2);
 /// The text, shown while the pointer is over the item made last; lines broken at `chars` characters.
 void tooltip(const std::string& text);
 

@@ -104,7 +104,7 @@ void draw_parameters_panel(Ui& ui, const DebugModel& model, const UiArea& area, 
   if (ImGui::InputTextWithHint("##filter", "search", filter, sizeof filter)) lines.push_back(fmt::format("panel filter {}", filter));
   ui.name("parameters/search");
   const std::string word = filter;
-  const float label = 0.5f * ImGui::GetContentRegionAvail().x;
+  const float label = 0.53f * ImGui::GetContentRegionAvail().x;
   std::string group;
   bool open = false;
   for (const Parameter& row : model.rows->all()) {

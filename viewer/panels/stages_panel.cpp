@@ -18,7 +18,7 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
   const Row rows[] = {{"broad", s.times.broad_ms, fmt::format("{} body pairs", s.broad_pairs)},
                       {"narrow", s.times.narrow_ms, fmt::format("{} triangle pairs", s.triangle_pairs)},
                       {"assemble", s.times.assemble_ms, fmt::format("{} unknowns, {} contacts", s.dofs, s.contacts)},
-                      {"response", s.times.response_ms, s.contacts == 0 ? "nothing to solve" : fmt::format("{} groups, {} iterations", s.groups, s.lcp_iterations)},
+                      {"response", s.times.response_ms, s.contacts == 0 ? "nothing to solve" : fmt::format("{} group{}, {} iterations", s.groups, s.groups == 1 ? "" : "s", s.lcp_iterations)},
                       {"integrate", s.times.integrate_ms, fmt::format("{} sub-steps", s.substeps)}};
   bool timed = model.view->show_timings;
   if (!ImGui::BeginTable("stages", 2, ImGuiTableFlags_SizingStretchProp)) return;

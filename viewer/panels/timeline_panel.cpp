@@ -1,4 +1,4 @@
-// Chosen columns of stats.csv over the frames, one strip each, whose highest value stands at its left. A click or drag seeks.
+// Chosen columns of stats.csv over the frames, one strip each: its name at its left, the present value at its right. A click or drag seeks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 namespace impinge {
 namespace {
 
-constexpr std::uint32_t kInks[] = {0x56b4e9, 0xe69f00, 0x2fbf93, 0xf0e442, 0xcc79a7, 0xd9dee6};
-
 ImU32 ink(std::uint32_t rgb, float alpha = 1.0f) {
   const Color c = hex(rgb, alpha);
   return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
 }
+
+constexpr float kNames = 146.0f, kValues = 74.0f;  // room for them beside the strips
 
 struct Axis {
   float left, right;
@@ -23,7 +23,7 @@ struct Axis {
   int frame(float at) const { return static_cast<int>(std::lround((at - left) / (right - left) * static_cast<float>(last))); }
 };
 
-void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, float top, float bottom, std::uint32_t rgb, float text) {
+void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, float top, float bottom, std::uint32_t rgb, float text, float unit) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto& history = *model.history;
   double high = 0.0, low = 0.0;
@@ -48,10 +48,11 @@ void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, f
   }
   list.AddPolyline(points.data(), static_cast<int>(points.size()), ink(rgb), 0, std::max(1.0f, text / 10.0f));
   const double now = history[static_cast<std::size_t>(model.frame)][column];
-  list.AddText({axis.left + 4.0f, top + 1.0f}, ink(rgb), (*model.figure_names)[column].c_str());
+  const float middle = 0.5f * (top + bottom - text);
+  list.AddText({axis.left - kNames * unit, middle}, ink(rgb), (*model.figure_names)[column].c_str());
   const std::string value = fmt::format("{:.4g}", now);
   const float width = ImGui::CalcTextSize(value.c_str()).x;
-  list.AddText({axis.right - width - 4.0f, top + 1.0f}, ink(0xf2f4f7), value.c_str());
+  list.AddText({axis.right + kValues * unit - width, middle}, ink(0xf2f4f7), value.c_str());
 }
 
 }  // namespace
@@ -75,14 +76,16 @@ void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
   const std::vector<std::string>& plots = model.state.plots;
   const ImVec2 start = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   if (size.x < 20.0f * u || size.y < 20.0f * u) return;
-  ImGui::InvisibleButton("strips", size);
+  const float left = start.x + kNames * u, right = std::max(left + 20.0f * u, start.x + size.x - kValues * u);
+  ImGui::SetCursorScreenPos({left, start.y});
+  ImGui::InvisibleButton("strips", {right - left, size.y});
   ui.name("timeline/plot");
-  const Axis axis{start.x, start.x + size.x, std::max({1, model.known_last, model.wanted_last})};
+  const Axis axis{left, right, std::max({1, model.known_last, model.wanted_last})};
   const float each = plots.empty() ? size.y : size.y / static_cast<float>(plots.size());
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const auto column = std::find(model.figure_names->begin(), model.figure_names->end(), plots[i]) - model.figure_names->begin();
     const float top = start.y + static_cast<float>(i) * each;
-    draw_strip(model, static_cast<std::size_t>(column), axis, top, top + each - 2.0f * u, kInks[i % std::size(kInks)], ImGui::GetFontSize());
+    draw_strip(model, static_cast<std::size_t>(column), axis, top, top + each - 2.0f * u, kPlotInks[i % std::size(kPlotInks)], ImGui::GetFontSize(), u);
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const int k : *model.changed_frames) list.AddLine({axis.x(k), start.y}, {axis.x(k), start.y + 5.0f * u}, ink(0xffb84d), 1.5f * u);

@@ -49,8 +49,8 @@ void set_style(float unit) {
   c[ImGuiCol_FrameBg] = color(0x2b313a);
   c[ImGuiCol_FrameBgHovered] = color(0x37404c);
   c[ImGuiCol_FrameBgActive] = color(0x40505f);
-  c[ImGuiCol_SliderGrab] = color(0x56a8e0);
-  c[ImGuiCol_SliderGrabActive] = color(0x8cc8f0);
+  c[ImGuiCol_SliderGrab] = color(0x34719d);  // dark enough for the number over it
+  c[ImGuiCol_SliderGrabActive] = color(0x4385b4);
   c[ImGuiCol_CheckMark] = color(0x6cc1f5);
   c[ImGuiCol_Button] = color(0x333b46);
   c[ImGuiCol_ButtonHovered] = color(0x465364);
@@ -166,7 +166,8 @@ void Ui::name(const std::string& name, const UiWidget& what) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   UiWidget widget = what;
   widget.area = {low.x, low.y, high.x - low.x, high.y - low.y};
-  widget.visible = ImGui::IsItemVisible();
+  const ImVec2 middle = {std::round(0.5f * (low.x + high.x)), std::round(0.5f * (low.y + high.y))};
+  widget.visible = ImGui::IsRectVisible(middle, {middle.x + 1.0f, middle.y + 1.0f});  // where a script clicks
   if (name == wanted_) {
     if (!widget.visible) ImGui::SetScrollHereY(0.5f);
   }

@@ -1,0 +1,131 @@
+// The debugger's panels, each as a kept picture, and where they are. IMPINGE_UPDATE_BASELINES=1 writes the pictures anew; look at
+// them before they are committed.
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "engine/core/types.hpp"
+#include "viewer/draw/palette.hpp"
+#include "viewer/image/difference.hpp"
+#include "viewer/image/png.hpp"
+#include "viewer/present/debug_loop.hpp"
+
+using namespace impinge;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Session {
+  DebugWindow window;
+  Debugger debugger;
+  DebugLoop loop;
+
+  Session(int width, int height)
+      : window(width, height), debugger(fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml", {}, {}, options(width, height, window)), loop(debugger, window, fs::temp_directory_path()) {}
+  static DebuggerOptions options(int, int height, const DebugWindow& window) {
+    DebuggerOptions o;
+    o.session.height = height;
+    o.session.width = static_cast<int>(height * window.view_aspect());
+    return o;
+  }
+  Session& run(const std::vector<std::string>& lines) {
+    static const std::string kTest = "test";
+    for (const std::string& line : lines) loop.run_line({line, &kTest, 1, 1});
+    return *this;
+  }
+};
+
+const std::vector<std::string> kLines = {"step 60", "set contact.friction 0.25", "layer +aabbs -normals", "panel sort gap", "step 10", "select contact 1", "panel plot +max_penetration_m +potential_J", "back 5"};
+
+Image crop(const Image& whole, const UiArea& area) {
+  const int x0 = static_cast<int>(area.x), y0 = static_cast<int>(area.y);
+  Image part(std::min(static_cast<int>(area.width), whole.width - x0), std::min(static_cast<int>(area.height), whole.height - y0));
+  for (int y = 0; y < part.height; ++y) std::copy_n(whole.pixel(x0, y0 + y), 3 * part.width, part.pixel(0, y));
+  return part;
+}
+
+bool updating() {
+  const char* word = std::getenv("IMPINGE_UPDATE_BASELINES");
+  return word != nullptr && std::string(word) == "1";
+}
+
+void check_baseline(const std::string& name, const Image& now, std::uintmax_t most_bytes) {
+  CAPTURE(name);
+  const fs::path file = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/baselines" / ("debug_" + name + ".png");
+  if (updating()) write_png(file, now);
+  REQUIRE(fs::exists(file));
+  const Image kept = read_png(file);
+  const Difference difference = compare(kept, now);
+  if (!difference.same) {
+    const fs::path shown = fs::path(IMPINGE_BINARY_DIR) / ("debug_" + name + "_difference.png");
+    write_png(shown, difference_panels(kept, now, difference));
+    WARN("see " << shown.string());
+  }
+  INFO(difference.reason);
+  CHECK(difference.same);
+  CHECK(fs::file_size(file) < most_bytes);
+}
+
+std::vector<std::pair<std::string, UiArea>> areas(const DebugLayout& l) {
+  return {{"view", l.view},     {"layers", l.layers},       {"parameters", l.parameters}, {"inspector", l.inspector}, {"contacts", l.contacts},
+          {"stages", l.stages}, {"transport", l.transport}, {"timeline", l.timeline},     {"console", l.console}};
+}
+
+}  // namespace
+
+TEST_CASE("the debugger's panels are those of the baselines") {
+  Session session(1280, 720);
+  session.run(kLines);
+  const Image whole = session.loop.picture();
+  check_baseline("window", whole, 150'000);
+  const DebugLayout layout = debug_layout(1280, 720, 1.0f);
+  for (const auto& [name, area] : areas(layout))
+    if (name != "view") check_baseline(name, crop(whole, area), 60'000);
+
+  session.run({"select body crate 3", "ui key f1"});
+  const Image help = session.loop.picture();
+  check_baseline("help", crop(help, {layout.view.x + 0.2f * layout.view.width, layout.view.y + 0.2f * layout.view.height, 0.6f * layout.view.width, 0.6f * layout.view.height}), 60'000);
+  check_baseline("inspector_of_a_body", crop(help, layout.inspector), 60'000);
+}
+
+TEST_CASE("a frame that is gone back to looks as it did") {
+  Session session(960, 600);
+  const DebugLayout layout = debug_layout(960, 600, 1.0f);
+  const Image first = session.run({"step 40", "select body ball"}).loop.picture();
+  const Image again = session.run({"step 30", "back 30"}).loop.picture();
+  for (const auto& [name, area] : areas(layout)) {
+    CAPTURE(name);
+    const bool tells_of_the_past = name == "transport" || name == "timeline" || name == "console";
+    CHECK((crop(first, area).rgb == crop(again, area).rgb) != tells_of_the_past);
+  }
+}
+
+TEST_CASE("no two panels overlap, and all lie in the window") {
+  for (const auto& [width, height] : {std::pair(1280, 720), {1920, 1080}, {3840, 2160}, {2560, 1080}, {kLeastWidth, kLeastHeight}, {4000, 500}, {800, 2000}}) {
+    for (const int scale : {debug_scale(height), 1}) {
+      CAPTURE(width, height, scale);
+      if (width < scale * kLeastWidth || height < scale * kLeastHeight) continue;
+      const auto all = areas(debug_layout(width, height, static_cast<float>(scale)));
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const UiArea& a = all[i].second;
+        CAPTURE(all[i].first);
+        CHECK(a.x >= 0.0f);
+        CHECK(a.y >= 0.0f);
+        CHECK(a.x + a.width <= static_cast<float>(width));
+        CHECK(a.y + a.height <= static_cast<float>(height));
+        CHECK(a.width >= 150.0f * static_cast<float>(scale));
+        CHECK(a.height >= 30.0f * static_cast<float>(scale));
+        for (std::size_t k = i + 1; k < all.size(); ++k) {
+          const UiArea& b = all[k].second;
+          CAPTURE(all[k].first);
+          CHECK((a.x + a.width <= b.x || b.x + b.width <= a.x || a.y + a.height <= b.y || b.y + b.height <= a.y));
+        }
+      }
+    }
+  }
+  CHECK(debug_scale(720) == 1);
+  CHECK(debug_scale(1080) == 1);
+  CHECK(debug_scale(2160) == 3);
+}
