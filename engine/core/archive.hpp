@@ -49,6 +49,7 @@ class ByteReader {
     return m;
   }
   bool at_end() const { return bytes_.empty(); }
+  std::size_t left() const { return bytes_.size(); }
 
  private:
   std::string_view bytes_;

@@ -1,10 +1,11 @@
-// The full state as bytes: what makes the next frame, and nothing that can be derived from it.
+// The full state as bytes: what makes the next frame, and what the last one showed; nothing that can be derived from these.
 #include "engine/core/archive.hpp"
+#include "engine/world/step_record_archive.hpp"
 #include "engine/world/world_stages.hpp"
 
 namespace impinge {
 
-void World::save(ByteWriter& out) const {
+void World::save_state(ByteWriter& out) const {
   out.put(frame_);
   out.put(time_);
   out.put<std::uint64_t>(bodies_.size());
@@ -21,6 +22,11 @@ void World::save(ByteWriter& out) const {
   }
   stages_->cache.save(out);
   stages_->sleeping.save(out);
+}
+
+void World::save(ByteWriter& out) const {
+  save_state(out);
+  put_record(out, record_);
 }
 
 void World::restore(ByteReader& in) {
@@ -45,13 +51,16 @@ void World::restore(ByteReader& in) {
   stages_->sleeping.restore(in);
   stages_->select(parameters);
   stages_->frame_stats = {};
-  detect(parameters.simulation.time_step());
+  stages_->detection.collisions.clear();  // the record says what was found
   publish(false);
+  const std::uint64_t hash = record_.stats.state_hash;
+  get_record(in, record_);
+  if (record_.stats.state_hash != hash) throw InputError("snapshot: its record is of another state; it is another version's or damaged, remove it and run again");
 }
 
 std::uint64_t World::state_hash() const {
   ByteWriter state;
-  save(state);
+  save_state(state);
   return hash_bytes(state.bytes());
 }
 

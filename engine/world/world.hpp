@@ -65,6 +65,7 @@ class World {
   void take_group(const GroupSystem& system, int group);
   void integrate(double time_step);
   void detect(double time_step);
+  void save_state(ByteWriter& out) const;
   void publish(bool solved);
 
   std::vector<RigidBody> bodies_;

@@ -311,6 +311,58 @@ TEST_CASE("a finished run's folder opens, and its frames are those of its table"
   CHECK(told.err.find("frame 47 came out as " + hash + "; stats.csv has " + other) != std::string::npos);
 }
 
+TEST_CASE("a finished run's frames are shown without being simulated again") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--out", "done", "--frames", "60", "--no-images"}).code == 0);
+  // whatever is simulated from here on comes out otherwise, and is told
+  std::string scene = slurp(folder / "done/run.toml");
+  REQUIRE(scene.find("-9.81") != std::string::npos);
+  scene.replace(scene.find("-9.81"), 5, "-9.01");
+  folder.write("done/run.toml", scene);
+  folder.write("a.script", "seek 40\nui drag transport/frame 20\nui key right\nplay\nui wait 10\npause\nback 5\n");
+  const Outcome shown = debug(folder, "done", "a.script");
+  INFO(shown.err);
+  CHECK(shown.code == 0);
+  CHECK(shown.err.empty());
+  const auto [frame, hash] = end_of(shown);
+  CHECK(hash == hash_in(folder / "done/stats.csv", frame));
+
+  fs::remove_all(folder / "done/snapshots");
+  const Outcome simulated = debug(folder, "done", "a.script");
+  CHECK(simulated.code == 0);
+  CHECK(simulated.err.find("came out as") != std::string::npos);
+}
+
+TEST_CASE("a run's states keep to their room, and lie the farther apart the less it is") {
+  const TempFolder folder;
+  std::string bodies;  // of some size: 300 bodies a frame
+  for (int k = 0; k < 300; ++k) bodies += fmt::format("[[body]]\nname = \"b{}\"\nkind = \"dynamic\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nposition = [{}, 0, 0]\n", k, k);
+  folder.write("s.toml", bodies);
+  for (const char* room : {"0", "1", "256"}) {
+    CAPTURE(room);
+    REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--out", room, "--frames", "70", "--no-images", "--snapshots", room}).code == 0);
+    std::vector<int> frames;
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::directory_iterator(folder / room / "snapshots")) frames.push_back(std::stoi(entry.path().stem().string())), bytes += entry.file_size();
+    std::sort(frames.begin(), frames.end());
+    CHECK(frames.front() == 0);
+    CHECK(frames.back() == 70);
+    if (room == std::string("0")) CHECK(frames.size() == 2);
+    if (room == std::string("256")) CHECK(frames.size() == 71);
+    if (room == std::string("1")) {
+      CHECK(bytes <= std::uintmax_t{1} << 20);
+      CHECK(2 * bytes > std::uintmax_t{1} << 20);
+      for (std::size_t k = 2; k + 1 < frames.size(); ++k) CHECK(frames[k] - frames[k - 1] == frames[1]);
+    }
+    folder.write("a.script", "seek 33\n");
+    const Outcome outcome = debug(folder, room, "a.script");
+    CHECK(outcome.err.empty());
+    CHECK(end_of(outcome) == std::pair(33, hash_in(folder / room / "stats.csv", 33)));
+  }
+  CHECK(impinge_run(folder.path(), {"run", "s.toml", "--out", "x", "--snapshots", "-1"}).err.find("--snapshots") != std::string::npos);
+}
+
 TEST_CASE("what is wrong is one message that says where, what is allowed and what to do") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);

@@ -15,7 +15,7 @@
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "viewer/image/png.hpp"
-#include "viewer/present/debug_loop.hpp"
+#include "viewer/controller/debug_loop.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -9,7 +9,7 @@
 #include "viewer/draw/palette.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
-#include "viewer/present/debug_loop.hpp"
+#include "viewer/controller/debug_loop.hpp"
 
 using namespace impinge;
 
@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Session {
+struct PanelSession {
   DebugWindow window;
   Debugger debugger;
   DebugLoop loop;
 
-  Session(int width, int height)
+  PanelSession(int width, int height)
       : window(width, height), debugger(fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml", {}, {}, options(width, height, window)), loop(debugger, window, fs::temp_directory_path()) {}
   static DebuggerOptions options(int, int height, const DebugWindow& window) {
     DebuggerOptions o;
@@ -30,7 +30,7 @@ struct Session {
     o.session.width = static_cast<int>(height * window.view_aspect());
     return o;
   }
-  Session& run(const std::vector<std::string>& lines) {
+  PanelSession& run(const std::vector<std::string>& lines) {
     static const std::string kTest = "test";
     for (const std::string& line : lines) loop.run_line({line, &kTest, 1, 1});
     return *this;
@@ -76,7 +76,7 @@ std::vector<std::pair<std::string, UiArea>> areas(const DebugLayout& l) {
 }  // namespace
 
 TEST_CASE("the debugger's panels are those of the baselines") {
-  Session session(1280, 720);
+  PanelSession session(1280, 720);
   session.run(kLines);
   const Image whole = session.loop.picture();
   check_baseline("window", whole, 150'000);
@@ -91,7 +91,7 @@ TEST_CASE("the debugger's panels are those of the baselines") {
 }
 
 TEST_CASE("a frame that is gone back to looks as it did") {
-  Session session(960, 600);
+  PanelSession session(960, 600);
   const DebugLayout layout = debug_layout(960, 600, 1.0f);
   const Image first = session.run({"step 40", "select body ball"}).loop.picture();
   const Image again = session.run({"step 30", "back 30"}).loop.picture();

@@ -91,7 +91,7 @@ std::vector<std::string> words_between_commas(const std::string& text, const cha
 
 struct Raw {
   std::string scale, memory, response, lcp, step_tolerance, max_iterations, freeze;
-  std::string size, frames, threads, tolerance, export_format;
+  std::string size, frames, snapshots, threads, tolerance, export_format;
   std::string scene, script, out, jobs, repeat, filter, window, job;
   std::vector<std::string> vary, reference, columns;
   bool no_images = false;
@@ -104,6 +104,7 @@ void take_raw(const Raw& raw, Arguments& arguments) {
   options.out = raw.out;
   options.images = !raw.no_images;
   if (!raw.frames.empty()) options.frames = whole(raw.frames, "--frames", 0, 100'000'000);
+  if (!raw.snapshots.empty()) options.snapshot_megabytes = static_cast<std::uint64_t>(whole(raw.snapshots, "--snapshots", 0, 1 << 20));
   if (!raw.jobs.empty()) arguments.sweep_options.jobs = whole(raw.jobs, "--jobs", 1, 4096);
   if (!raw.repeat.empty()) arguments.sweep_options.repeat = whole(raw.repeat, "--repeat", 1, 1000);
   if (!raw.threads.empty()) arguments.threads = whole(raw.threads, "--threads", 1, 4096);
@@ -179,6 +180,8 @@ Arguments parse_arguments(int count, const char* const* words) {
   run->add_option("--export", raw.export_format, "ply: the bodies' surfaces of each frame");
   run->add_flag("--contacts", arguments.run_options.contacts, "write contacts.csv");
   run->add_flag("--ids", arguments.run_options.ids, "write ids/NNNNNN.png too: what each pixel of a frame shows, for impinge diff to name what changed");
+  run->add_option("--snapshots", raw.snapshots, "megabytes for the states of the frames (default: 256): from these a run is resumed, and opened in the debugger without being simulated again; "
+                                                "where they don't fit every second one is given up, and so on");
   run->add_flag("--judge", arguments.run_options.judge, "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
   run->add_option("--freeze", raw.freeze, "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_of(run);
@@ -237,7 +240,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   threads_of(compare);
 
   CLI::App* debug = app.add_subcommand("debug", "the interactive debugger: play, step, go back, pick and change; what is done by hand is a script");
-  debug->add_option("SCENE", raw.scene, "scene file (TOML), or the folder of a run, which is shown without being simulated again where it has a snapshot")->required();
+  debug->add_option("SCENE", raw.scene, "scene file (TOML), or the folder of a run, which is shown without being simulated again where it has kept the frame's state")->required();
   debug->add_option("--script", raw.script, "script file: lines by frame as for run, and lines done one after another (viewer/README.md)");
   debug->add_option("--record", arguments.record, "file that gets what was done, as lines of a script that do it again");
   debug->add_flag("--window", arguments.window, "show a window, after the script if there is one (default where there is a screen)");

@@ -32,7 +32,7 @@ int open_lock(const fs::path& file) {
 
 std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   const RunOptions& o = job.options;
-  std::vector<std::string> words = {"impinge", "run", o.scene.string(), "--out", (folder / "run").string(), "--threads", "1", "--resume", "--quiet"};
+  std::vector<std::string> words = {"impinge", "run", o.scene.string(), "--out", (folder / "run").string(), "--threads", "1", "--snapshots", "8", "--resume", "--quiet"};  // there may be thousands
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (!o.script.empty()) add({"--script", o.script.string()});
   if (o.frames) add({"--frames", std::to_string(*o.frames)});

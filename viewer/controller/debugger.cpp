@@ -67,8 +67,24 @@ void Debugger::check_hash(int frame) {
   else say(ConsoleLine::problem, fmt::format("frame {} came out as {:016x}, not {:016x} as before: a bug of impinge", frame, now, before));
 }
 
+/// To a frame whose state is kept, with what the script has for it that is of the view.
+bool Debugger::bring_back(int frame) {
+  if (frame >= static_cast<int>(hashes_.size())) return false;
+  if (!ring_.has(frame) && !(frame <= folder_last_ && is_valid_snapshot(snapshot_file(frame)))) return false;
+  restore_before(frame);
+  const std::vector<Command> commands = session_.script().commands_at(frame);
+  if (!commands.empty()) changed_frames_.insert(frame);
+  for (const Command& command : commands)
+    if (!changes_model(command)) session_.change(command);
+  return true;
+}
+
 bool Debugger::advance() {
   const int next = session_.frame() + 1;
+  if (next > 0 && bring_back(next)) {
+    note_frame();
+    return true;
+  }
   // again where they were applied already: a value set twice is the same value
   if (const auto it = by_hand_.find(next); it != by_hand_.end())
     for (const Command& command : it->second) session_.change(command);
@@ -132,7 +148,10 @@ std::optional<int> Debugger::last_snapshot_before(int frame) const {
 
 void Debugger::seek(int frame) {
   const bool back = frame < session_.frame(), known = frame < static_cast<int>(hashes_.size());
-  if (back || (known && std::max(ring_.at_or_before(frame).value_or(0), last_snapshot_before(frame).value_or(0)) > session_.frame())) restore_before(frame);
+  if (back || (known && std::max(ring_.at_or_before(frame).value_or(0), last_snapshot_before(frame).value_or(0)) > session_.frame())) {
+    restore_before(frame);
+    check_hash(session_.frame());
+  }
   while (session_.frame() < frame && advance()) {
   }
   follow_selection();

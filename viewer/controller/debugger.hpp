@@ -55,6 +55,7 @@ class Debugger {
   std::optional<int> last_snapshot_before(int frame) const;
   void note_frame();
   void read_run_folder();
+  bool bring_back(int frame);
   void check_hash(int frame);
   void record(const std::string& line);
   void record_transport(const std::string& line);

@@ -13,8 +13,6 @@ namespace impinge {
 
 namespace {
 
-constexpr int kSnapshotEvery = 10;  // frames: a resumed run repeats fewer than this
-
 RunRecord record_of(const RunOptions& options, const Session& session, int last_frame) {
   RunRecord record = session.run_record();
   record.frames = last_frame;
@@ -46,7 +44,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene().path.filename().string(), options.ids);
-  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume);
+  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume, options.snapshot_megabytes << 20);
 
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
@@ -97,10 +95,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     if (watcher.frame) watcher.frame(session.record().stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
     stop = judge(frame, figure_values(session.record().stats, extras, judged));
-    if (frame % kSnapshotEvery == 0 || frame == last_frame || stop || interrupted()) {
-      view.finish();
-      folder.add_snapshot(session);
-    }
+    folder.add_snapshot(session);
   }
   view.finish();
   result.last_frame = session.frame();

@@ -15,6 +15,7 @@ struct RunOptions {
   std::optional<int> frames;             ///< the last frame's number
   std::optional<int> freeze;             ///< the frame whose last sub-step is written as a frozen step
   std::vector<std::string> overrides;    ///< PATH=VALUE
+  std::uint64_t snapshot_megabytes = 256; ///< room for the states of the frames
   int width = 1280, height = 720;        ///< pixels
   bool images = true, ids = false, contacts = false, export_ply = false, judge = false, resume = false;
   bool compares_pictures = true;         ///< false: `expect image` lines are left to the caller, and their files may be missing

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 
 #include "engine/core/error.hpp"
 #include "engine/io/frozen_step_file.hpp"
@@ -96,7 +97,7 @@ std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
   return rows;
 }
 
-RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume) : folder_(folder), run_(run) {
+RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume, std::uint64_t snapshot_bytes) : folder_(folder), run_(run), snapshot_bytes_(snapshot_bytes) {
   check_new(resume, run_toml);
   if (resume) {
     kept_ = whole_rows(read_if_there(folder_ / "stats.csv"), run_.judge);
@@ -150,12 +151,16 @@ int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
   return -1;
 }
 
-void RunFolder::clear_markers() const {
+void RunFolder::clear_markers() {
   std::error_code error;
   fs::remove(folder_ / "done", error);
   // snapshots after the point of return belong to frames that are about to be made again
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "snapshots", error))
-    if (is_our_number(entry.path(), ".bin") && leading_number(entry.path().stem().string()) > resume_frame()) fs::remove(entry.path(), error);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "snapshots", error)) {
+    if (!is_our_number(entry.path(), ".bin")) continue;
+    const int frame = leading_number(entry.path().stem().string());
+    if (frame > resume_frame()) fs::remove(entry.path(), error);
+    else snapshots_[frame] = entry.file_size(error);
+  }
 }
 
 fs::path RunFolder::snapshot(int frame) const { return folder_ / "snapshots" / (six_digits(frame) + ".bin"); }
@@ -178,7 +183,25 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
   stats_.append(stats_row(record.stats, extras, run_.judge) + "\n");
 }
 
-void RunFolder::add_snapshot(const Session& session) { write_snapshot(snapshot(session.frame()), session); }
+void RunFolder::add_snapshot(const Session& session) {
+  const int frame = session.frame(), before = snapshots_.empty() ? 0 : snapshots_.rbegin()->first;
+  snapshots_[frame] = write_snapshot(snapshot(frame), session);
+  if (before % spacing_ != 0) forget_snapshot(before);
+  const auto room_taken = [&] { return std::accumulate(snapshots_.begin(), snapshots_.end(), std::uint64_t{0}, [](std::uint64_t sum, const auto& s) { return sum + s.second; }); };
+  while (snapshots_.size() > 2 && room_taken() > snapshot_bytes_) {
+    spacing_ *= 2;
+    for (auto it = snapshots_.begin(); it != snapshots_.end();) {
+      const int k = (it++)->first;
+      if (k % spacing_ != 0 && k != frame) forget_snapshot(k);
+    }
+  }
+}
+
+void RunFolder::forget_snapshot(int frame) {
+  std::error_code error;
+  fs::remove(snapshot(frame), error);
+  snapshots_.erase(frame);
+}
 
 void RunFolder::add_frozen_step(const FrozenStep& step) {
   make_folder(folder_ / "frozen");

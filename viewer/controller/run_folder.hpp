@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 
 #include "engine/io/append_file.hpp"
@@ -18,7 +19,7 @@ class RunFolder {
  public:
   /// Throws InputError, with nothing written, if the folder can't be taken; otherwise it holds run.toml and the files that
   /// grow, cut back to the last frame from which the run can go on.
-  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume);
+  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume, std::uint64_t snapshot_bytes);
 
   /// Rows of the frames that are kept, 0 to resume_frame(); empty for a new run.
   const std::vector<StatsLine>& kept() const { return kept_; }
@@ -31,7 +32,7 @@ class RunFolder {
 
   /// Everything of a frame but its picture; the row of stats.csv comes last.
   void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras);
-  /// To be called when all pictures up to the frame are on the disk.
+  /// Of every frame, until they fill their room: then every second one is given up, and so on. The last one always stays.
   void add_snapshot(const Session& session);
   void add_frozen_step(const FrozenStep& step);
   void finish();
@@ -39,11 +40,15 @@ class RunFolder {
  private:
   void check_new(bool resume, const std::string& run_toml) const;
   int last_resumable(const std::vector<StatsLine>& rows) const;
-  void clear_markers() const;
+  void clear_markers();
+  void forget_snapshot(int frame);
 
   std::filesystem::path folder_;
   RunRecord run_;
   std::vector<StatsLine> kept_;
+  std::uint64_t snapshot_bytes_;                  // room for them
+  std::map<int, std::uint64_t> snapshots_;        // bytes by frame
+  int spacing_ = 1;                               // frames from one that stays to the next
   AppendFile stats_, contacts_, commands_;
 };
 

@@ -7,7 +7,7 @@ namespace impinge {
 
 namespace {
 
-constexpr std::string_view kHead = "impinge snapshot 1\n";
+constexpr std::string_view kHead = "impinge snapshot 2\n";
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
 // the state between head and checksum; empty if the file is damaged
@@ -20,11 +20,13 @@ std::string_view body_of(std::string_view bytes) {
 
 }  // namespace
 
-void write_snapshot(const std::filesystem::path& path, const Session& session) {
+std::size_t write_snapshot(const std::filesystem::path& path, const Session& session) {
   ByteWriter state, checksum;
   session.save(state);
   checksum.put(hash_bytes(state.bytes()));
-  write_file(path, std::string(kHead) + state.bytes() + checksum.bytes());
+  const std::string bytes = std::string(kHead) + state.bytes() + checksum.bytes();
+  write_file(path, bytes);
+  return bytes.size();
 }
 
 bool is_valid_snapshot(const std::filesystem::path& path) {

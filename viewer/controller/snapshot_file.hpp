@@ -7,7 +7,8 @@
 
 namespace impinge {
 
-void write_snapshot(const std::filesystem::path& path, const Session& session);
+/// Returns its size in bytes.
+std::size_t write_snapshot(const std::filesystem::path& path, const Session& session);
 
 /// Whether the file is whole: right head, right checksum.
 bool is_valid_snapshot(const std::filesystem::path& path);

@@ -10,6 +10,13 @@
 namespace impinge {
 namespace {
 
+constexpr std::size_t kLetters = 7;  // that a column has room for
+
+std::string narrow(double v) {
+  const std::string text = brief(v);
+  return text.size() > kLetters ? brief(v, 1) : text;
+}
+
 double value_of(const ContactRecord& c, std::size_t column) {
   switch (column) {
     case 1: return c.body_a;
@@ -87,11 +94,11 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(body(c.body_b).c_str());
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(brief(1e3 * c.gap).c_str());
+      ImGui::TextUnformatted(narrow(1e3 * c.gap).c_str());
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(brief(c.lambda.x()).c_str());
+      ImGui::TextUnformatted(narrow(c.lambda.x()).c_str());
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(brief(std::hypot(c.lambda.y(), c.lambda.z())).c_str());
+      ImGui::TextUnformatted(narrow(std::hypot(c.lambda.y(), c.lambda.z())).c_str());
       ImGui::TableNextColumn();
       const Color s = state_color(c.state);
       const ImVec2 at = ImGui::GetCursorScreenPos();

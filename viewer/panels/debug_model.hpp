@@ -1,10 +1,12 @@
 // What the debugger's panels show, as plain data. They change nothing themselves: what is done in them comes out as command lines.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/parameter.hpp"
@@ -55,6 +57,12 @@ struct DebugModel {
   Selection selection;
   PanelState state;
   std::vector<ConsoleLine> console;
+
+  /// Of the frame shown, by its column's name; 0 if there is none.
+  double figure(std::string_view column) const {
+    const auto it = std::find(figure_names->begin(), figure_names->end(), column);
+    return it == figure_names->end() ? 0.0 : (*history)[static_cast<std::size_t>(frame)][static_cast<std::size_t>(it - figure_names->begin())];
+  }
 };
 
 /// Columns that the contact table sorts by, keys and mouse buttons, as commands name them.

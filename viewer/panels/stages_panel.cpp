@@ -15,11 +15,12 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
     double ms;
     std::string work;
   };
-  const Row rows[] = {{"broad", s.times.broad_ms, fmt::format("{} body pairs", s.broad_pairs)},
-                      {"narrow", s.times.narrow_ms, fmt::format("{} triangle pairs", s.triangle_pairs)},
-                      {"assemble", s.times.assemble_ms, fmt::format("{} unknowns, {} contacts", s.dofs, s.contacts)},
-                      {"response", s.times.response_ms, s.contacts == 0 ? "nothing to solve" : fmt::format("{} group{}, {} iterations", s.groups, s.groups == 1 ? "" : "s", s.lcp_iterations)},
-                      {"integrate", s.times.integrate_ms, fmt::format("{} sub-steps", s.substeps)}};
+  const Row rows[] = {{"broad", model.figure("broad_ms"), fmt::format("{} body pairs", s.broad_pairs)},
+                      {"narrow", model.figure("narrow_ms"), fmt::format("{} triangle pairs", s.triangle_pairs)},
+                      {"assemble", model.figure("assemble_ms"), fmt::format("{} unknowns, {} contacts", s.dofs, s.contacts)},
+                      {"response", model.figure("response_ms"), s.contacts == 0 ? "nothing to solve" : fmt::format("{} group{}, {} iterations", s.groups, s.groups == 1 ? "" : "s", s.lcp_iterations)},
+                      {"integrate", model.figure("integrate_ms"), fmt::format("{} sub-steps", s.substeps)}};
+  const double step_ms = model.figure("step_ms");
   bool timed = model.view->show_timings;
   if (!ImGui::BeginTable("stages", 2, ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 66.0f * ui.unit());
@@ -32,7 +33,7 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
       ImGui::TextUnformatted(row.work.c_str());
       continue;
     }
-    const float share = s.times.step_ms > 0.0 ? static_cast<float>(row.ms / s.times.step_ms) : 0.0f;
+    const float share = step_ms > 0.0 ? static_cast<float>(row.ms / step_ms) : 0.0f;
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
     ImGui::ProgressBar(std::clamp(share, 0.0f, 1.0f), {-1.0f, ImGui::GetTextLineHeight()}, fmt::format("{:.2f} ms", row.ms).c_str());
     ImGui::PopStyleColor();
@@ -44,7 +45,7 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
   tooltip("wall-clock times: pictures with them are not the same twice");
   if (timed) {
     ImGui::SameLine();
-    ImGui::Text("%.2f ms a frame", s.times.step_ms);
+    ImGui::Text("%.2f ms a frame", step_ms);
   }
 }
 
