@@ -17,6 +17,20 @@ std::string narrow(double v) {
   return text.size() > kLetters ? brief(v, 1) : text;
 }
 
+/// The text, or its beginning and end where it is too wide: names often differ in their last letters.
+std::string elided(const std::string& text, float width) {
+  const auto letters = static_cast<std::size_t>(width / ImGui::CalcTextSize("0").x);
+  if (text.size() <= letters || letters < 5) return text;
+  const std::size_t tail = (letters - 1) / 2;
+  return text.substr(0, letters - 2 - tail) + ".." + text.substr(text.size() - tail);
+}
+
+void draw_arrow(bool down) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const float half = 0.25f * ImGui::GetFontSize(), x = high.x - 2.5f * half, y = 0.5f * (low.y + high.y), tip = down ? half : -half;
+  ImGui::GetWindowDrawList()->AddTriangleFilled({x - half, y - 0.6f * tip}, {x + half, y - 0.6f * tip}, {x, y + tip}, ImGui::GetColorU32(ImGuiCol_Text));
+}
+
 double value_of(const ContactRecord& c, std::size_t column) {
   switch (column) {
     case 1: return c.body_a;
@@ -64,15 +78,16 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
   const bool open = ImGui::BeginTable("rows", 7, flags);
   ImGui::PopStyleVar();
   if (!open) return;
-  constexpr float kWeights[] = {1.9f, 3.8f, 3.8f, 4.9f, 4.3f, 4.3f, 1.0f};
+  constexpr float kWeights[] = {2.6f, 5.0f, 5.0f, 4.9f, 4.5f, 4.9f, 1.2f};
   for (int k = 0; k < 7; ++k) ImGui::TableSetupColumn(kHeads[k], ImGuiTableColumnFlags_WidthStretch, kWeights[k]);
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (std::size_t k = 0; k < contact_columns().size(); ++k) {
     ImGui::TableNextColumn();
     const bool by = model.state.sort == contact_columns()[k];
-    const std::string label = fmt::format("{}{} ###{}", kHeads[k], by ? (model.state.descending ? "v" : "^") : "", k);  // the space: of #### the first would not show
+    const std::string label = fmt::format("{} ###{}", kHeads[k], k);  // the space: of #### the first would not show
     if (ImGui::Selectable(label.c_str(), by)) lines.push_back(fmt::format("panel sort {}{}", contact_columns()[k], by && !model.state.descending ? " down" : ""));
     ui.name("contacts/sort:" + contact_columns()[k]);
+    if (by) draw_arrow(model.state.descending);
     tooltip(kTips[k]);
   }
   const std::vector<int> order = sorted(model);
@@ -90,9 +105,9 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
       ui.name(fmt::format("contacts/row:{}", i));
       tooltip(fmt::format("{} and {}, {}", body(c.body_a), body(c.body_b), state_name(c.state)));
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(body(c.body_a).c_str());
+      ImGui::TextUnformatted(elided(body(c.body_a), ImGui::GetContentRegionAvail().x).c_str());
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(body(c.body_b).c_str());
+      ImGui::TextUnformatted(elided(body(c.body_b), ImGui::GetContentRegionAvail().x).c_str());
       ImGui::TableNextColumn();
       ImGui::TextUnformatted(narrow(1e3 * c.gap).c_str());
       ImGui::TableNextColumn();

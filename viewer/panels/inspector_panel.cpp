@@ -15,7 +15,7 @@ void row(const char* label, const std::string& value) {
   ImGui::TextWrapped("%s", value.c_str());
 }
 
-std::string vector(const Vec3& v) { return fmt::format("{:.3g}  {:.3g}  {:.3g}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0); }  // no -0
+std::string vector(const Vec3& v) { return fmt::format("{}  {}  {}", brief(v.x(), 3), brief(v.y(), 3), brief(v.z(), 3)); }
 
 void body_rows(const DebugModel& model, const Selection& s) {
   const BodyRecord& b = model.record->bodies[static_cast<std::size_t>(s.index)];
@@ -30,7 +30,7 @@ void body_rows(const DebugModel& model, const Selection& s) {
   double force = 0.0;
   for (const ContactRecord& c : model.record->contacts)
     if (c.body_a == s.index || c.body_b == s.index) ++contacts, force += c.lambda.x();
-  row("contacts", fmt::format("{}, normal impulses {:.4g} N s", contacts, force));
+  row("contacts", fmt::format("{}, in all {} N s normal", contacts, brief(force, 3)));
   if (b.group >= 0) row("group", fmt::format("{} with {} bodies", b.group, model.record->groups[static_cast<std::size_t>(b.group)].size()));
   if (s.triangle >= 0) row("triangle", std::to_string(s.triangle));
 }
@@ -45,8 +45,8 @@ void contact_rows(const DebugModel& model, const Selection& s) {
   row("B", side(c.body_b, c.triangle_b));
   row("point A, m", vector(c.point_a));
   row("normal", vector(c.normal));
-  row("gap", fmt::format("{} mm, solver saw {}", brief(1e3 * c.gap, 3), brief(1e3 * c.gap0, 3)));
-  row("impulse, N s", fmt::format("{:.4g} normal, {:.4g} friction", c.lambda.x(), std::hypot(c.lambda.y(), c.lambda.z())));
+  row("gap", fmt::format("{} mm, solved with {}", brief(1e3 * c.gap, 3), brief(1e3 * c.gap0, 3)));
+  row("impulse, N s", fmt::format("{} normal, {} friction", brief(c.lambda.x(), 3), brief(std::hypot(c.lambda.y(), c.lambda.z()), 3)));
   row("friction", c.friction > 0.0 ? fmt::format("{:.3g}, {:.0f} % of it used", c.friction,
                                                   c.lambda.x() > 0.0 ? 100.0 * std::hypot(c.lambda.y(), c.lambda.z()) / (c.friction * c.lambda.x()) : 0.0)
                                    : "none");

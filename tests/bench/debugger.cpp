@@ -1,0 +1,84 @@
+// The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a frame of it costs, from the
+// mouse's move to the pixels, and what of that is the scene and what the panels. Everything is drawn by the processor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "engine/core/parallel.hpp"
+#include "tests/support/temp_folder.hpp"
+#include "viewer/controller/debug_loop.hpp"
+
+using namespace impinge;
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kWidth = 1280, kHeight = 720, kFrames = 60;
+
+double now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double median(std::vector<double> times) {
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  return times[times.size() / 2];
+}
+
+/// Dragons of 4,998 triangles, fallen on a floor.
+std::string scene_of(int dragons) {
+  std::string text = "[scene]\nallow_outside_files = true\n[contact]\nfriction = 0.4\n[[body]]\nname = \"floor\"\nkind = \"static\"\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n";
+  for (int k = 0; k < dragons; ++k)
+    text += fmt::format("[[body]]\nname = \"dragon_{}\"\nkind = \"dynamic\"\nsurface = \"{}\"\nmaterial = {{ density = 900 }}\nposition = [{}, 0.06, {}]\nrotation = [0, {}, 0]\n", k,
+                        (fs::path(IMPINGE_SOURCE_DIR) / "scenes/meshes/dragon/dragon_5k.off").string(), 0.2 * (k % 4), 0.2 * (k / 4), 40 * k);
+  return text;
+}
+
+void measure(int dragons) {
+  const test::TempFolder folder;
+  folder.write("scene.toml", scene_of(dragons));
+  DebugWindow window(kWidth, kHeight);
+  DebuggerOptions options;
+  options.session.height = kHeight;
+  options.session.width = static_cast<int>(kHeight * window.view_aspect());
+  Debugger debugger(folder / "scene.toml", {}, {}, options);
+  DebugLoop loop(debugger, window, folder.path());
+  static const std::string kBench = "bench";
+  const auto line = [&](const std::string& text) { loop.run_line({text, &kBench, 1, 1}); };
+  line("step 30");
+  line("ui move 640 270");
+  line("ui press left");
+  Image pixels;
+  std::vector<double> orbit, panels, read;
+  for (int k = 0; k < kFrames; ++k) {
+    const double start = now_ms();
+    window.ui().add({UiEvent::move, 640.0f + 3.0f * static_cast<float>(k + 1), 270.0f});
+    loop.tick();  // shows the move before this one, as while a hand moves on
+    const double drawn = now_ms();
+    window.read(pixels);
+    orbit.push_back(now_ms() - start);
+    read.push_back(now_ms() - drawn);
+  }
+  line("ui release left");
+  for (int k = 0; k < kFrames; ++k) {
+    const double start = now_ms();
+    loop.tick();  // nothing new in the scene
+    panels.push_back(now_ms() - start);
+  }
+  std::size_t triangles = 0;
+  for (const BodyRecord& body : debugger.model().record->bodies)
+    if (const auto* mesh = std::get_if<MeshPointer>(body.shape)) triangles += (*mesh)->mesh.triangles.size();
+  const double whole = median(orbit);
+  fmt::print("{:>9} | {:>8} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f}\n", triangles, debugger.model().record->contacts.size(), whole, whole - median(panels) - median(read), median(panels), median(read),
+             1e3 / whole);
+}
+
+}  // namespace
+
+int main() {
+  {
+    const DebugWindow window(kWidth, kHeight);
+    fmt::print("renderer: {}, {} threads\n", window.renderer_name(), thread_count());
+  }
+  fmt::print("triangles | contacts | orbit, ms | of it scene | panels | read | frames/s\n");
+  for (const int dragons : {2, 14, 40}) measure(dragons);
+}
