@@ -102,6 +102,26 @@ TEST_CASE("a frame that is gone back to looks as it did") {
   }
 }
 
+TEST_CASE("a window of which only parts are drawn again is the window drawn as a whole") {
+  PanelSession session(960, 600);
+  const char* const deeds[] = {"step 20",         "ui move 480 200", "ui press left",     "ui move 520 220",          "ui move 560 210",   "ui release left", "ui wheel 2",          "select contact 0",
+                               "ui move 100 60",  "ui wait 3",       "ui key f1",         "ui key f1",                "panel filter fric", "step 3",          "panel sort gap down", "ui click timeline/columns",
+                               "ui key escape",   "back 4",          "ui click layers/aabbs", "ui move 700 300", "ui wait 2",         "set contact.friction 0.3", "play", "ui wait 4"};
+  int changed = 0;
+  Image before = session.loop.picture();
+  for (const char* deed : deeds) {
+    CAPTURE(deed);
+    session.run({deed});
+    const Image parts = session.loop.picture();
+    session.window.forget();
+    const Image whole = session.loop.picture();
+    CHECK((parts.rgb == whole.rgb));
+    changed += whole.rgb != before.rgb;
+    before = whole;
+  }
+  CHECK(changed > 15);
+}
+
 TEST_CASE("no two panels overlap, and all lie in the window") {
   for (const auto& [width, height] : {std::pair(1280, 720), {1920, 1080}, {3840, 2160}, {2560, 1080}, {kLeastWidth, kLeastHeight}, {4000, 500}, {800, 2000}}) {
     for (const int scale : {debug_scale(height), 1}) {

@@ -20,9 +20,9 @@ int code_of(const std::vector<std::string>& names, const std::string& name) { re
 
 DebugLoop::DebugLoop(Debugger& debugger, DebugWindow& window, std::filesystem::path out) : debugger_(debugger), window_(window), out_(std::move(out)) {}
 
-void DebugLoop::draw() {
+void DebugLoop::draw(bool quick) {
   fresh_ = false;
-  for (const std::string& line : window_.paint(debugger_.model())) {
+  for (const std::string& line : window_.paint(debugger_.model(), quick)) {
     fresh_ = true;
     static const std::string kConsole = "console";
     const std::optional<DebugLine> rest = debugger_.try_execute(line);
@@ -36,7 +36,7 @@ void DebugLoop::draw() {
 }
 
 void DebugLoop::tick() {
-  draw();
+  draw(window_.ui().has_events());  // all that will be seen for long is drawn well
   if (debugger_.play_on()) fresh_ = true;
 }
 

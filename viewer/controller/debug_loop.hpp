@@ -16,7 +16,7 @@ class DebugLoop {
   /// One frame of the window: draws, does what was asked for, makes a frame of the scene while playing.
   void tick();
   /// Whether the next tick may show something new.
-  bool is_busy() const { return fresh_ || window_.ui().has_events(); }
+  bool is_busy() const { return fresh_ || window_.is_rough() || window_.ui().has_events(); }
   bool has_quit() const { return quit_; }
   Vec2 pointer() const { return {window_.ui().mouse_x(), window_.ui().mouse_y()}; }
   /// The window as it is once everything that was asked for shows.
@@ -26,7 +26,7 @@ class DebugLoop {
   void take(const DebugLine& line, const PlacedText& place);
   void input(const InputLine& line, const PlacedText& place);
   const UiWidget& find(const std::string& name, const PlacedText& place);
-  void draw();
+  void draw(bool quick = false);
   void settle();
   void shoot(const std::string& file, const PlacedText& place);
 

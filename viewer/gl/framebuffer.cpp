@@ -41,6 +41,13 @@ void Framebuffer::clear(Color color) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
+void Framebuffer::clear(Color color, int x, int y, int width, int height) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(x, height_ - y - height, width, height);
+  clear(color);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void Framebuffer::read_rows() {
   rows_.resize(static_cast<std::size_t>(width_) * height_ * 4);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);

@@ -19,6 +19,8 @@ class Framebuffer {
   void bind() const;
   /// Binds it, all of one colour.
   void clear(Color color);
+  /// A part of it; its upper left corner at (x, y).
+  void clear(Color color, int x, int y, int width, int height);
   /// Smooths the edges of what has been drawn; its depth stays.
   void smooth_edges();
   /// Copies itself into `target`, its upper left corner at (x, y) from there.

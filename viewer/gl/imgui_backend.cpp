@@ -27,7 +27,11 @@ ImguiBackend::ImguiBackend(ImFontAtlas& atlas) {
 ImguiBackend::~ImguiBackend() { glDeleteTextures(1, &texture_); }
 
 void ImguiBackend::draw(const ImDrawData& data) {
-  if (data.CmdListsCount == 0) return;
+  draw({data.CmdLists, static_cast<std::size_t>(data.CmdListsCount)}, data.DisplaySize.x, data.DisplaySize.y);
+}
+
+void ImguiBackend::draw(std::span<const ImDrawList* const> lists, float width, float height) {
+  if (lists.empty()) return;
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDisable(GL_CULL_FACE);
@@ -35,10 +39,10 @@ void ImguiBackend::draw(const ImDrawData& data) {
   glEnable(GL_SCISSOR_TEST);
   glActiveTexture(GL_TEXTURE0);
   program_.use();
-  program_.set("picture", Eigen::Vector2f(data.DisplaySize.x, data.DisplaySize.y));
+  program_.set("picture", Eigen::Vector2f(width, height));
   program_.set("atlas", 0);
-  for (int i = 0; i < data.CmdListsCount; ++i) {
-    const ImDrawList& list = *data.CmdLists[i];
+  for (const ImDrawList* each : lists) {
+    const ImDrawList& list = *each;
     array_.set_vertices(list.VtxBuffer.Data, static_cast<std::size_t>(list.VtxBuffer.Size) * sizeof(ImDrawVert));
     array_.set_indices(list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.Size) * sizeof(ImDrawIdx));
     for (const ImDrawCmd& command : list.CmdBuffer) {
@@ -48,7 +52,7 @@ void ImguiBackend::draw(const ImDrawData& data) {
       }
       const ImVec4& clip = command.ClipRect;  // left, top, right, bottom, from the top left
       if (clip.z <= clip.x || clip.w <= clip.y) continue;
-      glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(data.DisplaySize.y - clip.w),
+      glScissor(static_cast<GLint>(clip.x), static_cast<GLint>(height - clip.w),
                 static_cast<GLsizei>(std::ceil(clip.z - clip.x)), static_cast<GLsizei>(std::ceil(clip.w - clip.y)));
       glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::intptr_t>(command.GetTexID())));
       const GLenum type = sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT;

@@ -1,10 +1,13 @@
 // Draws Dear ImGui's output with plain OpenGL 3.3. (The packaged backend looks for libGL.so.1 and cannot start here.)
 #pragma once
 
+#include <span>
+
 #include "viewer/gl/buffers.hpp"
 #include "viewer/gl/program.hpp"
 
 struct ImDrawData;
+struct ImDrawList;
 struct ImFontAtlas;
 
 namespace impinge {
@@ -19,6 +22,8 @@ class ImguiBackend {
 
   /// Into the framebuffer that is bound.
   void draw(const ImDrawData& data);
+  /// Some of its lists, for a display of that size, pixels.
+  void draw(std::span<const ImDrawList* const> lists, float width, float height);
 
  private:
   Program program_{"imgui"};

@@ -149,10 +149,13 @@ void Ui::begin(int width, int height) {
   ImGui::NewFrame();
 }
 
-void Ui::end() {
+const ImDrawData& Ui::end() {
   ImGui::Render();
-  backend_->draw(*ImGui::GetDrawData());
+  return *ImGui::GetDrawData();
 }
+
+void Ui::draw() { backend_->draw(*ImGui::GetDrawData()); }
+void Ui::draw(std::span<const ImDrawList* const> lists) { backend_->draw(lists, ImGui::GetDrawData()->DisplaySize.x, ImGui::GetDrawData()->DisplaySize.y); }
 
 bool Ui::key_pressed(const std::string& name) const {
   const auto it = std::find(key_names().begin(), key_names().end(), name);

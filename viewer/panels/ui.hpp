@@ -6,12 +6,15 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "viewer/gl/imgui_backend.hpp"
 
 struct ImGuiContext;
+struct ImDrawData;
+struct ImDrawList;
 
 namespace impinge {
 
@@ -52,8 +55,11 @@ class Ui {
 
   /// Takes events up to the first that must be seen by itself (1.86 has no queue of its own), and begins a frame.
   void begin(int width, int height);
-  /// Draws the frame into the framebuffer that is bound.
-  void end();
+  /// What the frame looks like; valid until the next one begins. draw() brings it, or some of its lists, into the framebuffer that is
+  /// bound.
+  const ImDrawData& end();
+  void draw();
+  void draw(std::span<const ImDrawList* const> lists);
 
   // in a frame
   float mouse_x() const { return mouse_x_; }

@@ -8,6 +8,7 @@ namespace impinge {
 namespace {
 
 constexpr Color kSelected = hex(0xfff2a8);
+constexpr Color kBetweenPanels = hex(0x0f1216);
 constexpr float kDegreesPerPixel = 0.4f;
 constexpr double kZoomPerStep = 1.15;
 constexpr float kClick = 3.0f;  // pixels that the pointer may move in a click
@@ -31,11 +32,15 @@ std::string DebugWindow::scene_key(const DebugModel& model) const {
   return key;
 }
 
-CommandLines DebugWindow::paint(const DebugModel& model) {
+CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   context_->make_current();
-  std::string key = scene_key(model);
-  if (key != painted_) {
-    scene_.paint(*model.record, *model.view, [&](DrawList& list) { mark_selection(model, list); });
+  ViewSettings settings = *model.view;
+  rough_ = quick && held_ >= 0 && dragged_ && settings.antialiasing;
+  if (rough_) settings.antialiasing = false;
+  std::string key = scene_key(model) + (rough_ ? " rough" : "");
+  const bool is_new = key != painted_;
+  if (is_new) {
+    scene_.paint(*model.record, settings, [&](DrawList& list) { mark_selection(model, list); });
     painted_ = std::move(key);
   }
   CommandLines lines;
@@ -51,10 +56,17 @@ CommandLines DebugWindow::paint(const DebugModel& model) {
   draw_console_panel(ui_, model, layout_.console, lines);
   draw_help_panel(ui_, model, layout_.view);
   use_mouse(model, lines);
-  window_.clear(hex(0x0f1216));  // between the panels
-  scene_.target().copy_to(window_, static_cast<int>(layout_.view.x), static_cast<int>(layout_.view.y));
+  const UiArea areas[] = {layout_.layers, layout_.parameters, layout_.inspector, layout_.contacts, layout_.stages, layout_.transport, layout_.timeline, layout_.console};
+  const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), areas);
+  if (!changed) window_.clear(kBetweenPanels);
+  if (!changed || is_new) scene_.target().copy_to(window_, static_cast<int>(layout_.view.x), static_cast<int>(layout_.view.y));
   window_.bind();
-  ui_.end();
+  if (!changed) ui_.draw();
+  else
+    for (const PanelDrawing& panel : *changed) {
+      window_.clear(kBetweenPanels, static_cast<int>(panel.area.x), static_cast<int>(panel.area.y), static_cast<int>(panel.area.width), static_cast<int>(panel.area.height));
+      ui_.draw(panel.lists);
+    }
   return lines;
 }
 

@@ -4,6 +4,7 @@
 #include "viewer/gl/context.hpp"
 #include "viewer/image/image.hpp"
 #include "viewer/panels/debug_panels.hpp"
+#include "viewer/panels/panel_changes.hpp"
 #include "viewer/present/scene_painter.hpp"
 
 namespace impinge {
@@ -23,8 +24,13 @@ class DebugWindow {
   Ui& ui() { return ui_; }
   std::string renderer_name() const { return context_->renderer_name(); }
 
-  /// Takes the next input, draws, and says what the input asks for, as command lines. The scene is drawn again only where it changed.
-  CommandLines paint(const DebugModel& model);
+  /// Takes the next input, draws, and says what the input asks for, as command lines. Scene and panels are drawn again only where
+  /// they changed. `quick`: while the view is dragged its edges are left as they are.
+  CommandLines paint(const DebugModel& model, bool quick = false);
+  /// Whether the view is not as it is to be once it stands still.
+  bool is_rough() const { return rough_; }
+  /// The next frame is drawn as a whole.
+  void forget() { changes_.forget(), painted_.clear(); }
   void read(Image& out);
 
  private:
@@ -38,10 +44,11 @@ class DebugWindow {
   Ui ui_;
   DebugLayout layout_;
   ScenePainter scene_;
+  PanelChanges changes_;
   std::string painted_;          // key of what scene_ shows
   int held_ = -1;                // button that went down over the view
   float pressed_x_ = 0.0f, pressed_y_ = 0.0f, last_x_ = 0.0f, last_y_ = 0.0f;
-  bool dragged_ = false;
+  bool dragged_ = false, rough_ = false;
 };
 
 }  // namespace impinge
