@@ -10,7 +10,8 @@
 // scheme on a convex problem.
 // Two stacked 0.2 m cubes of 4³ and 3³ cells, mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule
 // alone 39 / 50 / 46 s, factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have
-// nodes, the sweeps carry impulse along the null space of J: see follow_drift; where that stalls multiplier_newton.cpp ends it.
+// nodes, the sweeps carry impulse along the null space of J: see follow_drift; where that stalls multiplier_newton.cpp ends it,
+// or where contacts are few conjugate_columns.cpp.
 //
 // The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold: a resting
 // group is recognized, and no work is spent on a λ that is far off.
@@ -20,6 +21,7 @@
 #include <cmath>
 
 #include "engine/contact/friction_cone.hpp"
+#include "engine/response/conjugate_columns.hpp"
 #include "engine/response/multiplier_newton.hpp"
 #include "engine/response/split_rows.hpp"
 
@@ -47,7 +49,8 @@ double inner(const Vectors& a, const Vectors& b) {
 
 class Solver {
  public:
-  Solver(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings) : group_(group), base_(base), settings_(settings), scale_(velocity_scale(base)) {
+  Solver(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver, const ResponseSettings& settings)
+      : group_(group), base_(base), solver_(solver), settings_(settings), scale_(velocity_scale(base)) {
     for (const SoftBlock& block : group.soft) inverse_.emplace_back(block);
     rows_ = std::make_unique<SplitRows>(group, inverse_, base.q);
     for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
@@ -95,7 +98,7 @@ class Solver {
         result.converged = contacts_hold && momentum <= tolerance;
       }
       if (result.converged) break;
-      if (is_stalled(std::max(momentum, change), result.outer_iterations)) return settings_.stop == "change" ? finish(result) : finish_by_multipliers(result, tolerance);
+      if (is_stalled(std::max(momentum, change), result.outer_iterations)) return settings_.stop == "change" ? finish(result) : finish_otherwise(result, tolerance);
       drifting_ = momentum <= std::max(tolerance, 0.1 * change) ? drifting_ + 1 : 0;
       if (drifting_ == kDrift) follow_drift();
       choose_next(result.outer_iterations);
@@ -110,16 +113,27 @@ class Solver {
     return result;
   }
 
-  ResponseResult finish_by_multipliers(ResponseResult result, double tolerance) {
+  ResponseResult finish_otherwise(ResponseResult result, double tolerance) {
     finish(result);
     const GroupOperator a(group_);
     VecX x = a.load(group_);
+    if (rows_of(base_).size() <= kFewRows) {
+      const ColumnsResult columns = solve_by_columns(a, base_, solver_, tolerance, group_, x);
+      result.iterations += columns.iterations;
+      result.outer_iterations += columns.solves;
+      result.converged = columns.converged;
+      if (columns.converged) return store(result, a, x);
+    }
     const MultipliersResult rest = solve_by_multipliers(a, base_, tolerance, group_, x);
-    a.store(x, group_);
-    if (settings_.observe) settings_.observe(group_);
     result.iterations += rest.newton_steps;
     result.outer_iterations += rest.multiplier_steps;
     result.converged = rest.converged;
+    return store(result, a, x);
+  }
+
+  ResponseResult store(ResponseResult result, const GroupOperator& a, const VecX& x) {
+    a.store(x, group_);
+    if (settings_.observe) settings_.observe(group_);
     return result;
   }
 
@@ -287,6 +301,7 @@ class Solver {
 
   GroupSystem& group_;
   const ConeProblem& base_;
+  const LcpSolver& solver_;
   const ResponseSettings& settings_;
   const double scale_;      // m/s, what residuals are relative to
   std::vector<NodeInverse> inverse_;
@@ -307,8 +322,8 @@ class Solver {
 
 }  // namespace
 
-ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const ResponseSettings& settings) {
-  return Solver(group, base, settings).run();
+ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver, const ResponseSettings& settings) {
+  return Solver(group, base, solver, settings).run();
 }
 
 }  // namespace impinge

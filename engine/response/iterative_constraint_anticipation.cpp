@@ -105,7 +105,7 @@ class IterativeConstraintAnticipation : public Response {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
     const bool one_step = std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; });
-    if (!one_step && settings.form != "seed") return solve_accelerated(group, problem, settings);
+    if (!one_step && settings.form != "seed") return solve_accelerated(group, problem, solver, settings);
     const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);
     if (!one_step) return solve_seed(group, problem, inverse, solver, settings);
     FactoredDelassus w(group, &inverse);

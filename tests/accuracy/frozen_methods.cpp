@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/lcp/residual.hpp"
+#include "engine/response/conjugate_columns.hpp"
 #include "engine/response/multiplier_newton.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/frozen_dragon.hpp"
@@ -76,24 +77,27 @@ TEST_CASE("two stacked cubes: exact, iterative and monolithic answers agree with
     }
 }
 
-TEST_CASE("the method of multipliers finds the same velocities from nothing, with friction and without") {
-  for (const double friction : {0.0, 0.4}) {
-    const SoftStack stack = make_soft_stack({.young = 1e4, .friction = friction, .cells = {4, 3}});
-    const FrozenStep step = frozen_of(stack.group);
-    GroupSystem group = stack.group;
-    group.clear_delta();
-    group.lambda.assign(group.contacts.size(), Vec3::Zero());
-    const GroupOperator a(group);
-    const ConeProblem problem = make_cone_problem(group);
-    VecX x = VecX::Zero(a.size());
-    const MultipliersResult result = solve_by_multipliers(a, problem, 1e-9 * velocity_scale(problem), group, x);
-    a.store(x, group);
-    CAPTURE(friction, result.newton_steps, result.multiplier_steps);
-    CHECK(result.converged);
-    const FrozenVerdict verdict = FrozenRuler(step).judge({{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.soft_delta}});
-    CHECK(verdict.residual < 1e-8);
-    CHECK(verdict.distance < 1e-6);
-  }
+TEST_CASE("the method of multipliers, and columns by conjugate gradients, find the same velocities from nothing, with friction and without") {
+  for (const double friction : {0.0, 0.4})
+    for (const bool columns : {false, true}) {
+      const SoftStack stack = make_soft_stack({.young = 1e4, .friction = friction, .cells = {4, 3}});
+      const FrozenStep step = frozen_of(stack.group);
+      GroupSystem group = stack.group;
+      group.clear_delta();
+      group.lambda.assign(group.contacts.size(), Vec3::Zero());
+      const GroupOperator a(group);
+      const ConeProblem problem = make_cone_problem(group);
+      const double tolerance = 1e-9 * velocity_scale(problem);
+      VecX x = VecX::Zero(a.size());
+      const bool converged = columns ? solve_by_columns(a, problem, *find_entry(lcp_solvers(), "automatic")->make(), tolerance, group, x).converged
+                                     : solve_by_multipliers(a, problem, tolerance, group, x).converged;
+      a.store(x, group);
+      CAPTURE(friction, columns);
+      CHECK(converged);
+      const FrozenVerdict verdict = FrozenRuler(step).judge({{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.soft_delta}});
+      CHECK(verdict.residual < 1e-8);
+      CHECK(verdict.distance < 1e-6);
+    }
 }
 
 TEST_CASE("the dragon's hardest frame: exact, iterative and monolithic answers agree at every stiffness", "[long]") {
