@@ -1,11 +1,14 @@
 // report.html of pictures that differ: one file that holds all it shows.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/app/html_text.hpp"
+#include "viewer/app/output_files.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/image/png.hpp"
 
@@ -106,17 +109,20 @@ std::string data(const PictureComparison& c, const PictureRules& rules, std::siz
   return out + fmt::format(",box:[{},{},{}]}}", diff.worst_at[0], diff.worst_at[1], diff.settings.window);
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error ? error.message() : "a file of that name exists"));
+// "3", or "3 or 10" where the pictures have limits of their own
+std::string tolerances(const std::vector<const PictureComparison*>& pictures, const PictureRules& rules) {
+  std::set<int> values;
+  for (const PictureComparison* c : pictures)
+    if (c->verdict == PictureComparison::different) values.insert(c->difference.settings.tolerance);
+  if (values.empty()) values.insert(rules.settings.tolerance);
+  return fmt::format("{}", fmt::join(values, " or "));
 }
 
 }  // namespace
 
 void write_picture_report(const fs::path& out, const std::string& title, const std::vector<PictureComparison>& pictures, const PictureRules& rules) {
-  make_folder(out);
+  OutputFiles files;
+  files.make_folder(out);
   std::vector<const PictureComparison*> order;
   for (const PictureComparison& c : pictures)
     if (c.verdict != PictureComparison::same) order.push_back(&c);
@@ -130,13 +136,13 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
     if (c->verdict != PictureComparison::different) continue;
     const Image a = read_png(c->a), b = read_png(c->b);
     const fs::path panels = out / c->name;
-    make_folder(panels.parent_path());
-    write_png(panels, difference_panels(a, b, c->difference, rules.mask));
+    files.make_folder(panels.parent_path());
+    files.write(panels, encode_png(difference_panels(a, b, c->difference, rules.mask)));
   }
   std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n", html_text(title), kStyle);
   page += fmt::format("<p>{} of {} pictures differ. A pixel counts once a channel differs by more than {} of 255; the limits are {:g} a megapixel, {:g} % of what is drawn, and {} in any {} x {} window. "
                       "Arrow keys change the row; drag over the picture, or the slider, to wipe from A to B.</p>\n",
-                      order.size(), pictures.size(), rules.settings.tolerance, rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window,
+                      order.size(), pictures.size(), tolerances(order, rules), rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window,
                       rules.settings.window, rules.settings.window);
   page += "<div class=\"cols\"><div class=\"list\"><table id=\"frames\"><thead><tr><th>picture</th><th></th><th>pixels</th><th>in a window</th><th>levels</th><th>FLIP</th><th>changed</th></tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
   page += "<div class=\"view\" id=\"view\"><b id=\"name\"></b><div class=\"bar\"><span>A <input type=\"range\" id=\"wipe\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\"> B</span>";
@@ -148,7 +154,8 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
   page += "<div class=\"pan\"><div class=\"stage\" id=\"stage\" hidden><img id=\"b\" alt=\"B\" draggable=\"false\"><img id=\"a\" alt=\"A\" draggable=\"false\"><img id=\"d\" alt=\"difference\" draggable=\"false\" hidden>"
           "<div class=\"cut\" id=\"cut\"></div><div class=\"box\" id=\"box\"></div><span class=\"tag\" id=\"ta\">A</span><span class=\"tag\" id=\"tb\">B</span></div></div><p id=\"none\" hidden></p><ul id=\"say\"></ul></div></div>\n";
   page += "<script>const data=[" + entries + "];\n" + kScript + "</script>\n</body></html>\n";
-  write_file(out / "report.html", page);
+  files.write(out / "report.html", page);
+  files.keep();
 }
 
 }  // namespace impinge
