@@ -72,7 +72,7 @@ class Comparison {
       fmt::print("settings: the same\n");
       return;
     }
-    fmt::print("settings: {} differ\n", differences.size());
+    fmt::print("settings: {} differ{}\n", differences.size(), differences.size() == 1 ? "s" : "");
     for (std::size_t i = 0; i < differences.size() && i < kMostLines; ++i)
       fmt::print("  {}: {} in A, {} in B\n", differences[i].path, brief(differences[i].a), brief(differences[i].b));
     if (differences.size() > kMostLines) fmt::print("  and {} more\n", differences.size() - kMostLines);

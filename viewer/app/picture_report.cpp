@@ -27,7 +27,7 @@ th{background:#f4f4f4;position:sticky;top:0}td.n{text-align:right}tbody tr{curso
 .stage{position:relative;overflow:hidden;background:#181a1e;user-select:none;cursor:ew-resize}.stage img{position:absolute;left:0;top:0;image-rendering:pixelated}
 .cut{position:absolute;top:0;bottom:0;width:2px;background:#ffd23c;margin-left:-1px}.box{position:absolute;border:2px solid #50dcff;box-sizing:content-box;margin:-2px}
 .tag{position:absolute;bottom:6px;padding:1px 8px;background:#000a;color:#fff;font-weight:bold;border-radius:3px}.view{flex:1 1 640px;min-width:0}
-.bar{margin:.4em 0;display:flex;gap:1em;align-items:center;flex-wrap:wrap}.bar input[type=range]{width:260px}#say{margin:.5em 0;padding-left:1.2em}
+.bar{margin:.4em 0;display:flex;gap:.7em;align-items:center;flex-wrap:wrap}.bar input[type=range]{width:150px}#say{margin:.5em 0;padding-left:1.2em}
 .pan{max-width:100%;overflow:auto;border:1px solid #ddd})";
 
 // a click on a row shows it; the slider, or the pointer over the picture, wipes from A to B
@@ -149,7 +149,7 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
   for (const auto& [value, text] : {std::pair{"wipe", "wipe"}, {"a", "A"}, {"b", "B"}, {"diff", "difference"}})
     page += fmt::format("<label><input type=\"radio\" name=\"mode\" value=\"{}\"{}> {}</label>", value, std::string(value) == "wipe" ? " checked" : "", text);
   page += "<label>zoom <select id=\"zoom\">";
-  for (const char* z : {"0.5", "1", "2", "3", "4", "8"}) page += fmt::format("<option>{}</option>", z);
+  for (const char* z : {"0.25", "0.5", "0.7", "1", "2", "3", "4", "8"}) page += fmt::format("<option>{}</option>", z);
   page += "</select></label><label><input type=\"checkbox\" id=\"frame\" checked> worst window</label></div>\n";
   page += "<div class=\"pan\"><div class=\"stage\" id=\"stage\" hidden><img id=\"b\" alt=\"B\" draggable=\"false\"><img id=\"a\" alt=\"A\" draggable=\"false\"><img id=\"d\" alt=\"difference\" draggable=\"false\" hidden>"
           "<div class=\"cut\" id=\"cut\"></div><div class=\"box\" id=\"box\"></div><span class=\"tag\" id=\"ta\">A</span><span class=\"tag\" id=\"tb\">B</span></div></div><p id=\"none\" hidden></p><ul id=\"say\"></ul></div></div>\n";
