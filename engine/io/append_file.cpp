@@ -8,14 +8,14 @@
 #include <cstring>
 #include <utility>
 
-#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
 
 namespace impinge {
 
 namespace {
 
 [[noreturn]] void refuse(const std::string& name, int code) {
-  throw InputError(fmt::format("{}: can't be written ({}); free space or choose another --out", name, std::strerror(code)));
+  throw OutputError(fmt::format("{}: can't be written ({}); free space or choose another --out", name, std::strerror(code)));
 }
 
 }  // namespace

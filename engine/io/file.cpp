@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <cstring>
 
-#include "engine/core/error.hpp"
-
 namespace impinge {
 
 namespace fs = std::filesystem;
@@ -35,7 +33,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
   const std::string temporary = path.string() + ".tmp";
   const auto refuse = [&](int code) {
     std::remove(temporary.c_str());
-    throw InputError(fmt::format("{}: can't be written ({}); free space or choose another --out", path.string(), std::strerror(code)));
+    throw OutputError(fmt::format("{}: can't be written ({}); free space or choose another --out", path.string(), std::strerror(code)));
   };
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr) refuse(errno);

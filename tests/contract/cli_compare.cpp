@@ -98,7 +98,7 @@ TEST_CASE("what was set differently comes first; a distance that a formula gives
   runs.run("b", "", {"--no-images", "--set", "body.right.velocity=[0,0,3]"});
   const Outcome outcome = runs.compare({"a", "b", "--out", "cmp"});
   CHECK(outcome.code == 1);
-  CHECK(holds(outcome.out, "settings: 1 differ\n  body.right.velocity: (none) in A, [0"));
+  CHECK(holds(outcome.out, "settings: 1 differs\n  body.right.velocity: (none) in A, [0"));
   CHECK(holds(outcome.out, "the first that differs is frame 0 of 26"));
   CHECK(holds(outcome.out, "body:   right: velocity by 3 m/s"));
   CHECK(holds(outcome.out, "sheet:  none: a has no picture of frame 0"));

@@ -184,6 +184,42 @@ TEST_CASE("a diff with --update makes the baselines what there is, says so, and 
   check_refused(runs.folder, {"diff", "a", "b", "--update"}, "a: is a run's folder", "--update");
 }
 
+TEST_CASE("a diff with --update keeps ids that tell of the picture they lie beside") {
+  const Runs runs;
+  runs.run("plain");
+  runs.run("ids", {"--ids"});
+  const std::string frame = "000006.png", kept_ids = "kept/ids/" + frame;
+  const auto ids = [&](const std::string& run) { return slurp(runs.folder / (run + "/ids/" + frame)); };
+  fs::create_directory(runs.folder / "kept");
+  fs::copy(runs.folder / ("plain/frames/" + frame), runs.folder / ("kept/" + frame));
+  const std::string picture = slurp(runs.folder / ("kept/" + frame));
+  const auto update = [&](const std::string& run) { return runs.diff({"kept/" + frame, run + "/frames/" + frame, "--update"}).out; };
+
+  // the same picture: nothing to rewrite, but ids that were not there
+  CHECK(holds(update("plain"), "1 picture compared, 0 rewritten, 0 new\n"));
+  const std::string first = update("ids");
+  CHECK(holds(first, "wrote its ids kept/ids/" + frame));
+  CHECK(holds(first, "0 rewritten, 0 new, ids alone written of 1"));
+  CHECK(slurp(runs.folder / kept_ids) == ids("ids"));
+  CHECK(slurp(runs.folder / ("kept/" + frame)) == picture);
+  CHECK(update("ids") == "1 picture compared, 0 rewritten, 0 new\n");
+  // a body of another name: the same pixels, other objects
+  runs.folder.write("s.toml", replaced(kScene, "name = \"crate\"", "name = \"chest\""));
+  runs.run("renamed", {"--ids"});
+  CHECK(holds(update("renamed"), "wrote its ids"));
+  CHECK(slurp(runs.folder / kept_ids) == ids("renamed"));
+  CHECK(slurp(runs.folder / ("kept/" + frame)) == picture);
+  // the same picture without ids: those that there are hold
+  CHECK(holds(update("plain"), "0 rewritten, 0 new\n"));
+  CHECK(fs::exists(runs.folder / kept_ids));
+  // another picture, with and without ids
+  runs.run("fast", {"--ids", "--set", "simulation.gravity=[0,-30,0]"});
+  CHECK(holds(update("fast"), "rewrote kept/" + frame + " with its ids"));
+  CHECK(slurp(runs.folder / kept_ids) == ids("fast"));
+  CHECK(holds(update("plain"), "rewrote kept/" + frame + "; B has no ids of it, so the old ones were removed"));
+  CHECK_FALSE(fs::exists(runs.folder / kept_ids));
+}
+
 TEST_CASE("a baseline by another renderer gets an alternate, and each renderer its own from then on") {
   const Runs runs;
   runs.run("a");

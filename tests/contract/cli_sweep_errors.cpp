@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/support/sweep_results.hpp"
 
@@ -127,6 +128,17 @@ TEST_CASE("the automatic window ends where a start aside has grown as the scene'
   // said not to look, the error is taken to the end
   REQUIRE(files.run("all", {"--vary", "simulation.substeps=8,16", "--reference", "simulation.substeps=32", "--frames", "180", "--window", "all"}, "top.toml").code == 0);
   CHECK(std::stod(sweep_results(files.folder / "all")[0].at("window_s")) == Approx(3.0));
+}
+
+TEST_CASE("the cases that are listed are those that a reference may name") {
+  const SweepFiles files;
+  const Outcome list = impinge_run(files.folder.path(), {"list", "cases"});
+  CHECK(list.code == 0);
+  std::istringstream lines(list.out);
+  std::string names;
+  for (std::string line; std::getline(lines, line);) names += (names.empty() ? "" : ", ") + line.substr(0, line.find(' '));
+  CHECK(names == "free_fall, sliding, bouncing");
+  CHECK(files.run("out", {"--vary", "simulation.substeps=1,2", "--reference", "case:none"}).err.find("allowed: " + names + ";") != std::string::npos);
 }
 
 TEST_CASE("a reference that diverges leaves the errors empty, says so, and is not a success") {

@@ -2,13 +2,11 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include <sys/mount.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
 #include <random>
 
+#include "tests/support/small_disk.hpp"
 #include "tests/support/sweep_results.hpp"
 
 using namespace impinge;
@@ -17,26 +15,6 @@ using namespace impinge::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-// a file system of its own of few bytes; only root may make one
-class SmallDisk {
- public:
-  SmallDisk(const fs::path& folder, const std::string& size) : folder_(folder) {
-    fs::create_directories(folder);
-    is_mounted_ = mount("tmpfs", folder.c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0;
-  }
-  ~SmallDisk() {
-    if (is_mounted_) umount2(folder_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  bool is_mounted() const { return is_mounted_; }
-  bool grow(const std::string& size) const { return mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT, ("size=" + size).c_str()) == 0; }
-
- private:
-  fs::path folder_;
-  bool is_mounted_ = false;
-};
 
 std::map<std::string, std::string> pictures(const fs::path& sweep) {
   std::map<std::string, std::string> all;
@@ -62,7 +40,7 @@ TEST_CASE("a sweep onto a full disk says so once, and goes on when there is room
   CHECK(full.error_lines() == 1);
   CHECK(full.err.find("No space left on device") != std::string::npos);
   CHECK(full.err.find("free space") != std::string::npos);
-  REQUIRE(disk.grow("64m"));
+  REQUIRE(disk.resize("64m"));
   const Outcome again = files.run("disk/out", words);
   INFO(again.err);
   REQUIRE(again.code == 0);
@@ -80,7 +58,10 @@ TEST_CASE("200 jobs killed ten times go on to the same table and the same pictur
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::mt19937 random(5);
   int killed = 0;
-  for (int i = 0; i < 10; ++i) killed += impinge_stopped(folder.path(), words("parts"), std::uniform_real_distribution<>(0.02, 0.15)(random) * seconds, SIGKILL).code == -SIGKILL ? 1 : 0;
+  for (int i = 0; i < 10; ++i) {
+    const double moment = std::uniform_real_distribution<>(0.02, 0.15)(random) * seconds;
+    killed += impinge_stopped(folder.path(), words("parts"), moment, SIGKILL, i % 2 == 0 ? Targets::program : Targets::children_first).code == -SIGKILL ? 1 : 0;
+  }
   CHECK(killed >= 5);
   std::vector<std::string> last = words("parts");
   last.push_back("--resume");

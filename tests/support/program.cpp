@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -33,6 +35,11 @@ Outcome finish(int status, const std::filesystem::path& out, const std::filesyst
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), slurp(out), slurp(err)};
 }
 
+std::vector<pid_t> children_of(pid_t pid) {
+  std::ifstream list("/proc/" + std::to_string(pid) + "/task/" + std::to_string(pid) + "/children");
+  return {std::istream_iterator<pid_t>(list), std::istream_iterator<pid_t>()};
+}
+
 }  // namespace
 
 int Outcome::error_lines() const { return static_cast<int>(std::count(err.begin(), err.end(), '\n')); }
@@ -45,13 +52,15 @@ Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::
   return finish(status, streams / "out", streams / "err");
 }
 
-Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds, int signal) {
+Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds, int signal, Targets targets) {
   const TempFolder streams;
   const pid_t pid = start(folder, arguments, streams / "out", streams / "err");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   int status = 0;
   while (waitpid(pid, &status, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() >= end) {
+      if (targets == Targets::children_first)
+        for (const pid_t child : children_of(pid)) kill(child, signal);
       kill(pid, signal);
       waitpid(pid, &status, 0);
       break;

@@ -16,7 +16,9 @@ struct Outcome {
 /// Runs impinge in `folder` and waits for its end.
 Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// The same, but the program gets the signal after `seconds` unless it has ended.
-Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds, int signal);
+enum class Targets { program, children_first };
+
+/// The same, but the program gets the signal after `seconds` unless it has ended; its children just before it if wanted.
+Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds, int signal, Targets targets = Targets::program);
 
 }  // namespace impinge::test

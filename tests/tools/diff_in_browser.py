@@ -5,10 +5,7 @@ usage: diff_in_browser.py REPORT [--pictures FOLDER]
 """
 import sys
 
-try:
-    import report_in_browser as browser
-except ImportError:
-    sys.exit(77)
+import report_in_browser as browser
 
 
 def use(page, report, check):

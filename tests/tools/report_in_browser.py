@@ -221,6 +221,7 @@ def main():
             page, check = Page(port, path), Checks()
             use(page, report, check)
             if len(words) == 3:
+                Path(words[2]).mkdir(parents=True, exist_ok=True)
                 for width in (1280, 1920):
                     page.open(report.as_uri(), width)
                     page.settle()

@@ -102,8 +102,8 @@ TEST_CASE("conditions follow the usual rules of precedence") {
     INFO(text);
     CHECK(refused(text));
   }
-  CHECK(refused(std::string(1000, '(') + "a > 1" + std::string(1000, ')')));
-  CHECK(refused(std::string(1000, '!') + "(a > 1)"));
+  CHECK(refused(fmt::format("{0}a > 1{1}", std::string(1000, '('), std::string(1000, ')'))));
+  CHECK(refused(fmt::format("{}(a > 1)", std::string(1000, '!'))));
 }
 
 TEST_CASE("damaged scripts are refused or read, never more") {

@@ -214,7 +214,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   info->add_option("--threads", raw.threads, "threads to use (default: all cores; one with --ablation)");
 
   CLI::App* names = app.add_subcommand("list", "parameters, layers and algorithms there are");
-  names->add_option("TOPIC", arguments.a, "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|cases")->required();
+  names->add_option("TOPIC", arguments.a, "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|linear_solvers|cases")->required();
 
   CLI::App* step = app.add_subcommand("step", "solve a frozen step or a published friction-contact problem with every method, and compare them");
   step->add_option("FILE", arguments.a, "frozen step of impinge run --freeze, or a problem as Siconos writes it in plain text (W, q, mu)")->required();
@@ -261,7 +261,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   sweep->add_flag("--zip", arguments.sweep_options.zip, "the first values of all --vary together, then the second ones, ..., instead of all combinations");
   sweep->add_option("--filter", raw.filter, "EXPR: only combinations for which it holds, such as 'simulation.substeps <= 8 || response.method == \"penalty\"'");
   words_of("--reference", raw.reference,
-           "PATH=VALUE: each job's errors are against the same job with these settings; or 'finest': with the sweep's smallest time step; or 'case:NAME': against a formula (free_fall, sliding, bouncing)");
+           "PATH=VALUE: each job's errors are against the same job with these settings; or 'finest': with the sweep's smallest time step; or 'case:NAME': against a formula (see impinge list cases)");
   sweep->add_option("--window", raw.window, "seconds that errors are taken over; 'all'; or 'automatic' (default): as long as a reference run started 1e-9 scene sizes aside stays within 1e-3 of it");
   words_of("--column", raw.columns, "NAME=EXPR: one more column, over last(), max(), min(), mean(), sum() of a column of stats.csv and over varied paths");
   sweep->add_option("--repeat", raw.repeat, "runs of each job: columns of times are then medians, with columns spread_..._ms (largest less smallest)");

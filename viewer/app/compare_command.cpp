@@ -7,9 +7,8 @@
 #include <map>
 #include <set>
 
-#include "engine/core/error.hpp"
-#include "engine/io/file.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/output_files.hpp"
 #include "viewer/app/run_comparison.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/difference.hpp"
@@ -34,10 +33,7 @@ struct Distance {
 class Comparison {
  public:
   explicit Comparison(const Arguments& arguments) : tolerance_(arguments.tolerance), out_(arguments.out), a_(arguments.a), b_(arguments.b) {
-    if (out_.empty()) return;
-    std::error_code error;
-    fs::create_directories(out_, error);
-    if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", out_.string(), error.message()));
+    if (!out_.empty()) files_.make_folder(out_);
   }
 
   int run() {
@@ -65,16 +61,20 @@ class Comparison {
     return -1;
   }
 
+  static std::string brief(const std::string& value) {
+    if (value.empty()) return "(none)";
+    return value.size() > 60 ? fmt::format("{:.57}...", value) : value;
+  }
+
   void say_settings() const {
     const std::vector<SettingDifference> differences = setting_differences(a_.folder(), b_.folder());
     if (differences.empty()) {
       fmt::print("settings: the same\n");
       return;
     }
-    fmt::print("settings: {} differ\n", differences.size());
-    const auto value = [](const std::string& text) { return text.empty() ? std::string("(none)") : text.size() > 60 ? text.substr(0, 57) + "..." : text; };
+    fmt::print("settings: {} differ{}\n", differences.size(), differences.size() == 1 ? "s" : "");
     for (std::size_t i = 0; i < differences.size() && i < kMostLines; ++i)
-      fmt::print("  {}: {} in A, {} in B\n", differences[i].path, value(differences[i].a), value(differences[i].b));
+      fmt::print("  {}: {} in A, {} in B\n", differences[i].path, brief(differences[i].a), brief(differences[i].b));
     if (differences.size() > kMostLines) fmt::print("  and {} more\n", differences.size() - kMostLines);
   }
 
@@ -97,7 +97,7 @@ class Comparison {
     };
     std::vector<Line> lines;
     for (const FieldDifference& f : fields) {
-      if (lines.empty() || lines.back().body != f.body) lines.push_back({f.body, "", 0.0});
+      if (lines.empty() || lines.back().body != f.body) lines.emplace_back().body = f.body;
       Line& line = lines.back();
       line.text += fmt::format("{}{}{}{}", line.text.empty() ? "" : ", ", f.field, f.unit.empty() ? "" : fmt::format(" by {:.3g} {}", f.largest, f.unit), f.where.empty() ? "" : " at " + f.where);
       if (f.field == "position") line.moved = f.largest;
@@ -141,7 +141,7 @@ class Comparison {
     return it == names.end() ? std::nan("") : run.rows()[static_cast<std::size_t>(frame)].figures[static_cast<std::size_t>(it - names.begin())];
   }
 
-  void write() const {
+  void write() {
     std::vector<std::string> figures;
     for (const std::string& name : a_.columns())
       if (name != "frame" && name != "time_s" && !(name.size() > 3 && name.substr(name.size() - 3) == "_ms") && !std::isnan(figure(b_, 0, name))) figures.push_back(name);
@@ -163,13 +163,14 @@ class Comparison {
       }
       csv += "\n";
     }
-    write_file(out_ / "difference.csv", csv);
+    files_.write(out_ / "difference.csv", csv);
     write_plot(lines);
-    fmt::print("figures: {}\nplot:   {}\n", (out_ / "difference.csv").string(), (out_ / "difference.png").string());
-    write_sheet();
+    const std::string sheet = write_sheet();
+    files_.keep();
+    fmt::print("figures: {}\nplot:   {}\nsheet:  {}\n", (out_ / "difference.csv").string(), (out_ / "difference.png").string(), sheet);
   }
 
-  void write_plot(std::map<std::string, PlotSeries>& lines) const {
+  void write_plot(std::map<std::string, PlotSeries>& lines) {
     Plot plot;
     plot.title = fmt::format("A {} and B {}: how far apart", name_of(a_), name_of(b_));
     plot.x_label = "frame";
@@ -181,7 +182,7 @@ class Comparison {
       series.name = name;
       if (std::any_of(series.points.begin(), series.points.end(), [](const Vec2& p) { return std::isfinite(p.y()); })) plot.series.push_back(std::move(series));
     }
-    write_png(out_ / "difference.png", paint_plots({plot}, 1280, 720).front());
+    files_.write(out_ / "difference.png", encode_png(paint_plots({plot}, 1280, 720).front()));
   }
 
   static std::string name_of(const RecordedRun& run) {
@@ -189,27 +190,21 @@ class Comparison {
     return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   }
 
-  /// The first frame that differs, and later ones evenly: A, B, and what differs.
-  void write_sheet() const {
+  /// The first frame that differs, and later ones evenly: A, B, and what differs. Returns the file, or why there is none.
+  std::string write_sheet() {
     std::vector<int> frames;
     const int last = common_ - 1, count = std::min(kMostRows, last - first_ + 1);
     for (int k = 0; k < count; ++k) frames.push_back(first_ + (count == 1 ? 0 : k * (last - first_) / (count - 1)));
     for (const int frame : frames)
       for (const RecordedRun* run : {&a_, &b_})
-        if (!fs::is_regular_file(run->picture(frame))) {
-          fmt::print("sheet:  none: {} has no picture of frame {}\n", run->folder().string(), frame);
-          return;
-        }
+        if (!fs::is_regular_file(run->picture(frame))) return fmt::format("none: {} has no picture of frame {}", run->folder().string(), frame);
     constexpr int kMargin = 10, kScale = 2, kLine = 7 * kScale + 8, kWidth = 400;
     constexpr Rgb kPaper = {18, 20, 24}, kInk = {225, 225, 225};
     Image sheet;
     int width = 0, height = 0, y = kMargin;
     for (const int frame : frames) {
       const Image a = read_png(a_.picture(frame)), b = read_png(b_.picture(frame));
-      if (a.width != b.width || a.height != b.height) {
-        fmt::print("sheet:  none: frame {} has {}x{} pixels in A and {}x{} in B\n", frame, a.width, a.height, b.width, b.height);
-        return;
-      }
+      if (a.width != b.width || a.height != b.height) return fmt::format("none: frame {} has {}x{} pixels in A and {}x{} in B", frame, a.width, a.height, b.width, b.height);
       if (sheet.rgb.empty()) {
         width = std::min(kWidth, a.width), height = std::max(1, width * a.height / a.width);
         sheet = Image(4 * kMargin + 3 * width, kMargin + count * (height + kLine + kMargin));
@@ -229,12 +224,13 @@ class Comparison {
       }
       y += height + kLine + kMargin;
     }
-    write_png(out_ / "sheet.png", sheet);
-    fmt::print("sheet:  {}\n", (out_ / "sheet.png").string());
+    files_.write(out_ / "sheet.png", encode_png(sheet));
+    return (out_ / "sheet.png").string();
   }
 
   int tolerance_;
   fs::path out_;
+  OutputFiles files_;
   RecordedRun a_, b_;
   int common_ = 0, first_ = -1;
   bool is_repeatable_ = false;

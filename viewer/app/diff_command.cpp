@@ -84,9 +84,16 @@ void print(const PictureComparison& c, bool with_details = true) {
 }
 
 /// What --update does and says. Baselines without a picture in B stay: to remove one is a decision of its own.
-int update(const std::vector<PictureComparison>& differing, const fs::path& a, std::size_t compared) {
-  int left = 0;
-  for (const PictureComparison& c : differing) {
+int update(const std::vector<PictureComparison>& all, const fs::path& a) {
+  int left = 0, written_anew = 0, rewritten = 0, ids_written = 0;
+  for (const PictureComparison& c : all) {
+    if (c.verdict == PictureComparison::same) {
+      const fs::path ids = update_ids(c);
+      if (ids.empty()) continue;
+      fmt::print("{}: the same within the limits, and kept\n  wrote its ids {}\n", c.name, ids.string());
+      ++ids_written;
+      continue;
+    }
     print(c);
     if (c.verdict == PictureComparison::missing_in_b) {
       fmt::print("  kept {}: B has no such picture; remove it by hand if it is no longer wanted\n", c.a.string());
@@ -95,10 +102,14 @@ int update(const std::vector<PictureComparison>& differing, const fs::path& a, s
     }
     const bool is_new = c.a.empty();
     const fs::path baseline = !is_new ? c.a : a.extension() == ".png" ? a : pictures_of(a) / c.name;
+    const bool had_ids = !is_new && fs::is_regular_file(id_picture_of(baseline));
     const fs::path written = update_baseline(c, baseline, c.b);
-    fmt::print("  {} {}\n", is_new ? "new:" : written == baseline ? "rewrote" : "wrote the alternate", written.string());
+    (written == baseline && !is_new ? rewritten : written_anew) += 1;
+    const bool has_ids = fs::is_regular_file(id_picture_of(written));
+    fmt::print("  {} {}{}\n", is_new ? "new:" : written == baseline ? "rewrote" : "wrote the alternate", written.string(),
+               has_ids ? " with its ids" : written == baseline && had_ids ? "; B has no ids of it, so the old ones were removed" : "");
   }
-  fmt::print("{} picture{} compared, {} rewritten\n", compared, compared == 1 ? "" : "s", differing.size() - static_cast<std::size_t>(left));
+  fmt::print("{} picture{} compared, {} rewritten, {} new{}\n", all.size(), all.size() == 1 ? "" : "s", rewritten, written_anew, ids_written == 0 ? "" : fmt::format(", ids alone written of {}", ids_written));
   return left == 0 ? 0 : 1;
 }
 
@@ -119,7 +130,7 @@ int diff_command(const Arguments& arguments) {
   std::copy_if(all.begin(), all.end(), std::back_inserter(differing), [](const PictureComparison& c) { return c.verdict != PictureComparison::same; });
   const fs::path out = arguments.out;
   if (!out.empty() && !differing.empty()) write_picture_report(out, fmt::format("{} and {}", a.string(), b.string()), all, rules);
-  if (arguments.update) return update(differing, a, all.size());
+  if (arguments.update) return update(all, a);
 
   for (std::size_t i = 0; i < differing.size(); ++i) {
     if (i == kMostDetails) fmt::print("without what they look like from here on; --out DIR tells it of every one\n");

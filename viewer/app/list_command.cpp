@@ -12,6 +12,7 @@
 #include "engine/narrowphase/narrow_phase.hpp"
 #include "engine/response/response.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/sweep_reference.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
@@ -105,6 +106,12 @@ void print_layers() {
   print_table(rows);
 }
 
+void print_cases() {
+  std::vector<Row> rows;
+  for (const AnalyticCase& c : analytic_cases()) rows.push_back({c.name, c.doc});
+  print_table(rows);
+}
+
 const std::vector<std::string> kTopics = {"parameters", "layers", "responses", "lcp_solvers", "broad_phases", "narrow_phases", "materials", "integrators", "linear_solvers", "cases"};
 
 }  // namespace
@@ -120,7 +127,7 @@ int list_command(const Arguments& arguments) {
   else if (topic == "integrators") print_registry(integrators());
   else if (topic == "materials") print_registry(materials());
   else if (topic == "linear_solvers") print_registry(linear_solvers());
-  else if (topic == "cases") fmt::print("none in this version\n");
+  else if (topic == "cases") print_cases();
   else {
     const std::string near = nearest_word(topic, kTopics);
     throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", topic, fmt::join(kTopics, ", "), near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));

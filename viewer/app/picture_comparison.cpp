@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <set>
+#include <tuple>
+
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/image/flip.hpp"
@@ -25,11 +28,29 @@ void compare_objects(PictureComparison& c, const Image& a, const Image& b, const
   if (c.objects.empty()) c.details.push_back("the pixels that differ belong to the backdrop or to labels");
 }
 
+void copy_to(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_directories(fs::absolute(to).parent_path(), error);
+  write_file(to, read_file(from, kMostBytes));
+}
+
+// the order in a file is that of drawing
+bool names_the_same(const IdImage& a, const IdImage& b) {
+  const auto names = [](const IdImage& ids) {
+    std::set<std::tuple<std::string, std::string, std::string, std::string, std::uint64_t>> all;
+    for (const IdObject& o : ids.objects) all.emplace(o.layer, o.mark, o.body, o.other, o.identity);
+    return all;
+  };
+  return names(a) == names(b);
+}
+
 }  // namespace
 
 fs::path id_picture_of(const fs::path& picture) {
-  const fs::path folder = fs::absolute(picture).lexically_normal().parent_path();
-  return (folder.filename() == "frames" ? folder.parent_path() : folder) / "ids" / picture.filename();
+  const fs::path folder = picture.parent_path();
+  if (folder.filename() == "frames") return folder.parent_path() / "ids" / picture.filename();
+  const bool is_in_frames = fs::absolute(picture).lexically_normal().parent_path().filename() == "frames";  // named from within
+  return (is_in_frames ? folder / ".." : folder) / "ids" / picture.filename();
 }
 
 bool is_alternate(const std::string& file_name) { return file_name.find('@') != std::string::npos; }
@@ -76,14 +97,19 @@ fs::path update_baseline(const PictureComparison& comparison, const fs::path& ba
   const bool other_renderer = comparison.verdict == PictureComparison::different && comparison.cause == ChangeCause::renderer;
   const fs::path target = other_renderer ? alternate_for(baseline, picture) : baseline;
   read_png(picture);  // a baseline that nobody can read helps nobody
+  // the ids first: where the disk is full after them, the picture still differs and the next --update goes on
+  const fs::path ids = id_picture_of(picture), ids_target = id_picture_of(target);
   std::error_code error;
-  fs::create_directories(fs::absolute(target).parent_path(), error);
-  write_file(target, read_file(picture, kMostBytes));
-  if (const fs::path ids = id_picture_of(picture); fs::is_regular_file(ids)) {
-    const fs::path ids_target = id_picture_of(target);
-    fs::create_directories(ids_target.parent_path(), error);
-    write_file(ids_target, read_file(ids, kMostBytes));
-  }
+  if (fs::is_regular_file(ids)) copy_to(ids, ids_target);
+  else fs::remove(ids_target, error);
+  copy_to(picture, target);
+  return target;
+}
+
+fs::path update_ids(const PictureComparison& same) {
+  const fs::path ids = id_picture_of(same.b), target = id_picture_of(same.a);
+  if (!fs::is_regular_file(ids) || (fs::is_regular_file(target) && names_the_same(read_ids(target), read_ids(ids)))) return "";
+  copy_to(ids, target);
   return target;
 }
 

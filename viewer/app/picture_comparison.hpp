@@ -47,12 +47,17 @@ std::filesystem::path baseline_for(const std::filesystem::path& baseline, const 
 std::filesystem::path alternate_for(const std::filesystem::path& baseline, const std::filesystem::path& picture);
 bool is_alternate(const std::string& file_name);
 
-/// Makes `baseline` a copy of `picture`: or its alternate, where only the renderer changed. Its id picture, if there is one,
-/// is copied into the folder ids beside it. Returns the file written. Throws InputError.
+/// Makes `baseline` a copy of `picture`: or its alternate, where only the renderer changed. Its id picture is copied into the
+/// folder ids beside it; one that was there is removed where `picture` has none, for it would tell of the picture before.
+/// Returns the file written. Throws InputError.
 std::filesystem::path update_baseline(const PictureComparison& comparison, const std::filesystem::path& baseline, const std::filesystem::path& picture);
 
-/// Into `out` (made if need be): the three-panel picture of each that differs, and report.html. `b_name`: what B is called.
-/// Throws InputError where that can't be written.
+/// Of two pictures that are the same within the limits: copies the id picture of B beside A where A has none, or one that names
+/// other objects (a body that was given another name, say). Returns the file written, "" if none was. Throws InputError.
+std::filesystem::path update_ids(const PictureComparison& same);
+
+/// Into `out` (made if need be): the three-panel picture of each that differs, and report.html. Throws InputError where that
+/// can't be written; then nothing of it is left.
 void write_picture_report(const std::filesystem::path& out, const std::string& title, const std::vector<PictureComparison>& pictures, const PictureRules& rules);
 
 }  // namespace impinge

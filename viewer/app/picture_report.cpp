@@ -1,11 +1,14 @@
 // report.html of pictures that differ: one file that holds all it shows.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/app/html_text.hpp"
+#include "viewer/app/output_files.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/image/png.hpp"
 
@@ -24,7 +27,7 @@ th{background:#f4f4f4;position:sticky;top:0}td.n{text-align:right}tbody tr{curso
 .stage{position:relative;overflow:hidden;background:#181a1e;user-select:none;cursor:ew-resize}.stage img{position:absolute;left:0;top:0;image-rendering:pixelated}
 .cut{position:absolute;top:0;bottom:0;width:2px;background:#ffd23c;margin-left:-1px}.box{position:absolute;border:2px solid #50dcff;box-sizing:content-box;margin:-2px}
 .tag{position:absolute;bottom:6px;padding:1px 8px;background:#000a;color:#fff;font-weight:bold;border-radius:3px}.view{flex:1 1 640px;min-width:0}
-.bar{margin:.4em 0;display:flex;gap:1em;align-items:center;flex-wrap:wrap}.bar input[type=range]{width:260px}#say{margin:.5em 0;padding-left:1.2em}
+.bar{margin:.4em 0;display:flex;gap:.7em;align-items:center;flex-wrap:wrap}.bar input[type=range]{width:150px}#say{margin:.5em 0;padding-left:1.2em}
 .pan{max-width:100%;overflow:auto;border:1px solid #ddd})";
 
 // a click on a row shows it; the slider, or the pointer over the picture, wipes from A to B
@@ -106,17 +109,20 @@ std::string data(const PictureComparison& c, const PictureRules& rules, std::siz
   return out + fmt::format(",box:[{},{},{}]}}", diff.worst_at[0], diff.worst_at[1], diff.settings.window);
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error ? error.message() : "a file of that name exists"));
+// "3", or "3 or 10" where the pictures have limits of their own
+std::string tolerances(const std::vector<const PictureComparison*>& pictures, const PictureRules& rules) {
+  std::set<int> values;
+  for (const PictureComparison* c : pictures)
+    if (c->verdict == PictureComparison::different) values.insert(c->difference.settings.tolerance);
+  if (values.empty()) values.insert(rules.settings.tolerance);
+  return fmt::format("{}", fmt::join(values, " or "));
 }
 
 }  // namespace
 
 void write_picture_report(const fs::path& out, const std::string& title, const std::vector<PictureComparison>& pictures, const PictureRules& rules) {
-  make_folder(out);
+  OutputFiles files;
+  files.make_folder(out);
   std::vector<const PictureComparison*> order;
   for (const PictureComparison& c : pictures)
     if (c.verdict != PictureComparison::same) order.push_back(&c);
@@ -130,25 +136,26 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
     if (c->verdict != PictureComparison::different) continue;
     const Image a = read_png(c->a), b = read_png(c->b);
     const fs::path panels = out / c->name;
-    make_folder(panels.parent_path());
-    write_png(panels, difference_panels(a, b, c->difference, rules.mask));
+    files.make_folder(panels.parent_path());
+    files.write(panels, encode_png(difference_panels(a, b, c->difference, rules.mask)));
   }
   std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n", html_text(title), kStyle);
   page += fmt::format("<p>{} of {} pictures differ. A pixel counts once a channel differs by more than {} of 255; the limits are {:g} a megapixel, {:g} % of what is drawn, and {} in any {} x {} window. "
                       "Arrow keys change the row; drag over the picture, or the slider, to wipe from A to B.</p>\n",
-                      order.size(), pictures.size(), rules.settings.tolerance, rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window,
+                      order.size(), pictures.size(), tolerances(order, rules), rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window,
                       rules.settings.window, rules.settings.window);
   page += "<div class=\"cols\"><div class=\"list\"><table id=\"frames\"><thead><tr><th>picture</th><th></th><th>pixels</th><th>in a window</th><th>levels</th><th>FLIP</th><th>changed</th></tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
   page += "<div class=\"view\" id=\"view\"><b id=\"name\"></b><div class=\"bar\"><span>A <input type=\"range\" id=\"wipe\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\"> B</span>";
   for (const auto& [value, text] : {std::pair{"wipe", "wipe"}, {"a", "A"}, {"b", "B"}, {"diff", "difference"}})
     page += fmt::format("<label><input type=\"radio\" name=\"mode\" value=\"{}\"{}> {}</label>", value, std::string(value) == "wipe" ? " checked" : "", text);
   page += "<label>zoom <select id=\"zoom\">";
-  for (const char* z : {"0.5", "1", "2", "3", "4", "8"}) page += fmt::format("<option>{}</option>", z);
+  for (const char* z : {"0.25", "0.5", "0.7", "1", "2", "3", "4", "8"}) page += fmt::format("<option>{}</option>", z);
   page += "</select></label><label><input type=\"checkbox\" id=\"frame\" checked> worst window</label></div>\n";
   page += "<div class=\"pan\"><div class=\"stage\" id=\"stage\" hidden><img id=\"b\" alt=\"B\" draggable=\"false\"><img id=\"a\" alt=\"A\" draggable=\"false\"><img id=\"d\" alt=\"difference\" draggable=\"false\" hidden>"
           "<div class=\"cut\" id=\"cut\"></div><div class=\"box\" id=\"box\"></div><span class=\"tag\" id=\"ta\">A</span><span class=\"tag\" id=\"tb\">B</span></div></div><p id=\"none\" hidden></p><ul id=\"say\"></ul></div></div>\n";
   page += "<script>const data=[" + entries + "];\n" + kScript + "</script>\n</body></html>\n";
-  write_file(out / "report.html", page);
+  files.write(out / "report.html", page);
+  files.keep();
 }
 
 }  // namespace impinge

@@ -7,6 +7,7 @@
 #include "engine/io/file.hpp"
 #include "viewer/app/model_report.hpp"
 #include "viewer/app/report_parts.hpp"
+#include "viewer/app/sweep_table.hpp"
 
 namespace impinge {
 
@@ -104,9 +105,13 @@ std::string model_html(const ReportTable& table, const fs::path& out) {
   for (const char* head : {"degrees of freedom", "rows, most", "contacts, mean", "iterations a frame", "frames without contact", "frames with sleepers", "broad phase", "narrow phase", "assembly", "response", "integration"})
     html += fmt::format("<th class=\"number\">{}</th>", head);
   html += "</tr></thead><tbody>\n";
+  std::vector<int> numbers;  // what is varied and shows in no line of the model
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    if (table.columns[c].kind == ReportColumn::varied && table.columns[c].is_numeric && table.columns[c].distinct > 1) numbers.push_back(static_cast<int>(c));
   for (const Job& job : jobs) {
     const std::string& hash = table.cell(job.row, "hash");
-    html += fmt::format("<tr><th scope=\"row\"><a href=\"#job-{}\">{}</a></th>", hash, hash.substr(0, 8));
+    const std::string name = numbers.empty() ? "" : "<small>" + html_text(table.job_name(job.row, numbers)) + "</small>";
+    html += fmt::format("<tr><th scope=\"row\"><a href=\"#job-{}\">{}</a>{}</th>", hash, hash.substr(0, 8), name);
     for (std::size_t k = 0; k < common.size(); ++k)
       if (!common[k]) html += fmt::format("<td class=\"what\">{}{}</td>", job.lines[k].used ? "" : "left out: ", html_text(job.lines[k].what));
     const Needed& n = job.needed;
@@ -127,15 +132,15 @@ std::string ablation_html(const fs::path& out, const std::string& scene) {
                        html_text(scene), html_text(out.string()));
   const auto lines = parse_csv(read_file(file, std::uint64_t{1} << 24));
   std::string html = "<p>The scene as it is in its file, and with each economy switched off. Difference: the largest distance of a body from where it is otherwise (root of the mean square over its surface), in sizes of the scene. "
-                     "Times are those of the processor; the second row shows their noise.</p>\n<div class=\"wide\"><table id=\"ablation\"><thead><tr><th>left out</th><th class=\"number\">time a frame <small>ms</small></th><th "
+                     "Ratio and difference are to the scene as it is over the same frames. Times are those of the processor; the second row shows their noise.</p>\n<div class=\"wide\"><table id=\"ablation\"><thead><tr><th>left out</th><th class=\"number\">frames</th><th class=\"number\">time a frame <small>ms</small></th><th "
                      "class=\"number\">ratio</th><th class=\"number\">difference</th><th>modelled instead</th><th>settings</th></tr></thead><tbody>\n";
-  const auto figure = [](const std::string& text) { return text.empty() ? std::string() : fmt::format("{:.3g}", std::strtod(text.c_str(), nullptr)); };
+  const auto figure = [](const std::string& text) { return text.empty() ? std::string() : three_digits(std::strtod(text.c_str(), nullptr)); };
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (lines[i].size() != 8) continue;
     const auto& cell = lines[i];
     const bool was_run = !cell[7].empty();
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}{}</td><td>{}</td></tr>\n", html_text(cell[0]),
-                        was_run ? figure(cell[7]) : html_text(cell[6]), figure(cell[4]), was_run ? figure(cell[5]) : "", html_text(cell[1]), was_run && !cell[6].empty() ? "; " + html_text(cell[6]) : "",
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td><td>{}{}</td><td>{}</td></tr>\n", html_text(cell[0]),
+                        was_run ? html_text(cell[3]) : "", was_run ? figure(cell[7]) : html_text(cell[6]), figure(cell[4]), was_run ? figure(cell[5]) : "", html_text(cell[1]), was_run && !cell[6].empty() ? "; " + html_text(cell[6]) : "",
                         cell[2].empty() || cell[0].rfind("all of", 0) == 0 ? "" : "<code>" + html_text(cell[2]) + "</code>");
   }
   return html + "</tbody></table></div>\n";

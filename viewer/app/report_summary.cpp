@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "viewer/app/sweep_table.hpp"
+
 namespace impinge {
 
 namespace {
@@ -79,7 +81,7 @@ std::string extremes_text(const ReportTable& table, const ReportChoice& choice) 
   if (count == 0) return "";
   const auto job = [&](int row) {
     const auto i = static_cast<std::size_t>(row);
-    return fmt::format("<a href=\"#job-{}\">{}</a> ({:.3g} ms, error {:.3g} m)", table.cell(i, "hash"), html_text(table.job_name(i, varied)), table.number(i, choice.x), table.number(i, choice.y));
+    return fmt::format("<a href=\"#job-{}\">{}</a> ({} ms, error {} m)", table.cell(i, "hash"), html_text(table.job_name(i, varied)), three_digits(table.number(i, choice.x)), three_digits(table.number(i, choice.y)));
   };
   if (fastest == closest) return fmt::format("{} is both the fastest and the most exact.", job(fastest));
   return fmt::format("{} of the jobs are beaten by no other in both time and error. Fastest of all: {}. Most exact: {}.", count, job(fastest), job(closest));

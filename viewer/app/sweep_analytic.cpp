@@ -1,6 +1,5 @@
 // Motions with a formula: what a body that only translates does in free flight, sliding on a plane, and bouncing off it.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -115,17 +114,29 @@ AnalyticMotion bouncing(const Session& session) {
 
 }  // namespace
 
-const std::vector<std::string>& analytic_case_names() {
-  static const std::vector<std::string> kNames = {"free_fall", "sliding", "bouncing"};
-  return kNames;
+const std::vector<AnalyticCase>& analytic_cases() {
+  static const std::vector<AnalyticCase> kCases = {
+      {"free_fall", "rigid bodies that don't spin, until the first contact: a parabola each", free_fall},
+      {"sliding", "a box that lies on a static plane, level or sloping: it slides along the slope, stops, and stays or slides on by Coulomb's law", sliding},
+      {"bouncing", "a sphere above a static plane, moving along its normal: parabolas, each impact slower by the restitution, until it rests", bouncing},
+  };
+  return kCases;
+}
+
+std::string analytic_case_names() {
+  std::string names;
+  for (const AnalyticCase& c : analytic_cases()) names += (names.empty() ? "" : ", ") + c.name;
+  return names;
 }
 
 AnalyticMotion analytic_motion(const std::string& name, const Session& session) {
-  if (name == "free_fall") return free_fall(session);
-  if (name == "sliding") return sliding(session);
-  if (name == "bouncing") return bouncing(session);
-  const std::string near = nearest_word(name, analytic_case_names());
-  throw InputError(fmt::format("unknown case '{}'; allowed: {}; {}", name, fmt::join(analytic_case_names(), ", "), near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
+  std::vector<std::string> names;
+  for (const AnalyticCase& c : analytic_cases()) {
+    if (c.name == name) return c.motion(session);
+    names.push_back(c.name);
+  }
+  const std::string near = nearest_word(name, names);
+  throw InputError(fmt::format("unknown case '{}'; allowed: {}; {}", name, analytic_case_names(), near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
 }
 
 }  // namespace impinge

@@ -56,7 +56,7 @@ std::vector<std::string> read_reference(const SweepOptions& options, const Sweep
       continue;
     }
     if (setting.text.find('=') == std::string::npos)
-      refuse(where, setting.place.empty() ? "no PATH=VALUE" : fmt::format("'{}' is no PATH=VALUE", setting.text), fmt::format("PATH=VALUE, finest or case:NAME ({}) is wanted", fmt::join(analytic_case_names(), ", ")), "change it");
+      refuse(where, setting.place.empty() ? "no PATH=VALUE" : fmt::format("'{}' is no PATH=VALUE", setting.text), fmt::format("PATH=VALUE, finest or case:NAME ({}) is wanted", analytic_case_names()), "change it");
     const SweepAxis axis = read_sweep_axis("--reference", setting, base.session(), load);
     if (axis.values.size() != 1) refuse(where, fmt::format("{} values", axis.values.size()), "one is wanted", "leave the others out");
     settings.push_back(axis.path + "=" + axis.values.front());

@@ -25,8 +25,14 @@ struct AnalyticMotion {
   std::function<Vec3(const std::string& body, double time)> displacement;  ///< since time 0, metres
   bool ends_with_contact = false;  ///< it holds as long as there is none
 };
-/// free_fall, sliding, bouncing
-const std::vector<std::string>& analytic_case_names();
+/// A line of `impinge list cases`, and what `--reference case:NAME` stands for.
+struct AnalyticCase {
+  std::string name, doc;
+  AnalyticMotion (*motion)(const Session&);
+};
+const std::vector<AnalyticCase>& analytic_cases();
+/// "free_fall, sliding, bouncing"
+std::string analytic_case_names();
 /// Throws InputError, without a place, for an unknown name and for a scene that the formula doesn't cover.
 AnalyticMotion analytic_motion(const std::string& name, const Session& session);
 

@@ -71,7 +71,7 @@ std::string page(const SweepReport& report, const ReportTable& table, const Repo
   if (frames != "null")
     html += "<h2>Pictures</h2>\n<p class=\"note\">The same frame of every job. The copies here are small and part of this page; a job shows where the full ones are.</p>\n<div id=\"frames\"></div>\n";
   html += "<h2>Jobs</h2>\n<p class=\"note screen\">A click on a head sorts, on a job opens it.</p>\n";
-  if (choice.has_errors) html += "<p class=\"note\">◆ no other job is both faster and more exact. Bold: the smallest time or error of all jobs that are done.</p>\n";
+  if (choice.has_errors) html += "<p class=\"note\">◆ no other job is both faster and more exact. Bold: the smallest time or error of all jobs that are done. <small>ref</small>: a job that is its own reference, so it has no error.</p>\n";
   html += "<div id=\"table\"></div>\n<h2>What was modelled, and what was left out</h2>\n" + model_html(table, out);
   html += "<h3>What leaving things out is worth</h3>\n" + ablation_html(out, report.scene);
   html += "<h2>Machine, versions, noise</h2>\n" + machine_html(table, out);

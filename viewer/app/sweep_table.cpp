@@ -25,10 +25,7 @@ std::string cell(const std::string& text) {
 }
 
 std::string number(double value) { return shortest(value); }
-std::string three_digits(const std::string& text) {
-  if (text.empty()) return "-";
-  return fmt::format("{:.3g}", std::strtod(text.c_str(), nullptr));
-}
+std::string three_digits(const std::string& text) { return text.empty() ? "-" : impinge::three_digits(std::strtod(text.c_str(), nullptr)); }
 
 std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
@@ -180,6 +177,14 @@ std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows
   return out;
 }
 
+std::string three_digits(double value) {
+  const double size = std::abs(value);
+  if (size < 1e6 && value == std::round(value)) return fmt::format("{:.0f}", value);
+  if (size < 1e3 || size >= 1e5) return fmt::format("{:.3g}", value);
+  const double unit = size < 1e4 ? 10.0 : 100.0;
+  return fmt::format("{:.0f}", std::round(value / unit) * unit);
+}
+
 std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& rows) {
   const std::vector<std::string>& paths = table.paths;
   std::vector<std::vector<std::string>> lines(1);
@@ -197,7 +202,7 @@ std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& 
     line.push_back(status_name(row.outcome.status));
     line.push_back(figure(row, "frames").empty() ? "-" : figure(row, "frames"));
     for (const char* name : {"penetration_max_m", "residual_max", "contacts_max", "energy_drift_last_J", "step_ms"}) line.push_back(three_digits(figure(row, name)));
-    if (table.has_reference) line.push_back(row.error < 0 ? "-" : fmt::format("{:.3g}", row.error));
+    if (table.has_reference) line.push_back(row.error < 0 ? "-" : row.reference == row.hash ? "reference" : impinge::three_digits(row.error));
     if (!row.outcome.reason.empty()) reasons += fmt::format("{}: {}: {}\n", row.hash.substr(0, 8), status_name(row.outcome.status), row.outcome.reason);
   }
   return aligned(lines) + reasons;

@@ -46,6 +46,9 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
 
 double median(std::vector<double> values);
 
+/// Three digits for people to read, as the report's pages write them: 4690, 0.0365, 8.11e-06; whole numbers below a million whole.
+std::string three_digits(double value);
+
 std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows);
 std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& rows);
 

@@ -61,7 +61,12 @@ class Suite {
   int run() {
     std::vector<TestOutcome> outcomes;
     for (const std::string& name : names_) {
-      outcomes.push_back(run_one(name));
+      try {
+        outcomes.push_back(run_one(name));
+      } catch (const OutputError& error) {
+        give_up(outcomes, name, error.what());
+        throw;
+      }
       print(outcomes.back());
     }
     if (!arguments_.junit.empty()) write_file(arguments_.junit, junit_xml(suite_, outcomes));
@@ -71,12 +76,28 @@ class Suite {
   }
 
  private:
+  /// No room for what a test writes is none for the next: the suite ends. Its XML must not pass for that of a good one.
+  void give_up(std::vector<TestOutcome>& outcomes, const std::string& name, const std::string& reason) const {
+    if (arguments_.junit.empty()) return;
+    TestOutcome& last = outcomes.emplace_back();
+    last.name = name, last.kind = TestOutcome::error;
+    last.messages.push_back(reason + "; the tests after this one were not run");
+    std::error_code error;
+    try {
+      write_file(arguments_.junit, junit_xml(suite_, outcomes));
+    } catch (const OutputError&) {
+      fs::remove(arguments_.junit, error);
+    }
+  }
+
   TestOutcome run_one(const std::string& name) {
     const auto start = std::chrono::steady_clock::now();
     TestOutcome outcome;
     outcome.name = name;
     try {
       test(outcome);
+    } catch (const OutputError&) {
+      throw;
     } catch (const InputError& error) {
       outcome.kind = TestOutcome::error;
       outcome.messages.push_back(error.what());
@@ -145,11 +166,15 @@ class Suite {
         c.verdict = PictureComparison::missing_in_a;
         c.headline = fmt::format("there is no {}; impinge test {} --update writes it", picture.file.string(), folder_.string());
       }
-      if (c.verdict == PictureComparison::same) continue;
+      if (c.verdict == PictureComparison::same) {
+        if (!arguments_.update) continue;
+        if (const fs::path ids = update_ids(c); !ids.empty()) outcome.messages.push_back(fmt::format("wrote the ids {}; the picture is the same within the limits, and kept", ids.string()));
+        continue;
+      }
       if (arguments_.update) {
         const bool is_new = c.a.empty();
-        const fs::path written = update_baseline(c, is_new ? picture.file : c.a, made);
-        outcome.messages.push_back(fmt::format("{} {}{}", is_new ? "new:" : "rewrote", written.string(), is_new ? "" : ": " + c.headline));
+        const fs::path target = is_new ? picture.file : c.a, written = update_baseline(c, target, made);
+        outcome.messages.push_back(fmt::format("{} {}{}", is_new ? "new:" : written == target ? "rewrote" : "wrote the alternate", written.string(), is_new ? "" : ": " + c.headline));
         continue;
       }
       outcome.kind = TestOutcome::failed;

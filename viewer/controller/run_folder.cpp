@@ -86,9 +86,9 @@ std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;
     try {
-      StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
+      const StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
       if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 || row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos) break;
-      rows.push_back(std::move(row));
+      rows.push_back(row);
     } catch (const InputError&) {
       break;
     }

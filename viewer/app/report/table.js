@@ -6,10 +6,11 @@ function makeTable(place) {
   const state = {all: false, only: false, sort: -1, up: true};
   const x = columnAt(data.plot.x), y = columnAt(data.plot.y);
   const judged = rows.map((r, i) => i).filter(i => rows[i].status === 'done' && isFinite(number(i, x)) && isFinite(number(i, y)));
-  const front = data.reference.length ? best(x, y, judged) : [];
+  const reference = columnAt('reference'), isOwn = i => reference >= 0 && rows[i].cells[reference] === rows[i].hash;
+  const front = data.reference.length ? best(x, y, judged.filter(i => !isOwn(i))) : [];
   const smallest = {};
   for (const c of every) {
-    const values = judged.map(i => number(i, c)).filter(isFinite);
+    const values = judged.filter(i => columns[c].kind !== 'error' || !isOwn(i)).map(i => number(i, c)).filter(isFinite);
     if (['time', 'error'].includes(columns[c].kind) && values.length > 1 && Math.min(...values) < Math.max(...values)) smallest[c] = Math.min(...values);
   }
   const table = element('table', {id: 'jobs'});
@@ -30,6 +31,7 @@ function makeTable(place) {
                 element('span', {class: 'arrow'}, state.sort === c ? (state.up ? ' ▲' : ' ▼') : '')));
     const cell = (i, c) => {
       const text = rows[i].cells[c], figure = isNumeric(c) && columns[c].kind !== 'varied';
+      if (columns[c].kind === 'error' && isOwn(i)) return element('td', {class: 'number', title: 'this job is its own reference'}, '–');
       return element('td', {class: [isNumeric(c) ? 'number' : '', figure && number(i, c) === smallest[c] ? 'smallest' : ''].join(' ').trim() || null, title: figure && text ? text : null},
                      figure ? format(number(i, c)) : columns[c].kind === 'reference' ? text.slice(0, 8) : text);
     };
@@ -37,7 +39,7 @@ function makeTable(place) {
     const why = (i, width) => rows[i].reason ? [element('tr', {class: 'why ' + rows[i].status}, element('td', {colspan: width}, element('div', {}, rows[i].reason)))] : [];
     table.replaceChildren(element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'job'), ...shown.map(head))),
         element('tbody', {}, ...order.flatMap(i => [element('tr', {id: 'row-' + rows[i].hash, class: rows[i].status + (front.includes(i) ? ' best' : '')},
-            element('th', {scope: 'row'}, element('a', {href: '#job-' + rows[i].hash}, rows[i].hash.slice(0, 8)), front.includes(i) ? element('span', {class: 'star', title: 'no other job is both faster and more exact'}, ' ◆') : null),
+            element('th', {scope: 'row'}, element('a', {href: '#job-' + rows[i].hash}, rows[i].hash.slice(0, 8)), front.includes(i) ? element('span', {class: 'star', title: 'no other job is both faster and more exact'}, ' ◆') : isOwn(i) ? element('small', {title: 'this job is its own reference'}, ' ref') : null),
             ...shown.map(c => cell(i, c))), ...why(i, shown.length + 1)])));
   }
   draw();
