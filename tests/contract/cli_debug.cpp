@@ -281,6 +281,14 @@ TEST_CASE("a scene that diverges says so and can be gone on with from the last g
   CHECK(fs::exists(folder / "stuck.png"));
 }
 
+TEST_CASE("a script that ends in an error keeps what was done before") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "step 4\nset contact.friction 0.1\nstepp\n");
+  CHECK(debug(folder, "s.toml", "a.script", {"--record", "r.script"}).code == 2);
+  CHECK(slurp(folder / "r.script").find("step 4\nset contact.friction 0.1\n") != std::string::npos);
+}
+
 TEST_CASE("a break pauses play") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);

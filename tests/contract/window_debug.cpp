@@ -62,6 +62,8 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
+  void signal(int number) { kill(pid_, number); }
+
   bool is_running() {
     if (!code_ && waitpid(pid_, &status_, WNOHANG) == pid_) code_ = WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
     return !code_;
@@ -240,6 +242,24 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     WARN("see " << shown.string() << " and window_wanted.png beside it");
   }
   CHECK(differing == 0);
+}
+
+TEST_CASE("a window that is interrupted keeps what was done") {
+  if (!is_installed("Xvfb")) {
+    WARN("Xvfb is missing (.ci/setup checks installs it): the window was not tried");
+    SUCCEED();
+    return;
+  }
+  const TempFolder folder;
+  const fs::path scene = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml";
+  const Screen screen(folder.path());
+  folder.write("a.script", "step 3\nset contact.friction 0.1\n");
+  Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size", "960x600", "--script", "a.script", "--record", "r.script"}, folder.path(), screen.display());
+  screen.still();
+  window.signal(SIGINT);
+  CHECK(window.wait(60) == 130);
+  CHECK(slurp(folder / "log").find("frame 3, state ") != std::string::npos);
+  CHECK(slurp(folder / "r.script").find("step 3\nset contact.friction 0.1\n") != std::string::npos);
 }
 
 TEST_CASE("the window of a script that quits closes by itself") {

@@ -7,6 +7,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/interrupt.hpp"
 #include "viewer/app/sdl_window.hpp"
 
 namespace impinge {
@@ -91,26 +92,35 @@ int debug_command(const Arguments& arguments) {
   if (script.has_timed) debug.session.script_lines = script.timed;
   debug.most_bytes = static_cast<std::size_t>(arguments.memory) << 20;
   debug.run_folder = source.run_folder;
+  debug.interrupted = &interrupted();
+  watch_for_interrupt();
   Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);  // without: a finished run's own
   DebugLoop loop(debugger, *window, options.out);
 
-  for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit(); ++i)
-    if (const std::string& line = script.lines[i]; !line.empty()) {
-      const std::size_t first = line.find_first_not_of(" \t");
-      loop.run_line({std::string_view(line).substr(first), &script.name, static_cast<int>(i) + 1, static_cast<int>(first) + 1});
-    }
-  if (windowed && !loop.has_quit()) show_window(loop, *window, "impinge " + source.scene.filename().string());
-
-  if (!arguments.record.empty()) {
+  const auto save_recording = [&] {
+    if (arguments.record.empty()) return;
     std::string text = command_of(arguments);
     for (const std::string& line : script.timed)
       if (!line.empty()) text += line + "\n";
     for (const std::string& line : debugger.recording(loop.pointer())) text += line + "\n";
     write_file(arguments.record, text);
+  };
+  try {
+    for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit() && !interrupted(); ++i)
+      if (const std::string& line = script.lines[i]; !line.empty()) {
+        const std::size_t first = line.find_first_not_of(" \t");
+        loop.run_line({std::string_view(line).substr(first), &script.name, static_cast<int>(i) + 1, static_cast<int>(first) + 1});
+      }
+    if (windowed && !loop.has_quit() && !interrupted()) show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted());
+  } catch (...) {
+    save_recording();  // what was done before is kept
+    throw;
   }
+  save_recording();
   if (!arguments.quiet) fmt::print("frame {}, state {}\n", debugger.model().frame, hex64(debugger.state_hash()));
   for (const ConsoleLine& line : debugger.model().console)
     if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+  if (interrupted()) return 130;
   return debugger.failures() > 0 ? 1 : 0;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/core/error.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/interrupt.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/png_sequence.hpp"
@@ -17,14 +18,6 @@
 namespace impinge {
 
 namespace {
-
-std::atomic<bool> g_interrupted{false};
-
-// the first signal ends the run after the frame in work, resumable; the second ends the program at once
-void on_interrupt(int signal) {
-  g_interrupted.store(true);
-  std::signal(signal, SIG_DFL);
-}
 
 class Progress {
  public:
@@ -100,11 +93,10 @@ bool write_video(const Arguments& arguments, double frames_per_second) {
 
 int run_command(const Arguments& arguments) {
   const RunOptions& options = arguments.run_options;
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  watch_for_interrupt();
   Progress progress;
   RunWatcher watcher;
-  watcher.interrupted = &g_interrupted;
+  watcher.interrupted = &interrupted();
   if (!arguments.video.empty()) check_video_path(arguments.video, options.out);
   const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
   Convergence convergence;

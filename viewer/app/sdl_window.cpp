@@ -74,7 +74,7 @@ bool has_screen() {
   return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
-void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title) {
+void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title, const std::atomic<bool>& interrupted) {
   const Screen screen;
   const int w = pixels.width(), h = pixels.height();
   const std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window(SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, 0), SDL_DestroyWindow);
@@ -85,16 +85,26 @@ void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title)
   if (!texture) refuse(SDL_GetError());
   SDL_StartTextInput();
   Image image;
-  bool open = true;
-  while (open && !loop.has_quit()) {
+  bool open = true, exposed = true;
+  const auto handle = [&](const SDL_Event& event) {
+    exposed |= event.type == SDL_WINDOWEVENT;
+    open = take(event, pixels.ui());
+  };
+  while (open && !loop.has_quit() && !interrupted) {
+    const std::uint64_t start = SDL_GetTicks64();
     SDL_Event event;
-    if (!loop.is_busy() && SDL_WaitEventTimeout(&event, kIdle)) open = take(event, pixels.ui());
-    while (open && SDL_PollEvent(&event)) open = take(event, pixels.ui());
+    if (!loop.is_busy() && SDL_WaitEventTimeout(&event, kIdle)) handle(event);
+    while (open && SDL_PollEvent(&event)) handle(event);
     loop.tick();
-    pixels.read(image);
-    SDL_UpdateTexture(texture.get(), nullptr, image.pixel(0, 0), 3 * w);
-    SDL_RenderCopy(renderer.get(), texture.get(), nullptr, nullptr);
-    SDL_RenderPresent(renderer.get());
+    if (pixels.has_changed() || exposed) {
+      pixels.read(image);
+      SDL_UpdateTexture(texture.get(), nullptr, image.pixel(0, 0), 3 * w);
+      SDL_RenderCopy(renderer.get(), texture.get(), nullptr, nullptr);
+      SDL_RenderPresent(renderer.get());
+      exposed = false;
+    }
+    const std::uint64_t taken = SDL_GetTicks64() - start;
+    if (const auto frame = static_cast<std::uint64_t>(1e3 * loop.seconds_to_show()); taken < frame) SDL_Delay(static_cast<std::uint32_t>(frame - taken));
   }
 }
 

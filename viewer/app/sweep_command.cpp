@@ -9,6 +9,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/scene_values.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/interrupt.hpp"
 #include "viewer/app/sweep_collect.hpp"
 #include "viewer/app/sweep_file.hpp"
 #include "viewer/app/sweep_report.hpp"
@@ -62,7 +63,7 @@ int jobs_alone(const Arguments& arguments) {
     is_done &= row.outcome.status == SweepOutcome::done;
   }
   if (!arguments.quiet) fmt::print("{}", sweep_summary({}, rows));
-  if (sweep_interrupted()) return 130;
+  if (interrupted()) return 130;
   return is_done ? 0 : 1;
 }
 
@@ -125,7 +126,7 @@ int sweep_command(const Arguments& given) {
   }
   if (!arguments.quiet)
     fmt::print("{}{} of {} jobs done\nresults: {}\nreport:  {}\n", summary, done, sweep.rows.size(), (out / "results.csv").string(), (out / "report.html").string());
-  if (sweep_interrupted()) {
+  if (interrupted()) {
     fmt::print(stderr, "interrupted; the same command goes on\n");
     return 130;
   }

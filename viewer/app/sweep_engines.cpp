@@ -15,6 +15,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "viewer/app/interrupt.hpp"
 #include "viewer/app/sweep_progress.hpp"
 #include "viewer/app/sweep_run.hpp"
 
@@ -139,8 +140,8 @@ void run_sweep_on_slurm(const fs::path& out, const std::vector<SweepJob>& jobs, 
 
   SweepProgress progress(open.size(), shows_progress);
   for (int silent = 0;;) {
-    for (int i = 0; i < 10 && !sweep_interrupted(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    if (sweep_interrupted()) {
+    for (int i = 0; i < 10 && !interrupted(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    if (interrupted()) {
       say({"scancel", id});
       break;
     }

@@ -8,6 +8,7 @@
 #include <deque>
 #include <thread>
 
+#include "viewer/app/interrupt.hpp"
 #include "viewer/app/sweep_progress.hpp"
 
 namespace impinge {
@@ -15,13 +16,6 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::atomic<bool> g_interrupted{false};
-
-void on_interrupt(int signal) {
-  g_interrupted.store(true);
-  std::signal(signal, SIG_DFL);
-}
 
 struct Task {
   const SweepJob* job;
@@ -36,14 +30,6 @@ void drop_pictures(const fs::path& run) {
 
 }  // namespace
 
-bool sweep_interrupted() { return g_interrupted; }
-
-// the first signal lets the runs end after their frame in work; the second ends everything at once
-void watch_for_interrupt() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-}
-
 void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int repeats, int at_once, bool shows_progress) {
   watch_for_interrupt();
   setenv("LP_NUM_THREADS", "0", 1);  // the renderer paints in the run's own thread: a job has one
@@ -57,9 +43,9 @@ void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int 
   };
   std::vector<Running> running;
   bool told = false;
-  while (!running.empty() || (!waiting.empty() && !g_interrupted)) {
+  while (!running.empty() || (!waiting.empty() && !interrupted())) {
     std::size_t tries = waiting.size();
-    while (!g_interrupted && tries-- > 0 && running.size() < static_cast<std::size_t>(at_once)) {
+    while (!interrupted() && tries-- > 0 && running.size() < static_cast<std::size_t>(at_once)) {
       const Task task = waiting.front();
       waiting.pop_front();
       const fs::path folder = repeat_folder(job_folder(out, task.job->hash), task.repeat);
@@ -71,9 +57,9 @@ void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int 
         case SweepWorker::already_done: progress.ended(false);
       }
     }
-    if (g_interrupted && !told)
+    if (interrupted() && !told)
       for (const Running& run : running) run.worker.interrupt();
-    told = g_interrupted;
+    told = interrupted();
     if (running.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     else SweepWorker::wait_for_any(std::chrono::milliseconds(50));
     std::erase_if(running, [&](Running& run) {

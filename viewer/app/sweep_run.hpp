@@ -9,10 +9,6 @@ namespace impinge {
 /// process works on is come back to. Returns early, everything resumable, when a signal asks.
 void run_sweep_jobs(const std::filesystem::path& out, const std::vector<SweepJob>& jobs, int repeats, int at_once, bool shows_progress);
 
-/// Whether the first Ctrl-C (or SIGTERM) has come; the second ends the program at once.
-bool sweep_interrupted();
-void watch_for_interrupt();
-
 /// Whether all runs of a job have ended for good.
 bool is_sweep_job_over(const std::filesystem::path& out, const SweepJob& job, int repeats);
 

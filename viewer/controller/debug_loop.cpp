@@ -110,7 +110,7 @@ void DebugLoop::input(const InputLine& line, const PlacedText& place) {
       break;
     case InputLine::type: ui.add({UiEvent::type, 0, 0, 0, line.name}); break;
     case InputLine::wait:
-      for (int k = 0; k < static_cast<int>(line.x); ++k) tick();
+      for (int k = 0; k < static_cast<int>(line.x) && !debugger_.is_interrupted(); ++k) tick();
       return;
   }
   while (ui.has_events()) tick();

@@ -33,7 +33,7 @@ std::string word_of(const std::string& line, int n) {
 }  // namespace
 
 Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overrides, const fs::path& script, const DebuggerOptions& options)
-    : session_(scene, overrides, script, options.session), ring_(options.most_bytes), run_folder_(options.run_folder),
+    : interrupted_(options.interrupted), session_(scene, overrides, script, options.session), ring_(options.most_bytes), run_folder_(options.run_folder),
       expectations_(session_.script(), session_.is_judged(), false, [this](const std::string& text) { say(ConsoleLine::problem, text); }) {
   model_.scene = session_.scene().path.filename().string();
   model_.wanted_last = session_.default_last_frame();
@@ -152,7 +152,7 @@ void Debugger::seek(int frame) {
     restore_before(frame);
     check_hash(session_.frame());
   }
-  while (session_.frame() < frame && advance()) {
+  while (session_.frame() < frame && !is_interrupted() && advance()) {
   }
   follow_selection();
 }
@@ -224,7 +224,8 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
   if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
-  record(std::string(line.text));
+  // a line that was cut short is recorded as what it did
+  record(is_interrupted() && std::holds_alternative<TransportLine>(parsed) ? fmt::format("seek {}", session_.frame()) : std::string(line.text));
   return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 // model in the past forgets the frames after it.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 
@@ -19,6 +20,7 @@ struct DebuggerOptions {
   SessionOptions session;
   std::size_t most_bytes = std::size_t{256} << 20;  ///< of states kept for going back
   std::filesystem::path run_folder;                 ///< a finished run's, "" for none: its snapshots and figures are used
+  const std::atomic<bool>* interrupted = nullptr;   ///< asks to stop after the frame in work
 };
 
 class Debugger {
@@ -36,6 +38,7 @@ class Debugger {
   const DebugModel& model();
   const ViewSettings& view() const { return session_.view().settings(); }
   std::uint64_t state_hash() const { return session_.record().stats.state_hash; }
+  bool is_interrupted() const { return interrupted_ != nullptr && *interrupted_; }
   int failures() const { return expectations_.failures(); }
   void say(ConsoleLine::Kind kind, const std::string& text);
   /// A picture was taken: with what was done, since it says where, and the pointer shows.
@@ -64,6 +67,7 @@ class Debugger {
   void replace_recorded(const std::string& line);
   void follow_selection();
 
+  const std::atomic<bool>* interrupted_;
   Session session_;
   SnapshotRing ring_;
   std::filesystem::path run_folder_;

@@ -58,6 +58,7 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   use_mouse(model, lines);
   const UiArea areas[] = {layout_.layers, layout_.parameters, layout_.inspector, layout_.contacts, layout_.stages, layout_.transport, layout_.timeline, layout_.console};
   const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), areas);
+  has_changed_ = is_new || !changed || !changed->empty();
   if (!changed) window_.clear(kBetweenPanels);
   if (!changed || is_new) scene_.target().copy_to(window_, static_cast<int>(layout_.view.x), static_cast<int>(layout_.view.y));
   window_.bind();

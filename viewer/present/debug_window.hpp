@@ -29,6 +29,8 @@ class DebugWindow {
   CommandLines paint(const DebugModel& model, bool quick = false);
   /// Whether the view is not as it is to be once it stands still.
   bool is_rough() const { return rough_; }
+  /// Whether the last paint() changed a pixel, or may have.
+  bool has_changed() const { return has_changed_; }
   /// The next frame is drawn as a whole.
   void forget() { changes_.forget(), painted_.clear(); }
   void read(Image& out);
@@ -48,7 +50,7 @@ class DebugWindow {
   std::string painted_;          // key of what scene_ shows
   int held_ = -1;                // button that went down over the view
   float pressed_x_ = 0.0f, pressed_y_ = 0.0f, last_x_ = 0.0f, last_y_ = 0.0f;
-  bool dragged_ = false, rough_ = false;
+  bool dragged_ = false, rough_ = false, has_changed_ = true;
 };
 
 }  // namespace impinge
