@@ -33,6 +33,7 @@ class OsmesaContext final : public GlContext {
   ~OsmesaContext() override { OSMesaDestroyContext(context_); }
 
   void make_current() override {
+    if (OSMesaGetCurrentContext() == context_) return;  // asked for again it waits for all that is being drawn
     if (!OSMesaMakeCurrent(context_, surface_.data(), GL_UNSIGNED_BYTE, kSide, kSide))
       throw std::runtime_error("OSMesa's context cannot be made current");
   }
