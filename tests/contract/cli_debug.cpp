@@ -247,7 +247,10 @@ TEST_CASE("what is wrong is one message that says where, what is allowed and wha
       {"shot file/a.png\n", {"a.script:1:1: ", "file/a.png can't be written; "}},
       {"step\n", {"--size is 640x480; the panels want 800x500 at least", "choose a larger one"}, {"--size", "640x480"}},
       {"step\n", {"--size is 960x600; the panels want 1600x1000 at least", "a smaller --scale"}, {"--scale", "2"}},
-      {"step\n", {"file/r.script: can't be written"}, {"--record", "file/r.script"}},
+      {"step\n", {"--record is file/r.script, which can't be written; "}, {"--record", "file/r.script"}},
+      {"step\n", {"--record is the script itself, a.script; another file is wanted"}, {"--record", "a.script"}},
+      {"step\n", {"--record is s.toml, which is there and no recording; "}, {"--record", "s.toml"}},
+      {"step 5\nui key f12\n", {"a.script:2:8: unknown key 'f12'; "}, {"--record", "kept.script"}},
   };
   for (const Case& c : cases) {
     CAPTURE(c.script);
@@ -284,7 +287,7 @@ TEST_CASE("a scene that diverges says so and can be gone on with from the last g
 TEST_CASE("a script that ends in an error keeps what was done before") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);
-  folder.write("a.script", "step 4\nset contact.friction 0.1\nstepp\n");
+  folder.write("a.script", "step 4\nset contact.friction 0.1\nselect contact 99\n");
   CHECK(debug(folder, "s.toml", "a.script", {"--record", "r.script"}).code == 2);
   CHECK(slurp(folder / "r.script").find("step 4\nset contact.friction 0.1\n") != std::string::npos);
 }

@@ -102,7 +102,7 @@ TEST_CASE("a damaged folder of a run is refused, and a window without a screen")
     CHECK(outcome.err.find(part) != std::string::npos);
   };
   fs::create_directory(folder / "empty");
-  refused(debug(folder, "empty", "a.script"), "empty: this folder is no run's; ");
+  refused(debug(folder, "empty", "a.script"), "empty: this folder is no run's, it has no run.toml; ");
   folder.write("timed.script", "at 3 set contact.friction 1\n");
   refused(debug(folder, "done", "timed.script"), "timed.script: lines by frame");
   refused(debug(folder, "done", "a.script", {"--set", "contact.friction=1"}), "--set with a finished run");

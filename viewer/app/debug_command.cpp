@@ -1,6 +1,9 @@
 // impinge debug
 #include <fmt/format.h>
 
+#include <unistd.h>
+
+#include <chrono>
 #include <cstdio>
 
 #include "engine/core/error.hpp"
@@ -43,8 +46,9 @@ struct Source {
 
 Source source_of(const RunOptions& options) {
   if (!fs::is_directory(options.scene)) return {options.scene, {}};
-  if (!fs::exists(options.scene / "run.toml") || !fs::exists(options.scene / "stats.csv"))
-    throw InputError(fmt::format("{}: this folder is no run's; a scene file, or a folder that impinge run has written is wanted; choose one", options.scene.string()));
+  for (const char* name : {"run.toml", "stats.csv"})
+    if (!fs::exists(options.scene / name))
+      throw InputError(fmt::format("{}: this folder is no run's, it has no {}; a scene file, or a folder that impinge run has written is wanted; choose one", options.scene.string(), name));
   if (!options.overrides.empty()) throw InputError("command line: --set with a finished run; its settings are in its run.toml; leave --set out, or debug the scene");
   return {options.scene / "run.toml", options.scene};
 }
@@ -59,6 +63,42 @@ std::string command_of(const Arguments& arguments) {
   if (arguments.memory != Arguments().memory) text += fmt::format(" --memory {}", arguments.memory);
   return text + fmt::format(" --script {}\n", arguments.record);
 }
+
+/// A recording may take the place of an older one, and of nothing else.
+void check_recording(const Arguments& arguments) {
+  const fs::path path = arguments.record;
+  if (path.empty()) return;
+  std::error_code error;
+  if (fs::equivalent(path, arguments.run_options.script, error))
+    throw InputError(fmt::format("command line: --record is the script itself, {}; another file is wanted; choose one", path.string()));
+  if (fs::exists(path) && !fs::is_directory(path) && fs::file_size(path, error) > 0 && !read_file(path, std::uint64_t{1} << 30).starts_with("# impinge debug "))
+    throw InputError(fmt::format("command line: --record is {}, which is there and no recording; a new file is wanted; choose another or remove it", path.string()));
+  try {
+    write_file(path, "");  // better now than when there is something to lose
+  } catch (const InputError&) {
+    throw InputError(fmt::format("command line: --record is {}, which can't be written; a file in a folder that may be written to is wanted; choose another", path.string()));
+  }
+}
+
+/// Of a line that makes many frames, on a terminal.
+class SeekProgress {
+ public:
+  void show(int frame, int last) {
+    const auto now = std::chrono::steady_clock::now();
+    if (last != last_ || frame <= before_) start_ = shown_ = now, first_ = frame, last_ = last;
+    before_ = frame;
+    const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
+    if (frame < last && seconds(now - shown_) < 0.5) return;
+    if (frame == last && shown_ == start_) return;  // too quick to be told
+    shown_ = now;
+    fmt::print(stderr, "\rframe {}/{}  {:.0f} s left\x1b[K{}", frame, last, seconds(now - start_) / std::max(1, frame - first_) * (last - frame), frame == last ? "\r\x1b[K" : "");
+    std::fflush(stderr);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_, shown_;
+  int first_ = 0, last_ = -1, before_ = 0;
+};
 
 }  // namespace
 
@@ -76,7 +116,7 @@ int debug_command(const Arguments& arguments) {
   const DebugScript script = read_script(options.script);
   if (!source.run_folder.empty() && script.has_timed)
     throw InputError(fmt::format("{}: lines by frame (at, from, expect, break) with a finished run, which has its own; lines done one after another are wanted; debug the scene instead", script.name));
-  if (!arguments.record.empty()) write_file(arguments.record, "");  // better now than when there is something to lose
+  check_recording(arguments);
 
   std::unique_ptr<DebugWindow> window;
   try {
@@ -94,24 +134,31 @@ int debug_command(const Arguments& arguments) {
   debug.run_folder = source.run_folder;
   debug.interrupted = &interrupted();
   watch_for_interrupt();
+  SeekProgress progress;
+  if (!arguments.quiet && isatty(STDERR_FILENO)) debug.progress = [&](int frame, int last) { progress.show(frame, last); };
   Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);  // without: a finished run's own
   DebugLoop loop(debugger, *window, options.out);
 
+  std::string saved;
   const auto save_recording = [&] {
     if (arguments.record.empty()) return;
     std::string text = command_of(arguments);
     for (const std::string& line : script.timed)
       if (!line.empty()) text += line + "\n";
     for (const std::string& line : debugger.recording(loop.pointer())) text += line + "\n";
-    write_file(arguments.record, text);
+    if (text != saved) write_file(arguments.record, text);
+    saved = std::move(text);
   };
+  const auto line_at = [&](std::size_t i) -> PlacedText {
+    const std::size_t first = script.lines[i].find_first_not_of(" \t");
+    return {std::string_view(script.lines[i]).substr(first), &script.name, static_cast<int>(i) + 1, static_cast<int>(first) + 1};
+  };
+  for (std::size_t i = 0; i < script.lines.size(); ++i)
+    if (!script.lines[i].empty()) debugger.check(line_at(i));
   try {
     for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit() && !interrupted(); ++i)
-      if (const std::string& line = script.lines[i]; !line.empty()) {
-        const std::size_t first = line.find_first_not_of(" \t");
-        loop.run_line({std::string_view(line).substr(first), &script.name, static_cast<int>(i) + 1, static_cast<int>(first) + 1});
-      }
-    if (windowed && !loop.has_quit() && !interrupted()) show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted());
+      if (!script.lines[i].empty()) loop.run_line(line_at(i));
+    if (windowed && !loop.has_quit() && !interrupted()) show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted(), save_recording);
   } catch (...) {
     save_recording();  // what was done before is kept
     throw;

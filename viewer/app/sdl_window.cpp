@@ -14,6 +14,7 @@
 namespace impinge {
 namespace {
 
+constexpr std::uint64_t kNowAndThen = 3000;  // ms
 constexpr int kIdle = 50;  // ms to wait for input where nothing moves
 
 [[noreturn]] void refuse(const std::string& found) { throw InputError(fmt::format("window: {}; a screen is wanted; set DISPLAY, or use --headless with --script", found)); }
@@ -74,7 +75,7 @@ bool has_screen() {
   return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
-void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title, const std::atomic<bool>& interrupted) {
+void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title, const std::atomic<bool>& interrupted, const std::function<void()>& now_and_then) {
   const Screen screen;
   const int w = pixels.width(), h = pixels.height();
   const std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window(SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, w, h, 0), SDL_DestroyWindow);
@@ -83,9 +84,11 @@ void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title,
   if (!renderer) refuse(SDL_GetError());
   const std::unique_ptr<SDL_Texture, void (*)(SDL_Texture*)> texture(SDL_CreateTexture(renderer.get(), SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, w, h), SDL_DestroyTexture);
   if (!texture) refuse(SDL_GetError());
+  SDL_RenderSetLogicalSize(renderer.get(), w, h);  // a window that is made larger shows the same, larger; the mouse goes with it
   SDL_StartTextInput();
   Image image;
   bool open = true, exposed = true;
+  std::uint64_t called = SDL_GetTicks64();
   const auto handle = [&](const SDL_Event& event) {
     exposed |= event.type == SDL_WINDOWEVENT;
     open = take(event, pixels.ui());
@@ -103,6 +106,7 @@ void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title,
       SDL_RenderPresent(renderer.get());
       exposed = false;
     }
+    if (start - called > kNowAndThen) now_and_then(), called = start;
     const std::uint64_t taken = SDL_GetTicks64() - start;
     if (const auto frame = static_cast<std::uint64_t>(1e3 * loop.seconds_to_show()); taken < frame) SDL_Delay(static_cast<std::uint32_t>(frame - taken));
   }

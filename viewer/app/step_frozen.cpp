@@ -14,6 +14,8 @@
 namespace impinge {
 namespace {
 
+constexpr double kSmall = 1e-6, kFar = 1e-2;  // a residual that others would take for an answer, and a distance that is none
+
 constexpr double kQuick = 100.0;  // ms: shorter runs are repeated, and the shortest counts
 constexpr int kRepeats = 3;
 constexpr double kFarAbove = 10.0;  // times the tolerance: what claims to have converged there has not
@@ -151,6 +153,16 @@ void print_head(const FrozenStep& step, const FrozenRuler& ruler, const std::str
   fmt::print("the run, {} with {} at {:.0e}: residual {:.2e}, distance {:.2e}\n", step.response, step.lcp, step.settings.lcp.tolerance, found.residual, found.distance);
 }
 
+/// A residual says little where many answers nearly satisfy the step: a body on more contacts than it needs, that slides.
+void say_if_undetermined(const StepReport& report) {
+  const MethodReport* worst = nullptr;
+  for (const MethodReport& m : report.methods)
+    if (m.residual < kSmall && m.distance > kFar && (worst == nullptr || m.distance > worst->distance)) worst = &m;
+  if (worst != nullptr)
+    fmt::print("note: this step hardly determines its answer: {} has a residual of {:.1e} at a distance of {:.1e}. Other answers satisfy the laws nearly as well as the one that\n"
+               "distances are taken from; compare residuals here\n", worst->method, worst->residual, worst->distance);
+}
+
 }  // namespace
 
 int step_frozen(const Arguments& arguments) {
@@ -189,6 +201,7 @@ int step_frozen(const Arguments& arguments) {
   for (const std::string& line : left_out) fmt::print("{}\n", line);
   fmt::print("residual: natural map or momentum, whichever is larger, relative to the largest |J v* - bound|; natural map and momentum: m/s; distance: of Δv to the\n"
              "exact one in A's norm, relative; ms: with factorizations and W, which a run shares between sub-steps where A stays\n");
+  say_if_undetermined(report);
   if (!arguments.out.empty()) write_report(arguments.out, report);
   return 0;
 }

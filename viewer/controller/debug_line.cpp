@@ -1,6 +1,8 @@
 #include "viewer/controller/debug_line.hpp"
 
 #include <fmt/format.h>
+
+#include <cctype>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -153,10 +155,14 @@ DebugLine parse_input(const PlacedText& line, Words words) {
       want(words, 3, 3, "ui wheel STEPS");
       i.y = number(words[2], -1000, 1000);
       break;
-    case InputLine::key:
+    case InputLine::key: {
       want(words, 3, 3, "ui key NAME");
-      i.name = key_names()[find(words[2], "key", key_names())];
+      std::string low(words[2].text);
+      std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const bool known = std::find(key_names().begin(), key_names().end(), low) != key_names().end();
+      i.name = known ? low : key_names()[find(words[2], "key", key_names())];
       break;
+    }
     case InputLine::wait:
       want(words, 3, 3, "ui wait FRAMES");
       i.x = number(words[2], 1, 1e6, true);

@@ -33,7 +33,7 @@ std::string word_of(const std::string& line, int n) {
 }  // namespace
 
 Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overrides, const fs::path& script, const DebuggerOptions& options)
-    : interrupted_(options.interrupted), session_(scene, overrides, script, options.session), ring_(options.most_bytes), run_folder_(options.run_folder),
+    : interrupted_(options.interrupted), progress_(options.progress), session_(scene, overrides, script, options.session), ring_(options.most_bytes), run_folder_(options.run_folder),
       expectations_(session_.script(), session_.is_judged(), false, [this](const std::string& text) { say(ConsoleLine::problem, text); }) {
   model_.scene = session_.scene().path.filename().string();
   model_.wanted_last = session_.default_last_frame();
@@ -152,8 +152,12 @@ void Debugger::seek(int frame) {
     restore_before(frame);
     check_hash(session_.frame());
   }
-  while (session_.frame() < frame && !is_interrupted() && advance()) {
+  if (session_.frame() < std::min(frame, folder_last_) && !told_of_missing_) {
+    told_of_missing_ = true;
+    say(ConsoleLine::message, fmt::format("the run kept no state of frame {}: made again from frame {}", frame, session_.frame()));
   }
+  while (session_.frame() < frame && !is_interrupted() && advance())
+    if (progress_) progress_(session_.frame(), frame);
   follow_selection();
 }
 
@@ -213,6 +217,11 @@ void Debugger::do_panel(const PanelLine& line) {
     case PanelLine::scroll: p.scroll[line.name] = line.pixels; break;
     case PanelLine::help: p.help = line.on;
   }
+}
+
+void Debugger::check(const PlacedText& line) const {
+  if (line.text.starts_with("select contact")) return;  // how many there are depends on the frame
+  parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
 }
 
 std::optional<DebugLine> Debugger::execute(const PlacedText& line) {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <functional>
 #include <optional>
 
 #include "viewer/controller/debug_line.hpp"
@@ -21,6 +22,7 @@ struct DebuggerOptions {
   std::size_t most_bytes = std::size_t{256} << 20;  ///< of states kept for going back
   std::filesystem::path run_folder;                 ///< a finished run's, "" for none: its snapshots and figures are used
   const std::atomic<bool>* interrupted = nullptr;   ///< asks to stop after the frame in work
+  std::function<void(int frame, int last)> progress;  ///< of a line that makes many frames, after each
 };
 
 class Debugger {
@@ -28,6 +30,8 @@ class Debugger {
   /// Makes frame 0. Throws InputError.
   Debugger(const std::filesystem::path& scene, const std::vector<std::string>& overrides, const std::filesystem::path& script, const DebuggerOptions& options);
 
+  /// Throws InputError for a line that can't be done whatever the frame.
+  void check(const PlacedText& line) const;
   /// Reads a line and does it, unless it is the window's to do: input, shots and quit are handed back. Throws InputError.
   std::optional<DebugLine> execute(const PlacedText& line);
   /// The same for a line typed or clicked: what is wrong becomes a message in the console.
@@ -68,6 +72,7 @@ class Debugger {
   void follow_selection();
 
   const std::atomic<bool>* interrupted_;
+  std::function<void(int, int)> progress_;
   Session session_;
   SnapshotRing ring_;
   std::filesystem::path run_folder_;
@@ -84,7 +89,7 @@ class Debugger {
   int known_before_ = 0;        // of the line being done: how many frames were known,
   std::size_t puts_ = 0, puts_before_ = 0;  // and how many states had been kept
   enum Trace { none, new_frames, other } trace_ = other;  // that the last line about frames left
-  bool told_of_hash_ = false;
+  bool told_of_hash_ = false, told_of_missing_ = false;
 };
 
 }  // namespace impinge

@@ -9,15 +9,21 @@ void draw_console_panel(Ui& ui, const DebugModel& model, const UiArea& area, Com
   const float below = ImGui::GetFrameHeight() + 4.0f * ui.unit();
   PanelFrame frame(ui, model, "console", "console", area, lines, below);
   // newest last, and in sight
-  const float height = ImGui::GetTextLineHeightWithSpacing();
-  const auto fitting = static_cast<std::size_t>(std::max(1.0f, ImGui::GetContentRegionAvail().y / height));
-  const std::size_t n = model.console.size(), first = n > fitting ? n - fitting : 0;
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float between = ImGui::GetTextLineHeightWithSpacing() - ImGui::GetTextLineHeight();
+  const std::size_t n = model.console.size();
+  std::size_t first = n;
+  for (float left = room.y; first > 0; --first) {
+    left -= ImGui::CalcTextSize(model.console[first - 1].text.c_str(), nullptr, false, room.x).y + between;
+    if (left < -between && first < n) break;
+  }
+  ImGui::PushTextWrapPos(0.0f);
   for (std::size_t i = first; i < n; ++i) {
     const ConsoleLine& line = model.console[i];
     const ImVec4 ink = line.kind == ConsoleLine::problem ? ImVec4(1.0f, 0.55f, 0.45f, 1.0f) : line.kind == ConsoleLine::message ? dim() : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     ImGui::TextColored(ink, "%s", line.text.c_str());
-    if (ImGui::CalcTextSize(line.text.c_str()).x > ImGui::GetContentRegionAvail().x) tooltip(line.text);
   }
+  ImGui::PopTextWrapPos();
   frame.end_content();
   static char text[512];  // what is being typed: one console a program
   ImGui::SetNextItemWidth(-1.0f);
@@ -26,6 +32,7 @@ void draw_console_panel(Ui& ui, const DebugModel& model, const UiArea& area, Com
   if (!entered) return;
   if (*text != 0) lines.push_back(text);
   *text = 0;
+  ImGui::SetKeyboardFocusHere(-1);  // the next line follows
 }
 
 }  // namespace impinge

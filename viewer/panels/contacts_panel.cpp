@@ -69,7 +69,8 @@ const std::vector<std::string>& contact_columns() {
 
 void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
   const std::vector<ContactRecord>& contacts = model.record->contacts;
-  const PanelFrame frame(ui, model, "contacts", fmt::format("contacts: {}   mm, N s", contacts.size()).c_str(), area, lines);
+  const int asleep = model.record->stats.asleep;  // their contacts are not looked for
+  const PanelFrame frame(ui, model, "contacts", fmt::format("contacts: {}{}   mm, N s", contacts.size(), asleep > 0 ? fmt::format(" ({} asleep)", asleep) : "").c_str(), area, lines);
   static constexpr const char* kHeads[] = {"#", "A", "B", "gap", "n", "t", ""};
   static constexpr const char* kTips[] = {"index in this frame", "the body that stands earlier in the scene", "the other body", "mm, negative: they overlap", "normal impulse of the last sub-step, N s",
                                           "size of the friction impulse, N s", "open, stick or slip"};

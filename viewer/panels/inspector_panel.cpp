@@ -31,7 +31,7 @@ void body_rows(const DebugModel& model, const Selection& s) {
   for (const ContactRecord& c : model.record->contacts)
     if (c.body_a == s.index || c.body_b == s.index) ++contacts, force += c.lambda.x();
   row("contacts", fmt::format("{}, in all {} N s normal", contacts, brief(force, 3)));
-  if (b.group >= 0) row("group", fmt::format("{} with {} bodies", b.group, model.record->groups[static_cast<std::size_t>(b.group)].size()));
+  if (b.group >= 0) row("group", fmt::format("{}, of {} bodies", b.group, model.record->groups[static_cast<std::size_t>(b.group)].size()));
   if (s.triangle >= 0) row("triangle", std::to_string(s.triangle));
 }
 

@@ -42,7 +42,8 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("home")) lines.push_back("seek 0");
   if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
   if (ui.key_pressed("f")) lines.push_back("camera fit");
-  if (ui.key_pressed("escape")) lines.push_back(model.state.help ? "panel help off" : "select none");
+  constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+  if (ui.key_pressed("escape") && !ImGui::IsPopupOpen("", kAnyPopup)) lines.push_back(model.state.help ? "panel help off" : "select none");
 }
 
 void draw_help_panel(Ui&, const DebugModel& model, const UiArea& view) {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstring>
 
+#include <imgui.h>
+#include <imgui_internal.h>
+
 #include "viewer/panels/panel_frame.hpp"
 
 namespace impinge {
@@ -58,6 +61,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
         if (ImGui::Selectable(choice.c_str(), choice == now) && choice != now) set(choice);
         ui.name(name + ":" + choice);
       }
+      close_on_escape(ui);
       ImGui::EndCombo();
       break;
     }
@@ -73,7 +77,22 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       const double low = range.logarithmic ? std::log10(range.low) : range.low, high = range.logarithmic ? std::log10(range.high) : range.high;
       // ImGui's own logarithm loses small numbers; typed text would be a logarithm, so there is none
       if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
-      if (ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), range.logarithmic ? ImGuiSliderFlags_NoInput : 0)) {
+      bool changed = ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), range.logarithmic ? ImGuiSliderFlags_NoInput : 0);
+      // a value that is being typed counts when it is entered, not letter by letter
+      static double typed = 0.0;
+      static ImGuiID typing = 0;
+      const ImGuiID id = ImGui::GetItemID();
+      if (ImGui::TempInputIsActive(id)) {
+        if (typing != id || changed) typed = at;
+        typing = id;
+        changed = false;
+      } else if (typing == id) {
+        if (changed) typed = at;
+        at = typed;
+        changed = true;
+        typing = 0;
+      }
+      if (changed) {
         now = range.logarithmic ? std::pow(10.0, at) : at;
         now = whole ? std::round(now) : rounded(now);
         now = std::clamp(now, row.range.low, row.range.high);

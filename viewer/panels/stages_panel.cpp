@@ -15,11 +15,11 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
     double ms;
     std::string work;
   };
-  const Row rows[] = {{"broad", model.figure("broad_ms"), fmt::format("{} body pairs", s.broad_pairs)},
-                      {"narrow", model.figure("narrow_ms"), fmt::format("{} triangle pairs", s.triangle_pairs)},
-                      {"assemble", model.figure("assemble_ms"), fmt::format("{} unknowns, {} contacts", s.dofs, s.contacts)},
-                      {"response", model.figure("response_ms"), s.contacts == 0 ? "nothing to solve" : fmt::format("{} group{}, {} iterations", s.groups, s.groups == 1 ? "" : "s", s.lcp_iterations)},
-                      {"integrate", model.figure("integrate_ms"), fmt::format("{} sub-steps", s.substeps)}};
+  const Row rows[] = {{"broad", model.figure("broad_ms"), counted(s.broad_pairs, "body pair")},
+                      {"narrow", model.figure("narrow_ms"), counted(s.triangle_pairs, "triangle pair")},
+                      {"assemble", model.figure("assemble_ms"), fmt::format("{}, {}", counted(s.dofs, "unknown"), counted(s.contacts, "contact"))},
+                      {"response", model.figure("response_ms"), s.contacts == 0 ? "nothing to solve" : fmt::format("{}, {}", counted(s.groups, "group"), counted(s.lcp_iterations, "iteration"))},
+                      {"integrate", model.figure("integrate_ms"), counted(s.substeps, "sub-step")}};
   const double step_ms = model.figure("step_ms");
   bool timed = model.view->show_timings;
   if (!ImGui::BeginTable("stages", 2, ImGuiTableFlags_SizingStretchProp)) return;

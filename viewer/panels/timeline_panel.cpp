@@ -71,6 +71,7 @@ void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
       if (ImGui::Checkbox(name.c_str(), &on)) lines.push_back(fmt::format("panel plot {}{}", on ? '+' : '-', name));
       ui.name("timeline/columns:" + name);
     }
+    close_on_escape(ui);
     ImGui::EndCombo();
   }
   const std::vector<std::string>& plots = model.state.plots;
@@ -80,7 +81,7 @@ void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
   ImGui::SetCursorScreenPos({left, start.y});
   ImGui::InvisibleButton("strips", {right - left, size.y});
   ui.name("timeline/plot");
-  const Axis axis{left, right, std::max({1, model.known_last, model.wanted_last})};
+  const Axis axis{left, right, std::max(1, model.known_last)};
   const float each = plots.empty() ? size.y : size.y / static_cast<float>(plots.size());
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const auto column = std::find(model.figure_names->begin(), model.figure_names->end(), plots[i]) - model.figure_names->begin();

@@ -25,7 +25,7 @@ void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, C
   tooltip("last frame that was made (end)");
   ImGui::SameLine();
 
-  const std::string memory = fmt::format("{} states, {:.1f} of {:.0f} MB", model.snapshots, static_cast<double>(model.snapshot_bytes) / 1048576.0,
+  const std::string memory = fmt::format("{}, {:.1f} of {:.0f} MB", counted(static_cast<std::int64_t>(model.snapshots), "state"), static_cast<double>(model.snapshot_bytes) / 1048576.0,
                                          static_cast<double>(model.most_snapshot_bytes) / 1048576.0);
   const std::string time = fmt::format("{:.4f} s", model.record->stats.time);
   const float right = ImGui::CalcTextSize(memory.c_str()).x + ImGui::CalcTextSize(time.c_str()).x + 40.0f * ui.unit();

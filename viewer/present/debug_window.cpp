@@ -37,6 +37,7 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   ViewSettings settings = *model.view;
   rough_ = quick && held_ >= 0 && dragged_ && settings.antialiasing;
   if (rough_) settings.antialiasing = false;
+  if (settings.panel_scale == 0) settings.panel_scale = static_cast<int>(ui_.unit());  // as the panels around it
   std::string key = scene_key(model) + (rough_ ? " rough" : "");
   const bool is_new = key != painted_;
   if (is_new) {
