@@ -8,6 +8,7 @@
 #include <map>
 
 #include "tests/support/refusal.hpp"
+#include "tests/support/sweep_results.hpp"
 #include "viewer/app/report_parts.hpp"
 #include "viewer/image/png.hpp"
 
@@ -17,21 +18,6 @@ using namespace impinge::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kScene = R"([simulation]
-substeps = 2
-[[body]]
-name = "floor"
-kind = "static"
-shape = { plane = { normal = [0, 1, 0], offset = 0 } }
-[[body]]
-name = "crate"
-kind = "dynamic"
-shape = { box = { size = [1, 0.5, 1] } }
-position = [0, 0.4, 0]
-rotation = [0, 30, 10]
-velocity = [1, 0, 0]
-)";
 
 /// The text between two marks, the first time they stand in that order.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
@@ -57,7 +43,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 TEST_CASE("the report of a sweep works in a browser, asks for nothing outside and says nothing on the console") {
   const TempFolder folder;
-  folder.write("s.toml", kScene);
+  folder.write("s.toml", kCrateScene);
   folder.write("a.script", "expect kinetic_J < 1e6 at 3\n");  // the fastest crate fails it: a row with its reason
   REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--script", "a.script", "--vary", "contact.friction=0,0.3,0.6", "--vary", "simulation.substeps=1,2,4", "--vary",
                                       "body.crate.velocity=[1,0,0],[1e5,0,0]", "--reference", "simulation.substeps=8", "--frames", "6", "--size", "320x180", "--out", "out"})
@@ -81,7 +67,7 @@ TEST_CASE("the report of a sweep works in a browser, asks for nothing outside an
 
 TEST_CASE("a sweep without reference, pictures and a second parameter has a report without their sections") {
   const TempFolder folder;
-  folder.write("s.toml", kScene);
+  folder.write("s.toml", kCrateScene);
   REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2", "--no-images", "--out", "out"}).code == 0);
   const std::string page = slurp(folder / "out/report.html");
   CHECK(!fs::exists(folder / "out/work_precision.png"));
@@ -129,7 +115,7 @@ TEST_CASE("the report takes whatever columns the table has, and nothing in it ca
 
 TEST_CASE("an ablation runs the scene with each economy off, and the sweep's report shows it") {
   const TempFolder folder;
-  folder.write("s.toml", replaced(kScene, "velocity = [1, 0, 0]\n", "velocity = [1, 0, 0]\nfriction = 0\n"));
+  folder.write("s.toml", replaced(kCrateScene, "velocity = [1, 0, 0]\n", "velocity = [1, 0, 0]\nfriction = 0\n"));
   REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2", "--no-images", "--out", "out"}).code == 0);
   CHECK(slurp(folder / "out/report.html").find("id=\"ablation\"") == std::string::npos);
   const Outcome outcome = impinge_run(folder.path(), {"info", "s.toml", "--ablation", "--frames", "8", "--out", "out"});

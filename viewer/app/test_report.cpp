@@ -5,21 +5,17 @@
 
 #include <algorithm>
 
+#include "viewer/app/html_text.hpp"
+
 namespace impinge {
 
 namespace {
 
-std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') out += "&lt;";
-    else if (c == '>') out += "&gt;";
-    else if (c == '&') out += "&amp;";
-    else if (c == '"') out += "&quot;";
-    else if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t') out += c;  // XML 1.0 has no other control characters
-    else out += '?';
-  }
-  return out;
+/// XML 1.0 has no control characters but line ends and tabs.
+std::string xml(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') c = '?';
+  return html_text(text);
 }
 
 }  // namespace
