@@ -202,6 +202,14 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     screen.hand({"mousedown", "1", "mousemove", text(friction_x), text(at["parameters/contact.friction"].second)});
     screen.still();
     screen.hand({"mouseup", "1"});
+    screen.hand({"keydown", "ctrl"});
+    nap(150);
+    click("parameters/contact.friction");
+    nap(150);
+    screen.hand({"keyup", "ctrl"});
+    screen.hand({"type", "--delay", "60", "0.275"});
+    screen.hand({"key", "Return"});
+    screen.still();
     screen.hand({"mousemove", text(x), text(y)});
     nap(150);
     screen.hand({"mousedown", "1", "mousemove", text(x + 40), text(y - 12), "mousemove", text(x + 60), text(y - 20)});
@@ -220,7 +228,7 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     // the same without a screen; what came after the picture was taken is where the pointer went
     std::string script = slurp(folder / "hand.script");
     INFO(script);
-    for (const char* part : {"\nlayer +aabbs\n", "\nstep ", "\nback\n", "\npanel filter fric\n", "\nset contact.friction 0.1", "\ncamera eye "}) {
+    for (const char* part : {"\nlayer +aabbs\n", "\nstep ", "\nback\n", "\npanel filter fric\n", "\nset contact.friction 0.275\n", "\ncamera eye "}) {
       CAPTURE(part);
       CHECK(script.find(part) != std::string::npos);
     }

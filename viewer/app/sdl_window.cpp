@@ -58,6 +58,7 @@ bool take(const SDL_Event& event, Ui& ui) {
 struct Screen {
   Screen() {
     SDL_SetHint(SDL_HINT_RENDER_DRIVER, "software");
+    SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     if (!has_screen()) refuse("there is no screen");

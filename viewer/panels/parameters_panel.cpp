@@ -75,22 +75,26 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       const double before = now;
       double at = range.logarithmic ? std::log10(std::max(now, range.low)) : now;
       const double low = range.logarithmic ? std::log10(range.low) : range.low, high = range.logarithmic ? std::log10(range.high) : range.high;
-      // ImGui's own logarithm loses small numbers; typed text would be a logarithm, so there is none
+      // ImGui's own logarithm loses small numbers
       if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
-      bool changed = ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), range.logarithmic ? ImGuiSliderFlags_NoInput : 0);
       // a value that is being typed counts when it is entered, not letter by letter
-      static double typed = 0.0;
-      static ImGuiID typing = 0;
-      const ImGuiID id = ImGui::GetItemID();
-      if (ImGui::TempInputIsActive(id)) {
-        if (typing != id || changed) typed = at;
-        typing = id;
+      static std::string typing;  // path of the row whose value is
+      static bool begins = false;
+      if (typing == row.path) {
+        if (begins) ImGui::SetKeyboardFocusHere();
+        double typed = now;
+        if (ImGui::InputDouble("##v", &typed, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) set(shortest(typed));
+        if (!begins && !ImGui::IsItemActive()) typing.clear();
+        begins = false;
+        ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
+        break;
+      }
+      bool changed = ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), ImGuiSliderFlags_NoInput);
+      if (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl) {
+        ImGui::ClearActiveID();
         changed = false;
-      } else if (typing == id) {
-        if (changed) typed = at;
-        at = typed;
-        changed = true;
-        typing = 0;
+        typing = row.path;
+        begins = true;
       }
       if (changed) {
         now = range.logarithmic ? std::pow(10.0, at) : at;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "viewer/panels/panel_frame.hpp"
 
@@ -30,11 +31,13 @@ void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, C
   const std::string time = fmt::format("{:.4f} s", model.record->stats.time);
   const float right = ImGui::CalcTextSize(memory.c_str()).x + ImGui::CalcTextSize(time.c_str()).x + 40.0f * ui.unit();
   ImGui::SetNextItemWidth(std::max(80.0f * ui.unit(), ImGui::GetContentRegionAvail().x - right));
-  int at = model.frame;
-  const int last = std::max(1, model.known_last);
-  if (ImGui::SliderInt("##frame", &at, 0, last, fmt::format("frame %d of {}", model.known_last).c_str(), ImGuiSliderFlags_AlwaysClamp) && at != model.frame)
-    lines.push_back(fmt::format("seek {}", std::min(at, model.known_last)));
-  ui.name("transport/frame", {{}, false, true, true, 0.0, static_cast<double>(last), false});
+  double at = model.frame;  // of whole numbers the grab is as wide as one
+  const double none = 0.0, last = std::max(1, model.known_last);
+  if (ImGui::SliderScalar("##frame", ImGuiDataType_Double, &at, &none, &last, fmt::format("frame {} of {}", model.frame, model.known_last).c_str(), ImGuiSliderFlags_NoInput)) {
+    const int to = std::clamp(static_cast<int>(std::lround(at)), 0, model.known_last);
+    if (to != model.frame) lines.push_back(fmt::format("seek {}", to));
+  }
+  ui.name("transport/frame", {{}, false, true, false, 0.0, last, false});
   tooltip("drag to any frame that was made: the nearest state kept is taken and the frames after it are made again");
   ImGui::SameLine();
   ImGui::TextUnformatted(time.c_str());
