@@ -77,6 +77,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       const double low = range.logarithmic ? std::log10(range.low) : range.low, high = range.logarithmic ? std::log10(range.high) : range.high;
       // ImGui's own logarithm loses small numbers
       if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
+      if (row.range.low == -1.0 && now == -1.0) format = "the scene's";  // what -1 stands for in a body's rows
       // a value that is being typed counts when it is entered, not letter by letter
       static std::string typing;  // path of the row whose value is
       static bool begins = false;
