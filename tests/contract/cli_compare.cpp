@@ -1,7 +1,7 @@
 // impinge compare: the frame, body and field in which two runs part, planted at a known place.
 #include <catch2/catch.hpp>
 
-#include "tests/support/refusal.hpp"
+#include "tests/support/picture_scene.hpp"
 #include "viewer/image/png.hpp"
 
 using namespace impinge;
@@ -37,23 +37,15 @@ position = [0, 3, 0]
 struct Runs {
   TempFolder folder;
   Runs() { folder.write("s.toml", kScene); }
-  void run(const std::string& out, const std::string& script = "", std::vector<std::string> more = {}) const {
+  void run(const std::string& out, const std::string& script = "", const std::vector<std::string>& more = {}) const {
     folder.write("now.script", script);
-    std::vector<std::string> words = {"run", "s.toml", "--script", "now.script", "--out", out, "--frames", "25", "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Outcome outcome = impinge_run(folder.path(), words);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    REQUIRE(told(folder, {"run", "s.toml", "--script", "now.script", "--out", out, "--frames", "25", "--quiet"}, more).code == 0);
   }
-  Outcome compare(std::vector<std::string> words) const {
-    words.insert(words.begin(), "compare");
-    Outcome outcome = impinge_run(folder.path(), words);
-    UNSCOPED_INFO(outcome.out << outcome.err);
-    return outcome;
+  Outcome compare(const std::vector<std::string>& words) const {
+    return told(folder, {"compare"}, words);
   }
 };
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 const std::vector<std::string> kNoImages = {"--no-images"};
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "tests/support/refusal.hpp"
+#include "tests/support/picture_scene.hpp"
 #include "viewer/image/id_image.hpp"
 #include "viewer/image/png.hpp"
 
@@ -17,46 +17,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kScene = R"([[body]]
-name = "floor"
-kind = "static"
-shape = { box = { size = [3, 0.2, 3] } }
-position = [0, -0.1, 0]
-[[body]]
-name = "crate"
-kind = "dynamic"
-shape = { box = { size = [1, 0.5, 1] } }
-position = [0, 0.26, 0]
+const std::string kScene = std::string(kCrateOnSlab) + R"(position = [0, 0.26, 0]
 rotation = [0, 20, 0]
 [[body]]
 name = "ball"
 kind = "dynamic"
 shape = { sphere = { radius = 0.3 } }
 position = [0.1, 1.0, 0]
-[view]
-camera = { eye = [2.2, 1.6, 2.8], target = [0, 0.35, 0] }
-layers = ["meshes", "contacts", "normals"]
+)" + kFrontView + R"(layers = ["meshes", "contacts", "normals"]
 )";
 
 struct Runs {
   TempFolder folder;
   Runs() { folder.write("s.toml", kScene); }
-  void run(const std::string& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"run", "s.toml", "--out", out, "--frames", "6", "--size", "320x180", "--quiet"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Outcome outcome = impinge_run(folder.path(), words);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+  void run(const std::string& out, const std::vector<std::string>& more = {}) const {
+    REQUIRE(told(folder, {"run", "s.toml", "--out", out, "--frames", "6", "--size", "320x180", "--quiet"}, more).code == 0);
   }
-  Outcome diff(std::vector<std::string> words) const {
-    words.insert(words.begin(), "diff");
-    Outcome outcome = impinge_run(folder.path(), words);
-    UNSCOPED_INFO(outcome.out << outcome.err);
-    return outcome;
+  Outcome diff(const std::vector<std::string>& words) const {
+    return told(folder, {"diff"}, words);
   }
 };
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// An environment variable for the life of a scope; the programs started meanwhile see it.
 struct Setting {

@@ -2,7 +2,7 @@
 // once there is room.
 #include <catch2/catch.hpp>
 
-#include "tests/support/refusal.hpp"
+#include "tests/support/picture_scene.hpp"
 #include "tests/support/small_disk.hpp"
 #include "viewer/image/png.hpp"
 
@@ -13,19 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kScene = R"([[body]]
-name = "floor"
-kind = "static"
-shape = { box = { size = [3, 0.2, 3] } }
-position = [0, -0.1, 0]
-[[body]]
-name = "crate"
-kind = "dynamic"
-shape = { box = { size = [1, 0.5, 1] } }
-position = [0, 1, 0]
-[view]
-camera = { eye = [2.2, 1.6, 2.8], target = [0, 0.35, 0] }
-)";
+const std::string kScene = std::string(kCrateOnSlab) + R"(position = [0, 1, 0]
+)" + kFrontView;
 
 /// A folder with the scene and two runs of it that part, and in it a disk that the sizes say.
 struct Files {

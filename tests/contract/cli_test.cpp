@@ -3,7 +3,7 @@
 
 #include <regex>
 
-#include "tests/support/refusal.hpp"
+#include "tests/support/picture_scene.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
 
@@ -14,19 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kScene = R"([[body]]
-name = "floor"
-kind = "static"
-shape = { box = { size = [3, 0.2, 3] } }
-position = [0, -0.1, 0]
-[[body]]
-name = "crate"
-kind = "dynamic"
-shape = { box = { size = [1, 0.5, 1] } }
-position = [0, 0.26, 0]
-[view]
-camera = { eye = [2.2, 1.6, 2.8], target = [0, 0.35, 0] }
-layers = ["meshes", "contacts"]
+const std::string kScene = std::string(kCrateOnSlab) + R"(position = [0, 0.26, 0]
+)" + kFrontView + R"(layers = ["meshes", "contacts"]
 )";
 
 struct Suite {
@@ -37,16 +26,11 @@ struct Suite {
     folder.write("suite/fall.toml", kScene);
     folder.write("suite/fall.script", "at 1 set body.crate.velocity 0 3 0\nexpect contacts == 0 at 6\n");
   }
-  Outcome run(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"test", "suite", "--out", "out"};
-    words.insert(words.end(), more.begin(), more.end());
-    Outcome outcome = impinge_run(folder.path(), words);
-    UNSCOPED_INFO(outcome.out << outcome.err);
-    return outcome;
+  Outcome run(const std::vector<std::string>& more = {}) const {
+    return told(folder, {"test", "suite", "--out", "out"}, more);
   }
 };
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -36,7 +36,6 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
     : interrupted_(options.interrupted), progress_(options.progress), session_(scene, overrides, script, options.session), ring_(options.most_bytes), run_folder_(options.run_folder),
       expectations_(session_.script(), session_.is_judged(), false, [this](const std::string& text) { say(ConsoleLine::problem, text); }) {
   model_.scene = session_.scene().path.filename().string();
-  model_.wanted_last = session_.default_last_frame();
   if (!run_folder_.empty()) {
     model_.scene = run_folder_.filename().string();
     read_run_folder();

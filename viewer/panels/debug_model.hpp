@@ -48,7 +48,7 @@ struct DebugModel {
   const ParameterSet* rows = nullptr;
   const ViewSettings* view = nullptr;
   std::string scene;
-  int frame = 0, known_last = 0, wanted_last = 0;
+  int frame = 0, known_last = 0;
   bool playing = false;
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
