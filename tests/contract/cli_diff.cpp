@@ -119,6 +119,10 @@ TEST_CASE("the report stands alone and shows each picture that differs, the wors
   CHECK_FALSE(fs::exists(runs.folder / "shown/000000.png"));  // the same state and picture
   const std::size_t begin = page.find("<tbody>"), row = page.find("<tr><td>", begin);
   CHECK(page.substr(row + 8, 10) == "000006.png");
+  // where there is nothing more to show it goes
+  CHECK(runs.diff({"a", "b", "--out", "gone"}).code == 1);
+  CHECK(runs.diff({"a", "a", "--out", "gone"}).code == 0);
+  CHECK_FALSE(fs::exists(runs.folder / "gone/report.html"));
   // used in a real browser
   const fs::path tools = fs::path(IMPINGE_SOURCE_DIR) / "tests/tools";
   const TempFolder said;

@@ -130,6 +130,8 @@ int diff_command(const Arguments& arguments) {
   std::copy_if(all.begin(), all.end(), std::back_inserter(differing), [](const PictureComparison& c) { return c.verdict != PictureComparison::same; });
   const fs::path out = arguments.out;
   if (!out.empty() && !differing.empty()) write_picture_report(out, fmt::format("{} and {}", a.string(), b.string()), all, rules);
+  std::error_code error;
+  if (!out.empty() && differing.empty()) fs::remove(out / "report.html", error);  // of the last time: it tells of differences that are gone
   if (arguments.update) return update(all, a);
 
   for (std::size_t i = 0; i < differing.size(); ++i) {
