@@ -59,13 +59,14 @@ ColumnsResult solve_by_columns(const GroupOperator& a, ConeProblem problem, cons
     const VecX f = impulse(a, lambda);
     if (round == 0)
       for (std::size_t k = 0; k < columns.rows.size(); ++k) v += lambda[static_cast<std::size_t>(columns.rows[k] / 3)][columns.rows[k] % 3] * columns.y[k];
-    const double size = a.norm(f);
-    if (size > 0.0 && a.velocity_of(f - a.multiply(v)) > 0.3 * tolerance) {
-      // the norm is over all nodes, the tolerance for each: so tight that none is left out
-      for (double accuracy = 1e-8; accuracy > 1e-14 && a.velocity_of(f - a.multiply(v)) > 0.3 * tolerance; accuracy *= 0.1) a.solve({}, f, accuracy, v);
-      ++result.solves;
+    if (f.isZero(0.0)) v.setZero();
+    double left = a.velocity_of(f - a.multiply(v));
+    // the solve's norm is over all nodes, the tolerance for each: so tight that none is left out
+    for (double accuracy = 1e-8; accuracy > 1e-14 && left > 0.3 * tolerance; accuracy *= 0.1, ++result.solves) {
+      a.solve({}, f, accuracy, v);
+      left = a.velocity_of(f - a.multiply(v));
     }
-    if (a.velocity_of(f - a.multiply(v)) > tolerance) return result;
+    if (left > tolerance) return result;
     double worst = 0.0;
     w.begin(lambda);
     for (std::size_t i = 0; i < lambda.size(); ++i) {

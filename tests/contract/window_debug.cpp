@@ -36,6 +36,15 @@ bool is_installed(const std::string& program) {
   return false;
 }
 
+/// Says so where one of the programs is.
+bool is_missing(const std::vector<std::string>& programs) {
+  const auto missing = std::find_if(programs.begin(), programs.end(), [](const std::string& program) { return !is_installed(program); });
+  if (missing == programs.end()) return false;
+  WARN(*missing << " is missing (.ci/setup checks installs it): the window was not tried");
+  SUCCEED();
+  return true;
+}
+
 /// A program in the background, ended with its owner.
 class Background {
  public:
@@ -147,11 +156,7 @@ class Screen {
 }  // namespace
 
 TEST_CASE("the window takes real mouse and keys, and shows what its recording shows without a screen, in every pixel") {
-  if (!is_installed("Xvfb") || !is_installed("xdotool")) {
-    WARN("Xvfb or xdotool is missing (.ci/setup checks installs them): the window was not tried");
-    SUCCEED();
-    return;
-  }
+  if (is_missing({"Xvfb", "xdotool"})) return;
   const TempFolder folder;
   const fs::path scene = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml";
   // where things are
@@ -253,11 +258,7 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
 }
 
 TEST_CASE("a window that is interrupted keeps what was done") {
-  if (!is_installed("Xvfb")) {
-    WARN("Xvfb is missing (.ci/setup checks installs it): the window was not tried");
-    SUCCEED();
-    return;
-  }
+  if (is_missing({"Xvfb"})) return;
   const TempFolder folder;
   const fs::path scene = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml";
   const Screen screen(folder.path());
@@ -271,11 +272,7 @@ TEST_CASE("a window that is interrupted keeps what was done") {
 }
 
 TEST_CASE("the window of a script that quits closes by itself") {
-  if (!is_installed("Xvfb")) {
-    WARN("Xvfb is missing (.ci/setup checks installs it): the window was not tried");
-    SUCCEED();
-    return;
-  }
+  if (is_missing({"Xvfb"})) return;
   const TempFolder folder;
   const fs::path scene = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml";
   const Screen screen(folder.path());

@@ -3,13 +3,13 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 
 #include "engine/core/error.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/frame_progress.hpp"
 #include "viewer/app/interrupt.hpp"
 #include "viewer/app/sdl_window.hpp"
 
@@ -80,26 +80,6 @@ void check_recording(const Arguments& arguments) {
   }
 }
 
-/// Of a line that makes many frames, on a terminal.
-class SeekProgress {
- public:
-  void show(int frame, int last) {
-    const auto now = std::chrono::steady_clock::now();
-    if (last != last_ || frame <= before_) start_ = shown_ = now, first_ = frame, last_ = last;
-    before_ = frame;
-    const auto seconds = [](auto span) { return std::chrono::duration<double>(span).count(); };
-    if (frame < last && seconds(now - shown_) < 0.5) return;
-    if (frame == last && shown_ == start_) return;  // too quick to be told
-    shown_ = now;
-    fmt::print(stderr, "\rframe {}/{}  {:.0f} s left\x1b[K{}", frame, last, seconds(now - start_) / std::max(1, frame - first_) * (last - frame), frame == last ? "\r\x1b[K" : "");
-    std::fflush(stderr);
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_, shown_;
-  int first_ = 0, last_ = -1, before_ = 0;
-};
-
 }  // namespace
 
 int debug_command(const Arguments& arguments) {
@@ -134,8 +114,11 @@ int debug_command(const Arguments& arguments) {
   debug.run_folder = source.run_folder;
   debug.interrupted = &interrupted();
   watch_for_interrupt();
-  SeekProgress progress;
-  if (!arguments.quiet && isatty(STDERR_FILENO)) debug.progress = [&](int frame, int last) { progress.show(frame, last); };
+  FrameProgress progress;
+  if (!arguments.quiet && isatty(STDERR_FILENO)) debug.progress = [&](int frame, int last) {
+      if (frame < last) progress.show(frame, last);
+      else progress.clear();
+    };
   Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);  // without: a finished run's own
   DebugLoop loop(debugger, *window, options.out);
 

@@ -3,12 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <cstdio>
 
 #include "engine/core/error.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/frame_progress.hpp"
 #include "viewer/app/interrupt.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
@@ -18,32 +17,6 @@
 namespace impinge {
 
 namespace {
-
-class Progress {
- public:
-  void show(const FrameStats& stats, int last_frame) {
-    using Seconds = std::chrono::duration<double>;
-    if (first_frame_ < 0) first_frame_ = stats.frame, start_ = Clock::now();
-    const double elapsed = Seconds(Clock::now() - start_).count();
-    const int done = stats.frame - first_frame_;
-    const double left = done > 0 ? elapsed / done * (last_frame - stats.frame) : 0.0;
-    if (shown_ && Seconds(Clock::now() - last_).count() < 0.1 && stats.frame < last_frame) return;
-    last_ = Clock::now();
-    shown_ = true;
-    fmt::print(stderr, "\rframe {}/{}  contacts {}  {:.0f} s left\x1b[K", stats.frame, last_frame, stats.contacts, left);
-    std::fflush(stderr);
-  }
-  void clear() {
-    if (shown_) fmt::print(stderr, "\r\x1b[K");
-    shown_ = false;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_, last_;
-  int first_frame_ = -1;
-  bool shown_ = false;
-};
 
 /// What a run must not keep to its table: solves that ended at the iteration cap.
 struct Convergence {
@@ -94,7 +67,7 @@ bool write_video(const Arguments& arguments, double frames_per_second) {
 int run_command(const Arguments& arguments) {
   const RunOptions& options = arguments.run_options;
   watch_for_interrupt();
-  Progress progress;
+  FrameProgress progress;
   RunWatcher watcher;
   watcher.interrupted = &interrupted();
   if (!arguments.video.empty()) check_video_path(arguments.video, options.out);
@@ -102,7 +75,7 @@ int run_command(const Arguments& arguments) {
   Convergence convergence;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
-    if (shows_progress) progress.show(stats, last_frame);
+    if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
   watcher.message = [&](const std::string& line) {
     progress.clear();

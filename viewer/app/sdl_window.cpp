@@ -64,7 +64,7 @@ struct Screen {
     if (!has_screen()) refuse("there is no screen");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) refuse(SDL_GetError());
     const std::string driver = SDL_GetCurrentVideoDriver();
-    if (driver == "offscreen" || driver == "dummy") refuse("there is no screen");
+    if (driver != "x11" && driver != "wayland") refuse(fmt::format("SDL's video driver '{}' has none", driver));
   }
   ~Screen() { SDL_Quit(); }
 };

@@ -127,7 +127,7 @@ void Debugger::restore_before(int frame) {
   for (const Parameter& row : session_.rows().all())
     if (row.path.starts_with("view.")) view.emplace_back(&row, row.get());
   const std::optional<int> in_memory = ring_.at_or_before(frame);
-  const std::optional<int> in_folder = last_snapshot_before(frame);
+  const std::optional<int> in_folder = in_memory == frame ? std::nullopt : last_snapshot_before(frame);  // which reads files
   if (in_folder && (!in_memory || *in_folder > *in_memory)) {
     restore_snapshot(snapshot_file(*in_folder), session_);
   } else {

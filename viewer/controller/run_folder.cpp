@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 
 #include "engine/core/error.hpp"
 #include "engine/io/frozen_step_file.hpp"
@@ -97,7 +96,7 @@ std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
   return rows;
 }
 
-RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume, std::uint64_t snapshot_bytes) : folder_(folder), run_(run), snapshot_bytes_(snapshot_bytes) {
+RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume, std::uint64_t snapshot_bytes) : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes) {
   check_new(resume, run_toml);
   if (resume) {
     kept_ = whole_rows(read_if_there(folder_ / "stats.csv"), run_.judge);
@@ -159,7 +158,7 @@ void RunFolder::clear_markers() {
     if (!is_our_number(entry.path(), ".bin")) continue;
     const int frame = leading_number(entry.path().stem().string());
     if (frame > resume_frame()) fs::remove(entry.path(), error);
-    else snapshots_[frame] = entry.file_size(error);
+    else snapshot_bytes_ += snapshots_[frame] = entry.file_size(error);
   }
 }
 
@@ -185,10 +184,9 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
 
 void RunFolder::add_snapshot(const Session& session) {
   const int frame = session.frame(), before = snapshots_.empty() ? 0 : snapshots_.rbegin()->first;
-  snapshots_[frame] = write_snapshot(snapshot(frame), session);
+  snapshot_bytes_ += snapshots_[frame] = write_snapshot(snapshot(frame), session);
   if (before % spacing_ != 0) forget_snapshot(before);
-  const auto room_taken = [&] { return std::accumulate(snapshots_.begin(), snapshots_.end(), std::uint64_t{0}, [](std::uint64_t sum, const auto& s) { return sum + s.second; }); };
-  while (snapshots_.size() > 2 && room_taken() > snapshot_bytes_) {
+  while (snapshots_.size() > 2 && snapshot_bytes_ > most_snapshot_bytes_) {
     spacing_ *= 2;
     for (auto it = snapshots_.begin(); it != snapshots_.end();) {
       const int k = (it++)->first;
@@ -200,6 +198,7 @@ void RunFolder::add_snapshot(const Session& session) {
 void RunFolder::forget_snapshot(int frame) {
   std::error_code error;
   fs::remove(snapshot(frame), error);
+  snapshot_bytes_ -= snapshots_[frame];
   snapshots_.erase(frame);
 }
 

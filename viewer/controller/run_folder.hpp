@@ -46,7 +46,7 @@ class RunFolder {
   std::filesystem::path folder_;
   RunRecord run_;
   std::vector<StatsLine> kept_;
-  std::uint64_t snapshot_bytes_;                  // room for them
+  std::uint64_t most_snapshot_bytes_, snapshot_bytes_ = 0;  // room for them, and taken
   std::map<int, std::uint64_t> snapshots_;        // bytes by frame
   int spacing_ = 1;                               // frames from one that stays to the next
   AppendFile stats_, contacts_, commands_;
