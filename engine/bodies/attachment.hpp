@@ -9,8 +9,8 @@ namespace impinge {
 
 struct AttachmentDescription {
   std::string name;
-  std::string body_a, body_b;    ///< body_b empty: the world
-  Vec3 point = Vec3::Zero();     ///< of both, world coordinates at the start, metres
+  std::string body_a, body_b;  ///< body_b empty: the world
+  Vec3 point = Vec3::Zero();   ///< of both, world coordinates at the start, metres
 };
 
 }  // namespace impinge

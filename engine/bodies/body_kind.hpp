@@ -5,6 +5,6 @@
 namespace impinge {
 
 enum class BodyKind { fixed, scripted, dynamic, deformable };  // "static" is a word of the language
-const char* kind_name(BodyKind kind);              // static | scripted | dynamic | deformable
+const char* kind_name(BodyKind kind);                          // static | scripted | dynamic | deformable
 
 }  // namespace impinge

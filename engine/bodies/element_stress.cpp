@@ -65,8 +65,8 @@ std::vector<double> element_equivalent_strain(const DeformableBody& body) {
 }
 
 std::vector<double> element_volume_ratio(const DeformableBody& body) {
-  return of_each(body,
-                 [&](int e) { return deformation_gradient(body.fem.elements()[e], corners_of(body, e)).determinant(); });
+  return of_each(
+      body, [&](int e) { return deformation_gradient(body.fem.elements()[e], corners_of(body, e)).determinant(); });
 }
 
 std::vector<double> node_average(const DeformableBody& body, const std::vector<double>& of_elements) {

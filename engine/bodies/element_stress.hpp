@@ -13,17 +13,18 @@ struct ElementState {
 };
 
 /// σ = −Σ f_a x_aᵀ / (J V) over the corners, made symmetric. That is P Fᵀ/J for a material with a stress P(F), and the
-/// mean stress of springs, which have none. Where |J| < 0.01 it is divided by that (a flat element has no finite stress).
+/// mean stress of springs, which have none. Where |J| < 0.01 it is divided by that (a flat element has no finite
+/// stress).
 ElementState element_state(const DeformableBody& body, int element);
 
 /// √(3/2 s:s), s the deviator of `stress`, Pa: in uniaxial tension the tension itself.
 double von_mises(const Mat3& stress);
-/// √(2/3 e:e), e the deviator of the strains stretch − 1: in uniaxial tension without change of volume, for small strains,
-/// the strain itself. 0 for any rotation and any even growth; defined for inverted elements too.
+/// √(2/3 e:e), e the deviator of the strains stretch − 1: in uniaxial tension without change of volume, for small
+/// strains, the strain itself. 0 for any rotation and any even growth; defined for inverted elements too.
 double equivalent_strain(const Vec3& stretch);
 
 // one number a tetrahedron
-std::vector<double> element_von_mises(const DeformableBody& body);        ///< Pa
+std::vector<double> element_von_mises(const DeformableBody& body);  ///< Pa
 std::vector<double> element_equivalent_strain(const DeformableBody& body);
 std::vector<double> element_volume_ratio(const DeformableBody& body);
 

@@ -137,8 +137,8 @@ double FemAssembly::energy(const VecX& x) {
   parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
     const Material& m = material(static_cast<int>(e));
     const Corners c = corners(x, static_cast<int>(e));
-    slot_[e].energy = unwinding_.lets_go(e) ? unwinding_.energy(elements_[e], c, e, unwinding_modulus(m))
-                                            : m.energy(elements_[e], c);
+    slot_[e].energy =
+        unwinding_.lets_go(e) ? unwinding_.energy(elements_[e], c, e, unwinding_modulus(m)) : m.energy(elements_[e], c);
   });
   return total_energy();
 }

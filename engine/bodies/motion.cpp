@@ -27,10 +27,13 @@ Motion::Motion(std::vector<MotionKey> keys) : keys_(std::move(keys)), slopes_(ke
 }
 
 Pose Motion::at(double time) const {
-  const auto pose = [](const Vec3& position, const Vec3& degrees) { return Pose{rotation_from_degrees(degrees), position}; };
+  const auto pose = [](const Vec3& position, const Vec3& degrees) {
+    return Pose{rotation_from_degrees(degrees), position};
+  };
   if (time <= keys_.front().time) return pose(keys_.front().position, keys_.front().rotation);
   if (time >= keys_.back().time) return pose(keys_.back().position, keys_.back().rotation);
-  const auto next = std::upper_bound(keys_.begin(), keys_.end(), time, [](double t, const MotionKey& key) { return t < key.time; });
+  const auto next =
+      std::upper_bound(keys_.begin(), keys_.end(), time, [](double t, const MotionKey& key) { return t < key.time; });
   const std::size_t k = static_cast<std::size_t>(next - keys_.begin()) - 1;
   const double h = keys_[k + 1].time - keys_[k].time, s = (time - keys_[k].time) / h;
   const double h01 = s * s * (3.0 - 2.0 * s), h10 = s * (1.0 - s) * (1.0 - s), h11 = s * s * (s - 1.0);

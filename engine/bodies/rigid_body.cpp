@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "engine/core/error.hpp"
 #include "engine/bodies/shape_mass.hpp"
+#include "engine/core/error.hpp"
 
 namespace impinge {
 namespace {
@@ -60,7 +60,8 @@ RigidBody make_rigid_body(const BodyDescription& description) {
   if (body.is_deformable()) {
     const Pose file{rotation_from_degrees(description.rotation), description.position};
     try {
-      body.soft = std::make_unique<SoftBody>(make_soft_body(*description.soft, file, description.velocity, description.angular_velocity));
+      body.soft = std::make_unique<SoftBody>(
+          make_soft_body(*description.soft, file, description.velocity, description.angular_velocity));
     } catch (const InputError& error) {
       throw InputError(fmt::format("body '{}': {}", body.name, error.what()));
     }
@@ -77,8 +78,10 @@ RigidBody make_rigid_body(const BodyDescription& description) {
   if (!is_plane) {
     MassProperties properties = shape_mass(body.shape, description.density);
     if (!(properties.mass > 0.0))
-      throw InputError("the surface encloses no positive volume; a body needs a closed surface whose triangles are counter-clockwise seen "
-                       "from outside; flip its triangles");
+      throw InputError(
+          "the surface encloses no positive volume; a body needs a closed surface whose triangles are "
+          "counter-clockwise seen "
+          "from outside; flip its triangles");
     body.center = properties.center;
     if (const auto* mesh = std::get_if<MeshPointer>(&body.shape)) {
       body.mean_edge = mean_edge_length((*mesh)->mesh);

@@ -10,7 +10,8 @@ const char* shape_name(const Shape& shape) {
 MeshPointer make_box_mesh(const Vec3& half) {
   auto surface = std::make_shared<SurfaceMesh>();
   for (int i = 0; i < 8; ++i)
-    surface->mesh.vertices.emplace_back((i & 1 ? 1 : -1) * half.x(), (i & 2 ? 1 : -1) * half.y(), (i & 4 ? 1 : -1) * half.z());
+    surface->mesh.vertices.emplace_back((i & 1 ? 1 : -1) * half.x(), (i & 2 ? 1 : -1) * half.y(),
+                                        (i & 4 ? 1 : -1) * half.z());
   surface->mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                              {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   surface->topology = make_topology(surface->mesh);

@@ -43,7 +43,8 @@ const char* shape_name(const Shape& shape);
 /// The twelve triangles of a box (exact: a box is a polyhedron), outward, with their topology.
 MeshPointer make_box_mesh(const Vec3& half);
 
-/// World bounds of a shape at a pose. A plane bounds its half-space where it is axis-aligned, else nothing. For meshes pass the world vertices to bounds_of instead.
+/// World bounds of a shape at a pose. A plane bounds its half-space where it is axis-aligned, else nothing. For meshes
+/// pass the world vertices to bounds_of instead.
 Aabb shape_bounds(const Shape& shape, const Pose& pose);
 
 }  // namespace impinge

@@ -10,9 +10,12 @@ namespace impinge {
 
 bool NodeRegion::contains(int node, const Vec3& x) const {
   switch (kind) {
-    case box: return (x.array() >= min.array()).all() && (x.array() <= max.array()).all();
-    case sphere: return (x - center).norm() <= radius;
-    case list: return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+    case box:
+      return (x.array() >= min.array()).all() && (x.array() <= max.array()).all();
+    case sphere:
+      return (x - center).norm() <= radius;
+    case list:
+      return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
   }
   return false;
 }
@@ -26,7 +29,8 @@ Vec3 HeldRegion::at(std::size_t k, double time) const {
 void SoftBody::drive_held(double time, double h, double share) {
   for (HeldRegion& region : held) {
     const bool moved = region.is_moved();
-    region.displacement = share >= 1.0 ? region.wanted : Vec3(region.displacement + share * (region.wanted - region.displacement));
+    region.displacement =
+        share >= 1.0 ? region.wanted : Vec3(region.displacement + share * (region.wanted - region.displacement));
     for (std::size_t k = 0; k < region.nodes.size(); ++k) {
       const Vec3 now = fem.position.segment<3>(3 * region.nodes[k]);
       fem.set_held_velocity(region.nodes[k], moved ? Vec3((region.at(k, time + h) - now) / h) : Vec3(Vec3::Zero()));
@@ -40,10 +44,16 @@ double SoftBody::fastest_node() const {
   return fastest;
 }
 
-SoftBody make_soft_body(const SoftDescription& d, const Pose& file, const Vec3& velocity, const Vec3& angular_velocity) {
+SoftBody make_soft_body(const SoftDescription& d, const Pose& file, const Vec3& velocity,
+                        const Vec3& angular_velocity) {
   std::shared_ptr<Material> material = make_named(materials(), d.model);
   material->configure(d.material);
-  SoftBody soft{DeformableBody(FemAssembly(d.mesh, {{material, d.density}}, d.mass, {}, d.fraction)), d.embedding, material, {}, {}, d.model};
+  SoftBody soft{DeformableBody(FemAssembly(d.mesh, {{material, d.density}}, d.mass, {}, d.fraction)),
+                d.embedding,
+                material,
+                {},
+                {},
+                d.model};
   DeformableBody& fem = soft.fem;
   fem.damping = d.damping;
   for (int i = 0; i < fem.nodes(); ++i) fem.position.segment<3>(3 * i) = file.apply(d.mesh.vertices[i]);
@@ -60,7 +70,8 @@ SoftBody make_soft_body(const SoftDescription& d, const Pose& file, const Vec3& 
       region.start.push_back(x);
       region.pivot += x;
     }
-    if (region.nodes.empty()) throw InputError(fmt::format("region {} of fixed holds no node of the body; move or widen it", r));
+    if (region.nodes.empty())
+      throw InputError(fmt::format("region {} of fixed holds no node of the body; move or widen it", r));
     region.pivot /= static_cast<double>(region.nodes.size());
     if (!d.fixed[r].motion.empty()) region.motion = Motion(d.fixed[r].motion);
     held.insert(held.end(), region.nodes.begin(), region.nodes.end());

@@ -1,5 +1,5 @@
-// A deformable body in a scene: a tetrahedral body, the surface embedded in it that collides and is drawn, and the nodes
-// that are held or moved.
+// A deformable body in a scene: a tetrahedral body, the surface embedded in it that collides and is drawn, and the
+// nodes that are held or moved.
 #pragma once
 
 #include "engine/bodies/deformable_body.hpp"
@@ -11,22 +11,23 @@ namespace impinge {
 /// Which nodes are held: world coordinates at the start.
 struct NodeRegion {
   enum Kind { box, sphere, list } kind = box;
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();     ///< box
-  Vec3 center = Vec3::Zero();                      ///< sphere
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  ///< box
+  Vec3 center = Vec3::Zero();                   ///< sphere
   double radius = 0.0;
-  std::vector<int> nodes;                          ///< list
-  std::vector<MotionKey> motion;                   ///< how they are moved: displacement, and rotation about their middle; empty: not at all
+  std::vector<int> nodes;  ///< list
+  /// how they are moved: displacement, and rotation about their middle; empty: not at all
+  std::vector<MotionKey> motion;
   bool contains(int node, const Vec3& x) const;
 };
 
 /// What a deformable body is made from; positions in the file's frame, scaled.
 struct SoftDescription {
   TetMesh mesh;
-  std::vector<double> fraction;       ///< filled fraction of each tetrahedron; empty: all full
-  Embedding embedding;                ///< of the surface's vertices
+  std::vector<double> fraction;  ///< filled fraction of each tetrahedron; empty: all full
+  Embedding embedding;           ///< of the surface's vertices
   std::string model = "corotational";
   MaterialSettings material;
-  double density = 1000.0;            ///< kg/m³
+  double density = 1000.0;  ///< kg/m³
   MassKind mass = MassKind::lumped;
   RayleighDamping damping;
   std::vector<NodeRegion> fixed;
@@ -35,11 +36,11 @@ struct SoftDescription {
 /// Held nodes and where they go: x(t) = pivot + displacement + p(t) + R(t) (x(0) - pivot), p and R from key frames.
 struct HeldRegion {
   std::vector<int> nodes;
-  std::vector<Vec3> start;            ///< their positions at the start, world
-  Vec3 pivot = Vec3::Zero();          ///< their mean at the start
+  std::vector<Vec3> start;    ///< their positions at the start, world
+  Vec3 pivot = Vec3::Zero();  ///< their mean at the start
   Motion motion;
-  Vec3 displacement = Vec3::Zero();   ///< where a parameter has moved them so far, metres
-  Vec3 wanted = Vec3::Zero();         ///< where it wants them at the end of the frame, metres
+  Vec3 displacement = Vec3::Zero();  ///< where a parameter has moved them so far, metres
+  Vec3 wanted = Vec3::Zero();        ///< where it wants them at the end of the frame, metres
   Vec3 at(std::size_t k, double time) const;
   bool is_moved() const { return !motion.is_empty() || displacement != wanted || !displacement.isZero(0.0); }
 };
@@ -57,11 +58,12 @@ struct SoftBody {
   /// Gives held nodes the velocities that bring them where they are wanted at time + h. `share` of what is left of the
   /// wanted displacement is covered in this sub-step (1: all of it).
   void drive_held(double time, double h, double share);
-  double fastest_node() const;         ///< m/s
+  double fastest_node() const;  ///< m/s
 };
 
-/// Placed by a rotation and a translation of the file's frame, moving with the given velocities about its centre of mass.
-/// Throws InputError (without a place) where a region holds no node.
-SoftBody make_soft_body(const SoftDescription& description, const Pose& file, const Vec3& velocity, const Vec3& angular_velocity);
+/// Placed by a rotation and a translation of the file's frame, moving with the given velocities about its centre of
+/// mass. Throws InputError (without a place) where a region holds no node.
+SoftBody make_soft_body(const SoftDescription& description, const Pose& file, const Vec3& velocity,
+                        const Vec3& angular_velocity);
 
 }  // namespace impinge

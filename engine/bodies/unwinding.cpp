@@ -30,9 +30,8 @@ std::vector<char> Unwinding::tangled_nodes(const TetMesh& rest, const std::vecto
   std::vector<char> wound(winding_.inner_edges()), inverted(rest.tets.size());
   parallel_for(wound.size(), kPerTask,
                [&](std::size_t i) { wound[i] = winding_.winding(x, static_cast<int>(i)) != 1; });
-  parallel_for(inverted.size(), kPerTask, [&](std::size_t e) {
-    inverted[e] = gradient_of(elements[e], rest.tets[e], x).determinant() <= 0.0;
-  });
+  parallel_for(inverted.size(), kPerTask,
+               [&](std::size_t e) { inverted[e] = gradient_of(elements[e], rest.tets[e], x).determinant() <= 0.0; });
   std::vector<char> tangled;
   const auto mark = [&](int node) {
     tangled.resize(rest.vertices.size(), 0);

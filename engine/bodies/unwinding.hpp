@@ -3,8 +3,8 @@
 // Where a mesh is wound round itself (geometry/tet_winding.hpp) an energy that resists inversion holds the tangle
 // together: no motion unwinds it but through inverted elements. So while an inner edge is wound wrongly, or an element
 // inverted, the elements round it answer as Ψ = μ ‖F − R‖² with one rotation R for all that hang together, instead of
-// as their own material. That is convex, so it has no tangled minimum; and as R is the rotation nearest to their mean F,
-// it makes no torque. It differs from co-rotational elasticity in that R is shared: with a rotation for each element
+// as their own material. That is convex, so it has no tangled minimum; and as R is the rotation nearest to their mean
+// F, it makes no torque. It differs from co-rotational elasticity in that R is shared: with a rotation for each element
 // tangles do have minima (1 in 15 cubes of 2³ cells thrown about, 1 in 100 of 3³).
 //
 // What is unwound depends on the positions at the start of a step only, so a run that is resumed does the same.
@@ -17,8 +17,8 @@ namespace impinge {
 
 class Unwinding {
  public:
-  /// Looks at x (node by node x, y, z). `may`: for each element, whether it is to be let go; `elements` those of `rest`.
-  /// Returns how many elements are let go until the next call.
+  /// Looks at x (node by node x, y, z). `may`: for each element, whether it is to be let go; `elements` those of
+  /// `rest`. Returns how many elements are let go until the next call.
   int find(const TetMesh& rest, const std::vector<TetRest>& elements, const std::vector<char>& may, const VecX& x);
   void clear() { patch_.clear(); }
 
@@ -32,9 +32,9 @@ class Unwinding {
  private:
   std::vector<char> tangled_nodes(const TetMesh& rest, const std::vector<TetRest>& elements, const VecX& x);
 
-  TetWinding winding_;        // made on first use
-  std::vector<int> patch_;    // of each element, or −1; empty if none is let go
-  std::vector<Mat3> frame_;   // R of each patch
+  TetWinding winding_;       // made on first use
+  std::vector<int> patch_;   // of each element, or −1; empty if none is let go
+  std::vector<Mat3> frame_;  // R of each patch
 };
 
 }  // namespace impinge

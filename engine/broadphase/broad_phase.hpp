@@ -16,8 +16,8 @@ class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
   /// All pairs of overlapping boxes (closed: touching counts), sorted and unique, into `pairs`. Boxes may be infinite
-  /// (planes) but not NaN. Called once a sub-step with the boxes in the same order; a change of their number starts anew.
-  /// The answer depends on `boxes` alone: what an implementation keeps from the last call only makes it faster.
+  /// (planes) but not NaN. Called once a sub-step with the boxes in the same order; a change of their number starts
+  /// anew. The answer depends on `boxes` alone: what an implementation keeps from the last call only makes it faster.
   virtual void find(std::span<const Aabb> boxes, std::vector<BoxPair>& pairs) = 0;
 };
 

@@ -18,7 +18,8 @@ struct TrianglePair {
   int a = -1, b = -1, triangle_a = -1, triangle_b = -1;
   bool intersecting = false;  ///< the closed triangles share a point (else: only closer than the pair's margin)
   friend bool operator==(const TrianglePair& l, const TrianglePair& r) {
-    return l.a == r.a && l.b == r.b && l.triangle_a == r.triangle_a && l.triangle_b == r.triangle_b && l.intersecting == r.intersecting;
+    return l.a == r.a && l.b == r.b && l.triangle_a == r.triangle_a && l.triangle_b == r.triangle_b &&
+           l.intersecting == r.intersecting;
   }
   friend bool operator<(const TrianglePair& l, const TrianglePair& r) {
     return std::tie(l.a, l.b, l.triangle_a, l.triangle_b) < std::tie(r.a, r.b, r.triangle_a, r.triangle_b);
@@ -27,20 +28,21 @@ struct TrianglePair {
 
 /// One contact found by detection. Everything in world coordinates at the instant of detection.
 struct Collision {
-  int body_a = -1, body_b = -1;        ///< scene order, a <= b
-  int triangle_a = -1, triangle_b = -1;///< -1 for an exact shape; the point lies in (or at a corner of) the triangle
-  Vec3 point_a = Vec3::Zero();         ///< on A's surface
-  Vec3 point_b = Vec3::Zero();         ///< on B's surface
-  Vec3 normal = Vec3::UnitY();         ///< unit, from B towards A
-  double gap = 0.0;                    ///< normal·(point_a - point_b), metres; negative: overlap
-  int normal_owner = -1;               ///< the body whose surface gives the normal and turns it along; -1: neither
-  std::uint64_t feature = 0;           ///< which features touch: stable from step to step, unique within the body pair
+  int body_a = -1, body_b = -1;          ///< scene order, a <= b
+  int triangle_a = -1, triangle_b = -1;  ///< -1 for an exact shape; the point lies in (or at a corner of) the triangle
+  Vec3 point_a = Vec3::Zero();           ///< on A's surface
+  Vec3 point_b = Vec3::Zero();           ///< on B's surface
+  Vec3 normal = Vec3::UnitY();           ///< unit, from B towards A
+  double gap = 0.0;                      ///< normal·(point_a - point_b), metres; negative: overlap
+  int normal_owner = -1;                 ///< the body whose surface gives the normal and turns it along; -1: neither
+  std::uint64_t feature = 0;  ///< which features touch: stable from step to step, unique within the body pair
 };
 
 /// Identity of a feature pair for warm starting: kinds and indices of the features on a and b.
 enum class Feature : std::uint8_t { vertex = 0, edge = 1, face = 2, shape = 3 };
 inline std::uint64_t feature_key(Feature kind_a, int index_a, Feature kind_b, int index_b) {
-  return (static_cast<std::uint64_t>(kind_a) << 62) | (static_cast<std::uint64_t>(static_cast<std::uint32_t>(index_a) & 0x3fffffffu) << 32) |
+  return (static_cast<std::uint64_t>(kind_a) << 62) |
+         (static_cast<std::uint64_t>(static_cast<std::uint32_t>(index_a) & 0x3fffffffu) << 32) |
          (static_cast<std::uint64_t>(kind_b) << 30) | (static_cast<std::uint32_t>(index_b) & 0x3fffffffu);
 }
 

@@ -28,7 +28,8 @@ Vec3 project_to_pyramid(const Vec3& z, double mu) {
 }
 
 double cone_violation(const Vec3& lambda, double mu, FrictionLaw law) {
-  const double t = law == FrictionLaw::cone ? std::hypot(lambda.y(), lambda.z()) : std::max(std::abs(lambda.y()), std::abs(lambda.z()));
+  const double t = law == FrictionLaw::cone ? std::hypot(lambda.y(), lambda.z())
+                                            : std::max(std::abs(lambda.y()), std::abs(lambda.z()));
   return std::max({0.0, -lambda.x(), t - mu * lambda.x()});
 }
 

@@ -1,7 +1,7 @@
-// The friction cone K_mu and what one contact can solve exactly. Coulomb's cone is { (n, t) : |t| <= mu n }. The pyramid
-// { |t1| <= mu n, |t2| <= mu n } is what linear complementarity can express: a law of its own, stronger by up to √2 across
-// the corners. Both obey the same complementarity, K ∋ λ ⊥ u_hat ∈ K*, so what is written with the projection and the shift
-// below serves either.
+// The friction cone K_mu and what one contact can solve exactly. Coulomb's cone is { (n, t) : |t| <= mu n }. The
+// pyramid { |t1| <= mu n, |t2| <= mu n } is what linear complementarity can express: a law of its own, stronger by up
+// to √2 across the corners. Both obey the same complementarity, K ∋ λ ⊥ u_hat ∈ K*, so what is written with the
+// projection and the shift below serves either.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,8 @@ inline Vec3 de_saxce(const Vec3& u, double mu) { return {u.x() + mu * std::hypot
 
 /// The same for either law: the shift is mu times what a unit normal impulse dissipates, |u_T| or |u_1| + |u_2|.
 inline Vec3 de_saxce(const Vec3& u, double mu, FrictionLaw law) {
-  return law == FrictionLaw::cone ? de_saxce(u, mu) : Vec3(u.x() + mu * (std::abs(u.y()) + std::abs(u.z())), u.y(), u.z());
+  return law == FrictionLaw::cone ? de_saxce(u, mu)
+                                  : Vec3(u.x() + mu * (std::abs(u.y()) + std::abs(u.z())), u.y(), u.z());
 }
 
 /// How far λ lies outside its cone, as a tangential impulse: max(0, |λ_t| - mu λ_n) (the pyramid: of the larger side).

@@ -36,7 +36,8 @@ Vec3 GroupSystem::contact_velocity(std::size_t i, bool with_delta) const {
 
 Vec3 GroupSystem::displacement_velocity(std::size_t i) const {
   return row_velocity(*this, i, true, [&](int body, int node) {
-    return Vec3(soft[body].displacement_velocity.segment<3>(3 * node) + soft[body].displacement_scale * soft_delta[body].segment<3>(3 * node));
+    return Vec3(soft[body].displacement_velocity.segment<3>(3 * node) +
+                soft[body].displacement_scale * soft_delta[body].segment<3>(3 * node));
   });
 }
 

@@ -17,45 +17,46 @@ struct BodyBlock {
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
 };
 
-/// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions move by
-/// Δq(v) = s v + d (SPEC §1): where a scheme's Δq is not Δt v (Newmark), what overlap is left after the velocities is
-/// pushed out in the same sub-step, which sees displacement velocities Δq/Δt.
+/// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions
+/// move by Δq(v) = s v + d (SPEC §1): where a scheme's Δq is not Δt v (Newmark), what overlap is left after the
+/// velocities is pushed out in the same sub-step, which sees displacement velocities Δq/Δt.
 struct SoftBlock {
-  const BlockMatrix* a = nullptr;        ///< kg
-  LinearSolver* solver = nullptr;        ///< analyzed with a's pattern; factorized when a response asks for it
-  bool is_diagonal = false;              ///< a has nothing beside its diagonal blocks (explicit schemes, lumped mass)
-  VecX velocity;                         ///< v*, 3 x free nodes, m/s
-  VecX displacement_velocity;            ///< (s v* + d)/Δt, m/s
-  double displacement_scale = 1.0;       ///< s/Δt
+  const BlockMatrix* a = nullptr;   ///< kg
+  LinearSolver* solver = nullptr;   ///< analyzed with a's pattern; factorized when a response asks for it
+  bool is_diagonal = false;         ///< a has nothing beside its diagonal blocks (explicit schemes, lumped mass)
+  VecX velocity;                    ///< v*, 3 x free nodes, m/s
+  VecX displacement_velocity;       ///< (s v* + d)/Δt, m/s
+  double displacement_scale = 1.0;  ///< s/Δt
 };
 
 struct NodeWeight {
-  int node = -1;                         ///< free node of the deformable body
+  int node = -1;  ///< free node of the deformable body
   double weight = 0.0;
 };
 
-/// One body of a contact: a rigid body by its lever arm, a deformable one by the nodes that carry the point, or neither:
-/// a body without freedom, whose motion is in ContactRows::surface.
+/// One body of a contact: a rigid body by its lever arm, a deformable one by the nodes that carry the point, or
+/// neither: a body without freedom, whose motion is in ContactRows::surface.
 struct ContactSide {
-  int rigid = -1;                        ///< index into GroupSystem::bodies
-  int soft = -1;                         ///< index into GroupSystem::soft
-  Vec3 arm = Vec3::Zero();               ///< rigid: from the centre of mass to the common point
-  std::vector<NodeWeight> nodes;         ///< deformable; held nodes are left out
+  int rigid = -1;                 ///< index into GroupSystem::bodies
+  int soft = -1;                  ///< index into GroupSystem::soft
+  Vec3 arm = Vec3::Zero();        ///< rigid: from the centre of mass to the common point
+  std::vector<NodeWeight> nodes;  ///< deformable; held nodes are left out
 };
 
 /// Rows (n, t1, t2) of J for one contact. Two rigid bodies act at one common point, or impulses would not keep angular
-/// momentum. A row is [ d^T  (r_A x d)^T  -d^T  -(r_B x d)^T ] for each direction d [Haapaoja16 Eq. 4.11]; for a deformable
-/// body it is w_j d^T at each node j.
+/// momentum. A row is [ d^T (r_A x d)^T -d^T -(r_B x d)^T ] for each direction d [Haapaoja16 Eq. 4.11]; for a
+/// deformable body it is w_j d^T at each node j.
 struct ContactRows {
   RowKind kind = RowKind::contact;
   ContactSide a, b;
   Mat3 directions = Mat3::Zero();  ///< rows n^T, t1^T, t2^T
-  Vec3 surface = Vec3::Zero();     ///< what prescribed motion (bodies without freedom, held nodes) adds to J v, along the rows
-  double gap = 0.0;                ///< g0, metres
-  double bound = 0.0;              ///< J v >= bound along n, m/s
-  double friction = 0.0;           ///< 0: a contact without tangential rows
-  double restitution = 0.0;        ///< e of the pair; where this is an impact the bound holds its bounce already
-  double velocity_before = 0.0;    ///< J v along n before the sub-step, m/s: what a bounce is a part of
+  /// what prescribed motion (bodies without freedom, held nodes) adds to J v, along the rows
+  Vec3 surface = Vec3::Zero();
+  double gap = 0.0;              ///< g0, metres
+  double bound = 0.0;            ///< J v >= bound along n, m/s
+  double friction = 0.0;         ///< 0: a contact without tangential rows
+  double restitution = 0.0;      ///< e of the pair; where this is an impact the bound holds its bounce already
+  double velocity_before = 0.0;  ///< J v along n before the sub-step, m/s: what a bounce is a part of
   bool has_one_row() const { return kind == RowKind::sliding || (kind == RowKind::contact && friction == 0.0); }
 };
 
@@ -63,14 +64,15 @@ struct GroupSystem {
   std::vector<BodyBlock> bodies;
   std::vector<SoftBlock> soft;
   std::vector<ContactRows> contacts;
-  std::vector<Vec3> lambda;        ///< in: where to start; out: impulses (n, t1, t2), N·s
+  std::vector<Vec3> lambda;                                  ///< in: where to start; out: impulses (n, t1, t2), N·s
   std::vector<Vec3> delta_velocity, delta_angular_velocity;  ///< out: Δv = A⁻¹ J^T λ by rigid body
-  std::vector<VecX> soft_delta;    ///< out: the same by deformable body, over its free nodes
-  /// Out, or empty: velocities beside v* + Δv by which positions move in this sub-step and no later one, by rigid body, in groups
-  /// without deformable ones: of responses that tell recovery from overlap and motion apart.
+  std::vector<VecX> soft_delta;                              ///< out: the same by deformable body, over its free nodes
+  /// Out, or empty: velocities beside v* + Δv by which positions move in this sub-step and no later one, by rigid body,
+  /// in groups without deformable ones: of responses that tell recovery from overlap and motion apart.
   std::vector<Vec3> position_velocity, position_angular_velocity;
-  /// W = J A⁻¹ J^T, 1/kg, once a response has assembled it. Copies share it; whoever changes A, directions, arms or nodes resets
-  /// it. Velocities, bounds, kinds and friction are free to change; the solvers keep their factorizations with it.
+  /// W = J A⁻¹ J^T, 1/kg, once a response has assembled it. Copies share it; whoever changes A, directions, arms or
+  /// nodes resets it. Velocities, bounds, kinds and friction are free to change; the solvers keep their factorizations
+  /// with it.
   std::shared_ptr<const MatX> assembled;
 
   /// J v of contact i for the bodies' velocities, with or without the Δv.

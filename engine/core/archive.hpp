@@ -13,10 +13,8 @@ namespace impinge {
 class ByteWriter {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T>
-  void put(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
-  }
+  requires std::is_arithmetic_v<T>
+  void put(T value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T)); }
   void put(const Vec3& v) { put(v.x()), put(v.y()), put(v.z()); }
   void put(const Mat3& m) {
     for (int i = 0; i < 9; ++i) put(m.data()[i]);
@@ -31,8 +29,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
-    requires std::is_arithmetic_v<T>
-  T get() {
+  requires std::is_arithmetic_v<T> T get() {
     if (bytes_.size() < sizeof(T)) throw InputError("snapshot: ends early; it is damaged, remove it and run again");
     T value;
     std::memcpy(&value, bytes_.data(), sizeof(T));

@@ -6,7 +6,8 @@
 
 namespace impinge {
 
-/// The user's input can't be taken (exit code 2). One message: `file:line:column: what was found; what is allowed; remedy`.
+/// The user's input can't be taken (exit code 2). One message: `file:line:column: what was found; what is allowed;
+/// remedy`.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -22,8 +23,8 @@ struct InternalError : std::logic_error {
 };
 
 /// Throws InternalError with the condition's text unless it holds.
-#define IMPINGE_ASSERT(condition)                                                                          \
-  do {                                                                                                     \
+#define IMPINGE_ASSERT(condition)                                                                             \
+  do {                                                                                                        \
     if (!(condition)) throw ::impinge::InternalError(std::string(__FILE__) + ": does not hold: " #condition); \
   } while (false)
 

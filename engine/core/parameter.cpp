@@ -84,7 +84,8 @@ void check_name(const Parameter& row, const std::string& name) {
   if (is_reserved_name(row.path, name))
     refuse(row, fmt::format("'{}'", name), " is a reserved name that is not part of this version");
   const std::string near = nearest_word(name, row.names);
-  refuse(row, fmt::format("'{}'", name), near.empty() ? " is not known" : fmt::format(" is not known (did you mean '{}'?)", near));
+  refuse(row, fmt::format("'{}'", name),
+         near.empty() ? " is not known" : fmt::format(" is not known (did you mean '{}'?)", near));
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -98,7 +99,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
       std::size_t& c = cost[i * columns + j];
       c = std::min({cost[(i - 1) * columns + j] + 1, cost[i * columns + j - 1] + 1,
                     cost[(i - 1) * columns + j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) c = std::min(c, cost[(i - 2) * columns + j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        c = std::min(c, cost[(i - 2) * columns + j - 2] + 1);
     }
   }
   return cost.back();
@@ -126,7 +128,8 @@ void ParameterSet::add(std::string path, int& variable, Range range, std::string
   Parameter row;
   row.path = std::move(path);
   row.kind = ParameterKind::integer;
-  row.range = {std::max(range.low, double(std::numeric_limits<int>::min())), std::min(range.high, double(std::numeric_limits<int>::max())), range.logarithmic};
+  row.range = {std::max(range.low, double(std::numeric_limits<int>::min())),
+               std::min(range.high, double(std::numeric_limits<int>::max())), range.logarithmic};
   row.unit = std::move(unit);
   row.doc = std::move(doc);
   row.initial = std::int64_t{variable};
@@ -219,7 +222,8 @@ ParameterValue parse_value(const Parameter& row, std::string_view text) {
       return checked_value(row, v);
     }
     case ParameterKind::text:
-    case ParameterKind::choice: return checked_value(row, unquoted(text));
+    case ParameterKind::choice:
+      return checked_value(row, unquoted(text));
     case ParameterKind::text_list: {
       auto items = list_items(text);
       if (!items) refuse(row, found);
@@ -294,16 +298,23 @@ std::string format_value(const ParameterValue& value) {
 std::string describe_allowed(const Parameter& row) {
   const auto numbers = [&](const char* what) {
     const std::string unit = row.unit.empty() ? "" : " " + row.unit;
-    if (row.range.low <= -kUnbounded && row.range.high >= kUnbounded) return fmt::format("{}{}", what, unit.empty() ? "" : " in" + unit);
+    if (row.range.low <= -kUnbounded && row.range.high >= kUnbounded)
+      return fmt::format("{}{}", what, unit.empty() ? "" : " in" + unit);
     return fmt::format("{} in [{}, {}]{}", what, shortest(row.range.low), shortest(row.range.high), unit);
   };
   switch (row.kind) {
-    case ParameterKind::boolean: return "true or false";
-    case ParameterKind::integer: return numbers("an integer");
-    case ParameterKind::real: return numbers("a real number");
-    case ParameterKind::vector3: return "[x, y, z], each " + numbers("a real number");
-    case ParameterKind::text: return "a text";
-    case ParameterKind::choice: return fmt::format("one of {}", fmt::join(row.names, ", "));
+    case ParameterKind::boolean:
+      return "true or false";
+    case ParameterKind::integer:
+      return numbers("an integer");
+    case ParameterKind::real:
+      return numbers("a real number");
+    case ParameterKind::vector3:
+      return "[x, y, z], each " + numbers("a real number");
+    case ParameterKind::text:
+      return "a text";
+    case ParameterKind::choice:
+      return fmt::format("one of {}", fmt::join(row.names, ", "));
     case ParameterKind::text_list:
       return row.names.empty() ? "a list of texts" : fmt::format("a list of {}", fmt::join(row.names, ", "));
   }
@@ -315,7 +326,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance < std::min(word.size(), candidate.size())) best = candidate, best_distance = distance;
+    if (distance < best_distance && distance < std::min(word.size(), candidate.size()))
+      best = candidate, best_distance = distance;
   }
   return best;
 }

@@ -1,5 +1,6 @@
 // One declaration a parameter. A row says where it is (dotted path), what it may be (kind, unit, range, names), what it
-// starts as and what it means, and can read and write it. Scene file, --set, script, GUI, sweep and reference use rows only.
+// starts as and what it means, and can read and write it. Scene file, --set, script, GUI, sweep and reference use rows
+// only.
 #pragma once
 
 #include <functional>
@@ -25,14 +26,14 @@ struct Range {
 struct Parameter {
   std::string path;
   ParameterKind kind = ParameterKind::real;
-  std::string unit;                ///< "m", "s", "m/s²", "" for a number without one
+  std::string unit;  ///< "m", "s", "m/s²", "" for a number without one
   Range range;
   std::vector<std::string> names;  ///< of a choice
   std::string doc;                 ///< one sentence
   ParameterValue initial;
   std::function<ParameterValue()> get;
   std::function<void(const ParameterValue&)> set;
-  bool live = true;                ///< may change between frames; else only before the first
+  bool live = true;  ///< may change between frames; else only before the first
 };
 
 class ParameterSet {

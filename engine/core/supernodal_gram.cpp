@@ -1,9 +1,9 @@
 // With Y = L⁻¹ P B, Bᵀ A⁻¹ B = Yᵀ Y: half of the triangular solves, and symmetric by itself. Y is never stored. The
 // supernodes (blocks of columns of L with the same rows below) are taken from the leaves of the elimination tree to its
 // root as in a multifrontal factorization: each gathers the parts of B in its own rows and what its children have left
-// for it, solves for its rows of Y, adds their products to W and hands the rest on. A supernode works on those columns of
-// B only that reach it, which is where sparse columns save: a contact on the surface touches one path from a leaf to the
-// root.
+// for it, solves for its rows of Y, adds their products to W and hands the rest on. A supernode works on those columns
+// of B only that reach it, which is where sparse columns save: a contact on the surface touches one path from a leaf to
+// the root.
 #ifdef IMPINGE_CHOLMOD
 
 #include "engine/core/supernodal_gram.hpp"
@@ -60,8 +60,7 @@ std::vector<Entry3> permuted_entries(const cholmod_factor& l, const SparseColumn
   std::vector<Entry3> entries;
   entries.reserve(b.nonZeros());
   for (int j = 0; j < b.outerSize(); ++j)
-    for (SparseColumns::InnerIterator it(b, j); it; ++it)
-      entries.push_back({place[it.row()], j, it.value()});
+    for (SparseColumns::InnerIterator it(b, j); it; ++it) entries.push_back({place[it.row()], j, it.value()});
   std::stable_sort(entries.begin(), entries.end(), [](const Entry3& p, const Entry3& q) { return p.row < q.row; });
   return entries;
 }

@@ -1,5 +1,6 @@
 // Closest points between points, segments and triangles, and on which feature they lie. [Ericson04 §5.1]
-// Degenerate input (a triangle that is a segment or a point, a segment that is a point) gives the right answer, never NaN.
+// Degenerate input (a triangle that is a segment or a point, a segment that is a point) gives the right answer, never
+// NaN.
 #pragma once
 
 #include "engine/core/types.hpp"
@@ -35,7 +36,8 @@ struct SegmentSegment {
   double s = 0.0, t = 0.0;  ///< parameters of the closest points on the first and the second segment, in [0, 1]
   Vec3 point0 = Vec3::Zero(), point1 = Vec3::Zero();
   double squared_distance = 0.0;
-  /// Both points lie strictly inside their segments, which are not parallel: the line through them is their common normal.
+  /// Both points lie strictly inside their segments, which are not parallel: the line through them is their common
+  /// normal.
   bool interior = false;
 };
 /// For parallel segments one of the closest pairs that contain an end point. Exactly symmetric: exchanging the segments
@@ -53,8 +55,8 @@ TriangleTriangle closest_features(const TriangleCorners& a, const TriangleCorner
 /// Distance of the two closed triangles, metres: 0 if they intersect (see triangles_intersect for its tolerance).
 double triangle_distance(const TriangleCorners& a, const TriangleCorners& b);
 
-/// Whether closest_features(a, b) <= limit, found without looking at more features than needed. The same answer, bit for
-/// bit, as comparing squared_distance with limit².
+/// Whether closest_features(a, b) <= limit, found without looking at more features than needed. The same answer, bit
+/// for bit, as comparing squared_distance with limit².
 bool features_within(const TriangleCorners& a, const TriangleCorners& b, double limit);
 
 }  // namespace impinge

@@ -1,4 +1,5 @@
-// Whether a point lies inside a closed surface, and how deep: slow, exact in what it decides, and used by nobody but judges.
+// Whether a point lies inside a closed surface, and how deep: slow, exact in what it decides, and used by nobody but
+// judges.
 #pragma once
 
 #include <span>
@@ -7,7 +8,8 @@
 
 namespace impinge {
 
-/// Winding number of a closed surface round x: the sum of the triangles' solid angles over 4π [VanOosterom83]. 1 inside,
+/// Winding number of a closed surface round x: the sum of the triangles' solid angles over 4π [VanOosterom83]. 1
+/// inside,
 /// 0 outside, 1/2 on the surface; a surface that intersects itself has larger numbers where it overlaps.
 double winding_number(const Vec3& x, std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 

@@ -8,11 +8,14 @@
 namespace impinge {
 
 TriangleMesh sphere_surface(double radius, int k) {
-  const double g = 0.5 * (1.0 + std::sqrt(5.0));  // golden section: the icosahedron's corners are (0, ±1, ±g) and cyclic
+  // golden section: the icosahedron's corners are (0, ±1, ±g) and cyclic
+  const double g = 0.5 * (1.0 + std::sqrt(5.0));
   TriangleMesh mesh;
-  mesh.vertices = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},   {4, 9, 5}, {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < k; ++level) {
     std::map<std::pair<int, int>, int> middle;
     const auto half_way = [&](int a, int b) {
@@ -66,7 +69,8 @@ TriangleMesh box_surface(const Vec3& half, const Eigen::Vector3i& cells) {
 
 TriangleMesh capsule_surface(double radius, double half_length, int around) {
   const double edge = 2.0 * std::numbers::pi * radius / around;
-  const int cap = std::max(2, (around + 2) / 4), side = std::max(1, static_cast<int>(std::lround(2.0 * half_length / edge)));
+  const int cap = std::max(2, (around + 2) / 4),
+            side = std::max(1, static_cast<int>(std::lround(2.0 * half_length / edge)));
   std::vector<Vec2> profile;  // distance from the axis and y of each ring, poles left out, from below
   for (int i = 1; i <= cap; ++i) {
     const double angle = 0.5 * std::numbers::pi * i / cap;
@@ -90,7 +94,8 @@ TriangleMesh capsule_surface(double radius, double half_length, int around) {
   for (int k = 0; k < around; ++k) {
     mesh.triangles.push_back({0, at(0, k + 1), at(0, k)});
     for (int r = 0; r + 1 < rings; ++r)
-      mesh.triangles.insert(mesh.triangles.end(), {{at(r, k), at(r, k + 1), at(r + 1, k + 1)}, {at(r, k), at(r + 1, k + 1), at(r + 1, k)}});
+      mesh.triangles.insert(mesh.triangles.end(),
+                            {{at(r, k), at(r, k + 1), at(r + 1, k + 1)}, {at(r, k), at(r + 1, k + 1), at(r + 1, k)}});
     mesh.triangles.push_back({at(rings - 1, k), at(rings - 1, k + 1), top});
   }
   return mesh;

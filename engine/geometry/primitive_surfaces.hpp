@@ -8,7 +8,8 @@ namespace impinge {
 /// An icosahedron whose edges are halved k times, vertices on the sphere: 20·4^k triangles, closed, outward.
 TriangleMesh sphere_surface(double radius, int k);
 
-/// A box about the origin, each side cut into cells[axis] pieces, two triangles a cell; vertices shared, closed, outward.
+/// A box about the origin, each side cut into cells[axis] pieces, two triangles a cell; vertices shared, closed,
+/// outward.
 TriangleMesh box_surface(const Vec3& half, const Eigen::Vector3i& cells);
 
 /// A capsule about the origin along y, cap centres at y = ±half_length: `around` >= 3 vertices a ring, rings about as

@@ -10,7 +10,8 @@ constexpr double kRadians = M_PI / 180.0;
 
 Mat3 rotation_from_degrees(const Vec3& degrees) {
   const Vec3 r = degrees * kRadians;
-  return (Eigen::AngleAxisd(r.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) * Eigen::AngleAxisd(r.x(), Vec3::UnitX()))
+  return (Eigen::AngleAxisd(r.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) *
+          Eigen::AngleAxisd(r.x(), Vec3::UnitX()))
       .toRotationMatrix();
 }
 

@@ -24,8 +24,8 @@ class TetWinding {
 
  private:
   std::vector<std::array<int, 2>> edge_;
-  std::vector<int> begin_;                      // of each edge's ring
-  std::vector<std::array<int, 2>> ring_;        // the other two corners of each tetrahedron, in the sense of the ring
+  std::vector<int> begin_;                // of each edge's ring
+  std::vector<std::array<int, 2>> ring_;  // the other two corners of each tetrahedron, in the sense of the ring
 };
 
 }  // namespace impinge

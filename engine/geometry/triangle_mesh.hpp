@@ -14,16 +14,16 @@ struct TriangleMesh {
 /// Which edges and triangles meet where. Built once a mesh, valid for every pose and deformation of it.
 struct MeshTopology {
   struct Edge {
-    int v0 = -1, v1 = -1;              ///< v0 < v1
-    int triangle0 = -1, triangle1 = -1;///< the two triangles that share it; triangle1 = -1 on a border
+    int v0 = -1, v1 = -1;                ///< v0 < v1
+    int triangle0 = -1, triangle1 = -1;  ///< the two triangles that share it; triangle1 = -1 on a border
   };
-  std::vector<Edge> edges;                      ///< sorted by (v0, v1)
-  std::vector<std::array<int, 3>> triangle_edges;///< edge k of a triangle joins its corners k and (k+1)%3
-  std::vector<int> vertex_triangle_begin;       ///< CSR rows: vertices + 1 entries
-  std::vector<int> vertex_triangles;            ///< triangles round each vertex, ascending
-  int nonmanifold_edges = 0;                    ///< edges with three or more triangles (only the first two are kept)
-  int border_edges = 0;                         ///< edges with one triangle
-  int misoriented_edges = 0;                    ///< edges that both their triangles traverse in the same direction
+  std::vector<Edge> edges;                         ///< sorted by (v0, v1)
+  std::vector<std::array<int, 3>> triangle_edges;  ///< edge k of a triangle joins its corners k and (k+1)%3
+  std::vector<int> vertex_triangle_begin;          ///< CSR rows: vertices + 1 entries
+  std::vector<int> vertex_triangles;               ///< triangles round each vertex, ascending
+  int nonmanifold_edges = 0;                       ///< edges with three or more triangles (only the first two are kept)
+  int border_edges = 0;                            ///< edges with one triangle
+  int misoriented_edges = 0;                       ///< edges that both their triangles traverse in the same direction
   bool is_closed() const { return nonmanifold_edges == 0 && border_edges == 0 && misoriented_edges == 0; }
 };
 

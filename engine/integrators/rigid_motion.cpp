@@ -11,7 +11,9 @@ void advance_rigid(RigidBody& body, double time_step) {
   if (body.angular_momentum.isZero(0.0)) return;
   // fixed point for the midpoint angular velocity: contracts by about (Δt |w|)/2, so a handful of rounds reach rounding
   const Mat3 start = body.pose.rotation;
-  const auto angular_velocity = [&](const Mat3& r) { return Vec3(r * (body.inertia_inverse * (r.transpose() * body.angular_momentum))); };
+  const auto angular_velocity = [&](const Mat3& r) {
+    return Vec3(r * (body.inertia_inverse * (r.transpose() * body.angular_momentum)));
+  };
   Vec3 w = angular_velocity(start);
   for (int i = 0; i < 50; ++i) {
     const Vec3 next = angular_velocity(rotation_exp(0.5 * time_step * w) * start);

@@ -15,7 +15,8 @@ namespace impinge {
 namespace {
 
 [[noreturn]] void refuse(const std::string& name, int code) {
-  throw OutputError(fmt::format("{}: can't be written ({}); free space or choose another --out", name, std::strerror(code)));
+  throw OutputError(
+      fmt::format("{}: can't be written ({}); free space or choose another --out", name, std::strerror(code)));
 }
 
 }  // namespace
@@ -34,7 +35,8 @@ AppendFile::~AppendFile() {
   if (handle_ >= 0) close(handle_);
 }
 
-AppendFile::AppendFile(AppendFile&& other) noexcept : name_(std::move(other.name_)), handle_(std::exchange(other.handle_, -1)) {}
+AppendFile::AppendFile(AppendFile&& other) noexcept
+    : name_(std::move(other.name_)), handle_(std::exchange(other.handle_, -1)) {}
 
 AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
   std::swap(name_, other.name_);

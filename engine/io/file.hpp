@@ -10,8 +10,8 @@
 
 namespace impinge {
 
-/// What is written finds no place (disk full, no permission): exit code 2 like other input errors, but no fault of the scene
-/// in hand, so that whoever goes on after an InputError with the next scene stops here.
+/// What is written finds no place (disk full, no permission): exit code 2 like other input errors, but no fault of the
+/// scene in hand, so that whoever goes on after an InputError with the next scene stops here.
 struct OutputError : InputError {
   using InputError::InputError;
 };
@@ -19,7 +19,8 @@ struct OutputError : InputError {
 /// The bytes of a regular file of at most `limit` bytes. Throws InputError, beginning with the path, naming the remedy.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit);
 
-/// Writes a temporary file beside `path`, then renames it. Throws OutputError where that can't be done; nothing of it is left then.
+/// Writes a temporary file beside `path`, then renames it. Throws OutputError where that can't be done; nothing of it
+/// is left then.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace impinge

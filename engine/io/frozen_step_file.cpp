@@ -53,7 +53,8 @@ void put_group(LittleEndianWriter& out, const FrozenGroup& group) {
     out.put(system.lambda[i]), out.put(group.answer.lambda[i]);
     put_side(out, rows.a), put_side(out, rows.b);
   }
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) out.put(group.answer.delta_velocity[b]), out.put(group.answer.delta_angular_velocity[b]);
+  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+    out.put(group.answer.delta_velocity[b]), out.put(group.answer.delta_angular_velocity[b]);
   for (const VecX& v : group.answer.soft_delta) out.put(v);
 }
 
@@ -62,7 +63,8 @@ class Reader {
   Reader(std::string name, std::string_view bytes, std::size_t at) : name_(std::move(name)), bytes_(bytes), at_(at) {}
 
   [[noreturn]] void fail(std::size_t at, const std::string& found, const std::string& allowed) const {
-    throw InputError(fmt::format("{}: byte {}: {}; {}; write it anew with impinge run --freeze", name_, at, found, allowed));
+    throw InputError(
+        fmt::format("{}: byte {}: {}; {}; write it anew with impinge run --freeze", name_, at, found, allowed));
   }
   template <class T>
   T get() {
@@ -76,21 +78,24 @@ class Reader {
   double positive(const char* what, bool or_zero) {
     const std::size_t at = at_;
     const double value = get<double>();
-    if (!(value > 0.0 || (or_zero && value == 0.0))) fail(at, fmt::format("{} is {}", what, value), or_zero ? "0 or more is wanted" : "more than 0 is wanted");
+    if (!(value > 0.0 || (or_zero && value == 0.0)))
+      fail(at, fmt::format("{} is {}", what, value), or_zero ? "0 or more is wanted" : "more than 0 is wanted");
     return value;
   }
   /// A number in [low, high).
   int index(const char* what, std::int64_t low, std::int64_t high) {
     const std::size_t at = at_;
     const auto value = get<std::int32_t>();
-    if (value < low || value >= high) fail(at, fmt::format("{} is {}", what, value), fmt::format("{} to {} is wanted", low, high - 1));
+    if (value < low || value >= high)
+      fail(at, fmt::format("{} is {}", what, value), fmt::format("{} to {} is wanted", low, high - 1));
     return value;
   }
   /// A number of things that take at least `size` bytes each: more than the file has room for are not believed.
   std::size_t count(const char* what, std::size_t size) {
     const std::size_t at = at_;
     const std::size_t n = get<std::uint32_t>();
-    if (n > (bytes_.size() - at_) / size) fail(at, fmt::format("{} {}", n, what), "no more than the file has room for are wanted");
+    if (n > (bytes_.size() - at_) / size)
+      fail(at, fmt::format("{} {}", n, what), "no more than the file has room for are wanted");
     return n;
   }
   std::string text() {
@@ -125,11 +130,14 @@ class Reader {
 BlockMatrix read_matrix(Reader& in) {
   const std::size_t n = in.count("free nodes", 4), start = in.at();
   std::vector<int> begin, column;
-  for (std::size_t i = 0; i <= n; ++i) begin.push_back(in.index("a row's begin", i == 0 ? 0 : begin.back(), i == 0 ? 1 : std::int64_t{1} << 31));
-  if (static_cast<std::size_t>(begin.back()) > n * n) in.fail(start, fmt::format("{} blocks", begin.back()), "a row has a block a column at most");
+  for (std::size_t i = 0; i <= n; ++i)
+    begin.push_back(in.index("a row's begin", i == 0 ? 0 : begin.back(), i == 0 ? 1 : std::int64_t{1} << 31));
+  if (static_cast<std::size_t>(begin.back()) > n * n)
+    in.fail(start, fmt::format("{} blocks", begin.back()), "a row has a block a column at most");
   for (std::size_t i = 0; i < n; ++i)
     for (int k = begin[i]; k < begin[i + 1]; ++k)
-      column.push_back(in.index("a block's column", k == begin[i] ? 0 : column.back() + 1, static_cast<std::int64_t>(n)));
+      column.push_back(
+          in.index("a block's column", k == begin[i] ? 0 : column.back() + 1, static_cast<std::int64_t>(n)));
   BlockPattern pattern = block_pattern_of_rows(std::move(begin), std::move(column));
   for (const int at : pattern.diagonal)
     if (at < 0) in.fail(start, "a row without its diagonal block", "every row has one");
@@ -164,7 +172,8 @@ void read_contact(Reader& in, std::int64_t bodies, FrozenGroup& group) {
   if (kind > 2) in.fail(start, fmt::format("kind {}", kind), "0 to 2 is wanted");
   rows.kind = static_cast<RowKind>(kind);
   at.body_a = in.index("a contact's body", -1, bodies), at.body_b = in.index("a contact's body", -1, bodies);
-  at.triangle_a = in.index("a triangle", -1, std::int64_t{1} << 31), at.triangle_b = in.index("a triangle", -1, std::int64_t{1} << 31);
+  at.triangle_a = in.index("a triangle", -1, std::int64_t{1} << 31),
+  at.triangle_b = in.index("a triangle", -1, std::int64_t{1} << 31);
   at.point_a = in.vec3(), at.point_b = in.vec3(), at.feature = in.get<std::uint64_t>();
   rows.directions = in.mat3(), rows.surface = in.vec3(), rows.gap = in.get<double>(), rows.bound = in.get<double>();
   rows.friction = in.positive("friction", true);
@@ -199,8 +208,10 @@ FrozenGroup read_group(Reader& in, std::int64_t bodies) {
   }
   const std::size_t contacts = in.count("contacts", 316);
   for (std::size_t i = 0; i < contacts; ++i) read_contact(in, bodies, group);
-  for (std::size_t b = 0; b < rigid; ++b) group.answer.delta_velocity.push_back(in.vec3()), group.answer.delta_angular_velocity.push_back(in.vec3());
-  for (const BlockMatrix& a : group.matrices) group.answer.soft_delta.push_back(in.numbers(static_cast<std::size_t>(a.rows())));
+  for (std::size_t b = 0; b < rigid; ++b)
+    group.answer.delta_velocity.push_back(in.vec3()), group.answer.delta_angular_velocity.push_back(in.vec3());
+  for (const BlockMatrix& a : group.matrices)
+    group.answer.soft_delta.push_back(in.numbers(static_cast<std::size_t>(a.rows())));
   group.system.clear_delta();
   return group;
 }
@@ -208,11 +219,13 @@ FrozenGroup read_group(Reader& in, std::int64_t bodies) {
 /// What responses with a law of their own were set to.
 void read_laws(Reader& in, ResponseSettings& s) {
   constexpr std::int64_t kEnd = std::int64_t{1} << 31;
-  s.max_push_out = in.positive("the fastest recovery", true), s.restitution_threshold = in.positive("the slowest bounce", true);
+  s.max_push_out = in.positive("the fastest recovery", true),
+  s.restitution_threshold = in.positive("the slowest bounce", true);
   s.impulse_iterations = in.index("sweeps", 0, kEnd);
   const std::size_t at = in.at();
   s.penalty_form = in.text();
-  if (s.penalty_form != "implicit" && s.penalty_form != "explicit") in.fail(at, fmt::format("form '{}'", s.penalty_form), "implicit or explicit is wanted");
+  if (s.penalty_form != "implicit" && s.penalty_form != "explicit")
+    in.fail(at, fmt::format("form '{}'", s.penalty_form), "implicit or explicit is wanted");
   s.penalty_stiffness = in.positive("a stiffness", true), s.penalty_damping = in.positive("a damping", true);
   s.penalty_slip_speed = in.positive("the full friction's speed", false);
   s.soft_frequency = in.positive("a frequency", false), s.soft_damping_ratio = in.positive("a damping ratio", true);
@@ -223,35 +236,44 @@ void read_laws(Reader& in, ResponseSettings& s) {
 
 void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step) {
   LittleEndianWriter out, head;
-  out.put_text(step.scene), out.put(std::int32_t{step.frame}), out.put(step.time), out.put(step.time_step), out.put(step.gravity);
-  out.put_text(step.integrator), out.put_text(step.linear_solver), out.put_text(step.response), out.put_text(step.settings.form);
+  out.put_text(step.scene), out.put(std::int32_t{step.frame}), out.put(step.time), out.put(step.time_step),
+      out.put(step.gravity);
+  out.put_text(step.integrator), out.put_text(step.linear_solver), out.put_text(step.response),
+      out.put_text(step.settings.form);
   out.put_text(step.settings.stop), out.put_text(step.lcp), out.put(step.settings.lcp.tolerance);
   out.put(std::int32_t{step.settings.lcp.max_iterations}), out.put(std::int32_t{step.settings.max_outer_iterations});
   const ResponseSettings& s = step.settings;
-  out.put(s.max_push_out), out.put(s.restitution_threshold), out.put(std::int32_t{s.impulse_iterations}), out.put_text(s.penalty_form);
-  out.put(s.penalty_stiffness), out.put(s.penalty_damping), out.put(s.penalty_slip_speed), out.put(s.soft_frequency), out.put(s.soft_damping_ratio);
+  out.put(s.max_push_out), out.put(s.restitution_threshold), out.put(std::int32_t{s.impulse_iterations}),
+      out.put_text(s.penalty_form);
+  out.put(s.penalty_stiffness), out.put(s.penalty_damping), out.put(s.penalty_slip_speed), out.put(s.soft_frequency),
+      out.put(s.soft_damping_ratio);
   out.put(std::int32_t{s.soft_iterations}), out.put(std::int32_t{s.soft_relax_iterations});
   out.put_count(step.bodies.size());
   for (const std::string& name : step.bodies) out.put_text(name);
   out.put_count(step.groups.size());
   for (const FrozenGroup& group : step.groups) put_group(out, group);
-  head.put(kVersion), head.put(std::uint32_t{0}), head.put(std::uint64_t{out.bytes().size()}), head.put(fnv1a(out.bytes()));
+  head.put(kVersion), head.put(std::uint32_t{0}), head.put(std::uint64_t{out.bytes().size()}),
+      head.put(fnv1a(out.bytes()));
   write_file(path, std::string(kMagic) + head.bytes() + out.bytes());
 }
 
 FrozenStep read_frozen_step(const std::filesystem::path& path) {
   const std::string bytes = read_file(path, kMostBytes);
   Reader in(path.string(), bytes, std::min(kMagic.size(), bytes.size()));
-  if (std::string_view(bytes).substr(0, kMagic.size()) != kMagic) in.fail(0, "the file is no frozen step", "'impinge frozen step' is wanted at its beginning");
+  if (std::string_view(bytes).substr(0, kMagic.size()) != kMagic)
+    in.fail(0, "the file is no frozen step", "'impinge frozen step' is wanted at its beginning");
   if (const auto version = in.get<std::uint32_t>(); version != kVersion)
-    in.fail(kMagic.size(), fmt::format("version {} of the format", version), fmt::format("version {} is wanted", kVersion));
+    in.fail(kMagic.size(), fmt::format("version {} of the format", version),
+            fmt::format("version {} is wanted", kVersion));
   if (in.get<std::uint32_t>() != 0) in.fail(kMagic.size() + 4, "the file is damaged", "0 is wanted here");
   const auto length = in.get<std::uint64_t>(), checksum = in.get<std::uint64_t>();
   if (bytes.size() - kHead != length)
-    in.fail(std::min<std::uint64_t>(bytes.size(), kHead + length), bytes.size() - kHead < length ? "the file ends early" : "the file goes on behind its end",
+    in.fail(std::min<std::uint64_t>(bytes.size(), kHead + length),
+            bytes.size() - kHead < length ? "the file ends early" : "the file goes on behind its end",
             fmt::format("{} bytes behind the head are wanted, {} are there", length, bytes.size() - kHead));
   if (const std::uint64_t found = fnv1a(std::string_view(bytes).substr(kHead)); found != checksum)
-    in.fail(kMagic.size() + 16, "the file is damaged", fmt::format("checksum {:016x} is wanted, {:016x} was found", checksum, found));
+    in.fail(kMagic.size() + 16, "the file is damaged",
+            fmt::format("checksum {:016x} is wanted, {:016x} was found", checksum, found));
 
   FrozenStep step;
   step.scene = in.text(), step.frame = in.index("the frame", 0, std::int64_t{1} << 31), step.time = in.get<double>();
@@ -261,7 +283,8 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   step.linear_solver = in.text();
   // a solver that this build lacks: the automatic one gives the same answer to rounding
   if (step.linear_solver != "automatic" && find_entry(linear_solvers(), step.linear_solver) == nullptr) {
-    if (step.linear_solver != "cholmod") in.fail(solver_at, fmt::format("linear solver '{}'", step.linear_solver), "see impinge list parameters");
+    if (step.linear_solver != "cholmod")
+      in.fail(solver_at, fmt::format("linear solver '{}'", step.linear_solver), "see impinge list parameters");
     step.linear_solver = "automatic";
   }
   step.response = in.text(), step.settings.form = in.text(), step.settings.stop = in.text(), step.lcp = in.text();
@@ -271,7 +294,8 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   read_laws(in, step.settings);
   step.settings.time_step = step.time_step;
   for (std::size_t n = in.count("bodies", 4); n > 0; --n) step.bodies.push_back(in.text());
-  for (std::size_t n = in.count("groups", 12); n > 0; --n) step.groups.push_back(read_group(in, static_cast<std::int64_t>(step.bodies.size())));
+  for (std::size_t n = in.count("groups", 12); n > 0; --n)
+    step.groups.push_back(read_group(in, static_cast<std::int64_t>(step.bodies.size())));
   if (!in.at_end()) in.fail(in.at(), "more behind the last group", "the file ends there");
   return step;
 }

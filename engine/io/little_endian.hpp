@@ -11,15 +11,17 @@
 namespace impinge {
 
 template <class T>
-using BitsOf = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint8_t>>;
+using BitsOf =
+    std::conditional_t<sizeof(T) == 8, std::uint64_t, std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint8_t>>;
 
 class LittleEndianWriter {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T>
+  requires std::is_arithmetic_v<T>
   void put(T value) {
     const auto bits = std::bit_cast<BitsOf<T>>(value);
-    for (std::size_t k = 0; k < sizeof(T); ++k) bytes_.push_back(static_cast<char>(static_cast<std::uint8_t>(bits >> (8 * k))));
+    for (std::size_t k = 0; k < sizeof(T); ++k)
+      bytes_.push_back(static_cast<char>(static_cast<std::uint8_t>(bits >> (8 * k))));
   }
   void put(const Vec3& v) { put(v.x()), put(v.y()), put(v.z()); }
   void put(const VecX& v) {
@@ -46,7 +48,8 @@ template <class T>
 T little_endian_at(std::string_view bytes, std::size_t at) {
   BitsOf<T> bits = 0;
   for (std::size_t k = 0; k < sizeof(T); ++k)
-    bits = static_cast<BitsOf<T>>(bits | static_cast<BitsOf<T>>(static_cast<BitsOf<T>>(static_cast<std::uint8_t>(bytes[at + k])) << (8 * k)));
+    bits = static_cast<BitsOf<T>>(
+        bits | static_cast<BitsOf<T>>(static_cast<BitsOf<T>>(static_cast<std::uint8_t>(bytes[at + k])) << (8 * k)));
   return std::bit_cast<T>(bits);
 }
 

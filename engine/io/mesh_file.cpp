@@ -25,7 +25,8 @@ std::string ending(const std::string& name) {
 bool has_own_reader(const std::string& end) { return end == ".ply" || end == ".off" || end == ".obj" || end == ".stl"; }
 
 void check_faces(const std::string& name, const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) throw InputError(name + ": has no faces; a closed surface of triangles is wanted; export the mesh with its faces");
+  if (mesh.triangles.empty())
+    throw InputError(name + ": has no faces; a closed surface of triangles is wanted; export the mesh with its faces");
 }
 
 }  // namespace
@@ -33,11 +34,16 @@ void check_faces(const std::string& name, const TriangleMesh& mesh) {
 TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
   const std::string end = ending(name);
   TriangleMesh mesh;
-  if (end == ".ply") mesh = read_ply(name, bytes);
-  else if (end == ".off") mesh = read_off(name, bytes);
-  else if (end == ".obj") mesh = read_obj(name, bytes);
-  else if (end == ".stl") mesh = read_stl(name, bytes);
-  else throw InputError(name + ": this ending is not read from memory; ply, off, obj and stl are; convert it to PLY");
+  if (end == ".ply")
+    mesh = read_ply(name, bytes);
+  else if (end == ".off")
+    mesh = read_off(name, bytes);
+  else if (end == ".obj")
+    mesh = read_obj(name, bytes);
+  else if (end == ".stl")
+    mesh = read_stl(name, bytes);
+  else
+    throw InputError(name + ": this ending is not read from memory; ply, off, obj and stl are; convert it to PLY");
   check_faces(name, mesh);
   return mesh;
 }
@@ -53,7 +59,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
 void write_ply(const std::filesystem::path& path, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
   std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
+      "z\n"
       "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
       vertices.size(), triangles.size());
   const std::size_t head = out.size();

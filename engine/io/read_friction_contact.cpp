@@ -25,14 +25,16 @@ class Numbers {
   }
   std::int64_t whole(const char* what, std::int64_t wanted) {
     const std::int64_t value = whole(what);
-    if (value != wanted) fail(fmt::format("{} is {}", what, value), fmt::format("{} is wanted here", wanted), "export the file again");
+    if (value != wanted)
+      fail(fmt::format("{} is {}", what, value), fmt::format("{} is wanted here", wanted), "export the file again");
     return value;
   }
   /// A count of things that take at least `bytes` characters each in what is left of the file.
   std::int64_t room(const char* what, std::int64_t bytes) {
     const std::int64_t value = whole(what);
     const auto left = static_cast<std::int64_t>(lines_.bytes_left()) + kLineSlack;
-    if (value < 0 || value > left / bytes) fail(fmt::format("{} is {}", what, value), "no more than the file has room for", "export the file again");
+    if (value < 0 || value > left / bytes)
+      fail(fmt::format("{} is {}", what, value), "no more than the file has room for", "export the file again");
     return value;
   }
   bool end() {
@@ -42,7 +44,9 @@ class Numbers {
     pending_ = true;
     return false;
   }
-  [[noreturn]] void fail(const std::string& found, const std::string& allowed, const std::string& remedy) { lines_.fail(at_, found, allowed, remedy); }
+  [[noreturn]] void fail(const std::string& found, const std::string& allowed, const std::string& remedy) {
+    lines_.fail(at_, found, allowed, remedy);
+  }
   void fail_next(const std::string& allowed, const std::string& remedy) {
     step("");
     fail(quoted(lines_.word(at_)), allowed, remedy);
@@ -71,7 +75,8 @@ std::vector<Block> read_dense(Numbers& in, std::int64_t contacts) {
   in.whole("the number of columns", 3 * contacts);
   std::vector<Mat3> values(static_cast<std::size_t>(contacts * contacts));
   for (std::int64_t c = 0; c < 3 * contacts; ++c)
-    for (std::int64_t r = 0; r < 3 * contacts; ++r) values[r / 3 * contacts + c / 3](r % 3, c % 3) = in.real("a value of W");
+    for (std::int64_t r = 0; r < 3 * contacts; ++r)
+      values[r / 3 * contacts + c / 3](r % 3, c % 3) = in.real("a value of W");
   std::vector<Block> blocks;
   for (std::int64_t r = 0; r < contacts; ++r)
     for (std::int64_t c = 0; c < contacts; ++c) {
@@ -93,16 +98,21 @@ std::vector<Block> read_sparse(Numbers& in, std::int64_t contacts) {
   for (std::int64_t i = 0; i <= contacts; ++i) {
     const std::int64_t last = begin.empty() ? 0 : begin.back();
     begin.push_back(in.whole("an entry of index1"));
-    if (begin.back() < last || begin.back() > count || (i == 0 && begin.back() != 0) || (i == contacts && begin.back() != count))
-      in.fail(fmt::format("index1 goes on with {}", begin.back()), fmt::format("it rises from 0 to {}", count), "export the file again");
+    if (begin.back() < last || begin.back() > count || (i == 0 && begin.back() != 0) ||
+        (i == contacts && begin.back() != count))
+      in.fail(fmt::format("index1 goes on with {}", begin.back()), fmt::format("it rises from 0 to {}", count),
+              "export the file again");
   }
   std::vector<Block> blocks;
   for (std::int64_t row = 0; row < contacts; ++row)
     for (std::int64_t k = begin[row]; k < begin[row + 1]; ++k) {
       const std::int64_t column = in.whole("an entry of index2");
-      if (column < 0 || column >= contacts) in.fail(fmt::format("block column {}", column), fmt::format("there are columns 0 to {}", contacts - 1), "export the file again");
+      if (column < 0 || column >= contacts)
+        in.fail(fmt::format("block column {}", column), fmt::format("there are columns 0 to {}", contacts - 1),
+                "export the file again");
       if (k > begin[row] && column <= blocks.back().column)
-        in.fail(fmt::format("block column {} after {}", column, blocks.back().column), "columns rise along a row", "export the file again");
+        in.fail(fmt::format("block column {} after {}", column, blocks.back().column), "columns rise along a row",
+                "export the file again");
       blocks.push_back({static_cast<int>(row), static_cast<int>(column), Mat3::Zero()});
     }
   for (std::int64_t k = 0; k < count; ++k) {
@@ -118,16 +128,20 @@ FrictionContactProblem read_friction_contact(const std::filesystem::path& path) 
   const std::string text = read_file(path, kMostBytes);
   Numbers in(path.string(), text);
   const std::int64_t dimension = in.whole("the dimension");
-  if (dimension != 3) in.fail(fmt::format("dimension {}", dimension), "3, contacts in space, is read", "export a three-dimensional problem");
+  if (dimension != 3)
+    in.fail(fmt::format("dimension {}", dimension), "3, contacts in space, is read",
+            "export a three-dimensional problem");
   const std::int64_t contacts = in.room("the number of contacts", 9);
   if (contacts == 0) in.fail("no contacts", "at least one is wanted", "export a problem that has contacts");
   const std::int64_t storage = in.whole("the storage of W");
-  if (storage != 0 && storage != 1) in.fail(fmt::format("storage {}", storage), "0 (dense) or 1 (block sparse) is wanted", "export W in one of these");
+  if (storage != 0 && storage != 1)
+    in.fail(fmt::format("storage {}", storage), "0 (dense) or 1 (block sparse) is wanted", "export W in one of these");
   in.whole("the number of rows", 3 * contacts);
   in.whole("the number of columns", 3 * contacts);
   // a dense W has 9 contacts² values of two characters at least; told before the memory is asked for
   if (storage == 0 && static_cast<std::uint64_t>(contacts) * contacts * 18 > text.size() + 1)
-    in.fail(fmt::format("{} contacts and a dense W", contacts), "no more than the file has room for", "export the file again");
+    in.fail(fmt::format("{} contacts and a dense W", contacts), "no more than the file has room for",
+            "export the file again");
   std::vector<Block> blocks = storage == 0 ? read_dense(in, contacts) : read_sparse(in, contacts);
 
   FrictionContactProblem read;
@@ -139,7 +153,8 @@ FrictionContactProblem read_friction_contact(const std::filesystem::path& path) 
   }
   for (std::int64_t i = 0; i < contacts; ++i) {
     read.problem.mu.push_back(in.real("a coefficient of friction"));
-    if (read.problem.mu.back() < 0.0) in.fail(fmt::format("friction {}", read.problem.mu.back()), "0 or more is wanted", "mend the value");
+    if (read.problem.mu.back() < 0.0)
+      in.fail(fmt::format("friction {}", read.problem.mu.back()), "0 or more is wanted", "mend the value");
   }
   if (!in.end()) in.whole("a flag");
   if (!in.end()) in.fail_next("the file should end here", "mend the counts in its head");

@@ -1,5 +1,5 @@
-// Friction-contact problems as Siconos publishes them in plain text: W, q and mu of one time step, without geometry. The
-// numbers, separated by blanks or line ends, are
+// Friction-contact problems as Siconos publishes them in plain text: W, q and mu of one time step, without geometry.
+// The numbers, separated by blanks or line ends, are
 //   3                                          dimension of a contact's rows: normal first, then two tangents
 //   contacts
 //   storage of W: 0 dense, 1 block sparse

@@ -12,8 +12,9 @@ namespace impinge {
 
 namespace {
 
-constexpr std::string_view kSkipped[] = {"vt",       "vn",     "vp",  "o",   "g",          "s",         "mg",       "usemtl", "mtllib",   "l",
-                                         "p",        "bevel",  "lod", "c_interp", "d_interp", "shadow_obj", "trace_obj", "usemap", "maplib"};
+constexpr std::string_view kSkipped[] = {"vt",       "vn",         "vp",        "o",      "g",     "s",   "mg",
+                                         "usemtl",   "mtllib",     "l",         "p",      "bevel", "lod", "c_interp",
+                                         "d_interp", "shadow_obj", "trace_obj", "usemap", "maplib"};
 
 // the vertex of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`; negative numbers count back from the last vertex
 int corner(const TextLines& in, std::size_t i, std::size_t vertices) {
@@ -25,7 +26,8 @@ int corner(const TextLines& in, std::size_t i, std::size_t vertices) {
   const auto count = static_cast<std::int64_t>(vertices);
   const std::int64_t index = v < 0 ? count + v : v - 1;
   if (v == 0 || index < 0 || index >= count)
-    in.fail(i, fmt::format("vertex {}", v), fmt::format("{} vertices came before this line, counted from 1", count), "export the file again");
+    in.fail(i, fmt::format("vertex {}", v), fmt::format("{} vertices came before this line, counted from 1", count),
+            "export the file again");
   return static_cast<int>(index);
 }
 
@@ -41,7 +43,9 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
       const double x = in.real(1), y = in.real(2), z = in.real(3);
       mesh.vertices.emplace_back(x, y, z);
     } else if (key == "f" || key == "fo") {
-      if (in.count() < 4) in.fail(0, fmt::format("a face of {} corners", in.count() - 1), "a face has at least 3", "remove it from the file");
+      if (in.count() < 4)
+        in.fail(0, fmt::format("a face of {} corners", in.count() - 1), "a face has at least 3",
+                "remove it from the file");
       corners.clear();
       for (std::size_t i = 1; i < in.count(); ++i) corners.push_back(corner(in, i, mesh.vertices.size()));
       append_fan(corners, mesh.triangles);

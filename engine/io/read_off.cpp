@@ -11,8 +11,10 @@ TriangleMesh read_off(const std::string& name, std::string_view bytes) {
   in.need("the word OFF");
   std::string_view word = in.word(0);
   std::string_view prefix = word;
-  if (prefix.size() >= 3 && prefix.substr(prefix.size() - 3) == "OFF") prefix.remove_suffix(3);
-  else in.fail(0, quoted(word), "an OFF file starts with the word OFF", "check the file's ending");
+  if (prefix.size() >= 3 && prefix.substr(prefix.size() - 3) == "OFF")
+    prefix.remove_suffix(3);
+  else
+    in.fail(0, quoted(word), "an OFF file starts with the word OFF", "check the file's ending");
   for (const char c : prefix)
     if (std::string_view("STCN").find(c) == std::string_view::npos)
       in.fail(0, quoted(word), "three-dimensional OFF (OFF, COFF, NOFF) is read", "convert the file to PLY");
@@ -44,16 +46,21 @@ TriangleMesh read_off(const std::string& name, std::string_view bytes) {
   for (std::int64_t i = 0; i < faces; ++i) {
     in.need("a face");
     const std::int64_t n = in.integer(0);
-    if (n < 3 || n > kMostCorners) in.fail(0, fmt::format("a face of {} corners", n), "a face has at least 3", "remove it from the file");
+    if (n < 3 || n > kMostCorners)
+      in.fail(0, fmt::format("a face of {} corners", n), "a face has at least 3", "remove it from the file");
     corners.clear();
     for (std::int64_t k = 1; k <= n; ++k) {
       const std::int64_t v = in.integer(k);
-      if (v < 0 || v >= vertices) in.fail(k, fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1), "export the file again");
+      if (v < 0 || v >= vertices)
+        in.fail(k, fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1),
+                "export the file again");
       corners.push_back(static_cast<int>(v));
     }
     append_fan(corners, mesh.triangles);
   }
-  if (in.next()) in.fail(0, quoted(in.word(0)), fmt::format("the file should end after {} faces", faces), "mend the counts in its head");
+  if (in.next())
+    in.fail(0, quoted(in.word(0)), fmt::format("the file should end after {} faces", faces),
+            "mend the counts in its head");
   return mesh;
 }
 

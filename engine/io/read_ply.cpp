@@ -44,17 +44,19 @@ struct Head {
 };
 
 Scalar scalar(const TextLines& in, std::size_t i) {
-  constexpr std::string_view kNames[] = {"char", "uchar", "short", "ushort", "int", "uint", "float", "double",
+  constexpr std::string_view kNames[] = {"char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
                                          "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
   if (i < in.count())
     for (int k = 0; k < 16; ++k)
       if (in.word(i) == kNames[k]) return static_cast<Scalar>(k % 8);
-  in.fail(i, i < in.count() ? quoted(in.word(i)) : "the line ends early", "a type such as float, double, uchar, int is wanted", "export the file again");
+  in.fail(i, i < in.count() ? quoted(in.word(i)) : "the line ends early",
+          "a type such as float, double, uchar, int is wanted", "export the file again");
 }
 
 Head read_head(const std::string& name, std::string_view bytes) {
   TextLines in(name, bytes);
-  if (!in.next() || in.word(0) != "ply") throw InputError(name + ":1:1: no 'ply' at the start; a PLY file starts with it; check the file's ending");
+  if (!in.next() || in.word(0) != "ply")
+    throw InputError(name + ":1:1: no 'ply' at the start; a PLY file starts with it; check the file's ending");
   Head head;
   bool has_format = false;
   for (;;) {
@@ -64,34 +66,46 @@ Head read_head(const std::string& name, std::string_view bytes) {
     if (key == "comment" || key == "obj_info") continue;
     if (key == "format") {
       const std::string_view format = in.count() > 1 ? in.word(1) : "";
-      if (format == "ascii") head.format = Head::ascii;
-      else if (format == "binary_little_endian") head.format = Head::little;
-      else if (format == "binary_big_endian") head.format = Head::big;
-      else in.fail(1, quoted(format), "ascii, binary_little_endian or binary_big_endian is wanted", "export the file again");
+      if (format == "ascii")
+        head.format = Head::ascii;
+      else if (format == "binary_little_endian")
+        head.format = Head::little;
+      else if (format == "binary_big_endian")
+        head.format = Head::big;
+      else
+        in.fail(1, quoted(format), "ascii, binary_little_endian or binary_big_endian is wanted",
+                "export the file again");
       has_format = true;
     } else if (key == "element") {
-      if (in.count() != 3) in.fail(0, "an element without name or count", "'element NAME COUNT' is wanted", "export the file again");
+      if (in.count() != 3)
+        in.fail(0, "an element without name or count", "'element NAME COUNT' is wanted", "export the file again");
       const std::int64_t count = in.integer(2);
-      if (count < 0 || count > kMostElements) in.fail(2, fmt::format("{} elements", count), fmt::format("0 to {} are taken", kMostElements), "make the mesh smaller");
+      if (count < 0 || count > kMostElements)
+        in.fail(2, fmt::format("{} elements", count), fmt::format("0 to {} are taken", kMostElements),
+                "make the mesh smaller");
       head.elements.push_back({std::string(in.word(1)), count, {}});
     } else if (key == "property") {
-      if (head.elements.empty()) in.fail(0, "a property before any element", "'element NAME COUNT' comes first", "export the file again");
+      if (head.elements.empty())
+        in.fail(0, "a property before any element", "'element NAME COUNT' comes first", "export the file again");
       Property property;
       property.is_list = in.count() > 1 && in.word(1) == "list";
       if (property.is_list) {
         property.count_type = scalar(in, 2);
-        if (!is_whole(property.count_type)) in.fail(2, quoted(in.word(2)), "a list is counted in whole numbers", "export the file again");
+        if (!is_whole(property.count_type))
+          in.fail(2, quoted(in.word(2)), "a list is counted in whole numbers", "export the file again");
       }
       const std::size_t at = property.is_list ? 3 : 1;
       property.type = scalar(in, at);
-      if (at + 1 >= in.count()) in.fail(at, "a property without a name", "'property TYPE NAME' is wanted", "export the file again");
+      if (at + 1 >= in.count())
+        in.fail(at, "a property without a name", "'property TYPE NAME' is wanted", "export the file again");
       property.name = in.word(at + 1);
       head.elements.back().properties.push_back(std::move(property));
     } else {
       in.fail(0, quoted(key), "format, element, property, comment or end_header is wanted", "export the file again");
     }
   }
-  if (!has_format) in.fail(0, "a head without 'format'", "'format ascii 1.0' or a binary one is wanted", "export the file again");
+  if (!has_format)
+    in.fail(0, "a head without 'format'", "'format ascii 1.0' or a binary one is wanted", "export the file again");
   head.size = bytes.size() - in.bytes_left();
   head.lines = in.line();
   return head;
@@ -118,7 +132,9 @@ class AsciiSource {
     if (at_ >= in_.count()) in_.real(at_);  // says that the line ends early
     ++at_;
   }
-  [[noreturn]] void fail(const std::string& found, const std::string& allowed) const { in_.fail(at_ ? at_ - 1 : 0, found, allowed, "export the file again"); }
+  [[noreturn]] void fail(const std::string& found, const std::string& allowed) const {
+    in_.fail(at_ ? at_ - 1 : 0, found, allowed, "export the file again");
+  }
   bool has_room(std::int64_t values) const { return values <= static_cast<std::int64_t>(in_.count() - at_); }
   bool at_end() { return !in_.next(); }
 
@@ -160,14 +176,22 @@ class BinarySource {
       return static_cast<double>(value);
     };
     switch (type) {
-      case Scalar::int8: return as(std::int8_t{});
-      case Scalar::uint8: return as(std::uint8_t{});
-      case Scalar::int16: return as(std::int16_t{});
-      case Scalar::uint16: return as(std::uint16_t{});
-      case Scalar::int32: return as(std::int32_t{});
-      case Scalar::uint32: return as(std::uint32_t{});
-      case Scalar::float32: return as(float{});
-      case Scalar::float64: return as(double{});
+      case Scalar::int8:
+        return as(std::int8_t{});
+      case Scalar::uint8:
+        return as(std::uint8_t{});
+      case Scalar::int16:
+        return as(std::int16_t{});
+      case Scalar::uint16:
+        return as(std::uint16_t{});
+      case Scalar::int32:
+        return as(std::int32_t{});
+      case Scalar::uint32:
+        return as(std::uint32_t{});
+      case Scalar::float32:
+        return as(float{});
+      case Scalar::float64:
+        return as(double{});
     }
     return 0.0;
   }
@@ -182,7 +206,8 @@ static_assert(std::endian::native == std::endian::little, "take() builds little-
 template <class Source>
 std::int64_t list_length(Source& in, const Property& property) {
   const std::int64_t n = in.whole(property.count_type);
-  if (n < 0 || n > kMostCorners || !in.has_room(n)) in.fail(fmt::format("a list of {} values", n), "no more than the file has room for");
+  if (n < 0 || n > kMostCorners || !in.has_room(n))
+    in.fail(fmt::format("a list of {} values", n), "no more than the file has room for");
   return n;
 }
 
@@ -203,8 +228,10 @@ void read_vertices(Source& in, const Element& element, const int (&axes)[3], Tri
       int axis = -1;
       for (int k = 0; k < 3; ++k)
         if (axes[k] == static_cast<int>(p)) axis = k;
-      if (axis < 0) skip_property(in, element.properties[p]);
-      else x[axis] = in.real(element.properties[p].type);
+      if (axis < 0)
+        skip_property(in, element.properties[p]);
+      else
+        x[axis] = in.real(element.properties[p].type);
     }
     in.end();
     mesh.vertices.push_back(x);
@@ -228,7 +255,8 @@ void read_faces(Source& in, const Element& element, std::size_t indices, std::in
       corners.clear();
       for (std::int64_t k = 0; k < n; ++k) {
         const std::int64_t v = in.whole(property.type);
-        if (v < 0 || v >= vertices) in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1));
+        if (v < 0 || v >= vertices)
+          in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1));
         corners.push_back(static_cast<int>(v));
       }
       append_fan(corners, mesh.triangles);
@@ -249,14 +277,18 @@ TriangleMesh read_body(Source& in, const std::string& name, const Head& head) {
       const int axes[3] = {element.find("x"), element.find("y"), element.find("z")};
       for (int k = 0; k < 3; ++k)
         if (axes[k] < 0 || element.properties[axes[k]].is_list)
-          throw InputError(fmt::format("{}:1: vertices without {}; 'property float {}' (or double) is wanted in the head; export the file again", name, "xyz"[k], "xyz"[k]));
+          throw InputError(fmt::format(
+              "{}:1: vertices without {}; 'property float {}' (or double) is wanted in the head; export the file again",
+              name, "xyz"[k], "xyz"[k]));
       read_vertices(in, element, axes, mesh);
       has_vertices = true;
     } else if (element.name == "face") {
       const int a = element.find("vertex_indices"), b = element.find("vertex_index");
       const int indices = a >= 0 ? a : b;
       if (indices < 0 || !element.properties[indices].is_list || !is_whole(element.properties[indices].type))
-        throw InputError(name + ":1: faces without vertex_indices; 'property list uchar int vertex_indices' is wanted in the head; export the file again");
+        throw InputError(name +
+                         ":1: faces without vertex_indices; 'property list uchar int vertex_indices' is wanted in the "
+                         "head; export the file again");
       read_faces(in, element, static_cast<std::size_t>(indices), vertices, mesh);
     } else if (element.name == "tristrips" && element.count > 0) {
       throw InputError(name + ":1: triangle strips; faces are read; export the file with faces");
@@ -278,11 +310,15 @@ void check_counts(const std::string& name, const Head& head, std::size_t bytes_l
   for (const Element& element : head.elements) {
     double each = 0.0;
     for (const Property& property : element.properties)
-      each += head.format == Head::ascii ? 2 : kBytes[static_cast<int>(property.is_list ? property.count_type : property.type)];
+      each += head.format == Head::ascii
+                  ? 2
+                  : kBytes[static_cast<int>(property.is_list ? property.count_type : property.type)];
     least += each * static_cast<double>(element.count);
     if (least > static_cast<double>(bytes_left) + 1)
-      throw InputError(fmt::format("{}:{}: {} elements '{}'; no more than the file has room for ({} bytes follow); it is cut short, fetch or export it again",
-                                   name, head.lines, element.count, element.name, bytes_left));
+      throw InputError(
+          fmt::format("{}:{}: {} elements '{}'; no more than the file has room for ({} bytes follow); it is cut short, "
+                      "fetch or export it again",
+                      name, head.lines, element.count, element.name, bytes_left));
   }
 }
 

@@ -27,7 +27,9 @@ TriangleMesh read_binary(const std::string& name, std::string_view bytes, std::u
     std::memcpy(x, bytes.data() + start, sizeof x);
     for (int i = 0; i < 9; ++i)
       if (!std::isfinite(x[i]))
-        throw InputError(fmt::format("{}: byte {}: a coordinate that is not finite; a finite number is wanted; export the file again", name, start + 4 * i));
+        throw InputError(fmt::format(
+            "{}: byte {}: a coordinate that is not finite; a finite number is wanted; export the file again", name,
+            start + 4 * i));
     const int first = static_cast<int>(mesh.vertices.size());
     for (int i = 0; i < 3; ++i) mesh.vertices.emplace_back(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
     mesh.triangles.push_back({first, first + 1, first + 2});
@@ -39,7 +41,9 @@ void need_words(TextLines& in, std::initializer_list<std::string_view> words, co
   in.need(what);
   std::size_t i = 0;
   for (const std::string_view word : words) {
-    if (i >= in.count() || in.word(i) != word) in.fail(i, quoted(i < in.count() ? in.word(i) : "the end of the line"), fmt::format("{} should stand here", what), "export the file again");
+    if (i >= in.count() || in.word(i) != word)
+      in.fail(i, quoted(i < in.count() ? in.word(i) : "the end of the line"), fmt::format("{} should stand here", what),
+              "export the file again");
     ++i;
   }
 }
@@ -50,7 +54,8 @@ TriangleMesh read_ascii(const std::string& name, std::string_view bytes) {
   bool inside = false;
   while (in.next()) {
     if (!inside) {
-      if (in.word(0) != "solid") in.fail(0, quoted(in.word(0)), "the word solid should stand here", "export the file again");
+      if (in.word(0) != "solid")
+        in.fail(0, quoted(in.word(0)), "the word solid should stand here", "export the file again");
       inside = true;
     } else if (in.word(0) == "endsolid") {
       inside = false;
@@ -69,7 +74,9 @@ TriangleMesh read_ascii(const std::string& name, std::string_view bytes) {
       in.fail(0, quoted(in.word(0)), "facet or endsolid should stand here", "export the file again");
     }
   }
-  if (inside) throw InputError(fmt::format("{}:{}: the file ends early; 'endsolid' should follow; export it again", name, in.line()));
+  if (inside)
+    throw InputError(
+        fmt::format("{}:{}: the file ends early; 'endsolid' should follow; export it again", name, in.line()));
   return mesh;
 }
 
@@ -82,8 +89,10 @@ TriangleMesh read_stl(const std::string& name, std::string_view bytes) {
   const bool fits = bytes.size() >= kHead && bytes.size() == kHead + std::uint64_t{facets} * kFacet;
   if (fits && facets <= kMostElements) return read_binary(name, bytes, facets);
   if (bytes.substr(0, 5) == "solid") return read_ascii(name, bytes);
-  throw InputError(fmt::format("{}: byte 80: {} facets in a file of {} bytes; binary STL has 84 + 50 bytes a facet, ASCII STL starts with 'solid'; export the file again",
-                               name, facets, bytes.size()));
+  throw InputError(
+      fmt::format("{}: byte 80: {} facets in a file of {} bytes; binary STL has 84 + 50 bytes a facet, ASCII STL "
+                  "starts with 'solid'; export the file again",
+                  name, facets, bytes.size()));
 }
 
 }  // namespace impinge

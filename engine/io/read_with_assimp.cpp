@@ -6,9 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/Importer.hpp>
 #include <cmath>
 
 #include "engine/core/archive.hpp"
@@ -27,7 +27,8 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
     const int first = static_cast<int>(mesh.vertices.size());
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D x = transform * part.mVertices[v];
-      if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) throw InputError(fmt::format("vertex {} is not finite", v));
+      if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
+        throw InputError(fmt::format("vertex {} is not finite", v));
       mesh.vertices.emplace_back(x.x, x.y, x.z);
     }
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
@@ -35,7 +36,8 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
       if (face.mNumIndices < 3) continue;  // points and lines bound no solid
       corners.clear();
       for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        if (face.mIndices[k] >= part.mNumVertices) throw InputError(fmt::format("face {} names vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
+        if (face.mIndices[k] >= part.mNumVertices)
+          throw InputError(fmt::format("face {} names vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
         corners.push_back(first + static_cast<int>(face.mIndices[k]));
       }
       append_fan(corners, mesh.triangles);
@@ -95,12 +97,17 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path) {
   {
     const Assimp::Importer importer;
     if (!importer.IsExtensionSupported(path.extension().string()))
-      throw InputError(fmt::format("{}: the ending '{}' is no known mesh format; ply, off, obj, stl and what assimp reads are; convert it to PLY", name, path.extension().string()));
+      throw InputError(
+          fmt::format("{}: the ending '{}' is no known mesh format; ply, off, obj, stl and what assimp reads are; "
+                      "convert it to PLY",
+                      name, path.extension().string()));
   }
   int ends[2];
-  if (pipe(ends) != 0) throw InputError(name + ": no pipe to the importer; the system is out of file handles; close some programs");
+  if (pipe(ends) != 0)
+    throw InputError(name + ": no pipe to the importer; the system is out of file handles; close some programs");
   const pid_t pid = fork();
-  if (pid < 0) throw InputError(name + ": no process for the importer; the system is out of processes; close some programs");
+  if (pid < 0)
+    throw InputError(name + ": no process for the importer; the system is out of processes; close some programs");
   if (pid == 0) {
     close(ends[0]);
     child(name, ends[1]);
@@ -114,7 +121,9 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path) {
   waitpid(pid, &status, 0);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty())
     throw InputError(name + ": the importer failed on it; a sound file is wanted; convert it to PLY");
-  if (bytes[0] == 'E') throw InputError(fmt::format("{}: can't be read ({}); a sound file is wanted; convert it to PLY", name, bytes.substr(1)));
+  if (bytes[0] == 'E')
+    throw InputError(
+        fmt::format("{}: can't be read ({}); a sound file is wanted; convert it to PLY", name, bytes.substr(1)));
 
   ByteReader in(bytes);
   in.get<char>();

@@ -11,7 +11,8 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kKeys = {"version", "scene", "folder", "script_file", "script", "frames", "images", "ids", "contacts", "judge", "export", "size", "surfaces"};
+const std::vector<std::string> kKeys = {"version", "scene",    "folder", "script_file", "script", "frames",  "images",
+                                        "ids",     "contacts", "judge",  "export",      "size",   "surfaces"};
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
@@ -29,7 +30,9 @@ RunRecord read_run_record(const TomlNode& table) {
   check_keys(scene_table(table, "run"), "run", kKeys);
   const auto need = [&](const char* key) -> const TomlNode& {
     const TomlEntry* entry = table.find(key);
-    if (entry == nullptr) refuse(table.place, fmt::format("[run] has no {}", key), "run.toml as a run wrote it is wanted", "run the scene again");
+    if (entry == nullptr)
+      refuse(table.place, fmt::format("[run] has no {}", key), "run.toml as a run wrote it is wanted",
+             "run the scene again");
     return entry->value;
   };
   RunRecord run;
@@ -45,7 +48,8 @@ RunRecord read_run_record(const TomlNode& table) {
   run.judge = scene_flag(need("judge"), "run.judge");
   run.export_ply = scene_text(need("export"), "run.export") == "ply";
   const TomlNode& size = need("size");
-  if (size.items.size() != 2) refuse(size.place, "run.size is no pair", "[width, height] is wanted", "run the scene again");
+  if (size.items.size() != 2)
+    refuse(size.place, "run.size is no pair", "[width, height] is wanted", "run the scene again");
   run.width = static_cast<int>(scene_real(size.items[0], "run.size", {1, 16384}));
   run.height = static_cast<int>(scene_real(size.items[1], "run.size", {1, 16384}));
   return run;
@@ -56,21 +60,27 @@ void check_surface_hashes(const TomlNode& table, const std::vector<SurfaceFile>&
   if (list == nullptr) return;
   for (const TomlNode& node : list->value.items) {
     const TomlEntry *name = node.find("file"), *hash = node.find("hash");
-    if (name == nullptr || hash == nullptr) refuse(node.place, "a surface without file or hash", "both are wanted", "run the scene again");
+    if (name == nullptr || hash == nullptr)
+      refuse(node.place, "a surface without file or hash", "both are wanted", "run the scene again");
     for (const SurfaceFile& file : surfaces)
       if (file.name == name->value.string && hex64(file.hash) != hash->value.string)
-        refuse(hash->value.place, fmt::format("surface {} has changed since the run", toml_string(file.name)), "the same bytes are wanted", "restore the file, or run the scene again");
+        refuse(hash->value.place, fmt::format("surface {} has changed since the run", toml_string(file.name)),
+               "the same bytes are wanted", "restore the file, or run the scene again");
   }
 }
 
 std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRecord& run) {
   std::string out = "# the resolved scene of a run: `impinge run` and `impinge replay` take it\n\n[run]\n";
-  out += fmt::format("version = {}\nscene = {}\nfolder = {}\nscript_file = {}\n", toml_string(run.version), toml_string(run.scene), toml_string(run.folder), toml_string(run.script_file));
+  out += fmt::format("version = {}\nscene = {}\nfolder = {}\nscript_file = {}\n", toml_string(run.version),
+                     toml_string(run.scene), toml_string(run.folder), toml_string(run.script_file));
   out += "script = [\n";
   for (const std::string& line : run.script) out += fmt::format("  {},\n", toml_string(line));
-  out += fmt::format("]\nframes = {}\nimages = {}\n{}contacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n", run.frames, run.images, run.ids ? "ids = true\n" : "", run.contacts, run.judge,
-                     run.export_ply ? "ply" : "", run.width, run.height);
-  for (const SurfaceFile& file : scene.surfaces) out += fmt::format("  {{ file = {}, hash = \"{}\" }},\n", toml_string(file.name), hex64(file.hash));
+  out += fmt::format(
+      "]\nframes = {}\nimages = {}\n{}contacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n",
+      run.frames, run.images, run.ids ? "ids = true\n" : "", run.contacts, run.judge, run.export_ply ? "ply" : "",
+      run.width, run.height);
+  for (const SurfaceFile& file : scene.surfaces)
+    out += fmt::format("  {{ file = {}, hash = \"{}\" }},\n", toml_string(file.name), hex64(file.hash));
   out += "]\n";
   if (scene.allow_outside_files) out += "\n[scene]\nallow_outside_files = true\n";
 
@@ -90,7 +100,8 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
   }
   for (const TomlNode& attachment : scene.attachments) {
     out += "\n[[attachment]]\n";
-    for (const TomlEntry& entry : attachment.entries) out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
+    for (const TomlEntry& entry : attachment.entries)
+      out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
   }
   return out;
 }

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 bool has_rows_below(const ParameterSet& rows, const std::string& path) {
   const std::string prefix = path + ".";
-  return std::any_of(rows.all().begin(), rows.all().end(), [&](const Parameter& row) { return row.path.rfind(prefix, 0) == 0; });
+  return std::any_of(rows.all().begin(), rows.all().end(),
+                     [&](const Parameter& row) { return row.path.rfind(prefix, 0) == 0; });
 }
 
 [[noreturn]] void refuse_key(const ParameterSet& rows, const TomlEntry& entry, const std::string& path) {
@@ -55,7 +56,8 @@ void read_parameters(const TomlNode& table, const std::string& prefix, const Par
     } else if (entry.value.kind == TomlNode::table && has_rows_below(rows, path)) {
       read_parameters(entry.value, path, rows, scene);
     } else if (has_rows_below(rows, path)) {
-      refuse(entry.value.place, fmt::format("{} is {}", path, toml_kind_name(entry.value)), "a table is wanted", "write its keys in a table");
+      refuse(entry.value.place, fmt::format("{} is {}", path, toml_kind_name(entry.value)), "a table is wanted",
+             "write its keys in a table");
     } else {
       refuse_key(rows, entry, path);
     }
@@ -63,12 +65,14 @@ void read_parameters(const TomlNode& table, const std::string& prefix, const Par
 }
 
 void read_bodies(const TomlNode& list, Scene& scene, SurfaceFiles& surfaces, World& world) {
-  if (list.kind != TomlNode::array) refuse(list.place, fmt::format("body is {}", toml_kind_name(list)), "[[body]] tables are wanted", "write [[body]]");
+  if (list.kind != TomlNode::array)
+    refuse(list.place, fmt::format("body is {}", toml_kind_name(list)), "[[body]] tables are wanted", "write [[body]]");
   std::set<std::string> names;
   for (const TomlNode& table : list.items) {
     const BodyDescription body = read_body(table, surfaces);
     if (!names.insert(body.name).second)
-      refuse(table.find("name")->value.place, fmt::format("a second body named '{}'", body.name), "names must differ", "rename one of them");
+      refuse(table.find("name")->value.place, fmt::format("a second body named '{}'", body.name), "names must differ",
+             "rename one of them");
     try {
       world.add_body(body);
     } catch (const InputError& error) {
@@ -80,12 +84,15 @@ void read_bodies(const TomlNode& list, Scene& scene, SurfaceFiles& surfaces, Wor
 
 void read_attachments(const TomlNode& list, Scene& scene, World& world) {
   if (list.kind != TomlNode::array)
-    refuse(list.place, fmt::format("attachment is {}", toml_kind_name(list)), "[[attachment]] tables are wanted", "write [[attachment]]");
+    refuse(list.place, fmt::format("attachment is {}", toml_kind_name(list)), "[[attachment]] tables are wanted",
+           "write [[attachment]]");
   for (const TomlNode& table : list.items) {
-    const AttachmentDescription attachment = read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies());
+    const AttachmentDescription attachment =
+        read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies());
     for (const TomlNode& earlier : scene.attachments)
       if (const TomlEntry* name = earlier.find("name"); name != nullptr && name->value.string == attachment.name)
-        refuse(table.place, fmt::format("a second attachment named '{}'", attachment.name), "names must differ", "rename one of them");
+        refuse(table.place, fmt::format("a second attachment named '{}'", attachment.name), "names must differ",
+               "rename one of them");
     try {
       world.add_attachment(attachment);
     } catch (const InputError& error) {
@@ -97,7 +104,9 @@ void read_attachments(const TomlNode& list, Scene& scene, World& world) {
 
 }  // namespace
 
-bool Scene::has(std::string_view parameter) const { return std::find(given.begin(), given.end(), parameter) != given.end(); }
+bool Scene::has(std::string_view parameter) const {
+  return std::find(given.begin(), given.end(), parameter) != given.end();
+}
 
 Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides, World& world, ParameterSet& rows) {
   const std::string name = path.string();
@@ -112,13 +121,19 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
     scene.folder = scene.run->folder;
   }
   if (const TomlEntry* sweep = root.find("sweep"); sweep != nullptr && sweep->value.find("scene") != nullptr)
-    refuse(sweep->value.find("scene")->place, "a sweep of another scene", "a scene is wanted here", "run it by impinge sweep");
+    refuse(sweep->value.find("scene")->place, "a sweep of another scene", "a scene is wanted here",
+           "run it by impinge sweep");
   TomlNode parameters = root;
-  std::erase_if(parameters.entries, [](const TomlEntry& entry) { return entry.key == "body" || entry.key == "attachment" || entry.key == "run" || entry.key == "scene" || entry.key == "sweep"; });  // [sweep] is `impinge sweep`'s
+  // [sweep] is `impinge sweep`'s
+  std::erase_if(parameters.entries, [](const TomlEntry& entry) {
+    return entry.key == "body" || entry.key == "attachment" || entry.key == "run" || entry.key == "scene" ||
+           entry.key == "sweep";
+  });
   read_parameters(parameters, "", rows, scene);
   if (const TomlEntry* table = root.find("scene")) {
     check_keys(scene_table(table->value, "scene"), "scene", {"allow_outside_files"});
-    if (const TomlEntry* allow = table->value.find("allow_outside_files")) scene.allow_outside_files = scene_flag(allow->value, "scene.allow_outside_files");
+    if (const TomlEntry* allow = table->value.find("allow_outside_files"))
+      scene.allow_outside_files = scene_flag(allow->value, "scene.allow_outside_files");
   }
   SurfaceFiles surfaces(scene.folder, scene.allow_outside_files);
   if (const TomlEntry* bodies = root.find("body")) read_bodies(bodies->value, scene, surfaces, world);

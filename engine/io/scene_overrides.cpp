@@ -20,7 +20,8 @@ TomlNode& body_named(TomlNode& root, const std::string& name, const std::string&
     }
   }
   const std::string near = nearest_word(name, names);
-  refuse(place, fmt::format("there is no body '{}'", name), names.empty() ? "the scene has no bodies" : fmt::format("bodies: {}", fmt::join(names, ", ")),
+  refuse(place, fmt::format("there is no body '{}'", name),
+         names.empty() ? "the scene has no bodies" : fmt::format("bodies: {}", fmt::join(names, ", ")),
          near.empty() ? "name one of the scene's" : fmt::format("did you mean '{}'?", near));
 }
 
@@ -29,19 +30,25 @@ TomlNode& body_named(TomlNode& root, const std::string& name, const std::string&
 void apply_override(TomlNode& root, const std::string& text) {
   const std::string place = "--set " + text;
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) refuse(place, "no PATH=VALUE", "a parameter's path, =, and its value are wanted", "write --set contact.friction=0.5");
+  if (equals == std::string::npos || equals == 0)
+    refuse(place, "no PATH=VALUE", "a parameter's path, =, and its value are wanted",
+           "write --set contact.friction=0.5");
   std::vector<std::string> keys(1);
   for (const char c : text.substr(0, equals)) {
-    if (c == '.') keys.emplace_back();
-    else keys.back() += c;
+    if (c == '.')
+      keys.emplace_back();
+    else
+      keys.back() += c;
   }
   for (const std::string& key : keys)
-    if (key.empty()) refuse(place, "an empty name in the path", "names joined by dots are wanted", "write --set contact.friction=0.5");
+    if (key.empty())
+      refuse(place, "an empty name in the path", "names joined by dots are wanted", "write --set contact.friction=0.5");
 
   TomlNode* node = &root;
   std::size_t i = 0;
   if (keys[0] == "body") {
-    if (keys.size() < 3) refuse(place, "no key of a body", "body.NAME.KEY=VALUE is wanted", "write --set body.crate.mass=2");
+    if (keys.size() < 3)
+      refuse(place, "no key of a body", "body.NAME.KEY=VALUE is wanted", "write --set body.crate.mass=2");
     node = &body_named(root, keys[1], place);
     i = 2;
     if (keys[2] == "name") refuse(place, "a body's name", "its other keys can be set", "rename it in the scene file");
@@ -54,7 +61,8 @@ void apply_override(TomlNode& root, const std::string& text) {
       node->entries.push_back({keys[i], place, table});
       entry = &node->entries.back();
     } else if (entry->value.kind != TomlNode::table) {
-      refuse(place, fmt::format("'{}' is {} in the scene", keys[i], toml_kind_name(entry->value)), "a table is wanted there", "set it as a whole");
+      refuse(place, fmt::format("'{}' is {} in the scene", keys[i], toml_kind_name(entry->value)),
+             "a table is wanted there", "set it as a whole");
     }
     node = &entry->value;
   }

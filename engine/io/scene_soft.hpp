@@ -6,8 +6,9 @@
 
 namespace impinge {
 
-/// Fills body.soft and body.shape. The keys that all bodies share have been read; `scale` is the body's. Throws InputError,
-/// located, at the first key or value that can't be taken.
-void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files, BodyDescription& body);
+/// Fills body.soft and body.shape. The keys that all bodies share have been read; `scale` is the body's. Throws
+/// InputError, located, at the first key or value that can't be taken.
+void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
+                    BodyDescription& body);
 
 }  // namespace impinge

@@ -27,19 +27,24 @@ bool is_inside(const fs::path& folder, const fs::path& path) {
 
 fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const {
   const std::string& name = scene_text(node, what);
-  if (name.empty()) refuse(node.place, what + " is empty", "a mesh file's path relative to the scene file is wanted", "name a file");
+  if (name.empty())
+    refuse(node.place, what + " is empty", "a mesh file's path relative to the scene file is wanted", "name a file");
   const fs::path path = folder_ / name;  // an absolute name replaces the folder
   std::error_code error;
   // symbolic links are followed first: what counts is where the file really is
   const fs::path folder = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);
-  const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);  // of a name that isn't there, a relative one stays relative
+  // of a name that isn't there, a relative one stays relative
+  const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
   if (!allow_outside_ && !is_inside(folder, target))
-    refuse(node.place, fmt::format("{} = {} leads out of the scene's folder ({})", what, toml_string(name), target.string()),
+    refuse(node.place,
+           fmt::format("{} = {} leads out of the scene's folder ({})", what, toml_string(name), target.string()),
            "files inside it are read", "move the file there, or set allow_outside_files = true in the table [scene]");
   if (!fs::exists(path, error))
-    refuse(node.place, fmt::format("{} = {}: there is no such file ({})", what, toml_string(name), path.string()), "a mesh file is wanted", "check the path");
+    refuse(node.place, fmt::format("{} = {}: there is no such file ({})", what, toml_string(name), path.string()),
+           "a mesh file is wanted", "check the path");
   if (!fs::is_regular_file(path, error))
-    refuse(node.place, fmt::format("{} = {} is not a regular file", what, toml_string(name)), "a mesh file is wanted", "check the path");
+    refuse(node.place, fmt::format("{} = {} is not a regular file", what, toml_string(name)), "a mesh file is wanted",
+           "check the path");
   return path;
 }
 
@@ -49,7 +54,9 @@ MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
   file.hash = hash_bytes(read_file(path, kLargestFile));
   auto surface = std::make_shared<SurfaceMesh>();
   surface->mesh = read_mesh(path);
-  const auto refuse_mesh = [&](const std::string& problem) { throw InputError(fmt::format("{}: surface {} {}", node.place, toml_string(node.string), problem)); };
+  const auto refuse_mesh = [&](const std::string& problem) {
+    throw InputError(fmt::format("{}: surface {} {}", node.place, toml_string(node.string), problem));
+  };
   if (const auto problem = check_indices(surface->mesh)) refuse_mesh(*problem);
   surface->topology = make_topology(surface->mesh);
   if (!surface->topology.is_closed()) {
@@ -78,7 +85,8 @@ std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, c
   file.hash = hash_bytes(read_file(path, kLargestFile));
   // TetGen's mesh is a pair of files, and the run depends on both
   for (const auto& [own, other] : {std::pair(".node", ".ele"), std::pair(".ele", ".node")})
-    if (path.extension() == own) file.hash = hash_bytes(read_file(fs::path(path).replace_extension(other), kLargestFile), file.hash);
+    if (path.extension() == own)
+      file.hash = hash_bytes(read_file(fs::path(path).replace_extension(other), kLargestFile), file.hash);
   file.vertices = volume->mesh.vertices.size();
   file.tets = volume->mesh.tets.size();
   file.notes = volume->notes;

@@ -13,8 +13,8 @@ namespace impinge {
 
 /// One surface file as the scene names it.
 struct SurfaceFile {
-  std::string name;                ///< relative to the scene's folder
-  std::uint64_t hash = 0;          ///< of the file's bytes
+  std::string name;        ///< relative to the scene's folder
+  std::uint64_t hash = 0;  ///< of the file's bytes
   std::size_t vertices = 0, triangles = 0;
   std::size_t welded = 0;          ///< vertices that coincided with an earlier one and were made one with it
   std::size_t tets = 0;            ///< of a volume mesh, which has no triangles here
@@ -23,10 +23,11 @@ struct SurfaceFile {
 
 class SurfaceFiles {
  public:
-  SurfaceFiles(std::filesystem::path folder, bool allow_outside) : folder_(std::move(folder)), allow_outside_(allow_outside) {}
+  SurfaceFiles(std::filesystem::path folder, bool allow_outside)
+      : folder_(std::move(folder)), allow_outside_(allow_outside) {}
 
-  /// The closed, outward surface of the file that `node` names, its vertices times `scale`. Throws InputError located at
-  /// the node, or in the file where its text is at fault.
+  /// The closed, outward surface of the file that `node` names, its vertices times `scale`. Throws InputError located
+  /// at the node, or in the file where its text is at fault.
   MeshPointer load(const TomlNode& node, const std::string& what, double scale);
 
   /// The volume mesh of the file that `node` names, unscaled.
@@ -46,8 +47,8 @@ class SurfaceFiles {
   std::vector<SurfaceFile> files_;
   VolumeCache made_;
   std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
-  std::map<std::string, MeshPointer> unscaled_;                    // by name
-  std::map<std::pair<std::string, double>, MeshPointer> scaled_;   // by name and scale
+  std::map<std::string, MeshPointer> unscaled_;                   // by name
+  std::map<std::pair<std::string, double>, MeshPointer> scaled_;  // by name and scale
 };
 
 }  // namespace impinge

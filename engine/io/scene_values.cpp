@@ -24,43 +24,55 @@ void refuse(const std::string& place, const std::string& found, const std::strin
 }
 
 double scene_real(const TomlNode& node, const std::string& what, Range range) {
-  if (!node.is_number()) refuse(node.place, fmt::format("{} is {}", what, found(node)), "a real number is wanted", "write a number");
+  if (!node.is_number())
+    refuse(node.place, fmt::format("{} is {}", what, found(node)), "a real number is wanted", "write a number");
   const double value = node.as_number();
   // also catches NaN, infinity and numbers too large for TOML's parser, which come as the largest double
   if (!(value >= range.low && value <= range.high))
-    refuse(node.place, fmt::format("{} is {}", what, shortest(value)), "a number in " + interval(range) + " is allowed", "change it");
+    refuse(node.place, fmt::format("{} is {}", what, shortest(value)), "a number in " + interval(range) + " is allowed",
+           "change it");
   return value;
 }
 
 double scene_positive(const TomlNode& node, const std::string& what, double high) {
-  if (!node.is_number()) refuse(node.place, fmt::format("{} is {}", what, found(node)), "a positive real number is wanted", "write a number");
+  if (!node.is_number())
+    refuse(node.place, fmt::format("{} is {}", what, found(node)), "a positive real number is wanted",
+           "write a number");
   const double value = node.as_number();
   if (!(value > 0.0 && value <= high))
-    refuse(node.place, fmt::format("{} is {}", what, shortest(value)), fmt::format("a number greater than 0 and at most {} is allowed", shortest(high)), "change it");
+    refuse(node.place, fmt::format("{} is {}", what, shortest(value)),
+           fmt::format("a number greater than 0 and at most {} is allowed", shortest(high)), "change it");
   return value;
 }
 
 Vec3 scene_vector(const TomlNode& node, const std::string& what, Range range) {
-  if (node.kind != TomlNode::array) refuse(node.place, fmt::format("{} is {}", what, found(node)), "a vector [x, y, z] is wanted", "write three numbers");
+  if (node.kind != TomlNode::array)
+    refuse(node.place, fmt::format("{} is {}", what, found(node)), "a vector [x, y, z] is wanted",
+           "write three numbers");
   if (node.items.size() != 3)
-    refuse(node.place, fmt::format("{} has {} numbers", what, node.items.size()), "a vector [x, y, z] is wanted", "write three numbers");
+    refuse(node.place, fmt::format("{} has {} numbers", what, node.items.size()), "a vector [x, y, z] is wanted",
+           "write three numbers");
   Vec3 v;
   for (int i = 0; i < 3; ++i) v[i] = scene_real(node.items[i], what, range);
   return v;
 }
 
 bool scene_flag(const TomlNode& node, const std::string& what) {
-  if (node.kind != TomlNode::boolean) refuse(node.place, fmt::format("{} is {}", what, found(node)), "true or false is wanted", "write one of them");
+  if (node.kind != TomlNode::boolean)
+    refuse(node.place, fmt::format("{} is {}", what, found(node)), "true or false is wanted", "write one of them");
   return node.flag;
 }
 
 const std::string& scene_text(const TomlNode& node, const std::string& what) {
-  if (node.kind != TomlNode::text) refuse(node.place, fmt::format("{} is {}", what, found(node)), "a text is wanted", "put it in quotes");
+  if (node.kind != TomlNode::text)
+    refuse(node.place, fmt::format("{} is {}", what, found(node)), "a text is wanted", "put it in quotes");
   return node.string;
 }
 
 const TomlNode& scene_table(const TomlNode& node, const std::string& what) {
-  if (node.kind != TomlNode::table) refuse(node.place, fmt::format("{} is {}", what, found(node)), "a table { ... } is wanted", "write its keys in braces");
+  if (node.kind != TomlNode::table)
+    refuse(node.place, fmt::format("{} is {}", what, found(node)), "a table { ... } is wanted",
+           "write its keys in braces");
   return node;
 }
 
@@ -68,7 +80,8 @@ void check_keys(const TomlNode& table, const std::string& what, const std::vecto
   for (const TomlEntry& entry : table.entries) {
     if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
     const std::string near = nearest_word(entry.key, allowed);
-    refuse(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what), fmt::format("allowed: {}", fmt::join(allowed, ", ")),
+    refuse(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what),
+           fmt::format("allowed: {}", fmt::join(allowed, ", ")),
            near.empty() ? "remove it" : fmt::format("did you mean '{}'?", near));
   }
 }
@@ -76,13 +89,22 @@ void check_keys(const TomlNode& table, const std::string& what, const std::vecto
 ParameterValue scene_value(const Parameter& row, const TomlNode& node) {
   ParameterValue value;
   const auto wrong = [&] {
-    refuse(node.place, fmt::format("{} is {}", row.path, found(node)), "allowed: " + describe_allowed(row), "change its type");
+    refuse(node.place, fmt::format("{} is {}", row.path, found(node)), "allowed: " + describe_allowed(row),
+           "change its type");
   };
   switch (node.kind) {
-    case TomlNode::boolean: value = node.flag; break;
-    case TomlNode::integer: value = node.whole; break;
-    case TomlNode::real: value = node.number; break;
-    case TomlNode::text: value = node.string; break;
+    case TomlNode::boolean:
+      value = node.flag;
+      break;
+    case TomlNode::integer:
+      value = node.whole;
+      break;
+    case TomlNode::real:
+      value = node.number;
+      break;
+    case TomlNode::text:
+      value = node.string;
+      break;
     case TomlNode::array:
       if (row.kind == ParameterKind::vector3) {
         value = scene_vector(node, row.path, row.range);
@@ -94,11 +116,14 @@ ParameterValue scene_value(const Parameter& row, const TomlNode& node) {
         wrong();
       }
       break;
-    default: wrong();
+    default:
+      wrong();
   }
   // a bare word given to `--set` for a row of texts: `--set view.layers=meshes`
-  if (row.kind == ParameterKind::text_list && node.kind == TomlNode::text) value = std::vector<std::string>{node.string};
-  if (row.kind == ParameterKind::text && node.is_number() && node.place.rfind("--set", 0) == 0) value = format_toml(node);
+  if (row.kind == ParameterKind::text_list && node.kind == TomlNode::text)
+    value = std::vector<std::string>{node.string};
+  if (row.kind == ParameterKind::text && node.is_number() && node.place.rfind("--set", 0) == 0)
+    value = format_toml(node);
   try {
     return checked_value(row, std::move(value));
   } catch (const InputError& error) {

@@ -9,7 +9,8 @@
 namespace impinge {
 
 /// Throws InputError `place: found; allowed; remedy`.
-[[noreturn]] void refuse(const std::string& place, const std::string& found, const std::string& allowed, const std::string& remedy);
+[[noreturn]] void refuse(const std::string& place, const std::string& found, const std::string& allowed,
+                         const std::string& remedy);
 
 /// `what` names the key in messages, such as "body.crate.mass".
 double scene_real(const TomlNode& node, const std::string& what, Range range);

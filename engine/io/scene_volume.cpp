@@ -23,9 +23,12 @@ constexpr double kMostOutside = 0.1;  // of the volume's longest side: a vertex 
 int read_cells(const TomlNode& table, const std::string& what) {
   check_keys(table, what, {"cells"});
   const TomlEntry* cells = table.find("cells");
-  if (cells == nullptr) refuse(table.place, what + " has no cells", "cells = how many along the longest side", "add cells = 12");
+  if (cells == nullptr)
+    refuse(table.place, what + " has no cells", "cells = how many along the longest side", "add cells = 12");
   const double n = scene_real(cells->value, what + ".cells", {kFewestCells, kMostCells});
-  if (n != std::floor(n)) refuse(cells->value.place, fmt::format("{}.cells is {}", what, shortest(n)), "a whole number is wanted", "round it");
+  if (n != std::floor(n))
+    refuse(cells->value.place, fmt::format("{}.cells is {}", what, shortest(n)), "a whole number is wanted",
+           "round it");
   return static_cast<int>(n);
 }
 
@@ -40,7 +43,8 @@ MeshPointer checked_surface(TriangleMesh mesh, const TomlNode& node, const std::
   surface->mesh = std::move(mesh);
   surface->topology = make_topology(surface->mesh);
   if (const auto problem = check_mesh(surface->mesh, surface->topology))
-    throw InputError(fmt::format("{}: the boundary of {} {}; give the body a surface of its own", node.place, name, *problem));
+    throw InputError(
+        fmt::format("{}: the boundary of {} {}; give the body a surface of its own", node.place, name, *problem));
   return surface;
 }
 
@@ -72,12 +76,17 @@ MeshPointer shape_surface(const TomlNode& node, const std::string& what, const S
     return checked_surface(sphere_surface(sphere->radius, k), node, what);
   }
   if (const auto* box = std::get_if<Box>(&shape))
-    return checked_surface(box_surface(box->half, cells_of_box(box->half, 2.0 * box->half.maxCoeff() / edge)), node, what);
+    return checked_surface(box_surface(box->half, cells_of_box(box->half, 2.0 * box->half.maxCoeff() / edge)), node,
+                           what);
   if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    const double around = std::ceil(2.0 * 6.2832 * capsule->radius / edge);  // half as long: ten to a ring would cut off 8 % of it
-    return checked_surface(capsule_surface(capsule->radius, capsule->half_length, std::clamp(static_cast<int>(around), 8, 256)), node, what);
+    // half as long: ten to a ring would cut off 8 % of it
+    const double around = std::ceil(2.0 * 6.2832 * capsule->radius / edge);
+    return checked_surface(
+        capsule_surface(capsule->radius, capsule->half_length, std::clamp(static_cast<int>(around), 8, 256)), node,
+        what);
   }
-  refuse(node.place, what + " is a plane and the body deformable", "sphere, box, capsule and any closed surface file can be deformable", "use another shape");
+  refuse(node.place, what + " is a plane and the body deformable",
+         "sphere, box, capsule and any closed surface file can be deformable", "use another shape");
 }
 
 double longest_side(const Shape& shape) {
@@ -89,8 +98,8 @@ double longest_side(const Shape& shape) {
 
 /// The surface that collides and is drawn: a file's, or an exact shape's with edges of `edge` metres, or of its longest
 /// side / `cells` where cells > 0.
-MeshPointer outer_surface(const TomlNode& table, const std::string& what, double scale, double edge, int cells, SurfaceFiles& files,
-                          BodyDescription& body) {
+MeshPointer outer_surface(const TomlNode& table, const std::string& what, double scale, double edge, int cells,
+                          SurfaceFiles& files, BodyDescription& body) {
   if (const TomlEntry* surface = table.find("surface")) {
     body.surface_file = surface->value.string;
     return files.load(surface->value, what + ".surface", scale);
@@ -99,7 +108,8 @@ MeshPointer outer_surface(const TomlNode& table, const std::string& what, double
   const Shape shape = read_shape(entry->value, what + ".shape", scale);
   // an edge too short is refused by the caller, once the surface is there: no finer than is ever taken
   const double longest = longest_side(shape);
-  return shape_surface(entry->value, what + ".shape", shape, cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
+  return shape_surface(entry->value, what + ".shape", shape,
+                       cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
 }
 
 void take(const CarriedVolume& volume, const MeshPointer& surface, SoftDescription& soft, BodyDescription& body) {
@@ -110,7 +120,8 @@ void take(const CarriedVolume& volume, const MeshPointer& surface, SoftDescripti
 }
 
 // only what the scene leaves open is taken from the file
-void use_file_material(const TomlNode& table, const TomlNode& node, const std::string& what, const TetFile& file, SoftDescription& soft) {
+void use_file_material(const TomlNode& table, const TomlNode& node, const std::string& what, const TetFile& file,
+                       SoftDescription& soft) {
   if (file.materials.empty()) return;
   const TomlEntry* material = table.find("material");
   const auto gives = [&](const char* key) { return material != nullptr && material->value.find(key) != nullptr; };
@@ -120,8 +131,11 @@ void use_file_material(const TomlNode& table, const TomlNode& node, const std::s
   const bool one = std::all_of(of.begin(), of.end(), [&](int m) { return m == of[0]; });
   const TetFileMaterial& m = file.materials[of.empty() ? 0 : of[0]];
   if (!one || (!m.isotropic && !elastic))
-    refuse(node.place, fmt::format("{} = {} has {}", what, toml_string(node.string), one ? "a material that is not isotropic" : "more than one material"),
-           "a body has one isotropic material", "give young, poisson and density in the scene: they then hold for all of it");
+    refuse(node.place,
+           fmt::format("{} = {} has {}", what, toml_string(node.string),
+                       one ? "a material that is not isotropic" : "more than one material"),
+           "a body has one isotropic material",
+           "give young, poisson and density in the scene: they then hold for all of it");
   if (!gives("young")) soft.material.young = m.young;
   if (!gives("poisson")) soft.material.poisson = m.poisson;
   if (!density) soft.density = m.density;
@@ -137,7 +151,8 @@ double distance_to_triangles(const Vec3& x, const TetMesh& volume, std::span<con
 }
 
 // a surface and a volume that don't belong together would be carried by nonsense
-void check_outside(const TomlNode& node, const std::string& what, const TriangleMesh& surface, const SoftDescription& soft) {
+void check_outside(const TomlNode& node, const std::string& what, const TriangleMesh& surface,
+                   const SoftDescription& soft) {
   if (soft.embedding.outside == 0) return;
   const double size = bounds_of(soft.mesh.vertices).extent().maxCoeff(), allowed = kMostOutside * size;
   std::vector<Triangle> boundary;
@@ -152,29 +167,34 @@ void check_outside(const TomlNode& node, const std::string& what, const Triangle
     if (boundary.empty()) boundary = boundary_triangles(soft.mesh);
     const double distance = distance_to_triangles(x, soft.mesh, boundary);
     if (distance > allowed)
-      refuse(node.place, fmt::format("{}: vertex {} of the surface lies {:.3g} m outside of the volume", what, v, distance),
-             fmt::format("at most {:.3g} m (a tenth of its {:.3g} m) is taken: both must be of one frame and scale", allowed, size),
+      refuse(node.place,
+             fmt::format("{}: vertex {} of the surface lies {:.3g} m outside of the volume", what, v, distance),
+             fmt::format("at most {:.3g} m (a tenth of its {:.3g} m) is taken: both must be of one frame and scale",
+                         allowed, size),
              "check that they belong together");
   }
 }
 
-void read_volume_file(const TomlNode& table, const TomlNode& node, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft,
-                      BodyDescription& body) {
+void read_volume_file(const TomlNode& table, const TomlNode& node, const std::string& what, double scale,
+                      SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume";
   if (const TomlEntry* shape = table.find("shape"))
-    refuse(shape->place, what + " has a shape and a volume file", "the volume's own boundary or a surface file is its surface", "remove shape");
+    refuse(shape->place, what + " has a shape and a volume file",
+           "the volume's own boundary or a surface file is its surface", "remove shape");
   const std::shared_ptr<const TetFile> file = files.load_volume(node, name);
   soft.mesh = file->mesh;
   for (Vec3& x : soft.mesh.vertices) x *= scale;
   use_file_material(table, node, name, *file, soft);
-  const MeshPointer surface =
-      table.find("surface") != nullptr ? outer_surface(table, what, scale, 1.0, 0, files, body) : checked_surface(boundary_of(soft.mesh), node, toml_string(node.string));
+  const MeshPointer surface = table.find("surface") != nullptr
+                                  ? outer_surface(table, what, scale, 1.0, 0, files, body)
+                                  : checked_surface(boundary_of(soft.mesh), node, toml_string(node.string));
   soft.embedding = embed(soft.mesh, surface->mesh.vertices);
   check_outside(node, name, surface->mesh, soft);
   body.shape = surface;
 }
 
-void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files,
+               SoftDescription& soft, BodyDescription& body) {
   const int cells = read_cells(way.value, what + ".volume.cage");
   const MeshPointer outer = outer_surface(table, what, scale, 0.0, cells, files, body);
   const auto make = [&]() -> CarriedVolume {
@@ -186,7 +206,8 @@ void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& w
   take(*files.volumes().get(outer->mesh, fmt::format("cage {}", cells), make), outer, soft, body);
 }
 
-void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SoftDescription& soft, BodyDescription& body) {
+void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
+                  SoftDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume.lattice";
   const int cells = read_cells(way.value, name);
   const TomlEntry* shape = table.find("shape");
@@ -201,13 +222,14 @@ void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string
   body.shape = boundary;
 }
 
-void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft,
-                         BodyDescription& body) {
+void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
+                         SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume.tetrahedralize";
   const TomlNode& node = way.value;
   check_keys(node, name, {"max_size", "min_angle"});
   const TomlEntry *size = node.find("max_size"), *angle = node.find("min_angle");
-  if (size == nullptr) refuse(node.place, name + " has no max_size", "max_size = the longest edge in metres is wanted", "add it");
+  if (size == nullptr)
+    refuse(node.place, name + " has no max_size", "max_size = the longest edge in metres is wanted", "add it");
   TetrahedralizeSettings settings;
   settings.max_size = scene_positive(size->value, name + ".max_size", 1e6);
   if (angle != nullptr) settings.min_angle = scene_real(angle->value, name + ".min_angle", {0.0, 20.0});
@@ -215,7 +237,9 @@ void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std:
   const double longest = bounds_of(outer->mesh.vertices).extent().maxCoeff();
   if (settings.max_size < longest / kMostCells)
     refuse(size->value.place, fmt::format("{}.max_size is {}", name, shortest(settings.max_size)),
-           fmt::format("at least {:.3g} m, a {}th of the surface's longest side, is allowed", longest / kMostCells, kMostCells), "make it larger");
+           fmt::format("at least {:.3g} m, a {}th of the surface's longest side, is allowed", longest / kMostCells,
+                       kMostCells),
+           "make it larger");
   const auto make = [&]() -> CarriedVolume {
     try {
       CarriedVolume volume;
@@ -226,32 +250,38 @@ void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std:
       throw InputError(fmt::format("{}: {}: {}", node.place, name, error.what()));
     }
   };
-  const std::string options = fmt::format("tetrahedralize {} {}", shortest(settings.max_size), shortest(settings.min_angle));
+  const std::string options =
+      fmt::format("tetrahedralize {} {}", shortest(settings.max_size), shortest(settings.min_angle));
   take(*files.volumes().get(outer->mesh, options, make), outer, soft, body);
   check_outside(node, name, outer->mesh, soft);
 }
 
 }  // namespace
 
-void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
+                 SoftDescription& soft, BodyDescription& body) {
   const TomlEntry *entry = table.find("volume"), *shape = table.find("shape"), *surface = table.find("surface");
   const std::string name = what + ".volume";
-  if (shape != nullptr && surface != nullptr) refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
+  if (shape != nullptr && surface != nullptr)
+    refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
   if (entry == nullptr)
-    refuse(table.place, what + " is deformable and has no volume", "a cage round its surface or a file of tetrahedra is wanted", "add volume = { cage = { cells = 12 } }");
+    refuse(table.place, what + " is deformable and has no volume",
+           "a cage round its surface or a file of tetrahedra is wanted", "add volume = { cage = { cells = 12 } }");
   if (entry->value.kind == TomlNode::text) return read_volume_file(table, entry->value, what, scale, files, soft, body);
   if (entry->value.kind != TomlNode::table)
-    refuse(entry->value.place, fmt::format("{} is {}", name, toml_kind_name(entry->value)), "a file name, or a table naming one way to make it, is wanted",
-           "write volume = { cage = { cells = 12 } }");
+    refuse(entry->value.place, fmt::format("{} is {}", name, toml_kind_name(entry->value)),
+           "a file name, or a table naming one way to make it, is wanted", "write volume = { cage = { cells = 12 } }");
   const TomlNode& volume = entry->value;
   check_keys(volume, name, {"cage", "lattice", "tetrahedralize"});
   if (volume.entries.size() != 1)
-    refuse(volume.place, fmt::format("{} names {} ways", name, volume.entries.size()), "a file's name, or one of cage, lattice, tetrahedralize, is wanted",
+    refuse(volume.place, fmt::format("{} names {} ways", name, volume.entries.size()),
+           "a file's name, or one of cage, lattice, tetrahedralize, is wanted",
            "write volume = { cage = { cells = 12 } }");
   const TomlEntry& way = volume.entries[0];
   scene_table(way.value, name + "." + way.key);
   if (shape == nullptr && surface == nullptr)
-    refuse(table.place, what + " has no surface", "surface = \"file\", or shape = { sphere, box or capsule }, is wanted", "add one");
+    refuse(table.place, what + " has no surface",
+           "surface = \"file\", or shape = { sphere, box or capsule }, is wanted", "add one");
   if (way.key == "cage") return read_cage(table, way, what, scale, files, soft, body);
   if (way.key == "lattice") return read_lattice(table, way, what, scale, soft, body);
   read_tetrahedralize(table, way, what, scale, files, soft, body);

@@ -9,7 +9,7 @@ namespace impinge {
 /// Fills soft.mesh, .fraction and .embedding, body.shape and .surface_file; from a .veg file with a material also what
 /// of young, poisson and density the scene doesn't give. Throws InputError, located, at the first key or value that
 /// can't be taken.
-void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files, SoftDescription& soft,
-                 BodyDescription& body);
+void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
+                 SoftDescription& soft, BodyDescription& body);
 
 }  // namespace impinge

@@ -363,7 +363,7 @@ class MshReader {
   std::string_view text_, word_;
   std::size_t at_ = 0, line_start_ = 0;
   int next_line_ = 1, line_ = 1, column_ = 1;
-  bool legacy_ = false;   // 2.2
+  bool legacy_ = false;  // 2.2
   bool binary_ = false, swap_ = false;
   bool in_data_ = false;  // between the text of a binary file
   long long triangles_ = 0;

@@ -32,7 +32,8 @@ class Workshop {
     std::error_code error;
     std::string name = (fs::temp_directory_path(error) / "impinge_tetrahedralize_XXXXXX").string();
     if (error || mkdtemp(name.data()) == nullptr)
-      throw InputError(fmt::format("no temporary folder for the surface ({}); a writable one is wanted; set TMPDIR", std::strerror(errno)));
+      throw InputError(fmt::format("no temporary folder for the surface ({}); a writable one is wanted; set TMPDIR",
+                                   std::strerror(errno)));
     path_ = name;
   }
   ~Workshop() {
@@ -73,7 +74,9 @@ int run(const std::vector<std::string>& words, const std::string& log) {
   pid_t pid = 0;
   const int code = posix_spawn(&pid, words[0].c_str(), &streams, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&streams);
-  if (code != 0) throw InputError(fmt::format("{} can't be started ({}); a program is wanted there; build or install it again", words[0], std::strerror(code)));
+  if (code != 0)
+    throw InputError(fmt::format("{} can't be started ({}); a program is wanted there; build or install it again",
+                                 words[0], std::strerror(code)));
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
@@ -85,13 +88,15 @@ std::string last_line(const std::string& text) {
   std::size_t end = text.find_last_not_of(" \t\r\n");
   if (end == std::string::npos) return "";
   const std::size_t start = text.find_last_of('\n', end);
-  return text.substr(start == std::string::npos ? 0 : start + 1, end - (start == std::string::npos ? 0 : start + 1) + 1);
+  return text.substr(start == std::string::npos ? 0 : start + 1,
+                     end - (start == std::string::npos ? 0 : start + 1) + 1);
 }
 
 }  // namespace
 
 fs::path find_tetrahedralizer() {
-  if (const char* named = std::getenv("IMPINGE_TETRAHEDRALIZE"); named != nullptr && *named != '\0') return is_program(named) ? fs::path(named) : fs::path();
+  if (const char* named = std::getenv("IMPINGE_TETRAHEDRALIZE"); named != nullptr && *named != '\0')
+    return is_program(named) ? fs::path(named) : fs::path();
   std::error_code error;
   const fs::path own = fs::read_symlink("/proc/self/exe", error);
   if (!error && is_program(own.parent_path() / kProgram)) return own.parent_path() / kProgram;
@@ -109,16 +114,20 @@ fs::path find_tetrahedralizer() {
 TetMesh tetrahedralize(const TriangleMesh& surface, const TetrahedralizeSettings& settings) {
   const fs::path program = find_tetrahedralizer();
   if (program.empty())
-    throw InputError(fmt::format("the program {} is not there; what IMPINGE_TETRAHEDRALIZE names, the folder of impinge and PATH are looked in; build it (apt install libcgal-dev; cmake --build build "
-                                 "--target {}), or use a cage",
-                                 kProgram, kProgram));
+    throw InputError(
+        fmt::format("the program {} is not there; what IMPINGE_TETRAHEDRALIZE names, the folder of impinge and PATH "
+                    "are looked in; build it (apt install libcgal-dev; cmake --build build "
+                    "--target {}), or use a cage",
+                    kProgram, kProgram));
   const Workshop folder;
   write_file(folder / "surface.off", off_text(surface));
-  const int status = run({program.string(), folder / "surface.off", folder / "volume.msh", "--max-size", shortest(settings.max_size), "--min-angle", shortest(settings.min_angle)},
+  const int status = run({program.string(), folder / "surface.off", folder / "volume.msh", "--max-size",
+                          shortest(settings.max_size), "--min-angle", shortest(settings.min_angle)},
                          folder / "log");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     const std::string said = last_line(read_file(folder / "log", std::uint64_t{1} << 24));
-    const std::string how = WIFSIGNALED(status) ? fmt::format("was ended by signal {}", WTERMSIG(status)) : fmt::format("failed{}{}", said.empty() ? "" : ": ", said);
+    const std::string how = WIFSIGNALED(status) ? fmt::format("was ended by signal {}", WTERMSIG(status))
+                                                : fmt::format("failed{}{}", said.empty() ? "" : ": ", said);
     throw InputError(fmt::format("{} {}; a volume mesh is wanted; try another max_size, or use a cage", kProgram, how));
   }
   return read_tet_file(folder / "volume.msh").mesh;

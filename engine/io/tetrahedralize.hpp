@@ -1,4 +1,5 @@
-// Tetrahedra that fill a closed surface, made by a program of its own: impinge-tetrahedralize (scenes/meshes/tetrahedralize).
+// Tetrahedra that fill a closed surface, made by a program of its own: impinge-tetrahedralize
+// (scenes/meshes/tetrahedralize).
 //
 // It stands apart because the library it uses is under another licence, large, and slow to compile; nothing of it is
 // linked into impinge.
@@ -19,8 +20,9 @@ struct TetrahedralizeSettings {
 /// What IMPINGE_TETRAHEDRALIZE names; else beside the running program, else in PATH. Empty where there is none.
 std::filesystem::path find_tetrahedralizer();
 
-/// The tetrahedra, checked like those of a file. Their boundary follows the surface to within a tenth of max_size, edges
-/// and corners rounded. Throws InputError (without a place) where the program isn't there or fails, with what it said.
+/// The tetrahedra, checked like those of a file. Their boundary follows the surface to within a tenth of max_size,
+/// edges and corners rounded. Throws InputError (without a place) where the program isn't there or fails, with what it
+/// said.
 TetMesh tetrahedralize(const TriangleMesh& surface, const TetrahedralizeSettings& settings);
 
 }  // namespace impinge

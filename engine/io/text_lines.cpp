@@ -68,24 +68,30 @@ bool TextLines::next() {
 
 void TextLines::need(const char* what) {
   if (next()) return;
-  throw InputError(fmt::format("{}:{}: the file ends early; {} should follow; export it again", name_, next_line_, what));
+  throw InputError(
+      fmt::format("{}:{}: the file ends early; {} should follow; export it again", name_, next_line_, what));
 }
 
 double TextLines::real(std::size_t i) const {
-  if (i >= words_.size()) fail(words_.size() - 1, "the line ends early", "another number should follow", "export the file again");
+  if (i >= words_.size())
+    fail(words_.size() - 1, "the line ends early", "another number should follow", "export the file again");
   double value = 0.0;
-  if (!read_number(words_[i], value) || !std::isfinite(value)) fail(i, quoted(words_[i]), "a finite number is wanted", "mend or export the file again");
+  if (!read_number(words_[i], value) || !std::isfinite(value))
+    fail(i, quoted(words_[i]), "a finite number is wanted", "mend or export the file again");
   return value;
 }
 
 std::int64_t TextLines::integer(std::size_t i) const {
-  if (i >= words_.size()) fail(words_.size() - 1, "the line ends early", "another whole number should follow", "export the file again");
+  if (i >= words_.size())
+    fail(words_.size() - 1, "the line ends early", "another whole number should follow", "export the file again");
   std::int64_t value = 0;
-  if (!read_number(words_[i], value)) fail(i, quoted(words_[i]), "a whole number is wanted", "mend or export the file again");
+  if (!read_number(words_[i], value))
+    fail(i, quoted(words_[i]), "a whole number is wanted", "mend or export the file again");
   return value;
 }
 
-void TextLines::fail(std::size_t i, const std::string& found, const std::string& allowed, const std::string& remedy) const {
+void TextLines::fail(std::size_t i, const std::string& found, const std::string& allowed,
+                     const std::string& remedy) const {
   const std::size_t column = i < columns_.size() ? columns_[i] : 1;
   throw InputError(fmt::format("{}:{}:{}: {}; {}; {}", name_, line_, column, found, allowed, remedy));
 }

@@ -29,7 +29,8 @@ class TextLines {
   std::int64_t integer(std::size_t i) const;
 
   /// Throws InputError `name:line:column: found; allowed; remedy` at word i (or at the line's first).
-  [[noreturn]] void fail(std::size_t i, const std::string& found, const std::string& allowed, const std::string& remedy) const;
+  [[noreturn]] void fail(std::size_t i, const std::string& found, const std::string& allowed,
+                         const std::string& remedy) const;
 
  private:
   void split(std::string_view line);

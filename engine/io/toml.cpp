@@ -16,11 +16,15 @@ namespace {
 
 using Value = toml::basic_value<toml::discard_comments, std::map, std::vector>;
 
-std::size_t number_of(const std::string& text) { return text == "line_num" || text.empty() ? 0 : std::strtoul(text.c_str(), nullptr, 10); }
+std::size_t number_of(const std::string& text) {
+  return text == "line_num" || text.empty() ? 0 : std::strtoul(text.c_str(), nullptr, 10);
+}
 
 struct Place {
   std::size_t line = 1, column = 1;
-  friend bool operator<(const Place& l, const Place& r) { return l.line != r.line ? l.line < r.line : l.column < r.column; }
+  friend bool operator<(const Place& l, const Place& r) {
+    return l.line != r.line ? l.line < r.line : l.column < r.column;
+  }
 };
 
 class Converter {
@@ -31,16 +35,28 @@ class Converter {
     TomlNode out;
     out.place = text(place(value));
     switch (value.type()) {
-      case toml::value_t::boolean: out.kind = TomlNode::boolean, out.flag = value.as_boolean(); break;
-      case toml::value_t::integer: out.kind = TomlNode::integer, out.whole = value.as_integer(); break;
-      case toml::value_t::floating: out.kind = TomlNode::real, out.number = value.as_floating(); break;
-      case toml::value_t::string: out.kind = TomlNode::text, out.string = value.as_string().str; break;
+      case toml::value_t::boolean:
+        out.kind = TomlNode::boolean, out.flag = value.as_boolean();
+        break;
+      case toml::value_t::integer:
+        out.kind = TomlNode::integer, out.whole = value.as_integer();
+        break;
+      case toml::value_t::floating:
+        out.kind = TomlNode::real, out.number = value.as_floating();
+        break;
+      case toml::value_t::string:
+        out.kind = TomlNode::text, out.string = value.as_string().str;
+        break;
       case toml::value_t::array:
         out.kind = TomlNode::array;
         for (const Value& item : value.as_array()) out.items.push_back(node(item));
         break;
-      case toml::value_t::table: table(value, out); break;
-      default: out.kind = TomlNode::other, out.string = "a date or time"; break;
+      case toml::value_t::table:
+        table(value, out);
+        break;
+      default:
+        out.kind = TomlNode::other, out.string = "a date or time";
+        break;
     }
     return out;
   }
@@ -86,11 +102,12 @@ class Converter {
   std::string reason = what.substr(0, what.find('\n'));
   for (const char* prefix : {"[error] ", "toml::"})
     if (reason.rfind(prefix, 0) == 0) reason = reason.substr(std::string_view(prefix).size());
-  if (const std::size_t colon = reason.find(": "); colon != std::string::npos && reason.find(' ') > colon) reason = reason.substr(colon + 2);
+  if (const std::size_t colon = reason.find(": "); colon != std::string::npos && reason.find(' ') > colon)
+    reason = reason.substr(colon + 2);
   if (reason.size() < 3) reason = "no valid value";
 
-  // its location() is unreliable, the picture is right: " 3 | text" with a line of ^ or ~ below; of two pictures, the first
-  // shows what was there already
+  // its location() is unreliable, the picture is right: " 3 | text" with a line of ^ or ~ below; of two pictures, the
+  // first shows what was there already
   const bool twice = what.find("already") != std::string::npos;
   std::size_t line = std::max<std::size_t>(1, error.location().line()), column = 1;
   std::size_t bar = std::string::npos;
@@ -99,7 +116,8 @@ class Converter {
     const std::string row = what.substr(begin, end - begin);
     const std::size_t at = row.find(" | ");
     const std::size_t digits = row.find_first_of("0123456789");
-    if (at != std::string::npos && digits < at && number_of(row.substr(digits)) > 0) line = number_of(row.substr(digits)), bar = at;
+    if (at != std::string::npos && digits < at && number_of(row.substr(digits)) > 0)
+      line = number_of(row.substr(digits)), bar = at;
     else if (bar != std::string::npos) {
       const std::size_t mark = row.find_first_of("^~", bar);
       if (mark != std::string::npos) column = mark - bar - 2;
@@ -108,7 +126,8 @@ class Converter {
     }
     begin = end + 1;
   }
-  throw InputError(fmt::format("{}:{}:{}: broken TOML ({}); TOML 1.0 is wanted; mend the line", name, line, std::max<std::size_t>(1, column), reason));
+  throw InputError(fmt::format("{}:{}:{}: broken TOML ({}); TOML 1.0 is wanted; mend the line", name, line,
+                               std::max<std::size_t>(1, column), reason));
 }
 
 }  // namespace
@@ -121,7 +140,8 @@ TomlEntry* TomlNode::find(std::string_view key) {
 const TomlEntry* TomlNode::find(std::string_view key) const { return const_cast<TomlNode*>(this)->find(key); }
 
 const char* toml_kind_name(const TomlNode& node) {
-  constexpr const char* kNames[] = {"a boolean", "an integer", "a real number", "a text", "an array", "a table", "a date or time"};
+  constexpr const char* kNames[] = {"a boolean", "an integer", "a real number", "a text",
+                                    "an array",  "a table",    "a date or time"};
   return kNames[node.kind];
 }
 
@@ -177,26 +197,35 @@ TomlNode parse_toml_value(const std::string& text, const std::string& place) {
 std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\', out += c;
-    else if (c == '\n') out += "\\n";
-    else if (c == '\t') out += "\\t";
-    else if (c == '\r') out += "\\r";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
-    else out += c;
+    if (c == '"' || c == '\\')
+      out += '\\', out += c;
+    else if (c == '\n')
+      out += "\\n";
+    else if (c == '\t')
+      out += "\\t";
+    else if (c == '\r')
+      out += "\\r";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    else
+      out += c;
   }
   return out + "\"";
 }
 
 std::string format_toml(const TomlNode& node) {
   switch (node.kind) {
-    case TomlNode::boolean: return node.flag ? "true" : "false";
-    case TomlNode::integer: return std::to_string(node.whole);
+    case TomlNode::boolean:
+      return node.flag ? "true" : "false";
+    case TomlNode::integer:
+      return std::to_string(node.whole);
     case TomlNode::real: {
       std::string text = shortest(node.number);
       if (text.find_first_of(".enai") == std::string::npos) text += ".0";
       return text;
     }
-    case TomlNode::text: return toml_string(node.string);
+    case TomlNode::text:
+      return toml_string(node.string);
     case TomlNode::array: {
       std::vector<std::string> parts;
       for (const TomlNode& item : node.items) parts.push_back(format_toml(item));
@@ -204,10 +233,12 @@ std::string format_toml(const TomlNode& node) {
     }
     case TomlNode::table: {
       std::vector<std::string> parts;
-      for (const TomlEntry& entry : node.entries) parts.push_back(fmt::format("{} = {}", entry.key, format_toml(entry.value)));
+      for (const TomlEntry& entry : node.entries)
+        parts.push_back(fmt::format("{} = {}", entry.key, format_toml(entry.value)));
       return fmt::format("{{ {} }}", fmt::join(parts, ", "));
     }
-    case TomlNode::other: break;
+    case TomlNode::other:
+      break;
   }
   return toml_string(node.string);
 }

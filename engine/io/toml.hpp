@@ -17,10 +17,10 @@ struct TomlNode {
   bool flag = false;
   std::int64_t whole = 0;
   double number = 0.0;
-  std::string string;                ///< of a text, and the source of `other`
-  std::vector<TomlNode> items;       ///< of an array
-  std::vector<TomlEntry> entries;    ///< of a table, in the order of the file
-  std::string place;                 ///< "file:line:column", or "--set PATH=VALUE"
+  std::string string;              ///< of a text, and the source of `other`
+  std::vector<TomlNode> items;     ///< of an array
+  std::vector<TomlEntry> entries;  ///< of a table, in the order of the file
+  std::string place;               ///< "file:line:column", or "--set PATH=VALUE"
 
   bool is_number() const { return kind == integer || kind == real; }
   double as_number() const { return kind == integer ? static_cast<double>(whole) : number; }

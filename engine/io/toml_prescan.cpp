@@ -8,14 +8,16 @@ namespace impinge {
 
 void prescan_toml(const std::string& name, std::string_view text) {
   if (text.size() > kMostTomlBytes)
-    throw InputError(fmt::format("{}:1:1: a file of {} bytes; at most {} are taken; split the scene", name, text.size(), kMostTomlBytes));
+    throw InputError(fmt::format("{}:1:1: a file of {} bytes; at most {} are taken; split the scene", name, text.size(),
+                                 kMostTomlBytes));
   int line = 1, depth = 0;
   std::size_t begin = 0;
   std::string_view quote;  // the mark that ends the text we are in, empty outside
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (i - begin > kMostTomlLine)
-      throw InputError(fmt::format("{}:{}:1: a line of more than {} bytes; shorter lines are wanted; break it", name, line, kMostTomlLine));
+      throw InputError(fmt::format("{}:{}:1: a line of more than {} bytes; shorter lines are wanted; break it", name,
+                                   line, kMostTomlLine));
     if (c == '\n') {
       ++line;
       begin = i + 1;
@@ -23,8 +25,10 @@ void prescan_toml(const std::string& name, std::string_view text) {
       continue;
     }
     if (!quote.empty()) {
-      if (c == '\\' && quote[0] == '"') ++i;
-      else if (text.substr(i, quote.size()) == quote) i += quote.size() - 1, quote = {};
+      if (c == '\\' && quote[0] == '"')
+        ++i;
+      else if (text.substr(i, quote.size()) == quote)
+        i += quote.size() - 1, quote = {};
       if (i < text.size() && text[i] == '\n') --i;  // an escaped line end still ends the line
       continue;
     }
@@ -39,7 +43,8 @@ void prescan_toml(const std::string& name, std::string_view text) {
       i += quote.size() - 1;
     } else if (c == '[' || c == '{') {
       if (++depth > kMostTomlDepth)
-        throw InputError(fmt::format("{}:{}:{}: brackets nested deeper than {}; flatter values are wanted; unfold them", name, line, i - begin + 1, kMostTomlDepth));
+        throw InputError(fmt::format("{}:{}:{}: brackets nested deeper than {}; flatter values are wanted; unfold them",
+                                     name, line, i - begin + 1, kMostTomlDepth));
     } else if ((c == ']' || c == '}') && depth > 0) {
       --depth;
     }

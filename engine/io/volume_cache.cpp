@@ -24,7 +24,8 @@ std::string key_of(const TriangleMesh& surface, const std::string& options) {
   for (const Vec3& v : surface.vertices) out.put(v);
   for (const Triangle& t : surface.triangles)
     for (const int v : t) out.put(v);
-  const std::string head = fmt::format("{}\n{}\n{} {}\n", kVersion, options, surface.vertices.size(), surface.triangles.size());
+  const std::string head =
+      fmt::format("{}\n{}\n{} {}\n", kVersion, options, surface.vertices.size(), surface.triangles.size());
   // two hashes of different seeds: 128 bits, so that no two volumes ever meet by chance
   return hex64(hash_bytes(out.bytes(), hash_bytes(head, 1))) + hex64(hash_bytes(out.bytes(), hash_bytes(head, 2)));
 }
@@ -70,7 +71,9 @@ CarriedVolume from_bytes(std::string_view bytes) {
   return volume;
 }
 
-std::string head_of(const std::string& key, std::string_view body) { return fmt::format("{}\n{}\n{}\n", kVersion, key, hex64(hash_bytes(body))); }
+std::string head_of(const std::string& key, std::string_view body) {
+  return fmt::format("{}\n{}\n{}\n", kVersion, key, hex64(hash_bytes(body)));
+}
 
 VolumePointer load(const fs::path& path, const std::string& key) {
   std::error_code error;
@@ -117,7 +120,8 @@ fs::path cache_folder() {
   return {};
 }
 
-VolumePointer VolumeCache::get(const TriangleMesh& surface, const std::string& options, const std::function<CarriedVolume()>& make) {
+VolumePointer VolumeCache::get(const TriangleMesh& surface, const std::string& options,
+                               const std::function<CarriedVolume()>& make) {
   const std::string key = key_of(surface, options);
   VolumePointer& known = known_[key];
   if (known != nullptr) return known;

@@ -1,7 +1,8 @@
 // Volumes made at load time, kept by content: nothing is meshed twice.
 //
-// A key is made of everything the result depends on: the surface's vertices and triangles, the options, a version. Within
-// a program results are shared; between programs they lie as files in a folder, which may be removed at any time.
+// A key is made of everything the result depends on: the surface's vertices and triangles, the options, a version.
+// Within a program results are shared; between programs they lie as files in a folder, which may be removed at any
+// time.
 #pragma once
 
 #include <filesystem>
@@ -30,9 +31,10 @@ class VolumeCache {
  public:
   explicit VolumeCache(std::filesystem::path folder = cache_folder()) : folder_(std::move(folder)) {}
 
-  /// The volume of this surface by these options ("cage 12", ...), made if it isn't there. A damaged file is replaced; a
-  /// folder that can't be read or written is left alone.
-  VolumePointer get(const TriangleMesh& surface, const std::string& options, const std::function<CarriedVolume()>& make);
+  /// The volume of this surface by these options ("cage 12", ...), made if it isn't there. A damaged file is replaced;
+  /// a folder that can't be read or written is left alone.
+  VolumePointer get(const TriangleMesh& surface, const std::string& options,
+                    const std::function<CarriedVolume()>& make);
 
   int made() const { return made_; }  ///< how many were made, not found
 

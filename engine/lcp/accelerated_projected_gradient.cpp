@@ -1,9 +1,11 @@
-// Accelerated projected gradients, APGD [Nesterov83], [Mazhar15]: λ⁺ = P_K(y - t D⁻¹ (W y + q + s)) with y extrapolated from the
-// last two λ, restarted where the step turns against it. Whole products W y only: the method for wide machines.
+// Accelerated projected gradients, APGD [Nesterov83], [Mazhar15]: λ⁺ = P_K(y - t D⁻¹ (W y + q + s)) with y extrapolated
+// from the last two λ, restarted where the step turns against it. Whole products W y only: the method for wide
+// machines.
 //
-// Its model is the convex problem in which the shift s_i = mu_i |u_iT| of Coulomb's law is held; without the shift, sliding
-// would lift bodies. s follows u: an outer fixed point, moved on whenever the convex problem is solved well enough for it.
-// D is the size of W's diagonal blocks; the step t comes from the curvature met (backtracking), and grows again slowly.
+// Its model is the convex problem in which the shift s_i = mu_i |u_iT| of Coulomb's law is held; without the shift,
+// sliding would lift bodies. s follows u: an outer fixed point, moved on whenever the convex problem is solved well
+// enough for it. D is the size of W's diagonal blocks; the step t comes from the curvature met (backtracking), and
+// grows again slowly.
 #include <algorithm>
 #include <cmath>
 
@@ -12,14 +14,22 @@
 namespace impinge {
 namespace {
 
-constexpr double kInner = 0.3;       // the convex problem is solved to this share of the whole residual
-constexpr double kGrowth = 1.05;     // of the step, an iteration
-constexpr int kPatience = 2000;      // iterations without a better residual before giving up
+constexpr double kInner = 0.3;    // the convex problem is solved to this share of the whole residual
+constexpr double kGrowth = 1.05;  // of the step, an iteration
+constexpr int kPatience = 2000;   // iterations without a better residual before giving up
 
 class Descent {
  public:
   Descent(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda)
-      : problem_(problem), settings_(settings), lambda_(lambda), n_(lambda.size()), shift_(n_, 0.0), w_lambda_(n_), u_(n_), next_(n_), w_next_(n_) {
+      : problem_(problem),
+        settings_(settings),
+        lambda_(lambda),
+        n_(lambda.size()),
+        shift_(n_, 0.0),
+        w_lambda_(n_),
+        u_(n_),
+        next_(n_),
+        w_next_(n_) {
     for (std::size_t i = 0; i < n_; ++i) {
       const Mat3& d = problem.w->diagonal(i);
       const double size = problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
@@ -35,7 +45,8 @@ class Descent {
     double theta = 1.0, step = 1.0;
     for (int k = 1; k <= settings_.max_iterations; ++k) {
       for (;;) {
-        for (std::size_t i = 0; i < n_; ++i) next_[i] = problem_.nearest(i, y[i] - step / scale_[i] * gradient(i, w_y[i]));
+        for (std::size_t i = 0; i < n_; ++i)
+          next_[i] = problem_.nearest(i, y[i] - step / scale_[i] * gradient(i, w_y[i]));
         apply(next_, w_next_);
         double curve = 0.0, model = 0.0;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -49,7 +60,8 @@ class Descent {
       double turn = 0.0;
       for (std::size_t i = 0; i < n_; ++i) turn += scale_[i] * (y[i] - next_[i]).dot(next_[i] - lambda_[i]);
       if (turn > 0.0) theta = 1.0;
-      const double after = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * theta * theta)), beta = turn > 0.0 ? 0.0 : (theta - 1.0) / after;
+      const double after = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * theta * theta)),
+                   beta = turn > 0.0 ? 0.0 : (theta - 1.0) / after;
       theta = after;
       for (std::size_t i = 0; i < n_; ++i) {  // W y follows from the products at hand
         y[i] = next_[i] + beta * (next_[i] - lambda_[i]);
@@ -118,8 +130,8 @@ class AcceleratedProjectedGradient : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> accelerated_projected_gradient_solver() {
-  return entry<LcpSolver, AcceleratedProjectedGradient>("accelerated_projected_gradient",
-                                                        "APGD: Nesterov's method on the cone, with Coulomb's shift as a fixed point");
+  return entry<LcpSolver, AcceleratedProjectedGradient>(
+      "accelerated_projected_gradient", "APGD: Nesterov's method on the cone, with Coulomb's shift as a fixed point");
 }
 
 }  // namespace impinge

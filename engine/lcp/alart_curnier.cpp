@@ -19,7 +19,8 @@ Vec2 alart_curnier_scale(const ConeProblem& problem, std::size_t i) {
   return {inverse(w_ii(0, 0)), problem.has_one_row(i) ? 0.0 : inverse(0.5 * (w_ii(1, 1) + w_ii(2, 2)))};
 }
 
-AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho) {
+AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda,
+                           const Vec2& rho) {
   const double mu = problem.mu[i];
   AlartCurnier e{lambda, Mat3::Zero(), Mat3::Identity(), true};
   if (is_equation(problem, i, rho)) {
@@ -69,15 +70,18 @@ AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3
   return e;
 }
 
-Vec3 alart_curnier_value(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho) {
+Vec3 alart_curnier_value(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda,
+                         const Vec2& rho) {
   const double mu = problem.mu[i];
   if (is_equation(problem, i, rho)) return Vec3(rho.x(), rho.y(), rho.y()).cwiseProduct(u);
   const double z_n = std::max(0.0, lambda.x() - rho.x() * u.x());
   if (mu == 0.0) return {lambda.x() - z_n, 0.0, 0.0};
   Vec2 z = lambda.tail<2>() - rho.y() * u.tail<2>();
   const double bound = mu * z_n;
-  if (problem.law == FrictionLaw::pyramid) z = z.cwiseMax(-bound).cwiseMin(bound);
-  else if (const double size = z.norm(); size > bound) z *= bound / size;
+  if (problem.law == FrictionLaw::pyramid)
+    z = z.cwiseMax(-bound).cwiseMin(bound);
+  else if (const double size = z.norm(); size > bound)
+    z *= bound / size;
   return {lambda.x() - z_n, lambda.y() - z.x(), lambda.z() - z.y()};
 }
 

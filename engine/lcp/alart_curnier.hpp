@@ -8,16 +8,17 @@
 namespace impinge {
 
 struct AlartCurnier {
-  Vec3 value;          ///< what is left of the equations, N·s
+  Vec3 value;            ///< what is left of the equations, N·s
   Mat3 by_u, by_lambda;  ///< derivatives of `value`
-  bool open;           ///< z_n <= 0: the value is λ itself
+  bool open;             ///< z_n <= 0: the value is λ itself
 };
 
 /// ρ of the normal row and of the tangential ones, kg: the inverse of W_ii's diagonal.
 Vec2 alart_curnier_scale(const ConeProblem& problem, std::size_t i);
 
 /// Of contact i with its u and λ. Rows that are equations ask for ρ u = 0.
-AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho);
+AlartCurnier alart_curnier(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda,
+                           const Vec2& rho);
 
 /// `value` alone.
 Vec3 alart_curnier_value(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda, const Vec2& rho);

@@ -1,11 +1,12 @@
-// Sweeps where they are quick, Newton where they are not. Gauss-Seidel begins, from the last sub-step's λ; once its rate is
-// known, what it still needs is compared with the price of Newton's factorizations. Counts decide, never clocks, so the same problem
-// takes the same way everywhere.
+// Sweeps where they are quick, Newton where they are not. Gauss-Seidel begins, from the last sub-step's λ; once its
+// rate is known, what it still needs is compared with the price of Newton's factorizations. Counts decide, never
+// clocks, so the same problem takes the same way everywhere.
 //
-// Price in sweeps: some 15 factorizations of 2/3 (3n)³ operations at full speed against 18 n² a sweep at a fraction of it,
-// about 6 n, and less since open contacts leave the factorization; 2 n was the best of 6, 2 and 0.5 on stacks, piles and
-// deformable cubes. With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored) the sweeps are
-// made conjugate instead. Gauss-Seidel and then two short tries of Newton from either end were no better.
+// Price in sweeps: some 15 factorizations of 2/3 (3n)³ operations at full speed against 18 n² a sweep at a fraction of
+// it, about 6 n, and less since open contacts leave the factorization; 2 n was the best of 6, 2 and 0.5 on stacks,
+// piles and deformable cubes. With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored)
+// the sweeps are made conjugate instead. Gauss-Seidel and then two short tries of Newton from either end were no
+// better.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,11 +20,11 @@ Entry<LcpSolver> semismooth_newton_solver();
 
 namespace {
 
-constexpr int kFirstSweeps = 30;            // before the rate is looked at
-constexpr int kWindow = 10;                 // of them that it is taken over
+constexpr int kFirstSweeps = 30;  // before the rate is looked at
+constexpr int kWindow = 10;       // of them that it is taken over
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
-constexpr double kSweepsPerContact = 2.0;   // the price of Newton's method
-constexpr double kSweepsOfConjugate = 50.0; // what conjugate sweeps cost beside what they save
+constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method
+constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
 
 class Automatic : public LcpSolver {
  public:
@@ -44,7 +45,8 @@ class Automatic : public LcpSolver {
       changes.push_back(change);
       if (sweep < kFirstSweeps || sweep == settings.max_iterations) continue;
       if (sweeps_left(changes, goal) > std::min(price, static_cast<double>(settings.max_iterations - sweep)))
-        return go_on(newton ? semismooth_newton_solver() : nonsmooth_nonlinear_conjugate_gradient_solver(), problem, settings, sweep, lambda);
+        return go_on(newton ? semismooth_newton_solver() : nonsmooth_nonlinear_conjugate_gradient_solver(), problem,
+                     settings, sweep, lambda);
     }
     return {settings.max_iterations, StopReason::iteration_cap};
   }
@@ -57,12 +59,14 @@ class Automatic : public LcpSolver {
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
   }
 
-  static LcpResult go_on(const Entry<LcpSolver>& with, const ConeProblem& problem, LcpSettings settings, int sweeps, std::vector<Vec3>& lambda) {
+  static LcpResult go_on(const Entry<LcpSolver>& with, const ConeProblem& problem, LcpSettings settings, int sweeps,
+                         std::vector<Vec3>& lambda) {
     const std::vector<Vec3> before = lambda;
     settings.max_iterations -= sweeps;
     if (settings.history != nullptr) settings.history->pop_back();  // the next one begins with the same residual
     LcpResult result = with.make()->solve(problem, settings, lambda);
-    if (!result.solved() && !(judge(problem, lambda).map.relative < judge(problem, before).map.relative)) lambda = before;
+    if (!result.solved() && !(judge(problem, lambda).map.relative < judge(problem, before).map.relative))
+      lambda = before;
     result.iterations += sweeps;
     return result;
   }
@@ -71,7 +75,8 @@ class Automatic : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> automatic_solver() {
-  return entry<LcpSolver, Automatic>("automatic", "Gauss-Seidel, and where it is slow semismooth Newton (many contacts: NNCG)");
+  return entry<LcpSolver, Automatic>("automatic",
+                                     "Gauss-Seidel, and where it is slow semismooth Newton (many contacts: NNCG)");
 }
 
 }  // namespace impinge

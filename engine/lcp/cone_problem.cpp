@@ -24,9 +24,12 @@ MatX Delassus::dense() {
 
 Vec3 ConeProblem::nearest(std::size_t i, const Vec3& z) const {
   switch (kind_of(i)) {
-    case RowKind::attachment: return z;
-    case RowKind::sliding: return {z.x(), 0.0, 0.0};
-    case RowKind::contact: break;
+    case RowKind::attachment:
+      return z;
+    case RowKind::sliding:
+      return {z.x(), 0.0, 0.0};
+    case RowKind::contact:
+      break;
   }
   return project(z, mu[i], law);
 }

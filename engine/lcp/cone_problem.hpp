@@ -10,8 +10,9 @@
 
 namespace impinge {
 
-/// The Delassus operator W = J A⁻¹ J^T, symmetric positive semidefinite, in 3 x 3 blocks, 1/kg. It may be stored as a matrix or as
-/// factors; a Gauss-Seidel sweep needs rows and changes, so an operator keeps J A⁻¹ J^T λ up to date between them.
+/// The Delassus operator W = J A⁻¹ J^T, symmetric positive semidefinite, in 3 x 3 blocks, 1/kg. It may be stored as a
+/// matrix or as factors; a Gauss-Seidel sweep needs rows and changes, so an operator keeps J A⁻¹ J^T λ up to date
+/// between them.
 class Delassus {
  public:
   virtual ~Delassus() = default;
@@ -37,16 +38,20 @@ class Delassus {
 
 struct ConeProblem {
   Delassus* w = nullptr;
-  std::vector<Vec3> q;     ///< m/s
-  std::vector<double> mu;  ///< per contact
+  std::vector<Vec3> q;        ///< m/s
+  std::vector<double> mu;     ///< per contact
   std::vector<RowKind> kind;  ///< per contact; empty: all RowKind::contact
   FrictionLaw law = FrictionLaw::cone;
 
   RowKind kind_of(std::size_t i) const { return kind.empty() ? RowKind::contact : kind[i]; }
   /// Whether contact i has its normal row only.
-  bool has_one_row(std::size_t i) const { return kind_of(i) == RowKind::sliding || (kind_of(i) == RowKind::contact && mu[i] == 0.0); }
+  bool has_one_row(std::size_t i) const {
+    return kind_of(i) == RowKind::sliding || (kind_of(i) == RowKind::contact && mu[i] == 0.0);
+  }
   /// Whether an impulse of contact i can't move anything: both bodies are held.
-  bool is_held(std::size_t i) const { return !(has_one_row(i) ? w->diagonal(i)(0, 0) > 0.0 : w->diagonal(i).trace() > 0.0); }
+  bool is_held(std::size_t i) const {
+    return !(has_one_row(i) ? w->diagonal(i)(0, 0) > 0.0 : w->diagonal(i).trace() > 0.0);
+  }
 
   /// The nearest λ_i to z that contact i allows: its cone, or where λ is free all of its rows.
   Vec3 nearest(std::size_t i, const Vec3& z) const;
@@ -56,8 +61,8 @@ struct ConeProblem {
   double violation(std::size_t i, const Vec3& lambda) const;
 };
 
-/// The scalar rows that a problem has, contact by contact: index 3 i + k of row k of contact i; contacts of one row have
-/// only k = 0.
+/// The scalar rows that a problem has, contact by contact: index 3 i + k of row k of contact i; contacts of one row
+/// have only k = 0.
 std::vector<int> rows_of(const ConeProblem& problem);
 
 }  // namespace impinge

@@ -5,8 +5,8 @@
 
 namespace impinge {
 
-/// Solves contact i exactly (the pyramid: row by row) for the operator's present λ, which is `lambda`, and changes both.
-/// The velocity at the contact that the change made, m/s.
+/// Solves contact i exactly (the pyramid: row by row) for the operator's present λ, which is `lambda`, and changes
+/// both. The velocity at the contact that the change made, m/s.
 double relax_contact(const ConeProblem& problem, std::size_t i, std::vector<Vec3>& lambda);
 
 /// relax_contact for each contact in order; the largest change, m/s.

@@ -20,7 +20,8 @@ struct LcpSettings {
   double tolerance = 1e-8;  ///< of the relative residual that `measure` names
   int max_iterations = 1000;
   Measure measure = Measure::natural_map;
-  std::vector<double>* history = nullptr;  ///< if given, gets the relative residual before the first and after each iteration
+  /// if given, gets the relative residual before the first and after each iteration
+  std::vector<double>* history = nullptr;
 };
 
 struct LcpResult {

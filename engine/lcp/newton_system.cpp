@@ -9,8 +9,8 @@ namespace impinge {
 
 namespace {
 
-constexpr Eigen::Index kSparseRows = 300;   // below this a dense factorization is quicker whatever the pattern
-constexpr double kSparseFill = 0.15;        // share of W that is not 0
+constexpr Eigen::Index kSparseRows = 300;  // below this a dense factorization is quicker whatever the pattern
+constexpr double kSparseFill = 0.15;       // share of W that is not 0
 
 }  // namespace
 
@@ -20,7 +20,8 @@ struct NewtonSystem::Factors {
   bool singular = false;
 };
 
-NewtonSystem::NewtonSystem(const ConeProblem& problem) : rows_(rows_of(problem)), w_(problem.w->dense()), factors_(std::make_unique<Factors>()) {
+NewtonSystem::NewtonSystem(const ConeProblem& problem)
+    : rows_(rows_of(problem)), w_(problem.w->dense()), factors_(std::make_unique<Factors>()) {
   const auto nonzero = static_cast<double>((w_.array() != 0.0).count());
   sparse_ = w_.rows() >= kSparseRows && nonzero < kSparseFill * static_cast<double>(w_.size());
 }
@@ -50,7 +51,8 @@ void NewtonSystem::factorize(std::span<const Mat3> a, std::span<const Mat3> b, c
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index c = 0; c < n; ++c)
     for (Eigen::Index r = 0; r < n; ++r)
-      if (const double v = value(kept_[r], kept_[c]); v != 0.0) entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
+      if (const double v = value(kept_[r], kept_[c]); v != 0.0)
+        entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
   Eigen::SparseMatrix<double> m(n, n);
   m.setFromTriplets(entries.begin(), entries.end());
   factors_->sparse.compute(m);
@@ -71,9 +73,12 @@ void NewtonSystem::solve(const VecX& b, VecX& x) const {
       for (int k = 0; k < 3; ++k) rest[r] -= a_[i](row % 3, k) * carried[3 * i + k];
   }
   VecX y;
-  if (!sparse_) y = factors_->dense.solve(rest);
-  else if (factors_->singular) y = VecX::Constant(n, std::numeric_limits<double>::quiet_NaN());
-  else y = factors_->sparse.solve(rest);
+  if (!sparse_)
+    y = factors_->dense.solve(rest);
+  else if (factors_->singular)
+    y = VecX::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  else
+    y = factors_->sparse.solve(rest);
   for (Eigen::Index r = 0; r < n; ++r) x[kept_[r]] = y[r];
 }
 

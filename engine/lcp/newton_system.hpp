@@ -1,6 +1,6 @@
-// The linear systems of Newton's methods here: (A W + B) x = b with A and B block diagonal by contact. Rows that a method
-// knows already (A's row is 0, B's the unit row) are taken out first, so contacts that are open cost nothing. The rest is
-// factorized by LU, densely or, where W is large and mostly zero, sparsely.
+// The linear systems of Newton's methods here: (A W + B) x = b with A and B block diagonal by contact. Rows that a
+// method knows already (A's row is 0, B's the unit row) are taken out first, so contacts that are open cost nothing.
+// The rest is factorized by LU, densely or, where W is large and mostly zero, sparsely.
 #pragma once
 
 #include <memory>

@@ -1,8 +1,9 @@
 // Nonsmooth nonlinear conjugate gradients, NNCG [SilcowitzHansen10]: a Gauss-Seidel sweep is taken for a descent step
-// (minus the gradient), and steps are made conjugate by Fletcher and Reeves' rule. Costs a sweep and one more product an iteration.
+// (minus the gradient), and steps are made conjugate by Fletcher and Reeves' rule. Costs a sweep and one more product
+// an iteration.
 //
-// The momentum may carry λ out of its cones; the sweep that follows brings it back, so only what a sweep left is handed out.
-// Where the sweeps' steps grow the direction is dropped: then the method is Gauss-Seidel.
+// The momentum may carry λ out of its cones; the sweep that follows brings it back, so only what a sweep left is handed
+// out. Where the sweeps' steps grow the direction is dropped: then the method is Gauss-Seidel.
 #include <algorithm>
 #include <limits>
 
@@ -53,8 +54,8 @@ class NonsmoothNonlinearConjugateGradient : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> nonsmooth_nonlinear_conjugate_gradient_solver() {
-  return entry<LcpSolver, NonsmoothNonlinearConjugateGradient>("nonsmooth_nonlinear_conjugate_gradient",
-                                                               "NNCG: Gauss-Seidel sweeps made conjugate by Fletcher-Reeves");
+  return entry<LcpSolver, NonsmoothNonlinearConjugateGradient>(
+      "nonsmooth_nonlinear_conjugate_gradient", "NNCG: Gauss-Seidel sweeps made conjugate by Fletcher-Reeves");
 }
 
 }  // namespace impinge

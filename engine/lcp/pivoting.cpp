@@ -1,11 +1,11 @@
-// Lemke's complementary pivoting: the exact answer of a linear complementarity problem in finitely many steps, for small
-// problems without friction or with the friction pyramid. The reference that other solvers are held against.
+// Lemke's complementary pivoting: the exact answer of a linear complementarity problem in finitely many steps, for
+// small problems without friction or with the friction pyramid. The reference that other solvers are held against.
 //
 // A contact with a pyramid is five complementary pairs [Stewart00]: with s_k = λ_k + mu λ_n >= 0 and u_k = v_k - w_k,
 //   0 <= λ_n ⊥ u_n >= 0,   0 <= s_k ⊥ v_k = u_k + w_k >= 0,   0 <= w_k ⊥ 2 mu λ_n - s_k >= 0   (k = 1, 2).
-// With W positive definite the matrix is copositive, so Lemke's method ends with a solution [CottlePangStone92, 4.4]; ties in
-// the ratio test are broken lexicographically, so it can't cycle. The tableau only finds which variables are basic: the
-// answer is then solved for afresh with the problem's own numbers.
+// With W positive definite the matrix is copositive, so Lemke's method ends with a solution [CottlePangStone92, 4.4];
+// ties in the ratio test are broken lexicographically, so it can't cycle. The tableau only finds which variables are
+// basic: the answer is then solved for afresh with the problem's own numbers.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -93,9 +93,12 @@ class Tableau {
     MatX a(size_, size_);
     for (Eigen::Index i = 0; i < size_; ++i) {
       const Eigen::Index v = basis_[i];
-      if (v < size_) a.col(i) = VecX::Unit(size_, v);
-      else if (v < 2 * size_) a.col(i) = -p.m.col(v - size_);
-      else a.col(i).setConstant(-1.0);
+      if (v < size_)
+        a.col(i) = VecX::Unit(size_, v);
+      else if (v < 2 * size_)
+        a.col(i) = -p.m.col(v - size_);
+      else
+        a.col(i).setConstant(-1.0);
     }
     const Eigen::PartialPivLU<MatX> lu(a);
     VecX x = lu.solve(p.q);
@@ -122,7 +125,8 @@ class Tableau {
     basis_[row] = column;
   }
 
-  /// The row whose variable reaches 0 first as `column` grows; of several the lexicographically least. z0 leaves if it can.
+  /// The row whose variable reaches 0 first as `column` grows; of several the lexicographically least. z0 leaves if it
+  /// can.
   Eigen::Index leaving_row(Eigen::Index column) const {
     const double smallest = 1e-11 * rows_.col(column).cwiseAbs().maxCoeff();
     Eigen::Index best = -1;
@@ -178,11 +182,14 @@ class Pivoting : public LcpSolver {
 
   std::string applies(const ConeProblem& problem) const override {
     for (std::size_t i = 0; i < problem.q.size(); ++i)
-      if (problem.kind_of(i) != RowKind::contact) return "attachments and sliding constraints are equations; it solves complementarity only";
-    if (problem.law == FrictionLaw::cone && std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return mu != 0.0; }))
+      if (problem.kind_of(i) != RowKind::contact)
+        return "attachments and sliding constraints are equations; it solves complementarity only";
+    if (problem.law == FrictionLaw::cone &&
+        std::any_of(problem.mu.begin(), problem.mu.end(), [](double mu) { return mu != 0.0; }))
       return "a friction cone is not linear; it solves problems without friction or with the pyramid";
     const std::size_t rows = rows_of(problem).size();
-    if (rows > kMostRows) return std::to_string(rows) + " rows; it is a reference for up to " + std::to_string(kMostRows);
+    if (rows > kMostRows)
+      return std::to_string(rows) + " rows; it is a reference for up to " + std::to_string(kMostRows);
     return "";
   }
 };
@@ -190,7 +197,8 @@ class Pivoting : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> pivoting_solver() {
-  return entry<LcpSolver, Pivoting>("pivoting", "Lemke's method, the exact reference: small problems, no friction or the pyramid");
+  return entry<LcpSolver, Pivoting>("pivoting",
+                                    "Lemke's method, the exact reference: small problems, no friction or the pyramid");
 }
 
 }  // namespace impinge

@@ -1,7 +1,8 @@
-// Projected Gauss-Seidel, one 3 x 3 block a contact: each contact in turn is solved exactly (take-off, stick or slip on the
-// true cone) with the others held. [Haapaoja16 §4.2], block form [Jean99]. Cost of a sweep: linear in the contacts for a
-// factored W. For a tower of two boxes with mass ratio r the error shrinks by r/(1+r) a sweep: slow, not wrong. Sweeps that
-// alternate in direction were tried: on that tower they take twice as many, since the contact at the turn is solved twice.
+// Projected Gauss-Seidel, one 3 x 3 block a contact: each contact in turn is solved exactly (take-off, stick or slip on
+// the true cone) with the others held. [Haapaoja16 §4.2], block form [Jean99]. Cost of a sweep: linear in the contacts
+// for a factored W. For a tower of two boxes with mass ratio r the error shrinks by r/(1+r) a sweep: slow, not wrong.
+// Sweeps that alternate in direction were tried: on that tower they take twice as many, since the contact at the turn
+// is solved twice.
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
 namespace impinge {
@@ -17,7 +18,8 @@ class ProjectedGaussSeidel : public LcpSolver {
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       const double change = gauss_seidel_sweep(problem, lambda);
       if (stop.solved(lambda, change)) return {sweep, StopReason::converged};
-      if (change == 0.0) return {sweep, StopReason::stagnated};  // each contact is solved to the last bit: so is every later sweep
+      // each contact is solved to the last bit: so is every later sweep
+      if (change == 0.0) return {sweep, StopReason::stagnated};
     }
     return {settings.max_iterations, StopReason::iteration_cap};
   }
@@ -26,7 +28,8 @@ class ProjectedGaussSeidel : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> projected_gauss_seidel_solver() {
-  return entry<LcpSolver, ProjectedGaussSeidel>("projected_gauss_seidel", "block Gauss-Seidel, each contact exact on the true Coulomb cone");
+  return entry<LcpSolver, ProjectedGaussSeidel>("projected_gauss_seidel",
+                                                "block Gauss-Seidel, each contact exact on the true Coulomb cone");
 }
 
 }  // namespace impinge

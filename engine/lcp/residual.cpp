@@ -9,7 +9,9 @@ namespace {
 double ratio(double value, double scale) { return scale > 0.0 ? value / scale : value; }
 
 /// u_i of a contact that has all its rows, or only the normal one.
-Vec3 rows_there(const ConeProblem& problem, std::size_t i, const Vec3& u) { return problem.has_one_row(i) ? Vec3(u.x(), 0.0, 0.0) : u; }
+Vec3 rows_there(const ConeProblem& problem, std::size_t i, const Vec3& u) {
+  return problem.has_one_row(i) ? Vec3(u.x(), 0.0, 0.0) : u;
+}
 
 void take(Measured& measured, double value, std::size_t i) {
   if (value <= measured.absolute) return;
@@ -32,9 +34,12 @@ double natural_map(const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double m
 
 double natural_map(RowKind kind, const Mat3& w_ii, const Vec3& u, const Vec3& lambda, double mu) {
   switch (kind) {
-    case RowKind::attachment: return u.norm();
-    case RowKind::sliding: return std::abs(u.x());
-    case RowKind::contact: break;
+    case RowKind::attachment:
+      return u.norm();
+    case RowKind::sliding:
+      return std::abs(u.x());
+    case RowKind::contact:
+      break;
   }
   return natural_map(w_ii, u, lambda, mu);
 }
@@ -47,11 +52,13 @@ double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, con
 
 double velocity_scale(const ConeProblem& problem) {
   double scale = 0.0;
-  for (std::size_t i = 0; i < problem.q.size(); ++i) scale = std::max(scale, rows_there(problem, i, problem.q[i]).norm());
+  for (std::size_t i = 0; i < problem.q.size(); ++i)
+    scale = std::max(scale, rows_there(problem, i, problem.q[i]).norm());
   return scale;
 }
 
-double relative_residual(const ConeProblem& problem, const std::vector<Vec3>& u, const std::vector<Vec3>& lambda, Measure measure) {
+double relative_residual(const ConeProblem& problem, const std::vector<Vec3>& u, const std::vector<Vec3>& lambda,
+                         Measure measure) {
   if (measure == Measure::natural_map) {
     double worst = 0.0;
     for (std::size_t i = 0; i < u.size(); ++i) {

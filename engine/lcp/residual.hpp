@@ -1,4 +1,5 @@
-// The judge: how far a λ is from solving the problem, computed apart from every solver. Solvers stop by the same formulas.
+// The judge: how far a λ is from solving the problem, computed apart from every solver. Solvers stop by the same
+// formulas.
 #pragma once
 
 #include "engine/lcp/cone_problem.hpp"
@@ -21,8 +22,8 @@ struct Residual {
   Measured map;      ///< natural_map; relative to max |q|
   Measured product;  ///< complementarity; relative to max |q| max |λ|
   Measured cone;     ///< cone_violation; relative to max |λ|
-  /// As published with the friction-contact library FCLib and Siconos: √Σ|λ_i - P_K(λ_i - û_i)|² with ρ = 1, which mixes units,
-  /// over max(‖q‖, ‖λ‖, ‖u‖). [AcaryBremondHuber18]
+  /// As published with the friction-contact library FCLib and Siconos: √Σ|λ_i - P_K(λ_i - û_i)|² with ρ = 1, which
+  /// mixes units, over max(‖q‖, ‖λ‖, ‖u‖). [AcaryBremondHuber18]
   double siconos = 0.0;
 };
 
@@ -32,7 +33,8 @@ enum class Measure { natural_map, siconos };
 /// Residual of (problem, lambda). Calls problem.w->begin(lambda).
 Residual judge(const ConeProblem& problem, const std::vector<Vec3>& lambda);
 
-/// The natural-map residual of contact i for its u, m/s; of an equation what is left of u. 0 where W_ii = 0: both bodies are held, nothing can respond.
+/// The natural-map residual of contact i for its u, m/s; of an equation what is left of u. 0 where W_ii = 0: both
+/// bodies are held, nothing can respond.
 double natural_map(const ConeProblem& problem, std::size_t i, const Vec3& u, const Vec3& lambda);
 
 /// The same, of one contact by itself.
@@ -43,6 +45,7 @@ double natural_map(RowKind kind, const Mat3& w_ii, const Vec3& u, const Vec3& la
 double velocity_scale(const ConeProblem& problem);
 
 /// The relative residual by `measure`, for u = W λ + q. NaN where something isn't finite.
-double relative_residual(const ConeProblem& problem, const std::vector<Vec3>& u, const std::vector<Vec3>& lambda, Measure measure);
+double relative_residual(const ConeProblem& problem, const std::vector<Vec3>& u, const std::vector<Vec3>& lambda,
+                         Measure measure);
 
 }  // namespace impinge

@@ -1,10 +1,11 @@
-// Semismooth Newton on Alart and Curnier's equations, regularised. Each step solves (A (W + α D) + B) Δλ = -F with D the
-// scale of W's diagonal blocks: α makes redundant contacts (a singular W) harmless without moving the solution, as one step
-// of a proximal point method that is taken before the inner problem is solved. α follows the residual, so the last steps
-// are Newton's own: quadratic. [AcaryBremondHuber18] found Newton methods to be the accurate ones, and rank the difficulty.
+// Semismooth Newton on Alart and Curnier's equations, regularised. Each step solves (A (W + α D) + B) Δλ = -F with D
+// the scale of W's diagonal blocks: α makes redundant contacts (a singular W) harmless without moving the solution, as
+// one step of a proximal point method that is taken before the inner problem is solved. α follows the residual, so the
+// last steps are Newton's own: quadratic. [AcaryBremondHuber18] found Newton methods to be the accurate ones, and rank
+// the difficulty.
 //
-// A step is halved until F has shrunk against the worst of the last few; if that fails α rises, and where even a large α
-// does not help, a few Gauss-Seidel sweeps move on. Cost of a step: one LU of the rows in contact.
+// A step is halved until F has shrunk against the worst of the last few; if that fails α rises, and where even a large
+// α does not help, a few Gauss-Seidel sweeps move on. Cost of a step: one LU of the rows in contact.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -18,16 +19,25 @@ namespace {
 
 constexpr int kFirstSweeps = 3, kRescueSweeps = 5;  // Gauss-Seidel, to begin with and where Newton fails
 constexpr int kHalvings = 7;
-constexpr std::size_t kMemory = 10;                 // steps that a new one is compared with
-constexpr double kSmallest = 1e-12, kLargest = 1.0; // α
-constexpr double kFirstFactor = 10.0;               // α over the relative residual
-constexpr int kPatience = 500;                      // steps without a better residual before giving up
-constexpr std::size_t kMostContacts = 6000;         // W written out takes 2.6 GB then
+constexpr std::size_t kMemory = 10;                  // steps that a new one is compared with
+constexpr double kSmallest = 1e-12, kLargest = 1.0;  // α
+constexpr double kFirstFactor = 10.0;                // α over the relative residual
+constexpr int kPatience = 500;                       // steps without a better residual before giving up
+constexpr std::size_t kMostContacts = 6000;          // W written out takes 2.6 GB then
 
 class Search {
  public:
   Search(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda)
-      : problem_(problem), settings_(settings), lambda_(lambda), n_(lambda.size()), system_(problem), u_(n_), trial_(n_), a_(n_), b_(n_), kept_(n_) {
+      : problem_(problem),
+        settings_(settings),
+        lambda_(lambda),
+        n_(lambda.size()),
+        system_(problem),
+        u_(n_),
+        trial_(n_),
+        a_(n_),
+        b_(n_),
+        kept_(n_) {
     for (std::size_t i = 0; i < n_; ++i) {
       rho_.push_back(alart_curnier_scale(problem, i));
       const Mat3& d = problem.w->diagonal(i);
@@ -124,13 +134,16 @@ class Search {
     for (const double m : merits_) worst = std::max(worst, m);
     double length = 1.0;
     for (int k = 0; k <= kHalvings; ++k, length *= 0.5) {
-      for (std::size_t i = 0; i < n_; ++i) trial_[i] = lambda_[i] + length * d.segment<3>(3 * static_cast<Eigen::Index>(i));
+      for (std::size_t i = 0; i < n_; ++i)
+        trial_[i] = lambda_[i] + length * d.segment<3>(3 * static_cast<Eigen::Index>(i));
       if (!(merit(trial_) <= (1.0 - 1e-4 * length) * worst)) continue;
       lambda_ = trial_;
       merits_.push_back(now);
       if (merits_.size() >= kMemory) merits_.pop_front();
-      if (length > 0.4) factor_ = std::max(0.5 * factor_, 1e-3);
-      else if (length < 0.2) factor_ *= 2.0;
+      if (length > 0.4)
+        factor_ = std::max(0.5 * factor_, 1e-3);
+      else if (length < 0.2)
+        factor_ *= 2.0;
       return true;
     }
     return false;
@@ -160,14 +173,16 @@ class SemismoothNewton : public LcpSolver {
   }
   std::string applies(const ConeProblem& problem) const override {
     if (problem.q.size() <= kMostContacts) return "";
-    return std::to_string(problem.q.size()) + " contacts; it writes W out, which is done up to " + std::to_string(kMostContacts);
+    return std::to_string(problem.q.size()) + " contacts; it writes W out, which is done up to " +
+           std::to_string(kMostContacts);
   }
 };
 
 }  // namespace
 
 Entry<LcpSolver> semismooth_newton_solver() {
-  return entry<LcpSolver, SemismoothNewton>("semismooth_newton", "regularised Newton on Alart-Curnier's equations; quadratic near the solution");
+  return entry<LcpSolver, SemismoothNewton>(
+      "semismooth_newton", "regularised Newton on Alart-Curnier's equations; quadratic near the solution");
 }
 
 }  // namespace impinge

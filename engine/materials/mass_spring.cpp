@@ -1,8 +1,7 @@
 // Springs along the six edges of each tetrahedron, with a volume spring where they alone can't reach Poisson's ratio.
 //
 // Stiffness from E: springs with Σ k l² = C V, spread evenly over all directions, have the energy density C/30 (2 ε:ε +
-// tr²ε) (the mean of n n n n over the sphere), that is μ = λ = C/15 and ν = 1/4. So each of the six gets k = C V/(6
-// l²), and
+// tr²ε) (the mean of n n n n over the sphere), that is μ = λ = C/15 and ν = 1/4. So each gets k = C V/(6 l²), and
 //   ν <= 1/4: C = 6 E, k = E V/l² (Van Gelder 1998), effective ν = 1/4;
 //   ν > 1/4:  C = 15 μ, and λ − μ is carried by (λ − μ)/2 (J − 1)² (volume springs, Teschner et al. 2004).
 // Edges of a real mesh are not evenly spread, so the measured E differs with direction: along the axes of a lattice of

@@ -1,7 +1,8 @@
 // Neo-Hookean elasticity with the classic logarithm, Ψ = μ/2 (Σσ_i² − 3) − μ ln J + λ/2 ln²J, ln J = Σ ln σ_i, safe
-// under inversion: below a threshold stretch (0.1 by default) each ln σ_i is continued by its quadratic Taylor polynomial
-// L, so Ψ is C² and finite for σ <= 0 (the idea of invertible finite elements, Irving et al. 2004). A threshold of 0.6
-// resists inversion less steeply, so more tangled meshes recover, but it changes the answer to compression below 0.6.
+// under inversion: below a threshold stretch (0.1 by default) each ln σ_i is continued by its quadratic Taylor
+// polynomial L, so Ψ is C² and finite for σ <= 0 (the idea of invertible finite elements, Irving et al. 2004). A
+// threshold of 0.6 resists inversion less steeply, so more tangled meshes recover, but it changes the answer to
+// compression below 0.6.
 //
 // Why the logarithm and not Ψ itself is continued: a quadratic continuation of Ψ in each stretch is unbounded below
 // once the two other stretches exceed about 5, where λ/2 ln²J bends down. With Ψ = μ/2 (Σσ² − 3) − μ ΣL + λ/2 (ΣL)² the

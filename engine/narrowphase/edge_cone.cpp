@@ -13,7 +13,8 @@ constexpr double kParallel = 1e-4;
 // how far (as a sine, and as a part of the fold's own) the direction may leave the cone between the faces' normals: the
 // crossings of a face that tilts a little all stay, as its vertices do
 constexpr double kConeSlack = 0.1, kConeSlackOfFold = 0.25;
-// a deforming surface bends within a step: an edge folded either way by less than this (a sine) may be convex at its end
+// a deforming surface bends within a step: an edge folded either way by less than this (a sine) may be convex at its
+// end
 constexpr double kBends = 0.02;
 
 }  // namespace
@@ -32,7 +33,8 @@ std::optional<EdgeCone> make_edge_cone(const SurfaceView& view, int e) {
   if (!may_bend && (n0.dot(cone.into1) >= 0.0 || (fold < kFlat && cosine > 0.0))) return std::nullopt;
   if (may_bend)
     cone.slack = 2.0 * kBends;
-  else if (cosine > 0.0) cone.slack = std::min(kConeSlack, kConeSlackOfFold * fold);
+  else if (cosine > 0.0)
+    cone.slack = std::min(kConeSlack, kConeSlackOfFold * fold);
   const Vec3 sum = n0 + n1;
   const double length = sum.norm();
   cone.normal = length > 1e-9 ? Vec3(sum / length) : Vec3(-(cone.into0 + cone.into1).normalized());

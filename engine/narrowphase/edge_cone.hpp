@@ -20,8 +20,9 @@ struct EdgeCone {
 };
 
 /// The cone of edge e, or nothing where the edge is flat or concave: there no local minimum of distance lies inside it.
-/// On a deforming surface nearly flat edges count, folded either way: nodes that move by a fraction of a step's way turn
-/// such folds over, and a crossing that is a contact in one step and none in the next keeps stacked bodies trembling.
+/// On a deforming surface nearly flat edges count, folded either way: nodes that move by a fraction of a step's way
+/// turn such folds over, and a crossing that is a contact in one step and none in the next keeps stacked bodies
+/// trembling.
 std::optional<EdgeCone> make_edge_cone(const SurfaceView& view, int e);
 
 /// Unit common normal of two edges, from b towards a, if it leaves both of them between their faces; nothing for

@@ -11,9 +11,10 @@ class NarrowPhase {
  public:
   virtual ~NarrowPhase() = default;
   /// All triangle pairs of the given mesh-mesh body pairs (a == b: self-collision, triangles that share a vertex left
-  /// out) whose distance is <= the pair's margin, sorted and unique, into `found`; `intersecting` tells those that share
-  /// a point. Every implementation returns exactly what brute_force does, bit for bit, for any thread count.
-  virtual void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs, std::vector<TrianglePair>& found) = 0;
+  /// out) whose distance is <= the pair's margin, sorted and unique, into `found`; `intersecting` tells those that
+  /// share a point. Every implementation returns exactly what brute_force does, bit for bit, for any thread count.
+  virtual void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
+                    std::vector<TrianglePair>& found) = 0;
 };
 
 const Registry<NarrowPhase>& narrow_phases();

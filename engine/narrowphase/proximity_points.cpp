@@ -7,13 +7,11 @@
 //
 // Which minima are kept, and why nothing loses support by it:
 // - a vertex-face contact is dropped if an edge of the vertex runs steeply (more than 30 degrees) towards the face: its
-// far
-//   end or the border of the face then carries the load; vertices of a face that tilts a little all stay, so that a box
-//   that settles is caught by all its corners in one step;
+//   far end or the border of the face then carries the load; vertices of a face that tilts a little all stay, so that a
+//   box that settles is caught by all its corners in one step;
 // - a contact at a sharp edge or corner of the other surface stays only if it is a minimum seen from both sides.
-// (Otherwise
-//   a corner that stands a little past the rim of the body below it would be held by a sideways normal.) Where it is
-//   none, the rim is closer to an inner point of the face, and gives its own contact from the other side.
+//   (Otherwise a corner that stands a little past the rim of the body below it would be held by a sideways normal.)
+//   Where it is none, the rim is closer to an inner point of the face, and gives its own contact from the other side.
 #include <algorithm>
 
 #include "engine/narrowphase/contact_points.hpp"

@@ -4,15 +4,13 @@
 // What this adds to the seed's description:
 // - Triangles are clipped to where their body's box meets a partner's; what lies outside costs one box test.
 // - Two rounds. The first only marks which bodies come to which table entry; the second enters a triangle in those of
-// its
-//   cells that another body comes to as well. Two surfaces that cross along a curve share few cells, so the lists stay
-//   short, and the round over all triangles writes one word of a table that fits the cache. A mark has a bit for each
-//   colour of body (partners differ in colour) and, where few colours are needed, for several classes of cells: with
-//   the seed's table size two cells in five share an entry with a cell of the other body, and only one in forty a class
-//   too.
+//   its cells that another body comes to as well. Two surfaces that cross along a curve share few cells, so the lists
+//   stay short, and the round over all triangles writes one word of a table that fits the cache. A mark has a bit for
+//   each colour of body (partners differ in colour) and, where few colours are needed, for several classes of cells:
+//   with the seed's table size two cells in five share an entry with a cell of the other body, and only one in forty a
+//   class too.
 // - A pair is tested in one cell only: the one with the smallest coordinates that both boxes cover. The list keeps the
-// cell
-//   of each item, so that different cells in one entry neither lose pairs nor report them twice.
+//   cell of each item, so that different cells in one entry neither lose pairs nor report them twice.
 // - A triangle over more than kMostCells cells is not entered but tested against its partners' boxes directly. Only a
 //   triangle much larger than the mean gets there.
 // - Boxes are widened by half the margin, and cells by the margin, so that a large margin does not multiply the cells.

@@ -12,7 +12,8 @@ inline TriangleCorners corners_of(const Collider& collider, int triangle) {
   return {collider.vertices[t[0]], collider.vertices[t[1]], collider.vertices[t[2]]};
 }
 
-/// Box of a triangle that overlaps the like box of every triangle no farther than `margin` (or touching within tolerance).
+/// Box of a triangle that overlaps the like box of every triangle no farther than `margin` (or touching within
+/// tolerance).
 inline Aabb search_box(const TriangleCorners& c, double margin) {
   return bounds_of(c[0], c[1], c[2]).inflated(0.5 * margin * (1.0 + 1e-9) + 2.0 * touch_distance(c));
 }

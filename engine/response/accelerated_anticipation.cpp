@@ -1,20 +1,21 @@
-// Each outer step minimises, under the contacts' laws, a quadratic that lies above ½ Δv^T A Δv and touches it at a point y:
-//   r = A y - J^T λ,   Δv = y - Q⁻¹ r,   Gauss-Seidel sweeps over the contacts on J Q⁻¹ J^T, which move Δv as they move λ,
+// Each outer step minimises, under the contacts' laws, a quadratic that lies above ½ Δv^T A Δv and touches it at a
+// point y:
+//   r = A y - J^T λ, Δv = y - Q⁻¹ r, Gauss-Seidel sweeps over the contacts on J Q⁻¹ J^T, which move Δv as they move λ,
 // with Q of NodeInverse (Q >= A, checked along every step, since the power method only comes near λ_max from below).
 //
-// F = Δv - y is the gradient of ½ y^T A y - y^T J^T λ, preconditioned by Q and projected on the contacts that act: conjugate
-// gradients can be had from it. The next y minimises that energy over y + span{F, last step of y}. While contacts stay open
-// or closed this is the projected preconditioned conjugate gradient method; where one opens or closes, or F grows, it starts
-// again with the plain step y = Δv. Where it makes no progress (stiff bodies that slide: Coulomb's law is not symmetric) the
-// rest is done by Nesterov's rule, restarted where the step turns against it; without friction that is a majorise-minimise
-// scheme on a convex problem.
-// Two stacked 0.2 m cubes of 4³ and 3³ cells, mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule
-// alone 39 / 50 / 46 s, factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have
-// nodes, the sweeps carry impulse along the null space of J: see follow_drift; where that stalls multiplier_newton.cpp ends it,
-// or where contacts are few conjugate_columns.cpp.
+// F = Δv - y is the gradient of ½ y^T A y - y^T J^T λ, preconditioned by Q and projected on the contacts that act:
+// conjugate gradients can be had from it. The next y minimises that energy over y + span{F, last step of y}. While
+// contacts stay open or closed this is the projected preconditioned conjugate gradient method; where one opens or
+// closes, or F grows, it starts again with the plain step y = Δv. Where it makes no progress (stiff bodies that slide:
+// Coulomb's law is not symmetric) the rest is done by Nesterov's rule, restarted where the step turns against it;
+// without friction that is a majorise-minimise scheme on a convex problem. Two stacked 0.2 m cubes of 4³ and 3³ cells,
+// mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule alone 39 / 50 / 46 s,
+// factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have nodes, the
+// sweeps carry impulse along the null space of J: see follow_drift; where that stalls multiplier_newton.cpp ends it, or
+// where contacts are few conjugate_columns.cpp.
 //
-// The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold: a resting
-// group is recognized, and no work is spent on a λ that is far off.
+// The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold:
+// a resting group is recognized, and no work is spent on a λ that is far off.
 #include "engine/response/accelerated_anticipation.hpp"
 
 #include <algorithm>
@@ -31,13 +32,15 @@ namespace {
 constexpr int kSweeps = 4;        // a step at most; they start from the last step's λ
 constexpr int kStartSteps = 400;  // of conjugate gradients at most
 constexpr int kStartCheck = 8;    // steps between looks at what the contacts make of it
-constexpr double kStartAccuracy = 1e-3;  // of the contacts' residual: error of stiff bodies is far above D⁻¹ times their residual
+// of the contacts' residual: error of stiff bodies is far above D⁻¹ times their residual
+constexpr double kStartAccuracy = 1e-3;
 constexpr double kGrowth = 16.0;   // of |F|² over its least since the last restart, that asks for another
-constexpr double kProgress = 0.5;   // of |F|², to count as progress
+constexpr double kProgress = 0.5;  // of |F|², to count as progress
 constexpr int kPatience = 50;      // steps without progress before conjugate gradients are given up
 constexpr int kDrift = 10;         // steps in balance whose contacts don't hold, before λ is taken along its drift
-constexpr int kStalled = 300;      // steps in which neither the balance nor the contacts get better by a tenth: more are no use
-constexpr int kFreshRigid = 32;   // steps after which rigid Δv is summed up afresh, lest rounding gathers
+// steps in which neither the balance nor the contacts get better by a tenth: more are no use
+constexpr int kStalled = 300;
+constexpr int kFreshRigid = 32;  // steps after which rigid Δv is summed up afresh, lest rounding gathers
 
 using Vectors = std::vector<VecX>;
 
@@ -98,7 +101,8 @@ class Solver {
         result.converged = contacts_hold && momentum <= tolerance;
       }
       if (result.converged) break;
-      if (is_stalled(std::max(momentum, change), result.outer_iterations)) return settings_.stop == "change" ? finish(result) : finish_otherwise(result, tolerance);
+      if (is_stalled(std::max(momentum, change), result.outer_iterations))
+        return settings_.stop == "change" ? finish(result) : finish_otherwise(result, tolerance);
       drifting_ = momentum <= std::max(tolerance, 0.1 * change) ? drifting_ + 1 : 0;
       if (drifting_ == kDrift) follow_drift();
       choose_next(result.outer_iterations);
@@ -159,7 +163,9 @@ class Solver {
         x_[s] += rho / curvature * direction[s];
         a_x_[s] += rho / curvature * a_direction[s];
       }
-      if (k % kStartCheck == kStartCheck - 1 && momentum_residual() <= std::max(0.3 * tolerance, kStartAccuracy * rows_->natural_residual(group_.lambda, x_))) break;
+      if (k % kStartCheck == kStartCheck - 1 &&
+          momentum_residual() <= std::max(0.3 * tolerance, kStartAccuracy * rows_->natural_residual(group_.lambda, x_)))
+        break;
     }
     y_ = x_;
     a_y_ = a_x_;
@@ -179,9 +185,9 @@ class Solver {
     return iteration - least_error_at_ > kStalled;
   }
 
-  /// Two contacts in nearly one place with bounds that differ a little: every sweep moves the same bit of impulse from the one
-  /// to the other, the bodies feel nothing, and it takes a million sweeps until the second is empty. All of it at once: λ along
-  /// its last change until the first contact opens.
+  /// Two contacts in nearly one place with bounds that differ a little: every sweep moves the same bit of impulse from
+  /// the one to the other, the bodies feel nothing, and it takes a million sweeps until the second is empty. All of it
+  /// at once: λ along its last change until the first contact opens.
   void follow_drift() {
     drifting_ = 0;
     double longest = 0.0;
@@ -191,7 +197,8 @@ class Solver {
     }
     for (std::size_t i = 0; i < earlier_.size(); ++i) {
       group_.lambda[i] += longest * (group_.lambda[i] - earlier_[i]);
-      if (group_.contacts[i].kind == RowKind::contact) group_.lambda[i] = project_to_cone(group_.lambda[i], group_.contacts[i].friction);
+      if (group_.contacts[i].kind == RowKind::contact)
+        group_.lambda[i] = project_to_cone(group_.lambda[i], group_.contacts[i].friction);
     }
     rows_->move_rigid(group_.lambda);
     rows_->impulses(group_.lambda, f_);
@@ -303,26 +310,27 @@ class Solver {
   const ConeProblem& base_;
   const LcpSolver& solver_;
   const ResponseSettings& settings_;
-  const double scale_;      // m/s, what residuals are relative to
+  const double scale_;  // m/s, what residuals are relative to
   std::vector<NodeInverse> inverse_;
   std::unique_ptr<SplitRows> rows_;
   Vectors x_, last_, y_, a_x_, a_last_, a_y_, f_, r_, step_;
-  Vectors d_, a_d_;         // last step of y, and A times it
+  Vectors d_, a_d_;            // last step of y, and A times it
   std::vector<Vec3> earlier_;  // λ before the last sweeps
   int drifting_ = 0;
-  std::vector<char> acts_;  // contacts with an impulse
-  double least_ = 0.0;      // |F|² since the last restart
+  std::vector<char> acts_;     // contacts with an impulse
+  double least_ = 0.0;         // |F|² since the last restart
   double least_error_ = -1.0;  // of balance and contacts, m/s, and when it was last bettered
   int least_error_at_ = 0;
-  double best_ = -1.0;      // |F|² of the whole solve, and when it was last bettered
+  double best_ = -1.0;  // |F|² of the whole solve, and when it was last bettered
   int best_at_ = 0;
-  bool cautious_ = false;   // conjugate gradients were given up
+  bool cautious_ = false;  // conjugate gradients were given up
   double theta_ = 1.0;
 };
 
 }  // namespace
 
-ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver, const ResponseSettings& settings) {
+ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver,
+                                 const ResponseSettings& settings) {
   return Solver(group, base, solver, settings).run();
 }
 

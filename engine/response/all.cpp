@@ -11,8 +11,12 @@ Entry<Response> simultaneous_impulse_response();
 Entry<Response> soft_constraint_response();
 
 const Registry<Response>& responses() {
-  static const Registry<Response> list = {constraint_anticipation_response(), iterative_constraint_anticipation_response(), penalty_response(),
-                                          sequential_impulse_response(),      simultaneous_impulse_response(),              soft_constraint_response()};
+  static const Registry<Response> list = {constraint_anticipation_response(),
+                                          iterative_constraint_anticipation_response(),
+                                          penalty_response(),
+                                          sequential_impulse_response(),
+                                          simultaneous_impulse_response(),
+                                          soft_constraint_response()};
   return list;
 }
 

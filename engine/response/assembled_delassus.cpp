@@ -31,7 +31,8 @@ void add_rigid(const GroupSystem& group, MatX& w) {
     std::vector<Mat3> arms;
     for (const Part& p : parts) {
       Mat3 arm;
-      for (int k = 0; k < 3; ++k) arm.row(k) = p.sign * p.side->arm.cross(group.contacts[p.contact].directions.row(k).transpose()).transpose();
+      for (int k = 0; k < 3; ++k)
+        arm.row(k) = p.sign * p.side->arm.cross(group.contacts[p.contact].directions.row(k).transpose()).transpose();
       arms.push_back(arm);
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -58,17 +59,20 @@ void add_by_contact(const GroupSystem& group, const SoftBlock& block, const std:
     for (const NodeWeight& n : parts[j].side->nodes)
       for (int d = 0; d < 3; ++d)
         for (int k = 0; k < 3; ++k)
-          entries.emplace_back(3 * n.node + k, static_cast<int>(3 * j) + d, parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(d, k));
+          entries.emplace_back(3 * n.node + k, static_cast<int>(3 * j) + d,
+                               parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(d, k));
   SparseColumns columns(block.velocity.size(), static_cast<Eigen::Index>(3 * parts.size()));
   columns.setFromTriplets(entries.begin(), entries.end());
   const MatX part = gram(block, columns);
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = 0; j < parts.size(); ++j)
-      w.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) += part.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
+      w.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) +=
+          part.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
 }
 
 /// W by columns of unit impulses: three a touched node, and then J on both sides.
-void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::vector<Part>& parts, const std::vector<int>& nodes, MatX& w) {
+void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::vector<Part>& parts,
+                 const std::vector<int>& nodes, MatX& w) {
   std::vector<int> row(block.velocity.size() / 3, -1);
   const auto m = static_cast<Eigen::Index>(3 * nodes.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -94,7 +98,8 @@ void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::ve
 
 void add_soft(const GroupSystem& group, int body, MatX& w) {
   const SoftBlock& block = group.soft[body];
-  const std::vector<Part> parts = parts_of(group, [&](const ContactSide& s) { return s.soft == body && !s.nodes.empty(); });
+  const std::vector<Part> parts =
+      parts_of(group, [&](const ContactSide& s) { return s.soft == body && !s.nodes.empty(); });
   if (parts.empty()) return;
   if (block.solver->factorize(*block.a) != SolveStatus::ok)
     throw DivergenceError("the system matrix of a deformable body is not positive definite");
@@ -137,6 +142,8 @@ Vec3 AssembledDelassus::row(std::size_t i, bool normal_only) const {
   return w_->middleCols<3>(at).transpose() * lambda_;
 }
 
-void AssembledDelassus::change(std::size_t i, const Vec3& delta, bool) { lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) += delta; }
+void AssembledDelassus::change(std::size_t i, const Vec3& delta, bool) {
+  lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) += delta;
+}
 
 }  // namespace impinge

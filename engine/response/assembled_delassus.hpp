@@ -1,5 +1,6 @@
-// W = J A⁻¹ J^T of a group with deformable bodies, as a dense matrix. A⁻¹ is never formed: one factorization a body serves
-// all its right-hand sides, and A is block diagonal by body, so bodies meet in W only through J. [Haapaoja16 §4.1.3]
+// W = J A⁻¹ J^T of a group with deformable bodies, as a dense matrix. A⁻¹ is never formed: one factorization a body
+// serves all its right-hand sides, and A is block diagonal by body, so bodies meet in W only through J. [Haapaoja16
+// §4.1.3]
 #pragma once
 
 #include "engine/contact/group_system.hpp"

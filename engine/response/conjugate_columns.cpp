@@ -1,7 +1,8 @@
-// With few contacts it isn't the law that keeps the sweeps from ending but the body: impulse that reaches all of a stiff one takes
-// as many steps as its A is badly conditioned, and every contact that changes its mind begins them anew. Here they are made once a
-// row: y_r = A⁻¹ J_r^T by conjugate gradients, W = J (y_1 ...), which is symmetrised, and Δv = Σ λ_r y_r. What the columns lack in
-// accuracy is taken into q and solved for again: each round gains as much as they have.
+// With few contacts it isn't the law that keeps the sweeps from ending but the body: impulse that reaches all of a
+// stiff one takes as many steps as its A is badly conditioned, and every contact that changes its mind begins them
+// anew. Here they are made once a row: y_r = A⁻¹ J_r^T by conjugate gradients, W = J (y_1 ...), which is symmetrised,
+// and Δv = Σ λ_r y_r. What the columns lack in accuracy is taken into q and solved for again: each round gains as much
+// as they have.
 #include "engine/response/conjugate_columns.hpp"
 
 #include <algorithm>
@@ -15,17 +16,19 @@ constexpr double kColumn = 1e-7;  // ‖r‖ over ‖b‖ of a column
 constexpr int kRounds = 8;
 
 struct Columns {
-  std::vector<int> rows;    // as rows_of()
-  std::vector<VecX> y;      // A⁻¹ J_r^T
+  std::vector<int> rows;  // as rows_of()
+  std::vector<VecX> y;    // A⁻¹ J_r^T
 };
 
 std::vector<BlockSparseDelassus::Block> blocks_of(const GroupOperator& a, const Columns& columns, int contacts) {
   MatX w = MatX::Zero(3 * contacts, 3 * contacts);
   for (std::size_t k = 0; k < columns.rows.size(); ++k)
-    for (int i = 0; i < contacts; ++i) w.block<3, 1>(3 * i, columns.rows[k]) = a.row(static_cast<std::size_t>(i), columns.y[k]);
+    for (int i = 0; i < contacts; ++i)
+      w.block<3, 1>(3 * i, columns.rows[k]) = a.row(static_cast<std::size_t>(i), columns.y[k]);
   std::vector<BlockSparseDelassus::Block> blocks;
   for (int i = 0; i < contacts; ++i)
-    for (int j = 0; j < contacts; ++j) blocks.push_back({i, j, 0.5 * (w.block<3, 3>(3 * i, 3 * j) + w.block<3, 3>(3 * j, 3 * i).transpose())});
+    for (int j = 0; j < contacts; ++j)
+      blocks.push_back({i, j, 0.5 * (w.block<3, 3>(3 * i, 3 * j) + w.block<3, 3>(3 * j, 3 * i).transpose())});
   return blocks;
 }
 
@@ -37,7 +40,8 @@ VecX impulse(const GroupOperator& a, const std::vector<Vec3>& lambda) {
 
 }  // namespace
 
-ColumnsResult solve_by_columns(const GroupOperator& a, ConeProblem problem, const LcpSolver& solver, double tolerance, GroupSystem& group, VecX& x) {
+ColumnsResult solve_by_columns(const GroupOperator& a, ConeProblem problem, const LcpSolver& solver, double tolerance,
+                               GroupSystem& group, VecX& x) {
   ColumnsResult result;
   Columns columns{rows_of(problem), {}};
   for (const int r : columns.rows) {
@@ -58,7 +62,8 @@ ColumnsResult solve_by_columns(const GroupOperator& a, ConeProblem problem, cons
     result.iterations += solver.solve(problem, settings, lambda).iterations;
     const VecX f = impulse(a, lambda);
     if (round == 0)
-      for (std::size_t k = 0; k < columns.rows.size(); ++k) v += lambda[static_cast<std::size_t>(columns.rows[k] / 3)][columns.rows[k] % 3] * columns.y[k];
+      for (std::size_t k = 0; k < columns.rows.size(); ++k)
+        v += lambda[static_cast<std::size_t>(columns.rows[k] / 3)][columns.rows[k] % 3] * columns.y[k];
     if (f.isZero(0.0)) v.setZero();
     double left = a.velocity_of(f - a.multiply(v));
     // the solve's norm is over all nodes, the tolerance for each: so tight that none is left out

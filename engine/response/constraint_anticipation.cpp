@@ -1,7 +1,7 @@
 // Full constraint anticipation, CA [Haapaoja16 §4.1.2]: v = v* + Δv, Δv = A⁻¹ J^T λ, λ from the cone problem with
-// W = J A⁻¹ J^T and q = J v* - bound. Exact up to the LCP solver's tolerance. For rigid bodies A⁻¹ is six numbers a body,
-// so W stays factored, and so it is where explicit schemes leave one block a node; any other deformable body's A is factorized once
-// for all its contacts and W is dense.
+// W = J A⁻¹ J^T and q = J v* - bound. Exact up to the LCP solver's tolerance. For rigid bodies A⁻¹ is six numbers a
+// body, so W stays factored, and so it is where explicit schemes leave one block a node; any other deformable body's A
+// is factorized once for all its contacts and W is dense.
 #include <algorithm>
 
 #include "engine/response/assembled_delassus.hpp"
@@ -52,7 +52,8 @@ class ConstraintAnticipation : public Response {
 }  // namespace
 
 Entry<Response> constraint_anticipation_response() {
-  return entry<Response, ConstraintAnticipation>("constraint_anticipation", "exact: Δv = A⁻¹ J^T λ with λ from J A⁻¹ J^T");
+  return entry<Response, ConstraintAnticipation>("constraint_anticipation",
+                                                 "exact: Δv = A⁻¹ J^T λ with λ from J A⁻¹ J^T");
 }
 
 }  // namespace impinge

@@ -14,7 +14,8 @@ namespace {
 Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const BodyBlock& block) {
   Mat3 turn;
   for (int k = 0; k < 3; ++k) turn.row(k) = side.arm.cross(rows.directions.row(k).transpose()).transpose();
-  return block.inverse_mass * rows.directions * rows.directions.transpose() + turn * block.inverse_inertia * turn.transpose();
+  return block.inverse_mass * rows.directions * rows.directions.transpose() +
+         turn * block.inverse_inertia * turn.transpose();
 }
 
 }  // namespace
@@ -60,7 +61,8 @@ ContactMobility::ContactMobility(GroupSystem& group)
       }
       if (side->nodes.empty() || !group.soft[side->soft].is_diagonal) continue;
       for (const NodeWeight& n : side->nodes) {
-        const Mat3 w = n.weight * n.weight * rows.directions * node_inverse_[side->soft][n.node] * rows.directions.transpose();
+        const Mat3 w =
+            n.weight * n.weight * rows.directions * node_inverse_[side->soft][n.node] * rows.directions.transpose();
         diagonal_[i] += w;
         split_[i] += node_contacts[side->soft][n.node] * w;
       }
@@ -83,12 +85,14 @@ void ContactMobility::add_coupled(int s) {
       if (side->soft != s) continue;
       for (const NodeWeight& n : side->nodes)
         for (int r = 0; r < 3; ++r)
-          for (int k = 0; k < 3; ++k) entries.emplace_back(3 * n.node + k, 3 * c + r, sign * n.weight * rows.directions(r, k));
+          for (int k = 0; k < 3; ++k)
+            entries.emplace_back(3 * n.node + k, 3 * c + r, sign * n.weight * rows.directions(r, k));
     }
   }
   SparseColumns columns(block.velocity.size(), 3 * m);
   columns.setFromTriplets(entries.begin(), entries.end());
-  if (block.solver->factorize(*block.a) != SolveStatus::ok || block.solver->gram(columns, coupled.w).status != SolveStatus::ok)
+  if (block.solver->factorize(*block.a) != SolveStatus::ok ||
+      block.solver->gram(columns, coupled.w).status != SolveStatus::ok)
     throw DivergenceError("the system matrix of a deformable body is not positive definite");
   for (int c = 0; c < m; ++c) {
     const Mat3 own = coupled.w.block<3, 3>(3 * c, 3 * c);
@@ -117,7 +121,8 @@ void ContactMobility::add_impulse(std::size_t i, const Vec3& delta) {
     if (side.nodes.empty()) continue;
     if (place_[i][k] < 0) {
       for (const NodeWeight& n : side.nodes)
-        group_.soft_delta[side.soft].segment<3>(3 * n.node) += node_inverse_[side.soft][n.node] * (sign * n.weight * force);
+        group_.soft_delta[side.soft].segment<3>(3 * n.node) +=
+            node_inverse_[side.soft][n.node] * (sign * n.weight * force);
     } else {
       const Coupled& coupled = coupled_[side.soft];
       for (std::size_t c = 0; c < coupled.contacts.size(); ++c)
@@ -136,7 +141,8 @@ void ContactMobility::show(const std::function<void(const GroupSystem&)>& observ
   finish();
   observe(group_);
   for (std::size_t s = 0; s < coupled_.size(); ++s)
-    if (!coupled_[s].contacts.empty()) group_.soft_delta[s].setZero();  // while impulses change, coupled_velocity_ says it
+    // while impulses change, coupled_velocity_ says it
+    if (!coupled_[s].contacts.empty()) group_.soft_delta[s].setZero();
 }
 
 bool ContactMobility::finish() {
@@ -146,13 +152,15 @@ bool ContactMobility::finish() {
     if (!group_.lambda[i].isZero(0.0)) add_impulse(i, group_.lambda[i]);
   for (int s = 0; s < static_cast<int>(group_.soft.size()); ++s) {
     if (coupled_[s].contacts.empty() || !solved_) continue;
-    solved_ = group_.soft[s].solver->solve(group_.soft_impulse(s, group_.lambda), group_.soft_delta[s]).status == SolveStatus::ok;
+    solved_ = group_.soft[s].solver->solve(group_.soft_impulse(s, group_.lambda), group_.soft_delta[s]).status ==
+              SolveStatus::ok;
   }
   return solved_;
 }
 
 void relax_friction(const Mat3& mobility, const Vec3& u, double friction, Vec3& lambda) {
-  // the largest eigenvalue of the tangential block: one factor for both directions, or the disc's projection would turn slip
+  // the largest eigenvalue of the tangential block: one factor for both directions, or the disc's projection would turn
+  // slip
   const double mean = 0.5 * (mobility(1, 1) + mobility(2, 2)), half = 0.5 * (mobility(1, 1) - mobility(2, 2));
   const double largest = mean + std::hypot(half, mobility(1, 2));
   if (!(largest > 0.0)) return;

@@ -1,6 +1,6 @@
-// What impulses do at contacts: W = J A⁻¹ J^T asked for contact by contact, for responses that go from contact to contact.
-// Rigid bodies and lumped nodes keep their Δv up to date; a deformable body whose A couples nodes is seen through its part
-// of W, which one factorization gives.
+// What impulses do at contacts: W = J A⁻¹ J^T asked for contact by contact, for responses that go from contact to
+// contact. Rigid bodies and lumped nodes keep their Δv up to date; a deformable body whose A couples nodes is seen
+// through its part of W, which one factorization gives.
 #pragma once
 
 #include <functional>
@@ -11,13 +11,14 @@ namespace impinge {
 
 class ContactMobility {
  public:
-  /// Throws DivergenceError where A is not positive definite. Starts from group.lambda (entries of rows that aren't there must be 0).
+  /// Throws DivergenceError where A is not positive definite. Starts from group.lambda (entries of rows that aren't
+  /// there must be 0).
   explicit ContactMobility(GroupSystem& group);
 
   /// W_ii, 1/kg. Zero where both sides are held.
   const Mat3& diagonal(std::size_t i) const { return diagonal_[i]; }
-  /// D_i with blockdiag(D) ⪰ W: what contact i answers with when all contacts act at once. A rigid body counts once for each
-  /// of its contacts, which shares its mass among them [Tonge12]; a coupled body by the row sums of its part of W.
+  /// D_i with blockdiag(D) ⪰ W: what contact i answers with when all contacts act at once. A rigid body counts once for
+  /// each of its contacts, which shares its mass among them [Tonge12]; a coupled body by the row sums of its part of W.
   const Mat3& split_diagonal(std::size_t i) const { return split_[i]; }
   /// J (v* + Δv) of contact i, m/s.
   Vec3 velocity(std::size_t i) const;
@@ -45,9 +46,10 @@ class ContactMobility {
   std::vector<Mat3> diagonal_, split_;
 };
 
-/// One contact's answer to u = J v - bound at its present λ: the normal impulse is accumulated and clamped [Catto05], then the
-/// tangential one relaxed by the largest eigenvalue of its block and put back into the disc |λ_t| <= mu λ_n. Where this
-/// changes nothing, Coulomb's law holds exactly: the cone, not a pyramid. `mobility` is W_ii or an upper bound of it.
+/// One contact's answer to u = J v - bound at its present λ: the normal impulse is accumulated and clamped [Catto05],
+/// then the tangential one relaxed by the largest eigenvalue of its block and put back into the disc |λ_t| <= mu λ_n.
+/// Where this changes nothing, Coulomb's law holds exactly: the cone, not a pyramid. `mobility` is W_ii or an upper
+/// bound of it.
 Vec3 relaxed_impulse(const ContactRows& rows, const Mat3& mobility, Vec3 u, Vec3 lambda);
 
 /// The tangential half of it, for responses with a normal law of their own. u: after the normal impulse.

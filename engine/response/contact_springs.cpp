@@ -10,9 +10,10 @@ constexpr int kNewtonIterations = 200;
 constexpr int kHalvings = 8;
 constexpr double kInnerTolerance = 1e-2;  // friction is followed step by step anyway: solving each exactly pays nothing
 
-/// Where the potential's slope along p has fallen to a tenth: 1 in the usual case, or by bisection, since it only rises.
-double line_search(const std::vector<SpringLaw>& law, const std::vector<double>& normal, const std::vector<Vec3>& u, const std::vector<Vec3>& step,
-                   double p_ax, double p_ap) {
+/// Where the potential's slope along p has fallen to a tenth: 1 in the usual case, or by bisection, since it only
+/// rises.
+double line_search(const std::vector<SpringLaw>& law, const std::vector<double>& normal, const std::vector<Vec3>& u,
+                   const std::vector<Vec3>& step, double p_ax, double p_ap) {
   const auto slope = [&](double alpha) {
     double sum = p_ax + alpha * p_ap;
     for (std::size_t i = 0; i < law.size(); ++i) sum -= law[i].impulse(u[i] + alpha * step[i], normal[i]).dot(step[i]);
@@ -45,7 +46,8 @@ Vec3 SpringLaw::impulse(const Vec3& u, double n) const {
   if (kind == RowKind::attachment) return Vec3(offset, 0, 0) - slope * u;
   Vec3 lambda(normal(u), 0, 0);
   const double speed = std::hypot(u.y(), u.z());
-  if (kind == RowKind::contact && friction > 0.0 && speed > 0.0) lambda.tail<2>() = -friction * n * resistance(speed) / speed * u.tail<2>();
+  if (kind == RowKind::contact && friction > 0.0 && speed > 0.0)
+    lambda.tail<2>() = -friction * n * resistance(speed) / speed * u.tail<2>();
   return lambda;
 }
 
@@ -55,9 +57,11 @@ Mat3 SpringLaw::stiffness(const Vec3& u, double n) const {
   if (kind == RowKind::sliding || normal(u) > 0.0) h(0, 0) = slope;
   if (kind == RowKind::sliding || friction == 0.0 || n == 0.0) return h;
   const double speed = std::hypot(u.y(), u.z()), y = speed / slip_speed;
-  const double across = y > 0.0 ? resistance(speed) / speed : 2.0 / slip_speed, along = y < 1.0 ? 2.0 * (1.0 - y) / slip_speed : 0.0;
+  const double across = y > 0.0 ? resistance(speed) / speed : 2.0 / slip_speed,
+               along = y < 1.0 ? 2.0 * (1.0 - y) / slip_speed : 0.0;
   const Vec2 d = speed > 0.0 ? Vec2(u.tail<2>() / speed) : Vec2(1, 0);
-  h.bottomRightCorner<2, 2>() = friction * n * (across * Eigen::Matrix2d::Identity() + (along - across) * d * d.transpose());
+  h.bottomRightCorner<2, 2>() =
+      friction * n * (across * Eigen::Matrix2d::Identity() + (along - across) * d * d.transpose());
   return h;
 }
 
@@ -71,17 +75,18 @@ Mat3 SpringLaw::derivative(const Vec3& u) const {
 
 namespace {
 
-/// Newton's method on A Δv = J^T λ(u) with friction that follows the normal impulse: no potential has these forces, so steps are
-/// measured by what is left. False where none serves; ax and u stay at the best then.
-bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance, GroupSystem& group, VecX& ax, std::vector<Vec3>& u,
-                          int& steps) {
+/// Newton's method on A Δv = J^T λ(u) with friction that follows the normal impulse: no potential has these forces, so
+/// steps are measured by what is left. False where none serves; ax and u stay at the best then.
+bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
+                          GroupSystem& group, VecX& ax, std::vector<Vec3>& u, int& steps) {
   const std::size_t m = law.size();
   std::vector<Vec3> along(m), trial(m);
   std::vector<Mat3> h(m);
   double size = 0.0;
   const auto left = [&](const std::vector<Vec3>& at, const VecX& a_at) {
     VecX r = VecX::Zero(a.size());
-    for (std::size_t i = 0; i < m; ++i) a.add_impulse(i, group.lambda[i] = law[i].impulse(at[i], law[i].normal(at[i])), r);
+    for (std::size_t i = 0; i < m; ++i)
+      a.add_impulse(i, group.lambda[i] = law[i].impulse(at[i], law[i].normal(at[i])), r);
     size = std::max(size, a.norm(r));
     return VecX(r - a_at);
   };
@@ -112,16 +117,19 @@ bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& 
 
 }  // namespace
 
-SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance, GroupSystem& group) {
+SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
+                            GroupSystem& group) {
   const std::size_t m = law.size();
   std::vector<Vec3> u, step(m);
-  std::vector<double> normal(m);  // what friction goes by: follows the normal impulses, by a part of the way once they swing
+  // what friction goes by: follows the normal impulses, by a part of the way once they swing
+  std::vector<double> normal(m);
   std::vector<Mat3> h(m);
   for (std::size_t i = 0; i < m; ++i) u.push_back(group.contact_velocity(i, false));
   VecX ax = VecX::Zero(a.size());
   double size = 0.0, part = 1.0, before = 0.0;
   SpringsResult result;
-  if (std::any_of(law.begin(), law.end(), [](const SpringLaw& l) { return l.kind == RowKind::contact && l.friction > 0.0; }) &&
+  if (std::any_of(law.begin(), law.end(),
+                  [](const SpringLaw& l) { return l.kind == RowKind::contact && l.friction > 0.0; }) &&
       newton_with_friction(a, law, tolerance, group, ax, u, result.iterations))
     return {result.iterations, true};
   while (true) {

@@ -1,5 +1,5 @@
-// Springs at contacts, implicit in A: the convex minimum of ½‖Δv‖²_A plus the springs' potential, by Newton's method with a
-// search along the line. What the penalty response and the answer to contradicting contacts share.
+// Springs at contacts, implicit in A: the convex minimum of ½‖Δv‖²_A plus the springs' potential, by Newton's method
+// with a search along the line. What the penalty response and the answer to contradicting contacts share.
 #pragma once
 
 #include "engine/response/group_operator.hpp"
@@ -29,9 +29,11 @@ struct SpringsResult {
   bool converged = false;
 };
 
-/// Fills group.lambda with the impulses of the velocities that they leave; a: of this group. Friction goes by the normal
-/// impulse of the iterate, so it is that of the answer at convergence: A Δv - J^T λ of `tolerance` times what the forces change.
-SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance, GroupSystem& group);
+/// Fills group.lambda with the impulses of the velocities that they leave; a: of this group. Friction goes by the
+/// normal impulse of the iterate, so it is that of the answer at convergence: A Δv - J^T λ of `tolerance` times what
+/// the forces change.
+SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
+                            GroupSystem& group);
 
 /// Δv = A⁻¹ J^T λ of group.lambda as it stands, by conjugate gradients. False if they didn't get there.
 bool apply_springs(const GroupOperator& a, GroupSystem& group);

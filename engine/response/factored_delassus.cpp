@@ -14,21 +14,25 @@ std::vector<std::vector<Mat3>> inverse_node_blocks(const GroupSystem& group) {
 }
 
 FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::vector<Mat3>>* node_inverse)
-    : group_(group), node_inverse_(node_inverse), diagonal_(group.contacts.size(), Mat3::Zero()), sides_(group.contacts.size()) {
+    : group_(group),
+      node_inverse_(node_inverse),
+      diagonal_(group.contacts.size(), Mat3::Zero()),
+      sides_(group.contacts.size()) {
   group.clear_delta();
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactRows& rows = group.contacts[i];
     const auto add = [&](const ContactSide& side, double sign, RigidSide& out) {
       if (side.rigid >= 0) {
         const BodyBlock& block = group.bodies[side.rigid];
-        for (int k = 0; k < 3; ++k) out.arm.row(k) = sign * side.arm.cross(rows.directions.row(k).transpose()).transpose();
+        for (int k = 0; k < 3; ++k)
+          out.arm.row(k) = sign * side.arm.cross(rows.directions.row(k).transpose()).transpose();
         out.linear = sign * block.inverse_mass * rows.directions.transpose();
         out.angular = block.inverse_inertia * out.arm.transpose();
         diagonal_[i] += block.inverse_mass * (rows.directions * rows.directions.transpose()) + out.arm * out.angular;
       }
       for (const NodeWeight& n : side.nodes)
-        diagonal_[i] += n.weight * n.weight *
-                        (rows.directions * (*node_inverse_)[side.soft][n.node] * rows.directions.transpose());
+        diagonal_[i] +=
+            n.weight * n.weight * (rows.directions * (*node_inverse_)[side.soft][n.node] * rows.directions.transpose());
     };
     add(rows.a, 1.0, sides_[i][0]);
     add(rows.b, -1.0, sides_[i][1]);
@@ -75,9 +79,11 @@ void FactoredDelassus::change(std::size_t i, const Vec3& delta, bool normal_only
       }
     }
     if (side.nodes.empty()) return;
-    const Vec3 force = normal_only ? Vec3(rows.directions.row(0).transpose() * delta.x()) : Vec3(rows.directions.transpose() * delta);
+    const Vec3 force =
+        normal_only ? Vec3(rows.directions.row(0).transpose() * delta.x()) : Vec3(rows.directions.transpose() * delta);
     for (const NodeWeight& n : side.nodes)
-      group_.soft_delta[side.soft].segment<3>(3 * n.node) += (*node_inverse_)[side.soft][n.node] * (sign * n.weight * force);
+      group_.soft_delta[side.soft].segment<3>(3 * n.node) +=
+          (*node_inverse_)[side.soft][n.node] * (sign * n.weight * force);
   };
   add(rows.a, 1.0, sides_[i][0]);
   add(rows.b, -1.0, sides_[i][1]);

@@ -1,6 +1,7 @@
-// W = J B⁻¹ J^T of a group, kept as factors, where B is block diagonal: A itself for rigid bodies (6 x 6 a body), and for
-// deformable bodies a 3 x 3 block a node (what iterative constraint anticipation puts in A's place). B⁻¹ J^T λ is carried
-// by body and node, so a row costs the few nodes it touches however many contacts there are; only diagonal blocks are stored.
+// W = J B⁻¹ J^T of a group, kept as factors, where B is block diagonal: A itself for rigid bodies (6 x 6 a body), and
+// for deformable bodies a 3 x 3 block a node (what iterative constraint anticipation puts in A's place). B⁻¹ J^T λ is
+// carried by body and node, so a row costs the few nodes it touches however many contacts there are; only diagonal
+// blocks are stored.
 #pragma once
 
 #include "engine/contact/group_system.hpp"
@@ -13,8 +14,8 @@ std::vector<std::vector<Mat3>> inverse_node_blocks(const GroupSystem& group);
 
 class FactoredDelassus : public Delassus {
  public:
-  /// Refers to `group`, and writes its Δv (B⁻¹ J^T λ). node_inverse: for each deformable body the inverse blocks of its free
-  /// nodes, 1/kg; it must outlive this.
+  /// Refers to `group`, and writes its Δv (B⁻¹ J^T λ). node_inverse: for each deformable body the inverse blocks of its
+  /// free nodes, 1/kg; it must outlive this.
   explicit FactoredDelassus(GroupSystem& group, const std::vector<std::vector<Mat3>>* node_inverse = nullptr);
 
   bool has_factors() const override { return true; }
@@ -25,7 +26,8 @@ class FactoredDelassus : public Delassus {
   void change(std::size_t i, const Vec3& delta, bool normal_only) override;
 
  private:
-  struct RigidSide {  // A⁻¹ J^T of one rigid body in one contact: what a unit impulse along each row does to its velocities
+  // A⁻¹ J^T of one rigid body in one contact: what a unit impulse along each row does to its velocities
+  struct RigidSide {
     Mat3 linear = Mat3::Zero(), angular = Mat3::Zero();  // 3 x 3, a column a row of J
     Mat3 arm = Mat3::Zero();                             // rows r x d: J's angular part
   };

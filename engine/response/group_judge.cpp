@@ -22,7 +22,8 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c) {
             const Vec3 dr = rows.directions.row(r), dc = rows.directions.row(c);
-            w(r, c) += block.inverse_mass * dr.dot(dc) + side.arm.cross(dr).dot(block.inverse_inertia * side.arm.cross(dc));
+            w(r, c) +=
+                block.inverse_mass * dr.dot(dc) + side.arm.cross(dr).dot(block.inverse_inertia * side.arm.cross(dc));
           }
       }
       for (const NodeWeight& n : side.nodes) {  // the natural map needs a scale only: the nodes' own blocks serve
@@ -50,11 +51,13 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
     verdict.momentum = std::max({verdict.momentum, (group.delta_velocity[b] - block.inverse_mass * impulse[b]).norm(),
                                  (group.delta_angular_velocity[b] - block.inverse_inertia * turn[b]).norm()});
   }
-  for (std::size_t s = 0; s < group.soft.size(); ++s) {  // A Δv - J^T λ by node, as the velocity that its own block makes of it
+  // A Δv - J^T λ by node, as the velocity that its own block makes of it
+  for (std::size_t s = 0; s < group.soft.size(); ++s) {
     const BlockMatrix& a = *group.soft[s].a;
     const VecX r = a * group.soft_delta[s] - group.soft_impulse(static_cast<int>(s), group.lambda);
     for (int i = 0; i < a.pattern->rows; ++i)
-      verdict.momentum = std::max(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
+      verdict.momentum =
+          std::max(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
   return verdict;
 }

@@ -12,8 +12,8 @@ struct GroupVerdict {
   double residual() const { return natural_map > momentum ? natural_map : momentum; }
 };
 
-/// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them; otherwise a
-/// deformable body enters by its nodes' own blocks.
+/// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them;
+/// otherwise a deformable body enters by its nodes' own blocks.
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr);
 
 }  // namespace impinge

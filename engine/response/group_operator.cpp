@@ -36,8 +36,10 @@ Vec3 GroupOperator::row(std::size_t i, const VecX& x) const {
   const ContactRows& rows = group_.contacts[i];
   Vec3 relative = Vec3::Zero();
   for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)}) {
-    if (side->rigid >= 0) relative += sign * (x.segment<3>(6 * side->rigid) + Vec3(x.segment<3>(6 * side->rigid + 3)).cross(side->arm));
-    for (const NodeWeight& n : side->nodes) relative += sign * n.weight * x.segment<3>(soft_at_[side->soft] + 3 * n.node);
+    if (side->rigid >= 0)
+      relative += sign * (x.segment<3>(6 * side->rigid) + Vec3(x.segment<3>(6 * side->rigid + 3)).cross(side->arm));
+    for (const NodeWeight& n : side->nodes)
+      relative += sign * n.weight * x.segment<3>(soft_at_[side->soft] + 3 * n.node);
   }
   return rows.directions * relative;
 }
@@ -102,7 +104,8 @@ std::vector<Mat3> GroupOperator::shared_mobility(const std::vector<char>& act) c
         shared[i] += rigid[side->rigid] * j * plain_.rigid[side->rigid] * j.transpose();
       }
       for (const NodeWeight& n : side->nodes)
-        if (const double m = mass[side->soft][n.node]; m > 0.0) shared[i] += std::abs(n.weight) * load[side->soft][n.node] / m * Mat3::Identity();
+        if (const double m = mass[side->soft][n.node]; m > 0.0)
+          shared[i] += std::abs(n.weight) * load[side->soft][n.node] / m * Mat3::Identity();
     }
   return shared;
 }
@@ -153,7 +156,8 @@ GroupOperator::Blocks GroupOperator::inverse_blocks(const std::vector<Mat3>& h) 
         const auto j = rigid_row(i, *side, sign);
         blocks.rigid[side->rigid] += j.transpose() * h[i] * j;
       }
-      for (const NodeWeight& n : side->nodes) blocks.node[side->soft][n.node] += n.weight * n.weight * rows.directions.transpose() * h[i] * rows.directions;
+      for (const NodeWeight& n : side->nodes)
+        blocks.node[side->soft][n.node] += n.weight * n.weight * rows.directions.transpose() * h[i] * rows.directions;
     }
   }
   for (Mat6& m : blocks.rigid) m = m.inverse().eval();
@@ -243,7 +247,8 @@ VecX GroupOperator::load(const GroupSystem& group) const {
     x.segment<3>(6 * b) = group.delta_velocity[b];
     x.segment<3>(6 * b + 3) = group.delta_angular_velocity[b];
   }
-  for (std::size_t s = 0; s < soft_at_.size(); ++s) x.segment(soft_at_[s], group.soft_delta[s].size()) = group.soft_delta[s];
+  for (std::size_t s = 0; s < soft_at_.size(); ++s)
+    x.segment(soft_at_[s], group.soft_delta[s].size()) = group.soft_delta[s];
   return x;
 }
 
@@ -252,7 +257,8 @@ void GroupOperator::store(const VecX& x, GroupSystem& group) const {
     group.delta_velocity[b] = x.segment<3>(6 * b);
     group.delta_angular_velocity[b] = x.segment<3>(6 * b + 3);
   }
-  for (std::size_t s = 0; s < soft_at_.size(); ++s) group.soft_delta[s] = x.segment(soft_at_[s], group.soft[s].velocity.size());
+  for (std::size_t s = 0; s < soft_at_.size(); ++s)
+    group.soft_delta[s] = x.segment(soft_at_[s], group.soft[s].velocity.size());
 }
 
 }  // namespace impinge

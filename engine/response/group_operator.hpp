@@ -19,17 +19,19 @@ class GroupOperator {
   void add_impulse(std::size_t i, const Vec3& lambda, VecX& y) const;
   /// J_i D⁻¹ J_i^T with D the diagonal blocks of A.
   Mat3 block_mobility(std::size_t i) const;
-  /// D_i with blockdiag(D) ⪰ J A⁻¹ J^T of the contacts that `act`, without a solve: a rigid body counts once for each of its
-  /// contacts [Tonge12], a node for the weights that contacts have in it, as if it were a body by itself: A is above its mass, the sum of its row of A.
+  /// D_i with blockdiag(D) ⪰ J A⁻¹ J^T of the contacts that `act`, without a solve: a rigid body counts once for each
+  /// of its contacts [Tonge12], a node for the weights that contacts have in it, as if it were a body by itself: A is
+  /// above its mass, the sum of its row of A.
   std::vector<Mat3> shared_mobility(const std::vector<char>& act) const;
-  /// Largest eigenvalue of the normal rows of J A⁻¹ J^T of those contacts against the diagonal of J D⁻¹ J^T, by power iteration: from below.
+  /// Largest eigenvalue of the normal rows of J A⁻¹ J^T of those contacts against the diagonal of J D⁻¹ J^T, by power
+  /// iteration: from below.
   double largest_normal_eigenvalue(const std::vector<char>& act) const;
   /// x of (A + J^T H J) x = b from where x stands, H a symmetric positive semidefinite block for each contact or empty.
-  /// Conjugate gradients with the diagonal blocks as preconditioner; ends at ‖r‖ <= tolerance ‖b‖ in the preconditioner's norm.
-  /// False if it didn't get there.
+  /// Conjugate gradients with the diagonal blocks as preconditioner; ends at ‖r‖ <= tolerance ‖b‖ in the
+  /// preconditioner's norm. False if it didn't get there.
   bool solve(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const;
-  /// The same for any H, by stabilised bi-conjugate gradients [vanderVorst92]: sliding friction follows the normal impulse, not
-  /// the other way about. Ends at ‖r‖ <= tolerance ‖b‖ as they stand.
+  /// The same for any H, by stabilised bi-conjugate gradients [vanderVorst92]: sliding friction follows the normal
+  /// impulse, not the other way about. Ends at ‖r‖ <= tolerance ‖b‖ as they stand.
   bool solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const;
   /// max over nodes and rigid bodies of |D⁻¹ b|, m/s and rad/s.
   double velocity_of(const VecX& b) const;

@@ -1,14 +1,16 @@
-// Iterative constraint anticipation, ICA [Haapaoja16 §4.1.4], [Otaduy09]: A⁻¹ of a deformable body is never asked for. An
-// outer loop relaxes A Δv = J^T λ, an inner one solves contact on a J Q⁻¹ J^T that is sparse.
+// Iterative constraint anticipation, ICA [Haapaoja16 §4.1.4], [Otaduy09]: A⁻¹ of a deformable body is never asked for.
+// An outer loop relaxes A Δv = J^T λ, an inner one solves contact on a J Q⁻¹ J^T that is sparse.
 //
 // form = "seed", as printed: inner c(i) = bound - J v* - J D⁻¹ (L + U) Δv(i-1), then one block Gauss-Seidel sweep
 //   (D - L) Δv(i) = U Δv(i-1) + J^T λ(i).
 // form = "accelerated": accelerated_anticipation.cpp.
-// stop = "residual": natural map of (J v - bound, λ) and D⁻¹ (A Δv - J^T λ) by node, both in m/s against max |J v* - bound|: true
+// stop = "residual": natural map of (J v - bound, λ) and D⁻¹ (A Δv - J^T λ) by node, both in m/s against max |J v* -
+// bound|: true
 //   residuals.
 // stop = "change": the seed's rule, a change of ‖A Δv - J^T λ‖ by less than 5 % between iterations; it stops far away.
 //
-// Rigid bodies, and deformable ones whose A is block diagonal, enter with Q = A: if there are no others one step is exact.
+// Rigid bodies, and deformable ones whose A is block diagonal, enter with Q = A: if there are no others one step is
+// exact.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -39,8 +41,8 @@ Vec3 soft_velocity(const GroupSystem& group, const std::vector<VecX>& v, std::si
   return group.contacts[i].directions * relative;
 }
 
-ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std::vector<std::vector<Mat3>>& inverse, const LcpSolver& solver,
-                          const ResponseSettings& settings) {
+ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std::vector<std::vector<Mat3>>& inverse,
+                          const LcpSolver& solver, const ResponseSettings& settings) {
   FactoredDelassus w(group, &inverse);
   ConeProblem problem = base;
   problem.w = &w;
@@ -90,7 +92,8 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
       group.soft_delta = x;
       double worst = 0.0;
       for (std::size_t i = 0; i < base.q.size(); ++i)
-        worst = std::max(worst, natural_map(base.kind[i], w.diagonal(i), w.row(i, false) + base.q[i], group.lambda[i], base.mu[i]));
+        worst = std::max(
+            worst, natural_map(base.kind[i], w.diagonal(i), w.row(i, false) + base.q[i], group.lambda[i], base.mu[i]));
       result.converged = worst <= tolerance;
     }
   }
@@ -104,7 +107,8 @@ class IterativeConstraintAnticipation : public Response {
   ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const override {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
-    const bool one_step = std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; });
+    const bool one_step =
+        std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; });
     if (!one_step && settings.form != "seed") return solve_accelerated(group, problem, solver, settings);
     const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);
     if (!one_step) return solve_seed(group, problem, inverse, solver, settings);
@@ -119,8 +123,8 @@ class IterativeConstraintAnticipation : public Response {
 }  // namespace
 
 Entry<Response> iterative_constraint_anticipation_response() {
-  return entry<Response, IterativeConstraintAnticipation>("iterative_constraint_anticipation",
-                                                          "relaxes A by its block diagonal; the seed's form and an accelerated one");
+  return entry<Response, IterativeConstraintAnticipation>(
+      "iterative_constraint_anticipation", "relaxes A by its block diagonal; the seed's form and an accelerated one");
 }
 
 }  // namespace impinge

@@ -5,8 +5,9 @@
 namespace impinge {
 namespace {
 
-constexpr double kSuspicion = 10.0;   // -q^T λ over λ^T W λ: 1 at an answer, without limit along a ray
-constexpr double kCompliance = 1e-5;  // of each row's own mobility; springs this stiff differ from their limit by less than shows
+constexpr double kSuspicion = 10.0;  // -q^T λ over λ^T W λ: 1 at an answer, without limit along a ray
+// of each row's own mobility; springs this stiff differ from their limit by less than shows
+constexpr double kCompliance = 1e-5;
 
 /// J v* - bound along n against the impulses, and the energy norm of what they move.
 struct Work {

@@ -1,14 +1,15 @@
-// Sweeps carry impulse along the null space of J where more rows meet than the surfaces have unknowns, and with sliding friction
-// they need not come to an end. Here redundancy is harmless: the multipliers stay where they were, and what is solved for is
-// the velocity, of which there is one,
+// Sweeps carry impulse along the null space of J where more rows meet than the surfaces have unknowns, and with sliding
+// friction they need not come to an end. Here redundancy is harmless: the multipliers stay where they were, and what is
+// solved for is the velocity, of which there is one,
 //   A Δv = J^T P(λ - ρ u),   u = J Δv + q,   P of Alart and Curnier: λ_n >= 0, |λ_t| <= mu λ_n,
-// springs of stiffness ρ over the impulses that are known; then λ <- P(λ - ρ u) [Hestenes69, Powell69; SimoLaursen92]. Where λ stands
-// still the law holds exactly, Coulomb's cone. The springs are solved by Newton's method: Δv steps by (A + J^T G J)⁻¹ of what is
-// left, G = ρ dP, which is not symmetric where something slides. A⁻¹ is never asked for.
+// springs of stiffness ρ over the impulses that are known; then λ <- P(λ - ρ u) [Hestenes69, Powell69; SimoLaursen92].
+// Where λ stands still the law holds exactly, Coulomb's cone. The springs are solved by Newton's method: Δv steps by (A
+// + J^T G J)⁻¹ of what is left, G = ρ dP, which is not symmetric where something slides. A⁻¹ is never asked for.
 //
-// ρ begins at kSoft times what D lets a contact feel, and rises while rounds gain too little: a round shrinks the part of the
-// error along an eigenvector of W by 1/(1 + ρ eigenvalue), and hundreds of contacts on a few soft elements have small ones. Above
-// kStiffest Newton's steps fail. A dragon of 1e4 Pa in 1,170 contacts, whose sweeps stall at 1e-4: 1e-8 in 3 to 7 s.
+// ρ begins at kSoft times what D lets a contact feel, and rises while rounds gain too little: a round shrinks the part
+// of the error along an eigenvector of W by 1/(1 + ρ eigenvalue), and hundreds of contacts on a few soft elements have
+// small ones. Above kStiffest Newton's steps fail. A dragon of 1e4 Pa in 1,170 contacts, whose sweeps stall at 1e-4:
+// 1e-8 in 3 to 7 s.
 #include "engine/response/multiplier_newton.hpp"
 
 #include <algorithm>
@@ -21,22 +22,30 @@ namespace impinge {
 namespace {
 
 constexpr double kSoft = 100.0, kStiffest = 1e4, kRise = 4.0;
-constexpr double kGain = 0.3;        // of the error after a round, to leave ρ as it is
+constexpr double kGain = 0.3;  // of the error after a round, to leave ρ as it is
 constexpr int kMultiplierSteps = 60, kNewtonSteps = 40;
-constexpr double kSteady = 0.2;      // how little the gain of two rounds differs for the next to be had at once
-constexpr double kWorse = 10.0;       // times the error: the round is taken back
+constexpr double kSteady = 0.2;  // how little the gain of two rounds differs for the next to be had at once
+constexpr double kWorse = 10.0;  // times the error: the round is taken back
 constexpr int kHalvings = 8;
-constexpr double kInner = 1e-2;      // of a Newton step's system
-constexpr double kPart = 0.1;        // of the contacts' error: how well the springs are solved in a round
+constexpr double kInner = 1e-2;  // of a Newton step's system
+constexpr double kPart = 0.1;    // of the contacts' error: how well the springs are solved in a round
 
 class Solver {
  public:
   Solver(const GroupOperator& a, const ConeProblem& problem, GroupSystem& group, VecX& x)
-      : a_(a), problem_(problem), group_(group), x_(x), ax_(a.multiply(x)), u_(problem.q.size()), next_(u_.size()), g_(u_.size()) {
+      : a_(a),
+        problem_(problem),
+        group_(group),
+        x_(x),
+        ax_(a.multiply(x)),
+        u_(problem.q.size()),
+        next_(u_.size()),
+        g_(u_.size()) {
     for (std::size_t i = 0; i < u_.size(); ++i) {
       mobility_.push_back(a.block_mobility(i));
       const auto inverse = [](double w) { return w > 0.0 ? kSoft / w : 0.0; };
-      rho_.emplace_back(inverse(mobility_[i](0, 0)), problem.has_one_row(i) ? 0.0 : inverse(0.5 * (mobility_[i](1, 1) + mobility_[i](2, 2))));
+      rho_.emplace_back(inverse(mobility_[i](0, 0)),
+                        problem.has_one_row(i) ? 0.0 : inverse(0.5 * (mobility_[i](1, 1) + mobility_[i](2, 2))));
       u_[i] = a.row(i, x) + problem.q[i];
     }
   }
@@ -59,11 +68,15 @@ class Solver {
         scale(1.0 / kRise);
       } else {
         now.gain = now.contacts / last.contacts;
-        if (now.gain > kGain && stiffness_ * kRise <= stiffest) scale(kRise);
-        else if (std::abs(now.gain - last.gain) < kSteady * (1.0 - now.gain)) now.set_along(last);
+        if (now.gain > kGain && stiffness_ * kRise <= stiffest)
+          scale(kRise);
+        else if (std::abs(now.gain - last.gain) < kSteady * (1.0 - now.gain))
+          now.set_along(last);
       }
-      if (worse) restore(last);
-      else last = std::move(now);
+      if (worse)
+        restore(last);
+      else
+        last = std::move(now);
       if (last.error() < best.error()) best = last;
     }
     if (!result.converged) restore(best);
@@ -84,7 +97,9 @@ class Solver {
     }
   };
 
-  State state() const { return {x_, ax_, group_.lambda, u_, natural_residual(), a_.velocity_of(impulse(group_.lambda) - ax_), 0.0, {}}; }
+  State state() const {
+    return {x_, ax_, group_.lambda, u_, natural_residual(), a_.velocity_of(impulse(group_.lambda) - ax_), 0.0, {}};
+  }
 
   void restore(const State& s) {
     x_ = s.x;
@@ -95,7 +110,8 @@ class Solver {
 
   /// All that is left lies along one eigenvector: the rounds to come, summed.
   void follow(State& s) {
-    for (std::size_t i = 0; i < u_.size(); ++i) group_.lambda[i] = problem_.nearest(i, s.lambda[i] + s.gain / (1.0 - s.gain) * s.along[i]);
+    for (std::size_t i = 0; i < u_.size(); ++i)
+      group_.lambda[i] = problem_.nearest(i, s.lambda[i] + s.gain / (1.0 - s.gain) * s.along[i]);
     s.along.clear();
     s.gain = 0.0;
   }
@@ -120,7 +136,8 @@ class Solver {
 
   /// next = P(λ - ρ u); returns J^T next - A Δv.
   VecX left(const std::vector<Vec3>& u, const VecX& ax) {
-    for (std::size_t i = 0; i < u.size(); ++i) next_[i] = group_.lambda[i] - alart_curnier_value(problem_, i, u[i], group_.lambda[i], rho_[i]);
+    for (std::size_t i = 0; i < u.size(); ++i)
+      next_[i] = group_.lambda[i] - alart_curnier_value(problem_, i, u[i], group_.lambda[i], rho_[i]);
     return impulse(next_) - ax;
   }
 
@@ -129,7 +146,8 @@ class Solver {
     VecX r = left(u_, ax_);
     double size = a_.norm(r);
     for (int k = 0; k < kNewtonSteps && a_.velocity_of(r) > goal; ++k, ++steps) {
-      for (std::size_t i = 0; i < u_.size(); ++i) g_[i] = alart_curnier(problem_, i, u_[i], group_.lambda[i], rho_[i]).by_u;
+      for (std::size_t i = 0; i < u_.size(); ++i)
+        g_[i] = alart_curnier(problem_, i, u_[i], group_.lambda[i], rho_[i]).by_u;
       VecX p = VecX::Zero(a_.size());
       a_.solve_unsymmetric(g_, r, kInner, p);
       const VecX ap = a_.multiply(p);
@@ -162,7 +180,8 @@ class Solver {
 
 }  // namespace
 
-MultipliersResult solve_by_multipliers(const GroupOperator& a, const ConeProblem& problem, double tolerance, GroupSystem& group, VecX& x) {
+MultipliersResult solve_by_multipliers(const GroupOperator& a, const ConeProblem& problem, double tolerance,
+                                       GroupSystem& group, VecX& x) {
   return Solver(a, problem, group, x).run(tolerance);
 }
 

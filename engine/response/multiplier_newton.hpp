@@ -11,8 +11,10 @@ struct MultipliersResult {
   bool converged = false;
 };
 
-/// From where `x` (Δv, as GroupOperator holds it) and group.lambda stand; improves both. problem: q, mu and kinds of the group's
-/// contacts. `tolerance`, m/s: of the natural map of every contact, and of D⁻¹ (A Δv - J^T λ) of every node and rigid body.
-MultipliersResult solve_by_multipliers(const GroupOperator& a, const ConeProblem& problem, double tolerance, GroupSystem& group, VecX& x);
+/// From where `x` (Δv, as GroupOperator holds it) and group.lambda stand; improves both. problem: q, mu and kinds of
+/// the group's contacts. `tolerance`, m/s: of the natural map of every contact, and of D⁻¹ (A Δv - J^T λ) of every node
+/// and rigid body.
+MultipliersResult solve_by_multipliers(const GroupOperator& a, const ConeProblem& problem, double tolerance,
+                                       GroupSystem& group, VecX& x);
 
 }  // namespace impinge

@@ -24,7 +24,8 @@ NodeInverse::NodeInverse(const SoftBlock& block) {
 double NodeInverse::largest_eigenvalue(const BlockMatrix& a) const {
   VecX x(a.rows()), y, next;
   const VecX zero = VecX::Zero(a.rows());
-  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.0 + 0.5 * std::sin(12.9898 * static_cast<double>(i + 1));  // no symmetry to be caught in
+  // no symmetry to be caught in
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1.0 + 0.5 * std::sin(12.9898 * static_cast<double>(i + 1));
   double value = 1.0;
   for (int k = 0; k < kPowerIterations; ++k) {
     multiply(a, x, y);

@@ -1,8 +1,9 @@
-// Q⁻¹ = D⁻¹/c of a deformable body: the inverse of A's block diagonal, scaled so that Q lies above A: c >= λ_max(D⁻¹A). On
-// tetrahedral meshes λ_max is 2.2 to 3.2 and never above 4, the nodes of an element; with c = 1 the relaxation diverges.
+// Q⁻¹ = D⁻¹/c of a deformable body: the inverse of A's block diagonal, scaled so that Q lies above A: c >= λ_max(D⁻¹A).
+// On tetrahedral meshes λ_max is 2.2 to 3.2 and never above 4, the nodes of an element; with c = 1 the relaxation
+// diverges.
 //
-// A correction by motions that all nodes share (rigid ones, or those of a coarse grid) was tried: Q⁻¹ + Z (Z^T A Z)⁻¹ Z^T. It makes
-// the inner problem J Q⁻¹ J^T as badly conditioned as CA's, and sweeps on it stall: more work in all.
+// A correction by motions that all nodes share (rigid ones, or those of a coarse grid) was tried: Q⁻¹ + Z (Z^T A Z)⁻¹
+// Z^T. It makes the inner problem J Q⁻¹ J^T as badly conditioned as CA's, and sweeps on it stall: more work in all.
 #pragma once
 
 #include "engine/contact/group_system.hpp"

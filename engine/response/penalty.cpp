@@ -1,19 +1,19 @@
-// Penalty forces: a spring and a damper at each contact, f = (-k d - b v_r) n. Nothing is solved for: overlap is what carries
-// a load, weight/k at rest, and the work grows linearly with the contacts.
+// Penalty forces: a spring and a damper at each contact, f = (-k d - b v_r) n. Nothing is solved for: overlap is what
+// carries a load, weight/k at rest, and the work grows linearly with the contacts.
 //
-// Explicit: the forces of the sub-step's start; stable for Δt below about 2 √(m/k) only. Friction, which stops at most what slides,
-// lags by a sub-step too: a body that should stick creeps at (m W - 1) a Δt, a what pulls it, W the tangential mobility at a contact.
-// Implicit: those of its end, d = g0 + Δt u, which makes A + Δt² k n n^T + Δt b n n^T of A. Normal forces are those of a convex
-// potential (contact_springs.hpp).
+// Explicit: the forces of the sub-step's start; stable for Δt below about 2 √(m/k) only. Friction, which stops at most
+// what slides, lags by a sub-step too: a body that should stick creeps at (m W - 1) a Δt, a what pulls it, W the
+// tangential mobility at a contact. Implicit: those of its end, d = g0 + Δt u, which makes A + Δt² k n n^T + Δt b n n^T
+// of A. Normal forces are those of a convex potential (contact_springs.hpp).
 //
-// Without a stiffness of its own a contact takes that of the mass m = 1/W_ii it feels: k = m/Δt² and critical damping when
-// implicit, so that a lone body sinks by g Δt². Explicit, half of that, m such that all contacts that overlap may act at once: shared
-// on a rigid body and on a node, or by the largest eigenvalue of J A⁻¹ J^T, whichever leaves more. Explicit springs of any
-// stiffness that is stable let bodies overlap by what they move in a few sub-steps.
+// Without a stiffness of its own a contact takes that of the mass m = 1/W_ii it feels: k = m/Δt² and critical damping
+// when implicit, so that a lone body sinks by g Δt². Explicit, half of that, m such that all contacts that overlap may
+// act at once: shared on a rigid body and on a node, or by the largest eigenvalue of J A⁻¹ J^T, whichever leaves more.
+// Explicit springs of any stiffness that is stable let bodies overlap by what they move in a few sub-steps.
 //
-// Friction is regularised: |λ_t| = mu λ_n f(|u_t|/ε), f(y) = 2 y - y² up to y = 1 and 1 beyond it. It lies in Coulomb's cone but
-// doesn't stick: what pulls with F_t < mu N creeps at ε (1 - √(1 - F_t/(mu N))). Restitution is what the damper leaves of it.
-// Attachments and sliding points hang on springs of the same stiffness.
+// Friction is regularised: |λ_t| = mu λ_n f(|u_t|/ε), f(y) = 2 y - y² up to y = 1 and 1 beyond it. It lies in Coulomb's
+// cone but doesn't stick: what pulls with F_t < mu N creeps at ε (1 - √(1 - F_t/(mu N))). Restitution is what the
+// damper leaves of it. Attachments and sliding points hang on springs of the same stiffness.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,8 @@
 namespace impinge {
 namespace {
 
-constexpr double kExplicitPart = 0.5;  // of m/Δt², with critical damping: (ω Δt)² + 2 b Δt/m = 3.3 of the 4 that are stable
+// of m/Δt², with critical damping: (ω Δt)² + 2 b Δt/m = 3.3 of the 4 that are stable
+constexpr double kExplicitPart = 0.5;
 
 struct Spring {
   double stiffness, damping;
@@ -38,7 +39,9 @@ Spring spring_of(const ResponseSettings& s, double mass, double part) {
 /// At the end of the sub-step. A gap closes first, and only what is left of the motion meets spring and damper.
 SpringLaw implicit_law(const ContactRows& rows, const Spring& spring, const ResponseSettings& s) {
   const double h = s.time_step, slope = h * (spring.stiffness * h + spring.damping);
-  const double offset = rows.kind != RowKind::contact ? slope * rows.bound : rows.gap > 0.0 ? -slope * rows.gap / h : -h * spring.stiffness * rows.gap;
+  const double offset = rows.kind != RowKind::contact ? slope * rows.bound
+                        : rows.gap > 0.0              ? -slope * rows.gap / h
+                                                      : -h * spring.stiffness * rows.gap;
   return {rows.kind, slope, offset, rows.friction, s.penalty_slip_speed};
 }
 
@@ -62,7 +65,8 @@ class Penalty : public Response {
       std::vector<SpringLaw> law;
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         const double mobility = a.block_mobility(i)(0, 0);
-        law.push_back(implicit_law(group.contacts[i], spring_of(settings, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0), settings));
+        law.push_back(
+            implicit_law(group.contacts[i], spring_of(settings, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0), settings));
       }
       const SpringsResult springs = solve_springs(a, law, std::max(1e-12, settings.lcp.tolerance), group);
       result.iterations = springs.iterations;
@@ -91,7 +95,8 @@ class Penalty : public Response {
       Vec3& lambda = group.lambda[i] = law.impulse(u, law.normal(u));
       // friction of the start may not turn the sliding round: all of a body's contacts together at most stop it
       const double half = 0.5 * (mobility(1, 1) - mobility(2, 2)), mean = 0.5 * (mobility(1, 1) + mobility(2, 2));
-      const double most = u.tail<2>().norm() / (mean + std::hypot(half, mobility(1, 2))), size = lambda.tail<2>().norm();
+      const double most = u.tail<2>().norm() / (mean + std::hypot(half, mobility(1, 2))),
+                   size = lambda.tail<2>().norm();
       if (rows.kind == RowKind::contact && size > most) lambda.tail<2>() *= most / size;
     }
   }
@@ -100,7 +105,8 @@ class Penalty : public Response {
 }  // namespace
 
 Entry<Response> penalty_response() {
-  return entry<Response, Penalty>("penalty", "a spring and damper at each contact, explicit or implicit; regularised friction");
+  return entry<Response, Penalty>("penalty",
+                                  "a spring and damper at each contact, explicit or implicit; regularised friction");
 }
 
 }  // namespace impinge

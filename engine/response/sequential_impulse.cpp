@@ -1,5 +1,5 @@
-// Sequential impulses [Catto05]: one contact after another, on accumulated impulses that are clamped, in a number of sweeps that
-// is bounded beforehand. Friction is Coulomb's cone by projection of the accumulated tangential impulse.
+// Sequential impulses [Catto05]: one contact after another, on accumulated impulses that are clamped, in a number of
+// sweeps that is bounded beforehand. Friction is Coulomb's cone by projection of the accumulated tangential impulse.
 //
 // Impacts come first, each as a collision of its own pair: a contact that bodies approach through gets the impulse that
 // returns -e times its approach, and so on until none approaches; a shot runs through Newton's cradle that way. What
@@ -16,7 +16,8 @@ class SequentialImpulse : public Response {
  public:
   ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
     const std::size_t m = group.contacts.size();
-    const bool impacts = std::any_of(group.contacts.begin(), group.contacts.end(), [](const ContactRows& c) { return is_impact(c); });
+    const bool impacts =
+        std::any_of(group.contacts.begin(), group.contacts.end(), [](const ContactRows& c) { return is_impact(c); });
     if (impacts) group.lambda.assign(m, Vec3::Zero());  // the impulses of a resting state say nothing about an impact
     ContactMobility mobility(group);
     const double scale = velocity_scale(make_cone_problem(group));
@@ -50,7 +51,9 @@ class SequentialImpulse : public Response {
   }
 
  private:
-  static bool is_impact(const ContactRows& c) { return c.kind == RowKind::contact && c.restitution > 0.0 && c.bound > 0.0; }
+  static bool is_impact(const ContactRows& c) {
+    return c.kind == RowKind::contact && c.restitution > 0.0 && c.bound > 0.0;
+  }
 
   /// The bound without a bounce: a gap may close, an overlap may not grow.
   static double closed_bound(const ContactRows& c, double h) { return c.gap >= 0.0 ? -c.gap / h : 0.0; }
@@ -66,8 +69,8 @@ class SequentialImpulse : public Response {
     return lambda;
   }
 
-  static void collide(GroupSystem& group, ContactMobility& mobility, const ResponseSettings& settings, ResponseResult& result,
-                      std::vector<double>& impact, std::vector<double>& bound) {
+  static void collide(GroupSystem& group, ContactMobility& mobility, const ResponseSettings& settings,
+                      ResponseResult& result, std::vector<double>& impact, std::vector<double>& bound) {
     const std::size_t m = group.contacts.size();
     std::vector<double> approach(m);  // what J v* holds beside the velocity before the sub-step: forces
     double fastest = 0.0;
@@ -83,10 +86,14 @@ class SequentialImpulse : public Response {
         if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(mobility.diagonal(i)(0, 0) > 0.0)) continue;
         const Vec3 u = mobility.velocity(i);
         const double closing = u.x() + approach[i];
-        if (!(closing < -std::max(slow, settings.restitution_threshold)) || rows.gap + settings.time_step * u.x() >= 0.0) continue;
+        if (!(closing < -std::max(slow, settings.restitution_threshold)) ||
+            rows.gap + settings.time_step * u.x() >= 0.0)
+          continue;
         Vec3 next = group.lambda[i];
         next.x() -= (1.0 + rows.restitution) * closing / mobility.diagonal(i)(0, 0);
-        if (rows.friction > 0.0) relax_friction(mobility.diagonal(i), u + mobility.diagonal(i).col(0) * (next.x() - group.lambda[i].x()), rows.friction, next);
+        if (rows.friction > 0.0)
+          relax_friction(mobility.diagonal(i), u + mobility.diagonal(i).col(0) * (next.x() - group.lambda[i].x()),
+                         rows.friction, next);
         mobility.change(i, next - group.lambda[i]);
         impact[i] = next.x();
         // the bounce is done: from here on the contact may only not close
@@ -96,7 +103,8 @@ class SequentialImpulse : public Response {
     }
     // a bound that asks for a bounce which no longer takes place, since another impact turned the bodies away
     for (std::size_t i = 0; i < m; ++i)
-      if (is_impact(group.contacts[i]) && impact[i] == 0.0) bound[i] = std::min(bound[i], closed_bound(group.contacts[i], settings.time_step));
+      if (is_impact(group.contacts[i]) && impact[i] == 0.0)
+        bound[i] = std::min(bound[i], closed_bound(group.contacts[i], settings.time_step));
   }
 };
 

@@ -1,7 +1,7 @@
-// Simultaneous impulses: all contacts answer at once to the velocities before the sweep (Jacobi). Taken as they are, the answers
-// of a body's contacts add up to too much; each contact gets its share of the body's mass instead [Tonge12], which makes
-// blockdiag(D) ⪰ W an upper bound: without friction the sweep never raises the energy. Slower than one after another, but
-// no order of contacts is favoured and all answers are independent.
+// Simultaneous impulses: all contacts answer at once to the velocities before the sweep (Jacobi). Taken as they are,
+// the answers of a body's contacts add up to too much; each contact gets its share of the body's mass instead
+// [Tonge12], which makes blockdiag(D) ⪰ W an upper bound: without friction the sweep never raises the energy. Slower
+// than one after another, but no order of contacts is favoured and all answers are independent.
 #include <algorithm>
 
 #include "engine/response/contact_mobility.hpp"
@@ -24,7 +24,8 @@ class SimultaneousImpulse : public Response {
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         Vec3 u = mobility.velocity(i);
         u.x() -= group.contacts[i].bound;
-        change[i] = relaxed_impulse(group.contacts[i], mobility.split_diagonal(i), u, group.lambda[i]) - group.lambda[i];
+        change[i] =
+            relaxed_impulse(group.contacts[i], mobility.split_diagonal(i), u, group.lambda[i]) - group.lambda[i];
         largest = std::max(largest, (mobility.split_diagonal(i) * change[i]).norm());
       }
       for (std::size_t i = 0; i < group.contacts.size(); ++i)
@@ -42,7 +43,8 @@ class SimultaneousImpulse : public Response {
 }  // namespace
 
 Entry<Response> simultaneous_impulse_response() {
-  return entry<Response, SimultaneousImpulse>("simultaneous_impulse", "all contacts at once, each with its share of the mass");
+  return entry<Response, SimultaneousImpulse>("simultaneous_impulse",
+                                              "all contacts at once, each with its share of the mass");
 }
 
 }  // namespace impinge

@@ -1,7 +1,8 @@
-// Soft constraints as in today's game engines [Catto11]: fast and loose. Each contact is a spring and damper by frequency and
-// damping ratio, softened by the mass that it feels, in a few sweeps of sequential impulses; sub-steps (simulation.substeps) take
-// the place of iterations. Positions move by what these sweeps leave; then sweeps without springs relax the velocities, so
-// that recovery from overlap is no motion afterwards (groups of rigid bodies only). Built to be compared with, so to be known exactly:
+// Soft constraints as in today's game engines [Catto11]: fast and loose. Each contact is a spring and damper by
+// frequency and damping ratio, softened by the mass that it feels, in a few sweeps of sequential impulses; sub-steps
+// (simulation.substeps) take the place of iterations. Positions move by what these sweeps leave; then sweeps without
+// springs relax the velocities, so that recovery from overlap is no motion afterwards (groups of rigid bodies only).
+// Built to be compared with, so to be known exactly:
 // - regularised: the normal law. At rest a lone contact sinks by W_ii λ/(Δt ω²), a ball by g/ω². A gap closes freely.
 // - not regularised: friction, which is the cone by projection, and restitution. Attachments are hard, too.
 // - not solved: a bounded number of sweeps, started from the last impulses, is all; nothing is said of convergence.
@@ -14,7 +15,8 @@
 namespace impinge {
 namespace {
 
-/// What a spring of angular frequency ω and damping ratio ζ becomes over a step of implicit Euler, without a mass in it.
+/// What a spring of angular frequency ω and damping ratio ζ becomes over a step of implicit Euler, without a mass in
+/// it.
 struct Softness {
   double bias_rate, mass_scale, impulse_scale;
 };
@@ -34,18 +36,23 @@ class SoftConstraint : public Response {
     const Softness soft = softness(settings.soft_frequency, settings.soft_damping_ratio, settings.time_step);
     ResponseResult result;
     for (; result.iterations < settings.soft_iterations; ++result.iterations)
-      sweep(group, mobility, [&](std::size_t i, const Vec3& u) { return soft_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i], soft, settings); });
+      sweep(group, mobility, [&](std::size_t i, const Vec3& u) {
+        return soft_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i], soft, settings);
+      });
     result.converged = mobility.finish();
     // a deformable body's elastic forces count on positions that move by its velocities
     if (settings.soft_relax_iterations == 0 || !group.soft.empty()) return result;
     group.position_velocity = group.delta_velocity;
     group.position_angular_velocity = group.delta_angular_velocity;
-    // overlap may not grow any more; what is apart still is kept as it was, or the next sub-step would have nothing to bounce
+    // overlap may not grow any more; what is apart still is kept as it was, or the next sub-step would have nothing to
+    // bounce
     std::vector<double> bound(group.contacts.size());
     for (std::size_t i = 0; i < bound.size(); ++i) {
       const ContactRows& rows = group.contacts[i];
       const double gap = rows.gap + settings.time_step * group.contact_velocity(i, true).x();
-      bound[i] = rows.kind != RowKind::contact || bounces(rows) ? rows.bound : std::min(0.0, gap > 0.0 ? -rows.gap / settings.time_step : 0.0);
+      bound[i] = rows.kind != RowKind::contact || bounces(rows)
+                     ? rows.bound
+                     : std::min(0.0, gap > 0.0 ? -rows.gap / settings.time_step : 0.0);
     }
     for (int k = 0; k < settings.soft_relax_iterations; ++k, ++result.iterations)
       sweep(group, mobility, [&](std::size_t i, Vec3 u) {
@@ -71,13 +78,15 @@ class SoftConstraint : public Response {
     }
   }
 
-  static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft, const ResponseSettings& settings) {
+  static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
+                           const ResponseSettings& settings) {
     if (rows.kind != RowKind::contact || bounces(rows)) {
       u.x() -= rows.bound;
       return relaxed_impulse(rows, w, u, lambda);
     }
     if (!(w(0, 0) > 0.0)) return lambda;
-    const double bias = rows.gap > 0.0 ? rows.gap / settings.time_step : std::max(soft.bias_rate * rows.gap, -settings.max_push_out);
+    const double bias =
+        rows.gap > 0.0 ? rows.gap / settings.time_step : std::max(soft.bias_rate * rows.gap, -settings.max_push_out);
     const double before = lambda.x();
     lambda.x() = std::max(0.0, before - soft.mass_scale * (u.x() + bias) / w(0, 0) - soft.impulse_scale * before);
     if (rows.has_one_row()) return lambda;
@@ -89,7 +98,8 @@ class SoftConstraint : public Response {
 }  // namespace
 
 Entry<Response> soft_constraint_response() {
-  return entry<Response, SoftConstraint>("soft_constraint", "springs by frequency and damping ratio, a few sweeps: the game engines' way");
+  return entry<Response, SoftConstraint>("soft_constraint",
+                                         "springs by frequency and damping ratio, a few sweeps: the game engines' way");
 }
 
 }  // namespace impinge

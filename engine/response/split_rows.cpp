@@ -10,7 +10,8 @@ namespace impinge {
 
 SplitRows::SplitRows(GroupSystem& group, const std::vector<NodeInverse>& inverse, const std::vector<Vec3>& q)
     : group_(group), inverse_(inverse), q_(q), diagonal_(group.contacts.size()) {
-  for (const ContactRows& rows : group.contacts) sides_.push_back({make_side(rows, rows.a, 1.0), make_side(rows, rows.b, -1.0)});
+  for (const ContactRows& rows : group.contacts)
+    sides_.push_back({make_side(rows, rows.a, 1.0), make_side(rows, rows.b, -1.0)});
   prepare();
 }
 
@@ -35,7 +36,8 @@ void SplitRows::prepare() {
     const Mat3& d = group_.contacts[i].directions;
     diagonal_[i].setZero();
     for (Side& side : sides_[i]) {
-      if (side.rigid >= 0) diagonal_[i] += group_.bodies[side.rigid].inverse_mass * (d * d.transpose()) + side.arm * side.angular;
+      if (side.rigid >= 0)
+        diagonal_[i] += group_.bodies[side.rigid].inverse_mass * (d * d.transpose()) + side.arm * side.angular;
       if (side.soft < 0) continue;
       const NodeInverse& q = inverse_[side.soft];
       Mat3 w = Mat3::Zero();
@@ -54,7 +56,8 @@ Vec3 SplitRows::velocity(std::size_t i, const std::vector<VecX>& x) const {
     }
     if (side.soft < 0) continue;
     const double* node = x[side.soft].data();
-    for (int k = side.first; k < side.last; ++k) relative += node_[k].weight * Eigen::Map<const Vec3>(node + 3 * node_[k].index);
+    for (int k = side.first; k < side.last; ++k)
+      relative += node_[k].weight * Eigen::Map<const Vec3>(node + 3 * node_[k].index);
   }
   return group_.contacts[i].directions * relative + turned + q_[i];
 }
@@ -66,7 +69,8 @@ void SplitRows::move_rigid(const std::vector<Vec3>& lambda) {
     if (lambda[i].isZero(0.0)) continue;
     for (const Side& side : sides_[i]) {
       if (side.rigid < 0) continue;
-      group_.delta_velocity[side.rigid] += side.sign * group_.bodies[side.rigid].inverse_mass * (group_.contacts[i].directions.transpose() * lambda[i]);
+      group_.delta_velocity[side.rigid] +=
+          side.sign * group_.bodies[side.rigid].inverse_mass * (group_.contacts[i].directions.transpose() * lambda[i]);
       group_.delta_angular_velocity[side.rigid] += side.angular * lambda[i];
     }
   }
@@ -76,9 +80,12 @@ Vec3 SplitRows::next_impulse(std::size_t i, const Vec3& u, const Vec3& lambda) c
   const ContactRows& rows = group_.contacts[i];
   const Mat3& w = diagonal_[i];
   switch (rows.kind) {
-    case RowKind::attachment: return lambda - Vec3(w.completeOrthogonalDecomposition().solve(u));
-    case RowKind::sliding: return {lambda.x() - u.x() / w(0, 0), 0.0, 0.0};
-    case RowKind::contact: break;
+    case RowKind::attachment:
+      return lambda - Vec3(w.completeOrthogonalDecomposition().solve(u));
+    case RowKind::sliding:
+      return {lambda.x() - u.x() / w(0, 0), 0.0, 0.0};
+    case RowKind::contact:
+      break;
   }
   if (rows.friction == 0.0) return {std::max(0.0, lambda.x() - u.x() / w(0, 0)), 0.0, 0.0};
   return solve_one_contact(w, u - w * lambda, rows.friction);
@@ -101,7 +108,8 @@ double SplitRows::sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x) {
       if (side.soft < 0) continue;
       const NodeInverse& q = inverse_[side.soft];
       double* node = x[side.soft].data();
-      for (int k = side.first; k < side.last; ++k) Eigen::Map<Vec3>(node + 3 * node_[k].index) += q[node_[k].index] * (node_[k].weight * force);
+      for (int k = side.first; k < side.last; ++k)
+        Eigen::Map<Vec3>(node + 3 * node_[k].index) += q[node_[k].index] * (node_[k].weight * force);
     }
   }
   return std::sqrt(largest);
@@ -110,7 +118,8 @@ double SplitRows::sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x) {
 double SplitRows::natural_residual(const std::vector<Vec3>& lambda, const std::vector<VecX>& x) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < sides_.size(); ++i)
-    worst = std::max(worst, natural_map(group_.contacts[i].kind, diagonal_[i], velocity(i, x), lambda[i], group_.contacts[i].friction));
+    worst = std::max(worst, natural_map(group_.contacts[i].kind, diagonal_[i], velocity(i, x), lambda[i],
+                                        group_.contacts[i].friction));
   return worst;
 }
 
@@ -120,7 +129,8 @@ void SplitRows::impulses(const std::vector<Vec3>& lambda, std::vector<VecX>& f) 
     if (lambda[i].isZero(0.0)) continue;
     const Vec3 force = group_.contacts[i].directions.transpose() * lambda[i];
     for (const Side& side : sides_[i])
-      for (int k = side.first; k < side.last; ++k) f[side.soft].segment<3>(3 * node_[k].index) += node_[k].weight * force;
+      for (int k = side.first; k < side.last; ++k)
+        f[side.soft].segment<3>(3 * node_[k].index) += node_[k].weight * force;
   }
 }
 

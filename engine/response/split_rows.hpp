@@ -1,5 +1,6 @@
 // The contacts of a group over J Q⁻¹ J^T, where Q⁻¹ is a NodeInverse for deformable bodies and A⁻¹ for rigid ones. The
-// velocities themselves are carried, by node and by rigid body, so a sweep costs the few nodes that each contact touches.
+// velocities themselves are carried, by node and by rigid body, so a sweep costs the few nodes that each contact
+// touches.
 #pragma once
 
 #include "engine/response/node_inverse.hpp"
@@ -15,8 +16,8 @@ class SplitRows {
   void prepare();
   /// Rigid Δv = A⁻¹ J^T λ, afresh.
   void move_rigid(const std::vector<Vec3>& lambda);
-  /// One Gauss-Seidel sweep, each contact solved exactly with the others held: moves lambda and x (Δv by deformable body).
-  /// Returns what the largest correction did to its own contact, m/s.
+  /// One Gauss-Seidel sweep, each contact solved exactly with the others held: moves lambda and x (Δv by deformable
+  /// body). Returns what the largest correction did to its own contact, m/s.
   double sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x);
   /// Largest natural map over the contacts at Δv = x, m/s.
   double natural_residual(const std::vector<Vec3>& lambda, const std::vector<VecX>& x) const;

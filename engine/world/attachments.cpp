@@ -22,7 +22,8 @@ AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, 
   }
   if (end.body < 0) {
     const std::string near = nearest_word(name, names);
-    throw InputError(fmt::format("attachment '{}' names the body '{}', which is not there{}", d.name, name, near.empty() ? "" : "; did you mean '" + near + "'?"));
+    throw InputError(fmt::format("attachment '{}' names the body '{}', which is not there{}", d.name, name,
+                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
   const RigidBody& body = bodies[end.body];
   if (!body.soft) {
@@ -33,9 +34,11 @@ AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, 
   for (int i = 0; i < body.soft->fem.nodes(); ++i) now.vertices[i] = body.soft->fem.position.segment<3>(3 * i);
   const Embedding place = embed(now, std::span(&d.point, 1));
   if (place.farthest > kMostOutside)
-    throw InputError(fmt::format("attachment '{}' has its point {:.2g} tetrahedron heights outside of the deformable body '{}'; a point in it, or close to its surface, is wanted; "
-                                 "move the point",
-                                 d.name, place.farthest, name));
+    throw InputError(
+        fmt::format("attachment '{}' has its point {:.2g} tetrahedron heights outside of the deformable body '{}'; a "
+                    "point in it, or close to its surface, is wanted; "
+                    "move the point",
+                    d.name, place.farthest, name));
   end.tet = place.tet[0];
   end.weight = place.weight[0];
   return end;
@@ -57,7 +60,8 @@ Attachment make_attachment(const AttachmentDescription& d, std::span<const Rigid
   Attachment attachment{d.name, make_end(d, d.body_a, bodies), make_end(d, d.body_b, bodies)};
   const auto moves = [&](const AttachmentEnd& end) { return end.body >= 0 && bodies[end.body].has_freedom(); };
   if (!moves(attachment.a) && !moves(attachment.b))
-    throw InputError(fmt::format("attachment '{}' joins nothing that can move; a dynamic or deformable body is wanted at one end", d.name));
+    throw InputError(fmt::format(
+        "attachment '{}' joins nothing that can move; a dynamic or deformable body is wanted at one end", d.name));
   return attachment;
 }
 

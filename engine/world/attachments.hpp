@@ -9,10 +9,10 @@
 namespace impinge {
 
 struct AttachmentEnd {
-  int body = -1;                 ///< -1: the world
-  int tet = -1;                  ///< of a deformable body
-  Vec4 weight = Vec4::Zero();    ///< of the tetrahedron's nodes
-  Vec3 local = Vec3::Zero();     ///< rigid: in the body's frame; world: where it is
+  int body = -1;               ///< -1: the world
+  int tet = -1;                ///< of a deformable body
+  Vec4 weight = Vec4::Zero();  ///< of the tetrahedron's nodes
+  Vec3 local = Vec3::Zero();   ///< rigid: in the body's frame; world: where it is
   Vec3 position(std::span<const RigidBody> bodies) const;
 };
 
@@ -21,8 +21,8 @@ struct Attachment {
   AttachmentEnd a, b;
 };
 
-/// The bodies are in their places at the start. Throws InputError (without a place) for names that aren't there, and where
-/// neither end can move.
+/// The bodies are in their places at the start. Throws InputError (without a place) for names that aren't there, and
+/// where neither end can move.
 Attachment make_attachment(const AttachmentDescription& description, std::span<const RigidBody> bodies);
 
 }  // namespace impinge

@@ -17,7 +17,14 @@ void World::bind_bodies(ParameterSet& set) {
     };
     const std::string path = "body." + bodies_[i].name + ".";
     const auto real = [&](const char* name, Range range, const char* unit, const char* doc, double RigidBody::*member) {
-      set.add({path + name, ParameterKind::real, unit, range, {}, doc, body().*member, [body, member] { return ParameterValue(body().*member); },
+      set.add({path + name,
+               ParameterKind::real,
+               unit,
+               range,
+               {},
+               doc,
+               body().*member,
+               [body, member] { return ParameterValue(body().*member); },
                [body, member](const ParameterValue& v) { body().*member = std::get<double>(v); }});
     };
     real("friction", {-1.0, 100.0}, "", "Coulomb coefficient; -1: the scene's contact.friction.", &RigidBody::friction);
@@ -25,32 +32,52 @@ void World::bind_bodies(ParameterSet& set) {
     if (bodies_[i].soft) bind_soft_body(set, static_cast<int>(i), path);
     if (!bodies_[i].is_dynamic()) continue;
     const auto vector = [&](const char* name, const char* unit, double limit, const char* doc, auto get, auto put) {
-      set.add({path + name, ParameterKind::vector3, unit, {-limit, limit}, {}, doc, ParameterValue(Vec3(get(body()))),
+      set.add({path + name,
+               ParameterKind::vector3,
+               unit,
+               {-limit, limit},
+               {},
+               doc,
+               ParameterValue(Vec3(get(body()))),
                [body, get] { return ParameterValue(Vec3(get(body()))); },
                [state, put](const ParameterValue& v) { state([&](RigidBody& b) { put(b, std::get<Vec3>(v)); }); }});
     };
-    vector("position", "m", kFar, "Where the origin of the body's file (or shape) is.", [](const RigidBody& b) { return b.file_pose().position; },
-           [](RigidBody& b, const Vec3& x) { b.pose.position = x + b.pose.rotation * b.center; });
-    vector("rotation", "deg", 1e6, "About x, then y, then z (fixed axes), round the file's origin; the angular velocity stays.",
-           [](const RigidBody& b) { return degrees_from_rotation(b.pose.rotation); },
-           [](RigidBody& b, const Vec3& degrees) {
-             const Vec3 origin = b.file_pose().position, w = b.angular_velocity();
-             b.pose.rotation = rotation_from_degrees(degrees);
-             b.pose.position = origin + b.pose.rotation * b.center;
-             b.angular_momentum = b.world_inertia() * w;
-           });
-    vector("velocity", "m/s", 1e6, "Of the centre of mass.", [](const RigidBody& b) { return b.velocity; },
-           [](RigidBody& b, const Vec3& v) { b.velocity = v; });
-    vector("angular_velocity", "rad/s", 1e6, "Angular velocity, world axes.", [](const RigidBody& b) { return b.angular_velocity(); },
-           [](RigidBody& b, const Vec3& w) { b.angular_momentum = b.world_inertia() * w; });
+    vector(
+        "position", "m", kFar, "Where the origin of the body's file (or shape) is.",
+        [](const RigidBody& b) { return b.file_pose().position; },
+        [](RigidBody& b, const Vec3& x) { b.pose.position = x + b.pose.rotation * b.center; });
+    vector(
+        "rotation", "deg", 1e6,
+        "About x, then y, then z (fixed axes), round the file's origin; the angular velocity stays.",
+        [](const RigidBody& b) { return degrees_from_rotation(b.pose.rotation); },
+        [](RigidBody& b, const Vec3& degrees) {
+          const Vec3 origin = b.file_pose().position, w = b.angular_velocity();
+          b.pose.rotation = rotation_from_degrees(degrees);
+          b.pose.position = origin + b.pose.rotation * b.center;
+          b.angular_momentum = b.world_inertia() * w;
+        });
+    vector(
+        "velocity", "m/s", 1e6, "Of the centre of mass.", [](const RigidBody& b) { return b.velocity; },
+        [](RigidBody& b, const Vec3& v) { b.velocity = v; });
+    vector(
+        "angular_velocity", "rad/s", 1e6, "Angular velocity, world axes.",
+        [](const RigidBody& b) { return b.angular_velocity(); },
+        [](RigidBody& b, const Vec3& w) { b.angular_momentum = b.world_inertia() * w; });
   }
 }
 
 void World::bind_soft_body(ParameterSet& set, int index, const std::string& path) {
   const auto soft = [this, index]() -> SoftBody& { return *bodies_[index].soft; };
   const auto changed = [this] { stages_->sleeping.wake_all(bodies_); };
-  const auto elastic = [&](const char* name, Range range, const char* unit, const char* doc, double MaterialSettings::*member) {
-    set.add({path + name, ParameterKind::real, unit, range, {}, doc, soft().material->settings().*member,
+  const auto elastic = [&](const char* name, Range range, const char* unit, const char* doc,
+                           double MaterialSettings::*member) {
+    set.add({path + name,
+             ParameterKind::real,
+             unit,
+             range,
+             {},
+             doc,
+             soft().material->settings().*member,
              [soft, member] { return ParameterValue(soft().material->settings().*member); },
              [soft, member, changed](const ParameterValue& v) {
                MaterialSettings settings = soft().material->settings();
@@ -61,8 +88,15 @@ void World::bind_soft_body(ParameterSet& set, int index, const std::string& path
   };
   elastic("material.young", {1e-3, 1e15, true}, "Pa", "Young's modulus.", &MaterialSettings::young);
   elastic("material.poisson", {0.0, 0.4999}, "", "Poisson's ratio.", &MaterialSettings::poisson);
-  const auto damping = [&](const char* name, double high, const char* unit, const char* doc, double RayleighDamping::*member) {
-    set.add({path + name, ParameterKind::real, unit, {0.0, high, true}, {}, doc, soft().fem.damping.*member,
+  const auto damping = [&](const char* name, double high, const char* unit, const char* doc,
+                           double RayleighDamping::*member) {
+    set.add({path + name,
+             ParameterKind::real,
+             unit,
+             {0.0, high, true},
+             {},
+             doc,
+             soft().fem.damping.*member,
              [soft, member] { return ParameterValue(soft().fem.damping.*member); },
              [soft, member, changed](const ParameterValue& v) {
                soft().fem.damping.*member = std::get<double>(v);
@@ -73,8 +107,14 @@ void World::bind_soft_body(ParameterSet& set, int index, const std::string& path
   damping("material.damping_beta", 1e3, "s", "Rayleigh damping in proportion to stiffness.", &RayleighDamping::beta);
   for (std::size_t r = 0; r < soft().held.size(); ++r) {
     const auto region = [soft, r]() -> HeldRegion& { return soft().held[r]; };
-    set.add({path + "fixed_" + std::to_string(r) + ".displacement", ParameterKind::vector3, "m", {-kFar, kFar}, {},
-             "Where held nodes of this region are moved to, from where they would be: reached evenly by the end of the frame.", ParameterValue(region().wanted),
+    set.add({path + "fixed_" + std::to_string(r) + ".displacement",
+             ParameterKind::vector3,
+             "m",
+             {-kFar, kFar},
+             {},
+             "Where held nodes of this region are moved to, from where they would be: reached evenly by the end of the "
+             "frame.",
+             ParameterValue(region().wanted),
              [region] { return ParameterValue(region().wanted); },
              [region, changed](const ParameterValue& v) {
                region().wanted = std::get<Vec3>(v);

@@ -32,7 +32,8 @@ Aabb swept_bounds(const Collider& collider, double radius, double activation, do
 
 }  // namespace
 
-void Detection::run(std::span<const RigidBody> bodies, const Parameters& parameters, double time_step, StageTimes& times) {
+void Detection::run(std::span<const RigidBody> bodies, const Parameters& parameters, double time_step,
+                    StageTimes& times) {
   select(parameters);
   {
     const StageTimer timer(times.broad_ms);
@@ -81,17 +82,19 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
 
   pairs.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].soft && bodies[i].self_collision && !bodies[i].asleep) pairs.push_back({static_cast<int>(i), static_cast<int>(i), activation});
+    if (bodies[i].soft && bodies[i].self_collision && !bodies[i].asleep)
+      pairs.push_back({static_cast<int>(i), static_cast<int>(i), activation});
   for (const auto& [a, b] : box_pairs_) {
     if (!is_wanted(bodies[a], bodies[b])) continue;
-    // how far the surfaces can approach in the sub-step widens the search; for meshes by one edge length at most, since the
-    // triangles in reach grow with its square: what is faster overlaps a little and is pushed out
+    // how far the surfaces can approach in the sub-step widens the search; for meshes by one edge length at most, since
+    // the triangles in reach grow with its square: what is faster overlaps a little and is pushed out
     const double approach = bodies[a].soft || bodies[b].soft
                                 ? time_step * (speed(a) + speed(b))
                                 : time_step * ((colliders_[a].velocity - colliders_[b].velocity).norm() +
                                                colliders_[a].angular_velocity.norm() * bodies[a].radius +
                                                colliders_[b].angular_velocity.norm() * bodies[b].radius);
-    const double margin = proximity ? activation + std::min(approach, std::max(bodies[a].mean_edge, bodies[b].mean_edge)) : 0.0;
+    const double margin =
+        proximity ? activation + std::min(approach, std::max(bodies[a].mean_edge, bodies[b].mean_edge)) : 0.0;
     pairs.push_back({a, b, margin});
   }
   std::sort(pairs.begin(), pairs.end());
@@ -127,7 +130,8 @@ void Detection::find_collisions(const Parameters& parameters, double time_step) 
       intersection_contacts(colliders_, pair, triangles, out);
   });
   collisions.clear();
-  for (std::size_t i = 0; i < pairs.size(); ++i) collisions.insert(collisions.end(), found_[i].begin(), found_[i].end());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    collisions.insert(collisions.end(), found_[i].begin(), found_[i].end());
 }
 
 }  // namespace impinge

@@ -17,9 +17,9 @@ class Detection {
   /// time_step: of the sub-step that follows, seconds.
   void run(std::span<const RigidBody> bodies, const Parameters& parameters, double time_step, StageTimes& times);
 
-  std::vector<BodyPair> pairs;              ///< sorted
-  std::vector<TrianglePair> triangle_pairs; ///< sorted; of mesh-mesh pairs
-  std::vector<Collision> collisions;        ///< in pair order
+  std::vector<BodyPair> pairs;               ///< sorted
+  std::vector<TrianglePair> triangle_pairs;  ///< sorted; of mesh-mesh pairs
+  std::vector<Collision> collisions;         ///< in pair order
 
  private:
   void select(const Parameters& parameters);

@@ -64,7 +64,8 @@ std::string stop_of(const WatchedSolver& solver, const ResponseResult& result, c
   if (solver.calls == 1 && result.outer_iterations <= 1) return std::string(name_of(solver.last.reason));
   if (result.converged) return std::string(name_of(StopReason::converged));
   const bool has_loop = result.outer_iterations > 1;  // whose steps are capped then, not the sum of what it does inside
-  const bool at_cap = has_loop ? result.outer_iterations >= settings.max_outer_iterations : result.iterations >= settings.lcp.max_iterations;
+  const bool at_cap = has_loop ? result.outer_iterations >= settings.max_outer_iterations
+                               : result.iterations >= settings.lcp.max_iterations;
   return std::string(name_of(at_cap ? StopReason::iteration_cap : StopReason::stagnated));
 }
 
@@ -95,11 +96,14 @@ FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
     std::string method;
     exact_.emplace_back();
     for (const bool warm : {true, false})
-      for (const char* name : {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
+      for (const char* name :
+           {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
         const auto solver = find_entry(lcp_solvers(), name)->make();
         if (!solver->applies(problem).empty() || best <= kExact) continue;
-        if (warm) thawed.system.lambda = group.system.lambda;
-        else thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
+        if (warm)
+          thawed.system.lambda = group.system.lambda;
+        else
+          thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
         ResponseSettings settings;
         settings.lcp = {0.1 * kExact, kMostExactIterations};
         response->solve(thawed.system, *solver, settings);
@@ -107,7 +111,8 @@ FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
         if (!(reached < best)) continue;
         best = reached;
         method = name;
-        exact_[g] = {thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity, thawed.system.soft_delta};
+        exact_[g] = {thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
+                     thawed.system.soft_delta};
       }
     if (exact_method_.find(method) == std::string::npos) exact_method_ += (exact_method_.empty() ? "" : ", ") + method;
     exact_norm_ += energy_product(group, exact_[g], exact_[g]);
@@ -158,8 +163,8 @@ std::string FrozenRuler::applies(const LcpSolver& solver) const {
   return "";
 }
 
-FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver, const ResponseSettings& settings,
-                           const FrozenRuler* ruler) {
+FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver,
+                           const ResponseSettings& settings, const FrozenRuler* ruler) {
   FrozenOutcome outcome;
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     ThawedGroup thawed = thaw(step.groups[g], step.linear_solver);
@@ -182,7 +187,8 @@ FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, con
     }
     merge_history(outcome.history, !of_loop.empty() ? of_loop : watched.calls == 1 ? of_solver : std::vector<double>());
     GroupSystem& s = thawed.system;
-    outcome.answers.push_back({std::move(s.lambda), std::move(s.delta_velocity), std::move(s.delta_angular_velocity), std::move(s.soft_delta)});
+    outcome.answers.push_back({std::move(s.lambda), std::move(s.delta_velocity), std::move(s.delta_angular_velocity),
+                               std::move(s.soft_delta)});
   }
   return outcome;
 }

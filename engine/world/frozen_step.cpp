@@ -42,7 +42,8 @@ double energy_product(const FrozenGroup& group, const GroupAnswer& x, const Grou
     sum += x.delta_velocity[b].dot(y.delta_velocity[b]) / block.inverse_mass;
     sum += x.delta_angular_velocity[b].dot(Mat3(block.inverse_inertia.inverse()) * y.delta_angular_velocity[b]);
   }
-  for (std::size_t s = 0; s < group.matrices.size(); ++s) sum += dot(x.soft_delta[s], group.matrices[s] * y.soft_delta[s]);
+  for (std::size_t s = 0; s < group.matrices.size(); ++s)
+    sum += dot(x.soft_delta[s], group.matrices[s] * y.soft_delta[s]);
   return sum;
 }
 

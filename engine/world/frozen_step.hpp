@@ -1,5 +1,5 @@
-// One sub-step stopped before its response: the system of every group, where its contacts are, what the run was set to, and what
-// it made of it. Plain data that owns all it refers to.
+// One sub-step stopped before its response: the system of every group, where its contacts are, what the run was set to,
+// and what it made of it. Plain data that owns all it refers to.
 #pragma once
 
 #include "engine/response/response.hpp"
@@ -11,7 +11,7 @@ struct FrozenContact {
   int body_a = -1, body_b = -1;          ///< scene order; -1: the world (attachments)
   int triangle_a = -1, triangle_b = -1;  ///< -1: an exact shape, or an attachment
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
-  std::uint64_t feature = 0;             ///< what the contact is remembered by from step to step
+  std::uint64_t feature = 0;  ///< what the contact is remembered by from step to step
 };
 
 /// λ and Δv of a group, as a response leaves them in a GroupSystem.
@@ -21,28 +21,29 @@ struct GroupAnswer {
 };
 
 struct FrozenGroup {
-  GroupSystem system;                   ///< λ: where the run started; the soft blocks' `a` and `solver` are null (see thaw)
-  std::vector<BlockMatrix> matrices;    ///< A by deformable body
+  /// λ: where the run started; the soft blocks' `a` and `solver` are null (see thaw)
+  GroupSystem system;
+  std::vector<BlockMatrix> matrices;           ///< A by deformable body
   std::vector<int> rigid_bodies, soft_bodies;  ///< scene indices, in the system's order
-  std::vector<FrozenContact> geometry;  ///< by contact of the system; its normal is the system's first direction
-  GroupAnswer answer;                   ///< the run's
+  std::vector<FrozenContact> geometry;         ///< by contact of the system; its normal is the system's first direction
+  GroupAnswer answer;                          ///< the run's
 };
 
 struct FrozenStep {
-  std::string scene;                    ///< name of its file
-  int frame = 0;                        ///< its last sub-step
-  double time = 0.0, time_step = 0.0;   ///< s, at the sub-step's start; Δt
-  Vec3 gravity = Vec3::Zero();          ///< m/s²
+  std::string scene;                                     ///< name of its file
+  int frame = 0;                                         ///< its last sub-step
+  double time = 0.0, time_step = 0.0;                    ///< s, at the sub-step's start; Δt
+  Vec3 gravity = Vec3::Zero();                           ///< m/s²
   std::string integrator, linear_solver, response, lcp;  ///< registered names, or "automatic"
   ResponseSettings settings;
-  std::vector<std::string> bodies;      ///< names, scene order
+  std::vector<std::string> bodies;  ///< names, scene order
   std::vector<FrozenGroup> groups;
 
   std::size_t contacts() const;
 };
 
-/// A group ready to be solved: the system refers to the frozen matrices, which must outlive it, and to solvers of its own, whose
-/// factorizations are not made yet.
+/// A group ready to be solved: the system refers to the frozen matrices, which must outlive it, and to solvers of its
+/// own, whose factorizations are not made yet.
 struct ThawedGroup {
   GroupSystem system;
   std::vector<std::unique_ptr<LinearSolver>> solvers;
@@ -53,7 +54,8 @@ FrozenGroup freeze(const GroupSystem& system);
 /// `linear_solver`: a registered name or "automatic", the run's choice by number of unknowns.
 ThawedGroup thaw(const FrozenGroup& group, const std::string& linear_solver);
 
-/// x^T A y over all bodies of the group, J: twice the kinetic (and, by the integrator, elastic) energy of a change of velocity.
+/// x^T A y over all bodies of the group, J: twice the kinetic (and, by the integrator, elastic) energy of a change of
+/// velocity.
 double energy_product(const FrozenGroup& group, const GroupAnswer& x, const GroupAnswer& y);
 /// ‖Δv_x - Δv_y‖_A.
 double energy_distance(const FrozenGroup& group, const GroupAnswer& x, const GroupAnswer& y);

@@ -10,14 +10,17 @@ namespace impinge {
 namespace {
 
 double pair_restitution(const RigidBody& a, const RigidBody& b, const Parameters& parameters) {
-  const auto of = [&](const RigidBody& body) { return body.restitution < 0.0 ? parameters.contact.restitution : body.restitution; };
+  const auto of = [&](const RigidBody& body) {
+    return body.restitution < 0.0 ? parameters.contact.restitution : body.restitution;
+  };
   return std::max(of(a), of(b));
 }
 
 /// Overlap below this is rounding, not overlap: pushing it out would cost a solve a sub-step for nothing.
 double push_out_slop(const Parameters& parameters) { return 1e-6 * parameters.contact.activation_distance; }
 
-double row_bound(double gap, double free_velocity, double velocity_before, double restitution, const Parameters& parameters, double h) {
+double row_bound(double gap, double free_velocity, double velocity_before, double restitution,
+                 const Parameters& parameters, double h) {
   const bool split = parameters.contact.push_out == "split";
   const double bound = gap >= 0.0 ? -gap / h : (split ? 0.0 : std::min(-gap / h, parameters.contact.max_push_out));
   const bool closes = gap + h * free_velocity < 0.0;
@@ -28,7 +31,9 @@ double row_bound(double gap, double free_velocity, double velocity_before, doubl
 }  // namespace
 
 double pair_friction(const RigidBody& a, const RigidBody& b, const Parameters& parameters) {
-  const auto of = [&](const RigidBody& body) { return body.friction < 0.0 ? parameters.contact.friction : body.friction; };
+  const auto of = [&](const RigidBody& body) {
+    return body.friction < 0.0 ? parameters.contact.friction : body.friction;
+  };
   return std::sqrt(of(a) * of(b));
 }
 
@@ -69,7 +74,8 @@ std::vector<NodeWeight> carrying_nodes(const RigidBody& body, int triangle, cons
 /// A body in contact with itself: one side carries the difference of both, since they may share nodes.
 void merge_sides(ContactRows& rows) {
   for (const NodeWeight& n : rows.b.nodes) {
-    const auto at = std::find_if(rows.a.nodes.begin(), rows.a.nodes.end(), [&](const NodeWeight& w) { return w.node == n.node; });
+    const auto at =
+        std::find_if(rows.a.nodes.begin(), rows.a.nodes.end(), [&](const NodeWeight& w) { return w.node == n.node; });
     if (at == rows.a.nodes.end())
       rows.a.nodes.push_back({n.node, -n.weight});
     else
@@ -93,7 +99,8 @@ namespace {
 /// Fills the sides of one contact or attachment and what prescribed motion adds to its rows.
 class RowFiller {
  public:
-  RowFiller(const SubstepView& view, const std::vector<int>& local, ContactRows& rows) : view_(view), local_(local), rows_(rows) {}
+  RowFiller(const SubstepView& view, const std::vector<int>& local, ContactRows& rows)
+      : view_(view), local_(local), rows_(rows) {}
 
   Vec3 velocity_before = Vec3::Zero();  ///< of A's point against B's, before the sub-step, m/s
 
@@ -116,7 +123,8 @@ class RowFiller {
     side.arm = common - body.pose.position;
     side.rigid = body.is_dynamic() ? local_[index] : -1;
     velocity_before += sign * (view_.before[index].linear + view_.before[index].angular.cross(side.arm));
-    if (side.rigid < 0) rows_.surface += sign * rows_.directions * (body.velocity + body.angular_velocity().cross(side.arm));
+    if (side.rigid < 0)
+      rows_.surface += sign * rows_.directions * (body.velocity + body.angular_velocity().cross(side.arm));
   }
 
  private:
@@ -125,9 +133,12 @@ class RowFiller {
   ContactRows& rows_;
 };
 
-bool responds(const ContactRows& rows) { return rows.a.rigid >= 0 || rows.b.rigid >= 0 || !rows.a.nodes.empty() || !rows.b.nodes.empty(); }
+bool responds(const ContactRows& rows) {
+  return rows.a.rigid >= 0 || rows.b.rigid >= 0 || !rows.a.nodes.empty() || !rows.b.nodes.empty();
+}
 
-ContactRows contact_rows(const SubstepView& view, const std::vector<int>& local, const Collision& collision, Vec3& velocity_before) {
+ContactRows contact_rows(const SubstepView& view, const std::vector<int>& local, const Collision& collision,
+                         Vec3& velocity_before) {
   ContactRows rows;
   const Vec3 t1 = tangent1(collision.normal), common = 0.5 * (collision.point_a + collision.point_b);
   rows.directions << collision.normal.transpose(), t1.transpose(), collision.normal.cross(t1).transpose();
@@ -167,7 +178,8 @@ ContactRows attachment_rows(const SubstepView& view, const std::vector<int>& loc
   fill(attachment.b, -1.0, rows.b);
   if (rows.a.soft >= 0 && rows.a.soft == rows.b.soft) merge_sides(rows);
   Vec3 recovery = (a - b) / view.time_step;
-  if (recovery.norm() > view.parameters.contact.max_push_out) recovery *= view.parameters.contact.max_push_out / recovery.norm();
+  if (recovery.norm() > view.parameters.contact.max_push_out)
+    recovery *= view.parameters.contact.max_push_out / recovery.norm();
   rows.surface += recovery;
   return rows;
 }
@@ -184,10 +196,12 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
       const SoftStep& s = *view.soft[b];
       const DeformableBody& fem = bodies[b].soft->fem;
       const bool diagonal = view.is_explicit && fem.fem.mass_kind() == MassKind::lumped;
-      system.soft.push_back({&s.step.a, s.direct.get(), diagonal, s.step.v_star, fem.gather_free(s.displacement_velocity), s.step.s / view.time_step});
+      system.soft.push_back({&s.step.a, s.direct.get(), diagonal, s.step.v_star,
+                             fem.gather_free(s.displacement_velocity), s.step.s / view.time_step});
     } else {
       local[b] = static_cast<int>(system.bodies.size());
-      system.bodies.push_back({1.0 / bodies[b].mass, bodies[b].world_inertia_inverse(), bodies[b].velocity, bodies[b].angular_velocity()});
+      system.bodies.push_back(
+          {1.0 / bodies[b].mass, bodies[b].world_inertia_inverse(), bodies[b].velocity, bodies[b].angular_velocity()});
     }
   }
   system.contacts.reserve(group.contacts.size());
@@ -205,7 +219,8 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
     ContactRows& row = system.contacts.back();
     row.restitution = pair_restitution(bodies[collision.body_a], bodies[collision.body_b], view.parameters);
     row.velocity_before = collision.normal.dot(velocity_before);
-    row.bound = row_bound(collision.gap, free_velocity, row.velocity_before, row.restitution, view.parameters, view.time_step);
+    row.bound =
+        row_bound(collision.gap, free_velocity, row.velocity_before, row.restitution, view.parameters, view.time_step);
   }
   group.contacts = std::move(kept);
   system.lambda.assign(system.contacts.size(), Vec3::Zero());
@@ -216,7 +231,8 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
 bool needs_push_out(const GroupSystem& solved, const Parameters& parameters, double time_step) {
   if (parameters.contact.push_out != "split" || parameters.contact.max_push_out <= 0.0) return false;
   // rows whose positions move by Δt v leave no overlap that wasn't there; others (Newmark) are asked
-  const bool all_move = std::all_of(solved.soft.begin(), solved.soft.end(), [](const SoftBlock& b) { return b.displacement_scale == 1.0; });
+  const bool all_move = std::all_of(solved.soft.begin(), solved.soft.end(),
+                                    [](const SoftBlock& b) { return b.displacement_scale == 1.0; });
   for (std::size_t i = 0; i < solved.contacts.size(); ++i) {
     const ContactRows& c = solved.contacts[i];
     if (c.kind != RowKind::contact) continue;
@@ -241,7 +257,8 @@ GroupSystem make_push_out_system(const GroupSystem& solved, const Parameters& pa
     rows.surface.setZero();
     rows.friction = rows.restitution = 0.0;
     // an overlap is measured after the velocities have moved the bodies: separation that they bring is not added twice
-    rows.bound = gap_after >= 0.0 ? -gap_after / time_step : std::min(-gap_after / time_step, parameters.contact.max_push_out);
+    rows.bound =
+        gap_after >= 0.0 ? -gap_after / time_step : std::min(-gap_after / time_step, parameters.contact.max_push_out);
   }
   return push;
 }

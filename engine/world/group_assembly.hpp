@@ -25,8 +25,8 @@ struct SubstepView {
   std::span<const Collision> collisions;            ///< a group's contact i is collision i, and after the last one
   std::span<const Attachment> attachments;          ///< attachment i - collisions.size()
   const Parameters& parameters;
-  double time_step = 0.0;                           ///< s
-  bool is_explicit = false;                         ///< the integrator's A is M
+  double time_step = 0.0;    ///< s
+  bool is_explicit = false;  ///< the integrator's A is M
 };
 
 /// √(mu_A mu_B); a body that names none has the scene's.
@@ -34,8 +34,8 @@ double pair_friction(const RigidBody& a, const RigidBody& b, const Parameters& p
 
 /// The group's system at the bodies' free velocities. Row bound of a contact: J v >= -g0/Δt, raised to the rebound
 /// -e·min(0, J v⁻) where the gap closes in this sub-step; for overlap that exists already 0 (push_out = "split"), or
-/// the capped recovery speed (push_out = "velocity"). [Haapaoja16 §4.1], SPEC §3. An attachment asks J v = -(x_A - x_B)/Δt.
-/// Contacts that nothing can respond to (of held nodes with an immovable body) are taken out of the group.
+/// the capped recovery speed (push_out = "velocity"). [Haapaoja16 §4.1], SPEC §3. An attachment asks J v = -(x_A -
+/// x_B)/Δt. Contacts that nothing can respond to (of held nodes with an immovable body) are taken out of the group.
 GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group);
 
 /// Where on a body's surface a point of a triangle is: weights of the triangle's corners.

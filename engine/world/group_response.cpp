@@ -17,7 +17,8 @@ constexpr std::uint64_t kAttachmentFeature = std::uint64_t{1} << 63;  // no pair
 ContactState state_of(const Vec3& lambda, double friction) {
   if (lambda.x() <= 0.0) return ContactState::open;
   // the solver puts sliding contacts on the cone to rounding; frictionless contacts slide
-  return std::hypot(lambda.y(), lambda.z()) >= friction * lambda.x() * (1.0 - 1e-9) ? ContactState::slip : ContactState::stick;
+  return std::hypot(lambda.y(), lambda.z()) >= friction * lambda.x() * (1.0 - 1e-9) ? ContactState::slip
+                                                                                    : ContactState::stick;
 }
 
 }  // namespace
@@ -32,7 +33,8 @@ ContactCache::Item World::Stages::cache_key(std::span<const Attachment> attachme
   return {a.a.body, a.b.body, kAttachmentFeature | static_cast<std::uint64_t>(contact - collisions), Vec3::Zero()};
 }
 
-void World::Stages::warm_start(std::span<const Attachment> attachments, const CollisionGroup& group, GroupSystem& system) const {
+void World::Stages::warm_start(std::span<const Attachment> attachments, const CollisionGroup& group,
+                               GroupSystem& system) const {
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactCache::Item key = cache_key(attachments, group.contacts[i]);
     const ContactRows& rows = system.contacts[i];
@@ -42,18 +44,20 @@ void World::Stages::warm_start(std::span<const Attachment> attachments, const Co
   }
 }
 
-void World::Stages::freeze_geometry(std::span<const RigidBody> bodies, std::span<const Attachment> attachments, const CollisionGroup& group,
-                                    FrozenGroup& frozen) const {
+void World::Stages::freeze_geometry(std::span<const RigidBody> bodies, std::span<const Attachment> attachments,
+                                    const CollisionGroup& group, FrozenGroup& frozen) const {
   for (const int b : group.bodies) (bodies[b].soft ? frozen.soft_bodies : frozen.rigid_bodies).push_back(b);
   const int collisions = static_cast<int>(detection.collisions.size());
   for (const int c : group.contacts) {
     const ContactCache::Item key = cache_key(attachments, c);
     if (c < collisions) {
       const Collision& at = detection.collisions[c];
-      frozen.geometry.push_back({at.body_a, at.body_b, at.triangle_a, at.triangle_b, at.point_a, at.point_b, key.feature});
+      frozen.geometry.push_back(
+          {at.body_a, at.body_b, at.triangle_a, at.triangle_b, at.point_a, at.point_b, key.feature});
     } else {
       const Attachment& at = attachments[c - collisions];
-      frozen.geometry.push_back({key.body_a, key.body_b, -1, -1, at.a.position(bodies), at.b.position(bodies), key.feature});
+      frozen.geometry.push_back(
+          {key.body_a, key.body_b, -1, -1, at.a.position(bodies), at.b.position(bodies), key.feature});
     }
   }
 }
@@ -83,7 +87,8 @@ ResponseSettings response_settings(const Parameters& p) {
 GroupSystem World::solve_group(CollisionGroup& group, double h) {
   Stages& s = *stages_;
   StageTimes& times = s.frame_stats.times;
-  const SubstepView view{bodies_, s.before, s.soft, s.detection.collisions, attachments_, parameters, h, s.integrator->is_explicit()};
+  const SubstepView view{bodies_,      s.before,   s.soft, s.detection.collisions,
+                         attachments_, parameters, h,      s.integrator->is_explicit()};
   const ResponseSettings settings = response_settings(parameters);
   std::optional<FrozenGroup> frozen;
   GroupSystem system;
@@ -106,7 +111,8 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
         std::string names;
         for (int b : group.bodies)
           if (bodies_[b].soft) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", bodies_[b].name);
-        throw DivergenceError(fmt::format("frame {}, group {}, body {}: {}; use more sub-steps or a softer material", frame_, &group - s.groups.data(), names, error.what()));
+        throw DivergenceError(fmt::format("frame {}, group {}, body {}: {}; use more sub-steps or a softer material",
+                                          frame_, &group - s.groups.data(), names, error.what()));
       }
     }();
     s.frame_stats.lcp_iterations += result.iterations;
@@ -126,7 +132,8 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
       for (int b : group.bodies) {
         if (!bodies_[b].soft) continue;
         const VecX v = s.soft[b]->step.v_star + system.soft_delta[k];
-        residual = std::max(residual, s.soft[b]->relinearize(bodies_[b], *s.integrator, v, system.soft_impulse(k, system.lambda)));
+        residual = std::max(
+            residual, s.soft[b]->relinearize(bodies_[b], *s.integrator, v, system.soft_impulse(k, system.lambda)));
         ++k;
       }
       at_root = residual <= newton.tolerance;
@@ -154,7 +161,8 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
 
 void World::push_out(const GroupSystem& solved, const CollisionGroup& group, double h) {
   Stages& s = *stages_;
-  const auto move = [&](const std::vector<Vec3>& velocity, const std::vector<Vec3>& angular, const std::vector<VecX>& nodes) {
+  const auto move = [&](const std::vector<Vec3>& velocity, const std::vector<Vec3>& angular,
+                        const std::vector<VecX>& nodes) {
     int rigid = 0, soft = 0;
     for (int b : group.bodies) {
       if (bodies_[b].soft) {
@@ -209,9 +217,11 @@ void World::take_group(const GroupSystem& system, int g) {
     }
     const Collision& c = s.detection.collisions[group.contacts[i]];
     const double mu = system.contacts[i].friction;
-    s.contacts.push_back({c, attach_point(bodies_[c.body_a], c.triangle_a, c.point_a), attach_point(bodies_[c.body_b], c.triangle_b, c.point_b), c.normal,
-                          lambda, mu, state_of(lambda, mu), g});
-    if (c.normal_owner >= 0) s.contacts.back().local_normal = bodies_[c.normal_owner].pose.rotation.transpose() * c.normal;
+    s.contacts.push_back({c, attach_point(bodies_[c.body_a], c.triangle_a, c.point_a),
+                          attach_point(bodies_[c.body_b], c.triangle_b, c.point_b), c.normal, lambda, mu,
+                          state_of(lambda, mu), g});
+    if (c.normal_owner >= 0)
+      s.contacts.back().local_normal = bodies_[c.normal_owner].pose.rotation.transpose() * c.normal;
   }
 }
 

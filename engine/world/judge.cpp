@@ -29,7 +29,8 @@ double box_overlap(const RigidBody& a, const RigidBody& b) {
   const auto try_axis = [&](const Vec3& axis) {
     const double length = axis.norm();
     if (length < 1e-9) return;  // parallel edges: their axis is covered by the faces
-    const double reach = (a.pose.rotation.transpose() * axis).cwiseAbs().dot(half_a) + (b.pose.rotation.transpose() * axis).cwiseAbs().dot(half_b);
+    const double reach = (a.pose.rotation.transpose() * axis).cwiseAbs().dot(half_a) +
+                         (b.pose.rotation.transpose() * axis).cwiseAbs().dot(half_b);
     best = std::min(best, (reach - std::abs(axis.dot(between))) / length);
   };
   for (int i = 0; i < 3; ++i) {
@@ -56,7 +57,9 @@ bool centre_line(const RigidBody& body, Vec3& p, Vec3& q, double& radius) {
   return false;
 }
 
-std::span<const Triangle> triangles_of(const RigidBody& body) { return std::get<MeshPointer>(body.shape)->mesh.triangles; }
+std::span<const Triangle> triangles_of(const RigidBody& body) {
+  return std::get<MeshPointer>(body.shape)->mesh.triangles;
+}
 
 double depth_in_mesh(const RigidBody& mesh, const Vec3& x) {
   if (winding_number(x, mesh.world_vertices, triangles_of(mesh)) < 0.5) return 0.0;
@@ -93,7 +96,8 @@ double mesh_with_shape(const RigidBody& mesh, const RigidBody& shape) {
   for (const Vec3& v : mesh.world_vertices) depth = std::max(depth, -signed_distance(shape, v));
   if (const auto* box = std::get_if<Box>(&shape.shape)) {
     for (int i = 0; i < 8; ++i) {
-      const Vec3 corner((i & 1 ? 1 : -1) * box->half.x(), (i & 2 ? 1 : -1) * box->half.y(), (i & 4 ? 1 : -1) * box->half.z());
+      const Vec3 corner((i & 1 ? 1 : -1) * box->half.x(), (i & 2 ? 1 : -1) * box->half.y(),
+                        (i & 4 ? 1 : -1) * box->half.z());
       const Vec3 x = shape.pose.apply(corner);
       if (overlap(mesh.bounds(), Aabb{x, x})) depth = std::max(depth, depth_in_mesh(mesh, x));
     }
@@ -129,8 +133,9 @@ double pair_penetration(const RigidBody& a, const RigidBody& b) {
   const Vec3 half = std::get<Box>(box.shape).half;
   double depth = 0.0;
   for (int i = 0; i < 8; ++i)
-    depth = std::max(depth, -signed_distance(plane_a ? a : b, box.pose.apply(Vec3((i & 1 ? 1 : -1) * half.x(), (i & 2 ? 1 : -1) * half.y(),
-                                                                                    (i & 4 ? 1 : -1) * half.z()))));
+    depth = std::max(depth, -signed_distance(plane_a ? a : b, box.pose.apply(Vec3((i & 1 ? 1 : -1) * half.x(),
+                                                                                  (i & 2 ? 1 : -1) * half.y(),
+                                                                                  (i & 4 ? 1 : -1) * half.z()))));
   return depth;
 }
 

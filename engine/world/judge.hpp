@@ -1,5 +1,5 @@
-// How much bodies really overlap, whatever detection found: the judge of `--judge`. Slow on purpose: winding numbers over
-// all triangles, formulas for exact shapes, no data structure shared with detection.
+// How much bodies really overlap, whatever detection found: the judge of `--judge`. Slow on purpose: winding numbers
+// over all triangles, formulas for exact shapes, no data structure shared with detection.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@ struct OverlapVerdict {
   /// Metres. Deepest vertex of either closed surface inside the other; with an exact shape its signed distance decides
   /// (sphere and capsule by their centre line, two boxes by their separating axes). 0 without overlap.
   double penetration = 0.0;
-  int body_a = -1, body_b = -1;      ///< where it is deepest
-  std::int64_t intersections = 0;    ///< triangle pairs of different meshes that share a point
+  int body_a = -1, body_b = -1;    ///< where it is deepest
+  std::int64_t intersections = 0;  ///< triangle pairs of different meshes that share a point
 };
 
 OverlapVerdict judge_overlap(std::span<const RigidBody> bodies);

@@ -8,9 +8,9 @@
 namespace impinge {
 
 struct Ledger {
-  double kinetic = 0.0;    ///< J
-  double elastic = 0.0;    ///< J
-  double potential = 0.0;  ///< -Σ m g·x, J
+  double kinetic = 0.0;                  ///< J
+  double elastic = 0.0;                  ///< J
+  double potential = 0.0;                ///< -Σ m g·x, J
   Vec3 momentum = Vec3::Zero();          ///< kg·m/s
   Vec3 angular_momentum = Vec3::Zero();  ///< about the world's origin, kg·m²/s
 };

@@ -14,7 +14,8 @@ SolvedContact unsolved(const Collision& c, const std::vector<RigidBody>& bodies,
   contact.collision = c;
   contact.local_a = attach_point(bodies[c.body_a], c.triangle_a, c.point_a);
   contact.local_b = attach_point(bodies[c.body_b], c.triangle_b, c.point_b);
-  contact.local_normal = c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation.transpose() * c.normal) : c.normal;
+  contact.local_normal =
+      c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation.transpose() * c.normal) : c.normal;
   contact.friction = pair_friction(bodies[c.body_a], bodies[c.body_b], parameters);
   return contact;
 }
@@ -46,7 +47,8 @@ Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world) {
 Vec3 carry_point(const RigidBody& body, int triangle, const Vec3& local) {
   if (!body.soft) return body.pose.apply(local);
   const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
-  return local.x() * body.world_vertices[t[0]] + local.y() * body.world_vertices[t[1]] + local.z() * body.world_vertices[t[2]];
+  return local.x() * body.world_vertices[t[0]] + local.y() * body.world_vertices[t[1]] +
+         local.z() * body.world_vertices[t[2]];
 }
 
 void World::publish(bool solved) {
@@ -94,7 +96,8 @@ void World::publish(bool solved) {
   record_.attachments.clear();
   for (std::size_t i = 0; i < attachments_.size(); ++i) {
     const Attachment& a = attachments_[i];
-    record_.attachments.push_back({a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), s.attachment_impulse[i]});
+    record_.attachments.push_back(
+        {a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), s.attachment_impulse[i]});
   }
   record_.gravity = parameters.simulation.gravity;
   record_.frame_time = parameters.simulation.frame_time;

@@ -6,16 +6,18 @@
 
 namespace impinge {
 
-void Sleeping::update(std::span<RigidBody> bodies, std::span<const CollisionGroup> groups, std::span<const std::pair<int, int>> supports,
-                      double speed, double time, double time_step) {
+void Sleeping::update(std::span<RigidBody> bodies, std::span<const CollisionGroup> groups,
+                      std::span<const std::pair<int, int>> supports, double speed, double time, double time_step) {
   for (RigidBody& body : bodies) {
     if (!body.has_freedom() || body.asleep) continue;
-    const double fastest = body.soft ? body.soft->fastest_node() : body.velocity.norm() + body.angular_velocity().norm() * body.radius;
+    const double fastest =
+        body.soft ? body.soft->fastest_node() : body.velocity.norm() + body.angular_velocity().norm() * body.radius;
     body.rest_time = fastest <= speed ? body.rest_time + time_step : 0.0;
   }
   for (const CollisionGroup& group : groups) {
     if (group.contacts.empty()) continue;
-    if (!std::all_of(group.bodies.begin(), group.bodies.end(), [&](int b) { return bodies[b].rest_time >= time; })) continue;
+    if (!std::all_of(group.bodies.begin(), group.bodies.end(), [&](int b) { return bodies[b].rest_time >= time; }))
+      continue;
     const int island = group.bodies.front();
     for (int b : group.bodies) {
       bodies[b].asleep = true;

@@ -17,8 +17,8 @@ class Sleeping {
   /// Counts resting time and puts groups to sleep in which every body has rested long enough. `supports` are the
   /// (dynamic body, scripted body) contacts of this sub-step: who moves wakes what rests on it. A body that touches
   /// nothing never sleeps.
-  void update(std::span<RigidBody> bodies, std::span<const CollisionGroup> groups, std::span<const std::pair<int, int>> supports,
-              double speed, double time, double time_step);
+  void update(std::span<RigidBody> bodies, std::span<const CollisionGroup> groups,
+              std::span<const std::pair<int, int>> supports, double speed, double time, double time_step);
   /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
   bool wake_touched(std::span<RigidBody> bodies, std::span<const std::pair<int, int>> touching);
   bool wake_moved_supports(std::span<RigidBody> bodies);

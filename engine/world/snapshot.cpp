@@ -1,4 +1,5 @@
-// The full state as bytes: what makes the next frame, and what the last one showed; nothing that can be derived from these.
+// The full state as bytes: what makes the next frame, and what the last one showed; nothing that can be derived from
+// these.
 #include "engine/core/archive.hpp"
 #include "engine/world/step_record_archive.hpp"
 #include "engine/world/world_stages.hpp"
@@ -32,10 +33,12 @@ void World::save(ByteWriter& out) const {
 void World::restore(ByteReader& in) {
   frame_ = in.get<int>();
   time_ = in.get<double>();
-  if (in.get<std::uint64_t>() != bodies_.size()) throw InputError("snapshot: it belongs to a scene with another number of bodies");
+  if (in.get<std::uint64_t>() != bodies_.size())
+    throw InputError("snapshot: it belongs to a scene with another number of bodies");
   for (RigidBody& body : bodies_) {
     body.pose.position = in.get_vec3(), body.pose.rotation = in.get_mat3();
-    body.velocity = in.get_vec3(), body.angular_momentum = in.get_vec3(), body.scripted_angular_velocity = in.get_vec3();
+    body.velocity = in.get_vec3(), body.angular_momentum = in.get_vec3(),
+    body.scripted_angular_velocity = in.get_vec3();
     body.asleep = in.get<bool>(), body.rest_time = in.get<double>(), body.island = in.get<int>();
     if (body.soft) {
       DeformableBody& fem = body.soft->fem;
@@ -55,7 +58,9 @@ void World::restore(ByteReader& in) {
   publish(false);
   const std::uint64_t hash = record_.stats.state_hash;
   get_record(in, record_);
-  if (record_.stats.state_hash != hash) throw InputError("snapshot: its record is of another state; it is another version's or damaged, remove it and run again");
+  if (record_.stats.state_hash != hash)
+    throw InputError(
+        "snapshot: its record is of another state; it is another version's or damaged, remove it and run again");
 }
 
 std::uint64_t World::state_hash() const {

@@ -9,11 +9,11 @@
 namespace impinge {
 namespace {
 
-
 void check_solved(const DeformableStep& step, const RigidBody& body, int frame) {
   if (step.linear_status != SolveStatus::not_finite && step.linear_status != SolveStatus::not_positive_definite) return;
-  throw DivergenceError(fmt::format("frame {}, body '{}': its system matrix is {}; use more sub-steps or a softer material", frame, body.name,
-                                    step.linear_status == SolveStatus::not_finite ? "not finite" : "not positive definite"));
+  throw DivergenceError(
+      fmt::format("frame {}, body '{}': its system matrix is {}; use more sub-steps or a softer material", frame,
+                  body.name, step.linear_status == SolveStatus::not_finite ? "not finite" : "not positive definite"));
 }
 
 }  // namespace
@@ -30,7 +30,8 @@ void SoftStep::find_displacement_velocity(RigidBody& body) {
   displacement_velocity = (step.s * with_held(fem, step.v_star) + step.offset) / step.time_step;
 }
 
-void SoftStep::begin(RigidBody& body, const DeformableIntegrator& integrator, const Vec3& gravity, double h, int frame) {
+void SoftStep::begin(RigidBody& body, const DeformableIntegrator& integrator, const Vec3& gravity, double h,
+                     int frame) {
   DeformableBody& fem = body.soft->fem;
   velocity_before = fem.velocity;
   touched = false;
@@ -41,7 +42,8 @@ void SoftStep::begin(RigidBody& body, const DeformableIntegrator& integrator, co
   interpolate(body.soft->embedding, fem.fem.rest(), displacement_velocity, body.soft->surface_velocity);
 }
 
-double SoftStep::relinearize(RigidBody& body, const DeformableIntegrator& integrator, const VecX& v, const VecX& impulse) {
+double SoftStep::relinearize(RigidBody& body, const DeformableIntegrator& integrator, const VecX& v,
+                             const VecX& impulse) {
   integrator.linearize(body.soft->fem, v, step);
   const VecX momentum = step.a * v;
   const double size = std::max({momentum.norm(), step.b.norm(), impulse.norm()});

@@ -4,9 +4,12 @@ namespace impinge {
 
 const char* state_name(ContactState state) {
   switch (state) {
-    case ContactState::open: return "open";
-    case ContactState::stick: return "stick";
-    case ContactState::slip: return "slip";
+    case ContactState::open:
+      return "open";
+    case ContactState::stick:
+      return "stick";
+    case ContactState::slip:
+      return "slip";
   }
   return "";
 }

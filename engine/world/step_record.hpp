@@ -9,8 +9,8 @@
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/shape.hpp"
 #include "engine/contact/collision.hpp"
-#include "engine/geometry/embedding.hpp"
 #include "engine/core/profile.hpp"
+#include "engine/geometry/embedding.hpp"
 
 namespace impinge {
 
@@ -23,10 +23,11 @@ struct BodyRecord {
   std::span<const Vec3> vertices;  ///< world vertices of a mesh; empty for an exact shape
   Aabb bounds;
   Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
-  double mass = 0.0;               ///< kg; 0 for static and scripted
+  double mass = 0.0;  ///< kg; 0 for static and scripted
   bool asleep = false;
-  int group = -1;                  ///< collision group of the last sub-step, -1: none
-  const DeformableBody* soft = nullptr;  ///< of a deformable body: its tetrahedra, nodes, held nodes; its pose is its centre's
+  int group = -1;  ///< collision group of the last sub-step, -1: none
+  /// of a deformable body: its tetrahedra, nodes, held nodes; its pose is its centre's
+  const DeformableBody* soft = nullptr;
   const Embedding* embedding = nullptr;  ///< of its surface
 };
 
@@ -37,13 +38,13 @@ const char* state_name(ContactState state);
 struct ContactRecord {
   int body_a = -1, body_b = -1, triangle_a = -1, triangle_b = -1;
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero(), normal = Vec3::UnitY();
-  double gap = 0.0;                  ///< at the end of the frame, metres
-  double gap0 = 0.0;                 ///< what the solver saw, metres
-  Vec3 lambda = Vec3::Zero();        ///< impulse (n, t1, t2) of the last sub-step, N·s
-  double friction = 0.0;             ///< coefficient of the pair
+  double gap = 0.0;            ///< at the end of the frame, metres
+  double gap0 = 0.0;           ///< what the solver saw, metres
+  Vec3 lambda = Vec3::Zero();  ///< impulse (n, t1, t2) of the last sub-step, N·s
+  double friction = 0.0;       ///< coefficient of the pair
   ContactState state = ContactState::open;
   int group = -1;
-  std::uint64_t pair_id = 0;         ///< stable identity from step to step
+  std::uint64_t pair_id = 0;  ///< stable identity from step to step
 };
 
 /// t1 = normalised e x n with e the first world axis of smallest |n·e|; t2 = n x t1.
@@ -51,9 +52,9 @@ Vec3 tangent1(const Vec3& normal);
 
 struct AttachmentRecord {
   std::string_view name;
-  int body_a = -1, body_b = -1;      ///< -1: the world
+  int body_a = -1, body_b = -1;  ///< -1: the world
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
-  Vec3 impulse = Vec3::Zero();       ///< on A, in the last sub-step, N·s
+  Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
 };
 
 struct FrameStats {
@@ -64,7 +65,7 @@ struct FrameStats {
   double max_penetration = 0.0;  ///< metres, over contacts at the end of the frame
   double residual = 0.0;         ///< m/s, maximum over sub-steps and groups, by the judge
   std::int64_t lcp_iterations = 0, outer_iterations = 0;
-  std::int64_t unconverged = 0;  ///< group solves of the frame that ended at the iteration cap
+  std::int64_t unconverged = 0;                          ///< group solves of the frame that ended at the iteration cap
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
   StageTimes times;
@@ -73,12 +74,12 @@ struct FrameStats {
 
 struct StepRecord {
   FrameStats stats;
-  std::vector<BodyRecord> bodies;         ///< scene order
-  std::vector<BodyPair> broad_pairs;      ///< what the broad phase let through
+  std::vector<BodyRecord> bodies;     ///< scene order
+  std::vector<BodyPair> broad_pairs;  ///< what the broad phase let through
   std::vector<TrianglePair> triangle_pairs;
   std::vector<ContactRecord> contacts;
   std::vector<AttachmentRecord> attachments;
-  std::vector<std::vector<int>> groups;   ///< body indices of each collision group, ascending
+  std::vector<std::vector<int>> groups;  ///< body indices of each collision group, ascending
   Vec3 gravity = Vec3::Zero();
   double frame_time = 0.0;
 };

@@ -7,22 +7,26 @@ namespace {
 
 std::size_t get_count(ByteReader& in, std::size_t least_bytes) {
   const auto count = in.get<std::uint64_t>();
-  if (count * least_bytes > in.left() || count > in.left()) throw InputError("snapshot: ends early; it is damaged, remove it and run again");
+  if (count * least_bytes > in.left() || count > in.left())
+    throw InputError("snapshot: ends early; it is damaged, remove it and run again");
   return static_cast<std::size_t>(count);
 }
 
 int get_body(ByteReader& in, const StepRecord& record, int least) {
   const int body = in.get<int>();
-  if (body < least || body >= static_cast<int>(record.bodies.size())) throw InputError("snapshot: it names a body that the scene has not; remove it and run again");
+  if (body < least || body >= static_cast<int>(record.bodies.size()))
+    throw InputError("snapshot: it names a body that the scene has not; remove it and run again");
   return body;
 }
 
 // all but the times, which differ from run to run
 template <class Archive, class Stats, class Field>
 void each_figure(Archive& archive, Stats& s, Field field) {
-  field(archive, s.frame), field(archive, s.time), field(archive, s.substeps), field(archive, s.bodies), field(archive, s.dofs), field(archive, s.asleep);
+  field(archive, s.frame), field(archive, s.time), field(archive, s.substeps), field(archive, s.bodies),
+      field(archive, s.dofs), field(archive, s.asleep);
   field(archive, s.broad_pairs), field(archive, s.triangle_pairs), field(archive, s.contacts), field(archive, s.groups);
-  field(archive, s.max_penetration), field(archive, s.residual), field(archive, s.lcp_iterations), field(archive, s.outer_iterations), field(archive, s.unconverged);
+  field(archive, s.max_penetration), field(archive, s.residual), field(archive, s.lcp_iterations),
+      field(archive, s.outer_iterations), field(archive, s.unconverged);
   field(archive, s.kinetic), field(archive, s.potential), field(archive, s.elastic);
   for (int k = 0; k < 3; ++k) field(archive, s.momentum[k]), field(archive, s.angular_momentum[k]);
   field(archive, s.state_hash);
@@ -35,7 +39,9 @@ void put_triangle_pairs(ByteWriter& out, const std::vector<TrianglePair>& pairs)
     std::size_t end = i;
     while (end < pairs.size() && pairs[end].a == pairs[i].a && pairs[end].b == pairs[i].b) ++end;
     out.put(pairs[i].a), out.put(pairs[i].b), out.put<std::uint64_t>(end - i);
-    for (; i < end; ++i) out.put(pairs[i].triangle_a), out.put(2 * static_cast<std::int64_t>(pairs[i].triangle_b) + (pairs[i].intersecting ? 1 : 0));
+    for (; i < end; ++i)
+      out.put(pairs[i].triangle_a),
+          out.put(2 * static_cast<std::int64_t>(pairs[i].triangle_b) + (pairs[i].intersecting ? 1 : 0));
   }
 }
 
@@ -45,7 +51,8 @@ void get_triangle_pairs(ByteReader& in, StepRecord& record) {
   for (std::size_t i = 0; i < pairs.size();) {
     const int a = get_body(in, record, 0), b = get_body(in, record, 0);
     const auto count = in.get<std::uint64_t>();
-    if (count == 0 || count > pairs.size() - i) throw InputError("snapshot: its pairs of triangles don't add up; it is damaged, remove it and run again");
+    if (count == 0 || count > pairs.size() - i)
+      throw InputError("snapshot: its pairs of triangles don't add up; it is damaged, remove it and run again");
     for (const std::size_t end = i + count; i < end; ++i) {
       const int triangle_a = in.get<int>();
       const auto packed = in.get<std::int64_t>();
@@ -63,7 +70,8 @@ void put_contact(ByteWriter& out, const ContactRecord& c) {
 
 ContactRecord get_contact(ByteReader& in, const StepRecord& record) {
   ContactRecord c;
-  c.body_a = get_body(in, record, 0), c.body_b = get_body(in, record, 0), c.triangle_a = in.get<int>(), c.triangle_b = in.get<int>();
+  c.body_a = get_body(in, record, 0), c.body_b = get_body(in, record, 0), c.triangle_a = in.get<int>(),
+  c.triangle_b = in.get<int>();
   c.point_a = in.get_vec3(), c.point_b = in.get_vec3(), c.normal = in.get_vec3();
   c.gap = in.get<double>(), c.gap0 = in.get<double>(), c.lambda = in.get_vec3(), c.friction = in.get<double>();
   c.state = static_cast<ContactState>(std::min<int>(in.get<std::uint8_t>(), static_cast<int>(ContactState::slip)));
@@ -90,13 +98,16 @@ void put_record(ByteWriter& out, const StepRecord& record) {
 }
 
 void get_record(ByteReader& in, StepRecord& record) {
-  each_figure(in, record.stats, [](ByteReader& i, auto& value) { value = i.get<std::remove_reference_t<decltype(value)>>(); });
+  each_figure(in, record.stats,
+              [](ByteReader& i, auto& value) { value = i.get<std::remove_reference_t<decltype(value)>>(); });
   record.broad_pairs.resize(get_count(in, 16));
-  for (BodyPair& pair : record.broad_pairs) pair.a = get_body(in, record, 0), pair.b = get_body(in, record, 0), pair.margin = in.get<double>();
+  for (BodyPair& pair : record.broad_pairs)
+    pair.a = get_body(in, record, 0), pair.b = get_body(in, record, 0), pair.margin = in.get<double>();
   get_triangle_pairs(in, record);
   record.contacts.resize(get_count(in, 149));
   for (ContactRecord& contact : record.contacts) contact = get_contact(in, record);
-  if (get_count(in, 24) != record.attachments.size()) throw InputError("snapshot: it belongs to a scene with another number of attachments");
+  if (get_count(in, 24) != record.attachments.size())
+    throw InputError("snapshot: it belongs to a scene with another number of attachments");
   for (AttachmentRecord& attachment : record.attachments) attachment.impulse = in.get_vec3();
   record.groups.resize(get_count(in, 8));
   for (BodyRecord& body : record.bodies) body.group = -1;

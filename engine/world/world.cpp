@@ -36,18 +36,25 @@ constexpr double kLargest = 1e12;  // metres, m/s: beyond this nothing is resolv
 
 void check_finite(const RigidBody& body, int frame, int group) {
   if (body.soft) {
-    if (body.soft->fem.position.allFinite() && body.soft->fem.position.cwiseAbs().maxCoeff() < kLargest && body.soft->fem.velocity.allFinite()) return;
-    throw DivergenceError(fmt::format("frame {}, group {}, body '{}': a node's position or velocity is no longer a finite number below {:g}; use more "
-                                      "sub-steps, or a more stable material or integrator",
-                                      frame, group, body.name, kLargest));
+    if (body.soft->fem.position.allFinite() && body.soft->fem.position.cwiseAbs().maxCoeff() < kLargest &&
+        body.soft->fem.velocity.allFinite())
+      return;
+    throw DivergenceError(
+        fmt::format("frame {}, group {}, body '{}': a node's position or velocity is no longer a finite number below "
+                    "{:g}; use more "
+                    "sub-steps, or a more stable material or integrator",
+                    frame, group, body.name, kLargest));
   }
   // a maximum alone may pass over NaN
-  const bool fine = body.pose.position.allFinite() && body.velocity.allFinite() && body.pose.position.cwiseAbs().maxCoeff() < kLargest && body.velocity.cwiseAbs().maxCoeff() < kLargest &&
-                    body.angular_momentum.allFinite() && body.pose.rotation.allFinite();
+  const bool fine = body.pose.position.allFinite() && body.velocity.allFinite() &&
+                    body.pose.position.cwiseAbs().maxCoeff() < kLargest &&
+                    body.velocity.cwiseAbs().maxCoeff() < kLargest && body.angular_momentum.allFinite() &&
+                    body.pose.rotation.allFinite();
   if (fine) return;
-  throw DivergenceError(fmt::format("frame {}, group {}, body '{}': position or velocity is no longer a finite number below {:g}; use more "
-                                    "sub-steps, or smaller velocities and forces",
-                                    frame, group, body.name, kLargest));
+  throw DivergenceError(fmt::format(
+      "frame {}, group {}, body '{}': position or velocity is no longer a finite number below {:g}; use more "
+      "sub-steps, or smaller velocities and forces",
+      frame, group, body.name, kLargest));
 }
 
 bool is_moving_body(std::span<const RigidBody> bodies, int b) {
@@ -72,7 +79,8 @@ void World::Stages::select(const Parameters& p) {
     linear_solver_name = p.simulation.linear_solver;
     soft.clear();  // solvers are made with the name
   }
-  if (integrator_name != p.simulation.integrator) integrator = make_named(integrators(), integrator_name = p.simulation.integrator);
+  if (integrator_name != p.simulation.integrator)
+    integrator = make_named(integrators(), integrator_name = p.simulation.integrator);
   if (response_name != p.response.method) response = make_named(responses(), response_name = p.response.method);
   if (lcp_name != p.lcp.method) lcp = make_named(lcp_solvers(), lcp_name = p.lcp.method);
 }
@@ -93,14 +101,18 @@ void World::Stages::make_collision_groups(std::span<const RigidBody> bodies, std
   groups = make_groups(ends, joins);
 }
 
-void World::add_attachment(const AttachmentDescription& description) { attachments_.push_back(make_attachment(description, bodies_)); }
+void World::add_attachment(const AttachmentDescription& description) {
+  attachments_.push_back(make_attachment(description, bodies_));
+}
 
 void World::start() {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (std::size_t j = i + 1; j < bodies_.size(); ++j)
-      if ((bodies_[i].has_freedom() || bodies_[j].has_freedom()) && !is_pair_supported(bodies_[i].shape, bodies_[j].shape))
-        throw InputError(fmt::format("bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test", bodies_[i].name,
-                                     shape_name(bodies_[i].shape), bodies_[j].name, shape_name(bodies_[j].shape)));
+      if ((bodies_[i].has_freedom() || bodies_[j].has_freedom()) &&
+          !is_pair_supported(bodies_[i].shape, bodies_[j].shape))
+        throw InputError(
+            fmt::format("bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test",
+                        bodies_[i].name, shape_name(bodies_[i].shape), bodies_[j].name, shape_name(bodies_[j].shape)));
   frame_ = 0;
   time_ = 0.0;
   stages_->frame_stats = {};
@@ -209,7 +221,8 @@ void World::substep(double h, int left) {
   const StageTimer timer(times.integrate_ms);
   integrate(h);
   if (parameters.simulation.sleeping)
-    s.sleeping.update(bodies_, s.groups, s.supports, parameters.simulation.sleep_speed, parameters.simulation.sleep_time, h);
+    s.sleeping.update(bodies_, s.groups, s.supports, parameters.simulation.sleep_speed,
+                      parameters.simulation.sleep_time, h);
 }
 
 void World::integrate(double h) {
@@ -232,11 +245,12 @@ void World::integrate(double h) {
     body.velocity = fem.momentum() / body.mass;
   }
   for (const CollisionGroup& group : s.groups) {
-    // a displacement changes x × p: where a group is free of the rest of the world, its spin takes the difference, so that
-    // recovery from overlap keeps angular momentum too
+    // a displacement changes x × p: where a group is free of the rest of the world, its spin takes the difference, so
+    // that recovery from overlap keeps angular momentum too
     const auto is_free = [&](int c) {
       if (c >= static_cast<int>(s.detection.collisions.size())) return false;
-      return bodies_[s.detection.collisions[c].body_a].is_dynamic() && bodies_[s.detection.collisions[c].body_b].is_dynamic();
+      return bodies_[s.detection.collisions[c].body_a].is_dynamic() &&
+             bodies_[s.detection.collisions[c].body_b].is_dynamic();
     };
     const bool closed = std::all_of(group.contacts.begin(), group.contacts.end(), is_free);
     double mass = 0.0;
@@ -284,7 +298,8 @@ void World::parameters_changed() {
   ParameterSet rows;
   parameters.bind(rows);
   for (const Parameter& row : rows.all()) settings.put(hash_bytes(format_value(row.get())));
-  for (const RigidBody& body : bodies_) settings.put(body.friction), settings.put(body.restitution), settings.put(body.mass);
+  for (const RigidBody& body : bodies_)
+    settings.put(body.friction), settings.put(body.restitution), settings.put(body.mass);
   const std::uint64_t hash = hash_bytes(settings.bytes());
   if (hash != stages_->settings_seen) stages_->sleeping.wake_all(bodies_);
   stages_->settings_seen = hash;

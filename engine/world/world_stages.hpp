@@ -1,4 +1,5 @@
-// The world's working memory: the algorithms in use and what passes between the stages of a sub-step. Private to world/.
+// The world's working memory: the algorithms in use and what passes between the stages of a sub-step. Private to
+// world/.
 #pragma once
 
 #include "engine/contact/contact_cache.hpp"
@@ -12,10 +13,12 @@
 
 namespace impinge {
 
-/// A contact of the last sub-step in the coordinates of its bodies, so that its points can be carried to any later pose.
+/// A contact of the last sub-step in the coordinates of its bodies, so that its points can be carried to any later
+/// pose.
 struct SolvedContact {
   Collision collision;
-  Vec3 local_a = Vec3::Zero(), local_b = Vec3::Zero();  // in the body's frame; of a deformable body: weights of the triangle
+  // in the body's frame; of a deformable body: weights of the triangle
+  Vec3 local_a = Vec3::Zero(), local_b = Vec3::Zero();
   Vec3 local_normal = Vec3::Zero();
   Vec3 lambda = Vec3::Zero();
   double friction = 0.0;
@@ -31,20 +34,20 @@ struct World::Stages {
   std::unique_ptr<Response> response;
   std::unique_ptr<LcpSolver> lcp;
   std::string integrator_name, response_name, lcp_name;
-  std::vector<Twist> before;              // velocities at the start of the sub-step
+  std::vector<Twist> before;                    // velocities at the start of the sub-step
   std::vector<std::unique_ptr<SoftStep>> soft;  // a slot a body; null: not deformable
   std::string linear_solver_name;
   std::vector<CollisionGroup> groups;
   std::vector<SolvedContact> contacts;
-  std::vector<Vec3> attachment_impulse;   // on body A, N·s, of the last sub-step
-  std::vector<ContactCache::Item> solved; // what the cache will hold after this sub-step
+  std::vector<Vec3> attachment_impulse;       // on body A, N·s, of the last sub-step
+  std::vector<ContactCache::Item> solved;     // what the cache will hold after this sub-step
   std::vector<std::pair<int, int>> supports;  // (dynamic, scripted) that touch
-  std::vector<Twist> push;                // displacements that recover overlap, by rigid body
-  std::vector<VecX> soft_push;            // and by deformable body, over its free nodes; empty: none
-  std::uint64_t settings_seen = 0;        // hash of what parameters_changed compares with
-  FrameStats frame_stats;                 // sums and maxima over the frame's sub-steps
-  FrozenStep* frozen = nullptr;           // if given, gets the groups of the frame's last sub-step
-  bool freezing = false;                  // this is that sub-step
+  std::vector<Twist> push;                    // displacements that recover overlap, by rigid body
+  std::vector<VecX> soft_push;                // and by deformable body, over its free nodes; empty: none
+  std::uint64_t settings_seen = 0;            // hash of what parameters_changed compares with
+  FrameStats frame_stats;                     // sums and maxima over the frame's sub-steps
+  FrozenStep* frozen = nullptr;               // if given, gets the groups of the frame's last sub-step
+  bool freezing = false;                      // this is that sub-step
 
   void select(const Parameters& parameters);
   /// Groups of what detection found last, and of the attachments.
@@ -52,7 +55,8 @@ struct World::Stages {
   /// What the impulse of a group's contact is remembered by.
   ContactCache::Item cache_key(std::span<const Attachment> attachments, int contact) const;
   /// What a frozen group keeps beside its system: scene indices and where its contacts are.
-  void freeze_geometry(std::span<const RigidBody> bodies, std::span<const Attachment> attachments, const CollisionGroup& group, FrozenGroup& frozen) const;
+  void freeze_geometry(std::span<const RigidBody> bodies, std::span<const Attachment> attachments,
+                       const CollisionGroup& group, FrozenGroup& frozen) const;
   void warm_start(std::span<const Attachment> attachments, const CollisionGroup& group, GroupSystem& system) const;
 };
 

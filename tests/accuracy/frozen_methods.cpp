@@ -1,5 +1,5 @@
-// Constraint anticipation, its iterative form and a monolithic KKT system on the same frozen step: two deformable cubes on a floor,
-// and the hardest frame of the seed's dragon scene. And W by several routes.
+// Constraint anticipation, its iterative form and a monolithic KKT system on the same frozen step: two deformable cubes
+// on a floor, and the hardest frame of the seed's dragon scene. And W by several routes.
 #include <catch2/catch.hpp>
 
 #include "engine/lcp/residual.hpp"
@@ -24,7 +24,8 @@ void check_frictionless(const FrozenStep& step, double tolerance) {
   const FrozenStep smooth = without_friction(step);
   const GroupAnswer kkt = kkt_answer(smooth.groups[0]);
   const FrozenOutcome exact = solved(smooth, "constraint_anticipation", "semismooth_newton", 1e-12);
-  const FrozenOutcome iterative = solved(smooth, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance);
+  const FrozenOutcome iterative =
+      solved(smooth, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance);
   CHECK(exact.converged);
   CHECK(iterative.converged);
   CHECK(difference(smooth, exact.answers[0], kkt) < 1e-6);
@@ -45,7 +46,8 @@ void check_friction(const FrozenStep& step, double tolerance) {
     CHECK(verdict.residual < 1e-8);
     CHECK(verdict.cone_violation < 1e-12);
   }
-  const FrozenVerdict verdict = ruler.judge(solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance).answers);
+  const FrozenVerdict verdict =
+      ruler.judge(solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", tolerance).answers);
   CAPTURE(verdict.distance);
   CHECK(verdict.natural_map_relative < 1e-8);
   CHECK(verdict.residual < 1e-8);
@@ -65,11 +67,13 @@ void check_routes(const FrozenGroup& group, bool dense) {
 
 }  // namespace
 
-TEST_CASE("two stacked cubes: exact, iterative and monolithic answers agree without friction, and with it each is one") {
+TEST_CASE(
+    "two stacked cubes: exact, iterative and monolithic answers agree without friction, and with it each is one") {
   for (const double young : {1e4, 1e5, 1e6})
     for (const bool rigid : {false, true}) {
       CAPTURE(young, rigid);
-      const SoftStack stack = make_soft_stack({.young = young, .friction = 0.4, .cells = {4, 3}, .rigid_on_top = rigid});
+      const SoftStack stack =
+          make_soft_stack({.young = young, .friction = 0.4, .cells = {4, 3}, .rigid_on_top = rigid});
       const FrozenStep step = frozen_of(stack.group);
       check_frictionless(step, 1e-9);
       check_friction(step, 1e-9);
@@ -77,7 +81,9 @@ TEST_CASE("two stacked cubes: exact, iterative and monolithic answers agree with
     }
 }
 
-TEST_CASE("the method of multipliers, and columns by conjugate gradients, find the same velocities from nothing, with friction and without") {
+TEST_CASE(
+    "the method of multipliers, and columns by conjugate gradients, find the same velocities from nothing, with "
+    "friction and without") {
   for (const double friction : {0.0, 0.4})
     for (const bool columns : {false, true}) {
       const SoftStack stack = make_soft_stack({.young = 1e4, .friction = friction, .cells = {4, 3}});
@@ -89,12 +95,15 @@ TEST_CASE("the method of multipliers, and columns by conjugate gradients, find t
       const ConeProblem problem = make_cone_problem(group);
       const double tolerance = 1e-9 * velocity_scale(problem);
       VecX x = VecX::Zero(a.size());
-      const bool converged = columns ? solve_by_columns(a, problem, *find_entry(lcp_solvers(), "automatic")->make(), tolerance, group, x).converged
-                                     : solve_by_multipliers(a, problem, tolerance, group, x).converged;
+      const bool converged =
+          columns ? solve_by_columns(a, problem, *find_entry(lcp_solvers(), "automatic")->make(), tolerance, group, x)
+                        .converged
+                  : solve_by_multipliers(a, problem, tolerance, group, x).converged;
       a.store(x, group);
       CAPTURE(friction, columns);
       CHECK(converged);
-      const FrozenVerdict verdict = FrozenRuler(step).judge({{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.soft_delta}});
+      const FrozenVerdict verdict = FrozenRuler(step).judge(
+          {{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.soft_delta}});
       CHECK(verdict.residual < 1e-8);
       CHECK(verdict.distance < 1e-6);
     }
@@ -108,7 +117,8 @@ TEST_CASE("the dragon's hardest frame: exact, iterative and monolithic answers a
     CAPTURE(young, step.frame, step.contacts());
     REQUIRE(step.contacts() > 200);
     // the group of most contacts
-    std::swap(step.groups[0], *std::max_element(step.groups.begin(), step.groups.end(), [](const FrozenGroup& l, const FrozenGroup& r) {
+    std::swap(step.groups[0],
+              *std::max_element(step.groups.begin(), step.groups.end(), [](const FrozenGroup& l, const FrozenGroup& r) {
                 return l.system.contacts.size() < r.system.contacts.size();
               }));
     step.groups.resize(1);
@@ -118,7 +128,9 @@ TEST_CASE("the dragon's hardest frame: exact, iterative and monolithic answers a
   }
 }
 
-TEST_CASE("iterative anticipation ends where its sweeps stall: more rows than a soft surface has unknowns, and friction", "[long]") {
+TEST_CASE(
+    "iterative anticipation ends where its sweeps stall: more rows than a soft surface has unknowns, and friction",
+    "[long]") {
   const std::vector<FrozenStep> steps = dragon_frames({"body.dragon.material.young=1e4"}, 19);
   for (const int frame : {14, 16, 19}) {
     const FrozenStep& step = steps[frame - 1];

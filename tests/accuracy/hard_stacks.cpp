@@ -1,5 +1,6 @@
-// Rigid scenes on which sequential solvers fall over: unlike masses, high stacks at 1/60 s, a pile that must come to rest. All
-// with the defaults of response and solver, one sub-step a frame, sleeping off. Figures of other engines are in tests/README.md.
+// Rigid scenes on which sequential solvers fall over: unlike masses, high stacks at 1/60 s, a pile that must come to
+// rest. All with the defaults of response and solver, one sub-step a frame, sleeping off. Figures of other engines are
+// in tests/README.md.
 #include <catch2/catch.hpp>
 
 #include "tests/support/pile.hpp"
@@ -134,7 +135,8 @@ TEST_CASE("a pile of two hundred boxes comes to rest without sleeping", "[long]"
     else if (still < 0)
       still = i;
   }
-  WARN("a pile of 200 boxes: every speed below 1 mm/s from frame " << still << " of 60 a second on; now " << fastest(world) << " m/s");
+  WARN("a pile of 200 boxes: every speed below 1 mm/s from frame " << still << " of 60 a second on; now "
+                                                                   << fastest(world) << " m/s");
   CHECK(still >= 0);
   CHECK(overlap(world) < 1e-6);
 }

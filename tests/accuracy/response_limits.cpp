@@ -1,5 +1,5 @@
-// Where a response has no freedom to be nearly right: who carries what, how fast sweeps converge, and what is answered where
-// the rows are dependent, contradict each other or join very different masses.
+// Where a response has no freedom to be nearly right: who carries what, how fast sweeps converge, and what is answered
+// where the rows are dependent, contradict each other or join very different masses.
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
@@ -18,7 +18,8 @@ using namespace impinge::test;
 
 namespace {
 
-ResponseResult solve(std::string_view name, GroupSystem& group, const ResponseSettings& settings, const char* lcp = "projected_gauss_seidel") {
+ResponseResult solve(std::string_view name, GroupSystem& group, const ResponseSettings& settings,
+                     const char* lcp = "projected_gauss_seidel") {
   return find_entry(responses(), name)->make()->solve(group, *find_entry(lcp_solvers(), lcp)->make(), settings);
 }
 
@@ -78,7 +79,8 @@ TEST_CASE("every interface of a ten-stack carries what stands on it (AT-16)") {
     const double weight = kGravity * world.bodies()[1].mass;
     double worst = 0.0;
     for (int k = 0; k < 10; ++k) worst = std::max(worst, std::abs(carried[k] / ((10 - k) * weight) - 1.0));
-    WARN(e.name << ": worst interface of a ten-stack off by " << worst << " of its load, overlap " << judge_overlap(world.bodies()).penetration << " m");
+    WARN(e.name << ": worst interface of a ten-stack off by " << worst << " of its load, overlap "
+                << judge_overlap(world.bodies()).penetration << " m");
     CHECK(worst < (regularised(e.name) ? 1e-3 : 1e-6));
   }
 }
@@ -195,20 +197,24 @@ TEST_CASE("a ten-thousand times heavier box on a light one (AT-18)") {
       CHECK((world.bodies()[2].pose.position - Vec3(0, 1.5, 0)).norm() < 1e-4);
     } else {
       const double y = world.bodies()[2].pose.position.y();
-      WARN("sequential impulses, mass ratio 10000, 200 sweeps: overlap " << overlap << " m, the heavy box at " << y << " m instead of 1.5 m");
+      WARN("sequential impulses, mass ratio 10000, 200 sweeps: overlap " << overlap << " m, the heavy box at " << y
+                                                                         << " m instead of 1.5 m");
       CHECK(std::abs(y - 1.5) > 1e-3);  // 69082 sweeps would be needed for a thousandth
     }
   }
 }
 
-TEST_CASE("two stacked deformable cubes without friction: impulses find the velocities of constraint anticipation (AT-37)") {
+TEST_CASE(
+    "two stacked deformable cubes without friction: impulses find the velocities of constraint anticipation (AT-37)") {
   for (const double young : {1e4, 1e5, 1e6}) {
-    const FrozenStep step = without_friction(frozen_of(make_soft_stack({.young = young, .cells = {3, 2}, .rigid_on_top = true}).group));
+    const FrozenStep step =
+        without_friction(frozen_of(make_soft_stack({.young = young, .cells = {3, 2}, .rigid_on_top = true}).group));
     const auto solved = [&](const char* name, const char* lcp) {
       ResponseSettings settings;
       settings.lcp = {1e-11, 100000};
       settings.impulse_iterations = 100000;
-      return solve_frozen(step, *find_entry(responses(), name)->make(), *find_entry(lcp_solvers(), lcp)->make(), settings);
+      return solve_frozen(step, *find_entry(responses(), name)->make(), *find_entry(lcp_solvers(), lcp)->make(),
+                          settings);
     };
     const GroupAnswer exact = solved("constraint_anticipation", "semismooth_newton").answers[0];
     for (const char* name : {"sequential_impulse", "simultaneous_impulse"}) {
@@ -217,7 +223,8 @@ TEST_CASE("two stacked deformable cubes without friction: impulses find the velo
       WARN(name << ", E = " << young << " Pa: " << outcome.iterations << " sweeps");
       CHECK(outcome.converged);
       CHECK_FALSE(outcome.used_solver);
-      CHECK(energy_distance(step.groups[0], outcome.answers[0], exact) < 1e-6 * std::sqrt(energy_product(step.groups[0], exact, exact)));
+      CHECK(energy_distance(step.groups[0], outcome.answers[0], exact) <
+            1e-6 * std::sqrt(energy_product(step.groups[0], exact, exact)));
     }
   }
 }
@@ -355,7 +362,9 @@ TEST_CASE("forty crates have the same hashes for 1, 2 and 4 threads under every 
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
       Random random(40);
       for (int i = 0; i < 40; ++i) {
-        BodyDescription crate = cube("crate" + std::to_string(i), 0.2, Vec3(0.22 * (i % 4) + 0.02 * random.sym(), 0.15 + 0.25 * (i / 8), 0.22 * (i / 4 % 2)));
+        BodyDescription crate =
+            cube("crate" + std::to_string(i), 0.2,
+                 Vec3(0.22 * (i % 4) + 0.02 * random.sym(), 0.15 + 0.25 * (i / 8), 0.22 * (i / 4 % 2)));
         crate.rotation = 20.0 * random.vector();
         world.add_body(crate);
       }

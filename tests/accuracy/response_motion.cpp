@@ -1,4 +1,5 @@
-// What every response makes of motion that formulas know: rolling, pivoting, bouncing, sliding deformable pads, lost energy.
+// What every response makes of motion that formulas know: rolling, pivoting, bouncing, sliding deformable pads, lost
+// energy.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -13,7 +14,8 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
   const Vec3 normal(-std::sin(angle), std::cos(angle), 0.0), down(-std::cos(angle), -std::sin(angle), 0.0);
   for (const auto& e : responses())
     for (const bool rod : {false, true}) {
-      BodyDescription body = dynamic_body("body", rod ? Shape(Capsule{radius, 0.3}) : Shape(Sphere{radius}), radius * normal);
+      BodyDescription body =
+          dynamic_body("body", rod ? Shape(Capsule{radius, 0.3}) : Shape(Sphere{radius}), radius * normal);
       body.mass = 2.0;
       if (rod) body.rotation = Vec3(90, 0, 0);
       World probe;
@@ -33,7 +35,8 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
         run(world, 60);
         const RigidBody& b = world.bodies()[1];
         const double v = b.velocity.dot(down), spin = std::abs(b.angular_velocity().z()) * radius;
-        const double exact = mu > needed ? kGravity * std::sin(angle) * k / (1.0 + k) : kGravity * (std::sin(angle) - mu * std::cos(angle));
+        const double exact = mu > needed ? kGravity * std::sin(angle) * k / (1.0 + k)
+                                         : kGravity * (std::sin(angle) - mu * std::cos(angle));
         const double exact_spin = mu > needed ? exact : k * mu * kGravity * std::cos(angle);
         const double allowed = regularised(e.name) ? 1e-2 : 1e-5;  // springs carry nothing in the first sub-steps
         CHECK(v == Approx(exact).epsilon(allowed));
@@ -75,7 +78,9 @@ TEST_CASE("a box is pushed over the floor, twenty-five balls roll on it (AT-07)"
       world.bodies()[1].velocity += 1e-3 * force / big * push;
       world.step();
       const double t = 1e-3 * i;
-      error += ((world.bodies()[1].velocity - a_box * t * push).squaredNorm() + (world.bodies()[2].velocity - a_ball * t * push).squaredNorm()) / steps;
+      error += ((world.bodies()[1].velocity - a_box * t * push).squaredNorm() +
+                (world.bodies()[2].velocity - a_ball * t * push).squaredNorm()) /
+               steps;
     }
     WARN(e.name << ": mean squared error of the pushed box and a ball " << error << " m²/s²");
     if (!regularised(e.name)) CHECK(error < 1e-6);
@@ -145,7 +150,8 @@ void check_bounce(std::string_view response, double e) {
     const double v = world.bodies()[1].velocity.y();
     if (before < -0.05 && v > 0.0) {
       ++bounces;
-      CHECK(std::abs(v + e * before) < 1.1 * (1.0 + e) * kGravity * 1e-4);  // either law is exact to what falls in a step
+      // either law is exact to what falls in a step
+      CHECK(std::abs(v + e * before) < 1.1 * (1.0 + e) * kGravity * 1e-4);
     }
     if (std::abs(v) > 0.02) last = 1e-4 * i;
     before = v;
@@ -203,7 +209,8 @@ TEST_CASE("a deformable pad slides with µ ΣN against it, and sticks below that
       world.parameters.simulation.substeps = 1;  // so that every force is in the record
       world.parameters.simulation.gravity = slips ? Vec3(4.0, -kGravity, 0) : Vec3(0.25 * kGravity, -kGravity, 0);
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
-      BodyDescription pad = soft_box("pad", {0.02, 0.01, 0.02}, {2, 1, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.01, "corotational"});
+      BodyDescription pad =
+          soft_box("pad", {0.02, 0.01, 0.02}, {2, 1, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.01, "corotational"});
       if (slips) pad.velocity = Vec3(1.0, 0, 0);
       world.add_body(pad);
       world.start();
@@ -215,7 +222,8 @@ TEST_CASE("a deformable pad slides with µ ΣN against it, and sticks below that
         world.step();
         sum += contact_force_on(world, 1) / frames;
       }
-      const double moved = world.bodies()[1].soft->fem.center_of_mass().x() - before, weight = kGravity * world.bodies()[1].mass;
+      const double moved = world.bodies()[1].soft->fem.center_of_mass().x() - before,
+                   weight = kGravity * world.bodies()[1].mass;
       CHECK(sum.y() == Approx(weight).epsilon(1e-3));
       if (slips) {
         CHECK(-sum.x() == Approx(mu * sum.y()).epsilon(1e-3));
@@ -240,7 +248,9 @@ TEST_CASE("two deformable cubes that collide without friction and gravity: kinet
     world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 20000;
     world.parameters.response.max_iterations = 20000;
     for (const double side : {-1.0, 1.0}) {
-      BodyDescription d = soft_cube(side < 0 ? "left" : "right", 0.2, side < 0 ? 1 : 2, {side < 0 ? -0.21 : 0.01, 0.01 * side, 0.02 * side}, {1e5, 0.3, 1000.0, 0.0, "linear"});
+      BodyDescription d =
+          soft_cube(side < 0 ? "left" : "right", 0.2, side < 0 ? 1 : 2,
+                    {side < 0 ? -0.21 : 0.01, 0.01 * side, 0.02 * side}, {1e5, 0.3, 1000.0, 0.0, "linear"});
       d.velocity = Vec3(-side, 0, 0);
       world.add_body(d);
     }

@@ -1,4 +1,5 @@
-// What each response leaves of the exact answer, against formulas: how deep bodies rest, how friction sticks, what impacts keep.
+// What each response leaves of the exact answer, against formulas: how deep bodies rest, how friction sticks, what
+// impacts keep.
 #include <catch2/catch.hpp>
 
 #include "engine/world/judge.hpp"
@@ -101,7 +102,8 @@ TEST_CASE("incline: true cones hold the block, regularised friction creeps by it
       world.start();
       run(world, 150);
       const Vec3 moved = world.bodies()[1].pose.position - 0.1 * normal;
-      const double t = 2.5, h = world.parameters.simulation.time_step(), a = kGravity * (std::sin(angle) - mu * std::cos(angle));
+      const double t = 2.5, h = world.parameters.simulation.time_step(),
+                   a = kGravity * (std::sin(angle) - mu * std::cos(angle));
       if (mu < 0.5) {
         CHECK(moved.dot(down) == Approx(0.5 * a * t * (t + h)).epsilon(5e-3));
       } else if (e.name == "penalty") {
@@ -126,12 +128,16 @@ TEST_CASE("explicit friction lags by a sub-step: a block that sticks creeps by (
   world.add_body(block);
   world.start();
   run(world, 150);
-  const double creep = world.bodies()[1].velocity.dot(down), pull = kGravity * std::sin(angle) * world.parameters.simulation.time_step();
-  // each of n corners stops u/n as if it stood alone, and alone it feels m W times the mobility of the mass: turning about y, x, z
-  const Vec3 arm(0.5, -0.1, 0.5), inertia = Vec3(0.1 * 0.1 + 0.5 * 0.5, 0.5 * 0.5 + 0.5 * 0.5, 0.5 * 0.5 + 0.1 * 0.1) / 3.0;
+  const double creep = world.bodies()[1].velocity.dot(down),
+               pull = kGravity * std::sin(angle) * world.parameters.simulation.time_step();
+  // each of n corners stops u/n as if it stood alone, and alone it feels m W times the mobility of the mass: turning
+  // about y, x, z
+  const Vec3 arm(0.5, -0.1, 0.5),
+      inertia = Vec3(0.1 * 0.1 + 0.5 * 0.5, 0.5 * 0.5 + 0.5 * 0.5, 0.5 * 0.5 + 0.1 * 0.1) / 3.0;
   Eigen::Matrix2d w;
   for (const int r : {0, 2})
-    for (const int c : {0, 2}) w(r / 2, c / 2) = (r == c) + arm.cross(Vec3::Unit(r)).dot(arm.cross(Vec3::Unit(c)).cwiseQuotient(inertia));
+    for (const int c : {0, 2})
+      w(r / 2, c / 2) = (r == c) + arm.cross(Vec3::Unit(r)).dot(arm.cross(Vec3::Unit(c)).cwiseQuotient(inertia));
   const double trace = w.trace(), mobility = 0.5 * (trace + std::sqrt(trace * trace - 4.0 * w.determinant()));
   WARN("explicit penalty: a block that should stick creeps at " << creep << " m/s, g sin θ Δt is " << pull);
   CHECK(creep == Approx((mobility - 1.0) * pull).epsilon(2e-2));
@@ -258,7 +264,8 @@ TEST_CASE("a shot runs through Newton's cradle with sequential impulses, and spr
     world.parameters.contact.restitution = 1.0;
     world.parameters.contact.friction = 0.0;
     for (int i = 0; i < 5; ++i) {
-      BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {0.2 * i - (i == 0 ? 0.05 : 0.0), 0, 0});
+      BodyDescription ball =
+          dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {0.2 * i - (i == 0 ? 0.05 : 0.0), 0, 0});
       if (i == 0) ball.velocity = Vec3(1, 0, 0);
       world.add_body(ball);
     }
@@ -271,7 +278,8 @@ TEST_CASE("a shot runs through Newton's cradle with sequential impulses, and spr
       for (int i = 0; i < 4; ++i) CHECK(std::abs(world.bodies()[i].velocity.x()) < 1e-9);
       CHECK(energy == Approx(1.0).epsilon(1e-9));
     } else {
-      CHECK(world.bodies()[3].velocity.x() > 0.1);  // one law for all contacts at once can't tell the last ball from the others
+      // one law for all contacts at once can't tell the last ball from the others
+      CHECK(world.bodies()[3].velocity.x() > 0.1);
     }
   }
 }
@@ -289,7 +297,8 @@ TEST_CASE("without gravity and friction impulses never raise the energy; springs
       world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 20000;
       for (int i = 0; i < 12; ++i) {
         const double a = 2.399963 * i, r = 0.25 * std::sqrt(i + 0.5);  // a sunflower of balls, falling together
-        BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.09 + 0.004 * (i % 3)}, {r * std::cos(a), 0.02 * (i % 5), r * std::sin(a)});
+        BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.09 + 0.004 * (i % 3)},
+                                            {r * std::cos(a), 0.02 * (i % 5), r * std::sin(a)});
         ball.velocity = -1.5 * ball.position;
         world.add_body(ball);
       }

@@ -13,7 +13,8 @@ namespace {
 /// What matters of a resting scene at its end, for messages.
 double fastest(const World& world) {
   double speed = 0.0;
-  for (const RigidBody& b : world.bodies()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+  for (const RigidBody& b : world.bodies())
+    speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
   return speed;
 }
 
@@ -40,7 +41,8 @@ TEST_CASE("a box rests on a floor for 10 s") {
   CHECK(std::abs(world.bodies()[1].pose.position.y() - 0.5) < 1e-6);
   // total impulse of a sub-step carries the weight (AT-16)
   double sum = 0.0;
-  for (const ContactRecord& c : world.record().contacts) sum += c.lambda.x() * c.normal.y() * (c.body_a == 1 ? 1.0 : -1.0);
+  for (const ContactRecord& c : world.record().contacts)
+    sum += c.lambda.x() * c.normal.y() * (c.body_a == 1 ? 1.0 : -1.0);
   const double weight = world.bodies()[1].mass * 9.81 * world.parameters.simulation.time_step();
   CHECK(std::abs(sum) == Approx(weight).epsilon(1e-6));
 }
@@ -54,7 +56,8 @@ TEST_CASE("a stack of ten boxes stands for 10 s") {
   const RigidBody& top = world.bodies().back();
   const Vec3 drift = top.pose.position - Vec3(0, 9.5, 0);
   CAPTURE(drift.transpose(), fastest(world), world.record().stats.residual, world.record().stats.max_penetration);
-  WARN("top drift " << drift.norm() << " m, tilt " << tilt_degrees(top) << " deg, residual " << world.record().stats.residual << " m/s");
+  WARN("top drift " << drift.norm() << " m, tilt " << tilt_degrees(top) << " deg, residual "
+                    << world.record().stats.residual << " m/s");
   CHECK(drift.norm() < 1e-3);
   CHECK(tilt_degrees(top) < 0.1);
   CHECK(world.record().stats.max_penetration < 1e-5);
@@ -80,7 +83,8 @@ TEST_CASE("intersection contacts chatter by about g h², proximity contacts do n
     range[proximity] = high - low;
   }
   const double g_h2 = 9.81 / 3600.0;
-  WARN("height range at rest: intersection " << range[0] << " m (g h² = " << g_h2 << "), proximity " << range[1] << " m");
+  WARN("height range at rest: intersection " << range[0] << " m (g h² = " << g_h2 << "), proximity " << range[1]
+                                             << " m");
   CHECK(range[0] < 2.0 * g_h2);
   CHECK(range[1] < 1e-9);
 }
@@ -107,7 +111,8 @@ TEST_CASE("a sleeper wakes when it is hit, when its support moves and when a par
   add_stack(world, 2, 0.5);
   BodyDescription lift = dynamic_body("lift", Box{Vec3(0.5, 0.1, 0.5)}, Vec3::Zero());
   lift.kind = BodyKind::scripted;
-  lift.motion = {{0.0, Vec3(3, 0.1, 0), Vec3::Zero()}, {3.0, Vec3(3, 0.1, 0), Vec3::Zero()}, {4.0, Vec3(3, 1.1, 0), Vec3::Zero()}};
+  lift.motion = {
+      {0.0, Vec3(3, 0.1, 0), Vec3::Zero()}, {3.0, Vec3(3, 0.1, 0), Vec3::Zero()}, {4.0, Vec3(3, 1.1, 0), Vec3::Zero()}};
   world.add_body(lift);
   world.add_body(cube("rider", 0.4, Vec3(3, 0.4, 0)));
   BodyDescription shot = dynamic_body("shot", Sphere{0.1}, Vec3(-40.0, 0.6, 0));
@@ -151,8 +156,10 @@ TEST_CASE("a block on an incline sticks below the friction angle and slides abov
     if (mu > std::tan(angle)) {
       CHECK(moved.norm() < 1e-6);
     } else {
-      const double a = g * (std::sin(angle) - mu * std::cos(angle)), t = frames / 60.0, h = world.parameters.simulation.time_step();
-      CHECK(moved.dot(down) == Approx(0.5 * a * t * (t + h)).epsilon(1e-3));  // discrete sum of the constant acceleration
+      const double a = g * (std::sin(angle) - mu * std::cos(angle)), t = frames / 60.0,
+                   h = world.parameters.simulation.time_step();
+      // discrete sum of the constant acceleration
+      CHECK(moved.dot(down) == Approx(0.5 * a * t * (t + h)).epsilon(1e-3));
       CHECK(world.bodies()[1].velocity.dot(down) == Approx(a * t).epsilon(1e-3));
       CHECK(std::abs(moved.dot(normal)) < 1e-6);
     }
@@ -265,7 +272,9 @@ TEST_CASE("a stack of mesh boxes stands on a mesh floor") {
   BodyDescription floor = dynamic_body("floor", make_box_mesh(Vec3(2, 0.5, 2)), Vec3(0, -0.5, 0));
   floor.kind = BodyKind::fixed;
   world.add_body(floor);
-  for (int i = 0; i < 5; ++i) world.add_body(dynamic_body("box" + std::to_string(i), make_box_mesh(Vec3::Constant(0.5)), Vec3(0.01 * i, i + 0.5, 0)));
+  for (int i = 0; i < 5; ++i)
+    world.add_body(
+        dynamic_body("box" + std::to_string(i), make_box_mesh(Vec3::Constant(0.5)), Vec3(0.01 * i, i + 0.5, 0)));
   world.start();
   double deepest = 0.0;
   for (int i = 0; i < 300; ++i) {

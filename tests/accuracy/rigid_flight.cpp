@@ -66,13 +66,14 @@ TEST_CASE("AT-20: a body spun about its middle axis flips over and over, momentu
     double lowest = 1.0, worst_energy = 0.0;
     for (int i = 0; i < 1000; ++i) {
       advance_rigid(body, 0.01);
-      worst_energy = std::max(worst_energy, std::abs(0.5 * body.angular_momentum.dot(body.angular_velocity()) - e0) / e0);
+      worst_energy =
+          std::max(worst_energy, std::abs(0.5 * body.angular_momentum.dot(body.angular_velocity()) - e0) / e0);
       lowest = std::min(lowest, body.pose.rotation.col(axis).dot(l0.normalized()));
     }
     CHECK((body.angular_momentum - l0).norm() / l0.norm() < 1e-9);
     CHECK(worst_energy < 1e-3);
-    if (axis == 1) CHECK(lowest < -0.9);       // it has turned over
-    if (axis != 1) CHECK(lowest > 0.999);      // it has not
+    if (axis == 1) CHECK(lowest < -0.9);   // it has turned over
+    if (axis != 1) CHECK(lowest > 0.999);  // it has not
     CHECK((body.pose.rotation * body.pose.rotation.transpose() - Mat3::Identity()).norm() < 1e-13);
   }
 }

@@ -30,7 +30,8 @@ void check_rest(double young, int cells, bool stacked, double seconds, int subst
   for (const RigidBody& body : world.bodies()) weight += body.soft ? kGravity * body.mass : 0.0;
   CHECK(fastest_node(world) < 1e-3);
   CHECK(judge_overlap(world.bodies()).penetration < 1e-4 * 0.2);
-  // what the floor bears: contacts of the plane, mean over a few frames, since a residual of the solver leaves a tremble
+  // what the floor bears: contacts of the plane, mean over a few frames, since a residual of the solver leaves a
+  // tremble
   double force = 0.0;
   const int frames = 20;
   for (int i = 0; i < frames; ++i) {
@@ -156,7 +157,8 @@ TEST_CASE("two bodies joined by an attachment swing as one: total momentum is ke
 
 TEST_CASE("held nodes follow their key frames exactly and pull the body along") {
   World world;
-  BodyDescription bar = soft_box("bar", {0.3, 0.1, 0.1}, {6, 2, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
+  BodyDescription bar =
+      soft_box("bar", {0.3, 0.1, 0.1}, {6, 2, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
   auto soft = std::make_shared<SoftDescription>(*bar.soft);
   NodeRegion left, right;
   left.min = {-0.01, -1, -1}, left.max = {0.001, 1, 1};
@@ -186,7 +188,8 @@ TEST_CASE("held nodes follow their key frames exactly and pull the body along") 
 
 TEST_CASE("a parameter moves held nodes evenly over a frame; materials change between frames") {
   World world;
-  BodyDescription bar = soft_box("bar", {0.3, 0.1, 0.1}, {3, 1, 1}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
+  BodyDescription bar =
+      soft_box("bar", {0.3, 0.1, 0.1}, {3, 1, 1}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
   auto soft = std::make_shared<SoftDescription>(*bar.soft);
   NodeRegion left;
   left.min = {-0.01, -1, -1}, left.max = {0.001, 1, 1};
@@ -248,7 +251,8 @@ TEST_CASE("a deformable body that touches itself stays out of itself") {
       v = {r * std::sin(angle), -r * std::cos(angle), v.z()};
     }
     World world;
-    BodyDescription d = soft_box("ring", {0.3, 0.02, 0.05}, {24, 2, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
+    BodyDescription d =
+        soft_box("ring", {0.3, 0.02, 0.05}, {24, 2, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
     auto soft = std::make_shared<SoftDescription>(*d.soft);
     soft->mesh = block;
     TriangleMesh skin = boundary_surface(block);

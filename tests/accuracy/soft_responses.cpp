@@ -1,4 +1,5 @@
-// Iterative constraint anticipation in whole simulations: stacked deformable cubes rest as they do with the exact response.
+// Iterative constraint anticipation in whole simulations: stacked deformable cubes rest as they do with the exact
+// response.
 #include <catch2/catch.hpp>
 
 #include "engine/world/judge.hpp"

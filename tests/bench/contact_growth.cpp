@@ -1,7 +1,7 @@
-// Fig. 6.5 beyond the seed: one step of the seed's dragon scene as the contacts grow, a soft dragon (1e4 Pa) sinking onto the rest.
-// Constraint anticipation by the seed's dense A⁻¹, by half solves with Gauss-Seidel, and by half solves with the default solver,
-// against iterative anticipation; all at the same tolerance, judged by the same ruler. A⁻¹ written out takes minutes: `dense` asks for it.
-// usage: bench_contact_growth [frames = 26] [dense]
+// Fig. 6.5 beyond the seed: one step of the seed's dragon scene as the contacts grow, a soft dragon (1e4 Pa) sinking
+// onto the rest. Constraint anticipation by the seed's dense A⁻¹, by half solves with Gauss-Seidel, and by half solves
+// with the default solver, against iterative anticipation; all at the same tolerance, judged by the same ruler. A⁻¹
+// written out takes minutes: `dense` asks for it. usage: bench_contact_growth [frames = 26] [dense]
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -18,14 +18,17 @@ namespace {
 
 constexpr double kTolerance = 1e-6;
 
-void print(const char* label, const FrozenRuler& ruler, const FrozenStep& step, const char* response, const char* solver, double megabytes) {
+void print(const char* label, const FrozenRuler& ruler, const FrozenStep& step, const char* response,
+           const char* solver, double megabytes) {
   ResponseSettings settings = step.settings;
   settings.lcp = {kTolerance, 2000};
   settings.max_outer_iterations = 2000;
-  const FrozenOutcome o = solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(), settings);
+  const FrozenOutcome o = solve_frozen(step, *find_entry(responses(), response)->make(),
+                                       *find_entry(lcp_solvers(), solver)->make(), settings);
   const FrozenVerdict v = ruler.judge(o.answers);
-  std::printf("  %-34s %9.1f ms  residual %.1e  distance %.1e  %6d sweeps or Newton steps %5d outer  %7.1f MB  %s\n", label, o.ms, v.residual, v.distance,
-              o.iterations, o.outer_iterations, megabytes, o.converged ? "" : o.stop.c_str());
+  std::printf("  %-34s %9.1f ms  residual %.1e  distance %.1e  %6d sweeps or Newton steps %5d outer  %7.1f MB  %s\n",
+              label, o.ms, v.residual, v.distance, o.iterations, o.outer_iterations, megabytes,
+              o.converged ? "" : o.stop.c_str());
   std::fflush(stdout);
 }
 
@@ -49,7 +52,8 @@ int main(int argc, char** argv) {
     for (const FrozenGroup& g : step.groups)
       for (const BlockMatrix& a : g.matrices) unknowns += a.rows(), blocks += static_cast<double>(a.values.size());
     const double rows = 3.0 * static_cast<double>(seen), w = rows * rows * 8e-6;
-    std::printf("frame %d: %zu contacts, %.0f unknowns; A %.1f MB, W %.1f MB\n", frame, seen, unknowns, blocks * 72e-6, w);
+    std::printf("frame %d: %zu contacts, %.0f unknowns; A %.1f MB, W %.1f MB\n", frame, seen, unknowns, blocks * 72e-6,
+                w);
     print("CA, Gauss-Seidel", ruler, step, "constraint_anticipation", "projected_gauss_seidel", w);
     print("CA, automatic", ruler, step, "constraint_anticipation", "automatic", w);
     print("CA, semismooth Newton", ruler, step, "constraint_anticipation", "semismooth_newton", 2.0 * w);
@@ -63,5 +67,6 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   for (const FrozenGroup& g : largest.groups) w_by_dense_inverse(g);
   const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  std::printf("frame %d: W by the seed's dense A⁻¹ %.0f ms, %.0f MB, before any solving\n", largest.frame, ms, megabytes);
+  std::printf("frame %d: W by the seed's dense A⁻¹ %.0f ms, %.0f MB, before any solving\n", largest.frame, ms,
+              megabytes);
 }

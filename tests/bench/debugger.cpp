@@ -1,5 +1,6 @@
-// The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a frame of it costs, from the
-// mouse's move to the pixels, and what of that is the scene and what the panels. Everything is drawn by the processor.
+// The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a frame of it
+// costs, from the mouse's move to the pixels, and what of that is the scene and what the panels. Everything is drawn by
+// the processor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int kWidth = 1280, kHeight = 720, kFrames = 60;
 
-double now_ms() { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 double median(std::vector<double> times) {
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
@@ -26,10 +29,15 @@ double median(std::vector<double> times) {
 
 /// Dragons of 4,998 triangles, fallen on a floor.
 std::string scene_of(int dragons) {
-  std::string text = "[scene]\nallow_outside_files = true\n[contact]\nfriction = 0.4\n[[body]]\nname = \"floor\"\nkind = \"static\"\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n";
+  std::string text =
+      "[scene]\nallow_outside_files = true\n[contact]\nfriction = 0.4\n[[body]]\nname = \"floor\"\nkind = "
+      "\"static\"\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n";
   for (int k = 0; k < dragons; ++k)
-    text += fmt::format("[[body]]\nname = \"dragon_{}\"\nkind = \"dynamic\"\nsurface = \"{}\"\nmaterial = {{ density = 900 }}\nposition = [{}, 0.06, {}]\nrotation = [0, {}, 0]\n", k,
-                        (fs::path(IMPINGE_SOURCE_DIR) / "scenes/meshes/dragon/dragon_5k.off").string(), 0.2 * (k % 4), 0.2 * (k / 4), 40 * k);
+    text += fmt::format(
+        "[[body]]\nname = \"dragon_{}\"\nkind = \"dynamic\"\nsurface = \"{}\"\nmaterial = {{ density = 900 "
+        "}}\nposition = [{}, 0.06, {}]\nrotation = [0, {}, 0]\n",
+        k, (fs::path(IMPINGE_SOURCE_DIR) / "scenes/meshes/dragon/dragon_5k.off").string(), 0.2 * (k % 4), 0.2 * (k / 4),
+        40 * k);
   return text;
 }
 
@@ -68,8 +76,9 @@ void measure(int dragons) {
   for (const BodyRecord& body : debugger.model().record->bodies)
     if (const auto* mesh = std::get_if<MeshPointer>(body.shape)) triangles += (*mesh)->mesh.triangles.size();
   const double whole = median(orbit);
-  fmt::print("{:>9} | {:>8} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f}\n", triangles, debugger.model().record->contacts.size(), whole, whole - median(panels) - median(read), median(panels), median(read),
-             1e3 / whole);
+  fmt::print("{:>9} | {:>8} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f}\n", triangles,
+             debugger.model().record->contacts.size(), whole, whole - median(panels) - median(read), median(panels),
+             median(read), 1e3 / whole);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// The hardest frame (most contacts) of the seed's dragon scene, as it is and with a dragon of 1e4, 1e5, 1e6 Pa: constraint anticipation (CA),
-// its iterative form (ICA) and a monolithic KKT system without friction; natural maps with friction; W by several routes.
-// Distances are of Δv in A's norm, relative to CA's. usage: bench_frozen_methods [frames = 30] [E…]
+// The hardest frame (most contacts) of the seed's dragon scene, as it is and with a dragon of 1e4, 1e5, 1e6 Pa:
+// constraint anticipation (CA), its iterative form (ICA) and a monolithic KKT system without friction; natural maps
+// with friction; W by several routes. Distances are of Δv in A's norm, relative to CA's. usage: bench_frozen_methods
+// [frames = 30] [E…]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,15 +26,16 @@ double difference(const FrozenStep& step, const std::vector<GroupAnswer>& x, con
 
 void print(const char* label, const FrozenRuler& ruler, const FrozenOutcome& o) {
   const FrozenVerdict v = ruler.judge(o.answers);
-  std::printf("  %-44s %7d sweeps %6d outer %9.1f ms  residual %.1e  natural map %.1e  distance %.1e  %s\n", label, o.iterations, o.outer_iterations, o.ms, v.residual,
-              v.natural_map_relative, v.distance, o.stop.c_str());
+  std::printf("  %-44s %7d sweeps %6d outer %9.1f ms  residual %.1e  natural map %.1e  distance %.1e  %s\n", label,
+              o.iterations, o.outer_iterations, o.ms, v.residual, v.natural_map_relative, v.distance, o.stop.c_str());
   std::fflush(stdout);
 }
 
 void iterative(const FrozenStep& step, const FrozenRuler& ruler) {
   for (const int digits : {8, 9, 10, 11}) {
     const std::string label = "ICA 1e-" + std::to_string(digits);
-    print(label.c_str(), ruler, solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", std::pow(10.0, -digits)));
+    print(label.c_str(), ruler,
+          solved(step, "iterative_constraint_anticipation", "projected_gauss_seidel", std::pow(10.0, -digits)));
   }
 }
 
@@ -48,8 +50,10 @@ void routes(const FrozenStep& step) {
     eigen = std::max(eigen, (w_assembled(group, "simplicial_llt") - w).norm() / size);
     dense = std::max(dense, (w_by_dense_inverse(group) - w).norm() / size);
   }
-  std::printf("  W: whole solves symmetric to %.1e (half solves are by construction); away from half solves: those of Eigen's factorization %.1e, ",
-              symmetric, eigen);
+  std::printf(
+      "  W: whole solves symmetric to %.1e (half solves are by construction); away from half solves: those of Eigen's "
+      "factorization %.1e, ",
+      symmetric, eigen);
   std::printf("whole solves %.1e, dense inverse %.1e\n", whole, dense);
 }
 
@@ -63,13 +67,15 @@ int main(int argc, char** argv) {
     std::vector<std::string> overrides;
     if (!young.empty()) overrides.push_back("body.dragon.material.young=" + young);
     const FrozenStep step = hardest_frame(overrides, frames);
-    std::printf("dragon E %s: frame %d, %zu contacts, %zu groups\n", young.empty() ? "as is" : young.c_str(), step.frame, step.contacts(), step.groups.size());
+    std::printf("dragon E %s: frame %d, %zu contacts, %zu groups\n", young.empty() ? "as is" : young.c_str(),
+                step.frame, step.contacts(), step.groups.size());
     routes(step);
     const FrozenStep smooth = without_friction(step);
     const FrozenRuler smooth_ruler(smooth), ruler(step);
     std::vector<GroupAnswer> kkt;
     for (const FrozenGroup& group : smooth.groups) kkt.push_back(kkt_answer(group));
-    std::printf("  without friction: KKT against CA (%s) %.1e\n", smooth_ruler.exact_method().c_str(), difference(smooth, kkt, smooth_ruler.exact()));
+    std::printf("  without friction: KKT against CA (%s) %.1e\n", smooth_ruler.exact_method().c_str(),
+                difference(smooth, kkt, smooth_ruler.exact()));
     iterative(smooth, smooth_ruler);
     std::printf("  friction 0.3\n");
     for (const char* solver : {"nonsmooth_nonlinear_conjugate_gradient", "semismooth_newton"})

@@ -1,5 +1,5 @@
-// bench_lcp [TOLERANCE [CAP]]: every LCP solver on chains, grids and random problems, and on the published ones where the
-// shared data folder is: iterations, milliseconds, and the residual as the judge finds it.
+// bench_lcp [TOLERANCE [CAP]]: every LCP solver on chains, grids and random problems, and on the published ones where
+// the shared data folder is: iterations, milliseconds, and the residual as the judge finds it.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -27,7 +27,8 @@ void report(const std::string& name, const ConeProblem& problem, Measure measure
     const LcpResult result = solver->solve(problem, settings, lambda);
     const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     const Residual r = judge(problem, lambda);
-    fmt::print("  {:<40}{:>8} iterations{:>11.2f} ms{:>11.2e}  {}\n", e.name, result.iterations, ms, measure == Measure::siconos ? r.siconos : r.map.relative, name_of(result.reason));
+    fmt::print("  {:<40}{:>8} iterations{:>11.2f} ms{:>11.2e}  {}\n", e.name, result.iterations, ms,
+               measure == Measure::siconos ? r.siconos : r.map.relative, name_of(result.reason));
   }
 }
 
@@ -48,9 +49,15 @@ FrictionContactProblem stack(int n, double top_mass) {
     for (int j = 0; j < 4 * n; ++j) {
       Mat3 w = Mat3::Zero();
       for (int body = 0; body < n; ++body) {  // contact i: body i/4 from above (side -1/2), body i/4 - 1 from below
-        const int a = i / 4 == body ? 1 : i / 4 - 1 == body ? -1 : 0, b = j / 4 == body ? 1 : j / 4 - 1 == body ? -1 : 0;
+        const int a = i / 4 == body       ? 1
+                      : i / 4 - 1 == body ? -1
+                                          : 0,
+                  b = j / 4 == body       ? 1
+                      : j / 4 - 1 == body ? -1
+                                          : 0;
         if (a * b == 0) continue;
-        w += a * b * inverse_mass(body) * (Mat3::Identity() + 6.0 * arms(i % 4, -0.5 * a) * arms(j % 4, -0.5 * b).transpose());
+        w += a * b * inverse_mass(body) *
+             (Mat3::Identity() + 6.0 * arms(i % 4, -0.5 * a) * arms(j % 4, -0.5 * b).transpose());
       }
       if (!w.isZero(0.0)) blocks.push_back({i, j, w});
     }
@@ -68,12 +75,18 @@ FrictionContactProblem stack(int n, double top_mass) {
 int main(int count, char** words) {
   const double tolerance = count > 1 ? std::atof(words[1]) : 1e-8;
   const int cap = count > 2 ? std::atoi(words[2]) : 2000;
-  for (const int n : {2, 10, 50}) report(fmt::format("stack of {}", n), stack(n, 1.0).problem, Measure::natural_map, tolerance, cap);
-  for (const double r : {1e2, 1e4}) report(fmt::format("two boxes, the upper {} times as heavy", r), stack(2, r).problem, Measure::natural_map, tolerance, cap);
-  for (const char* name : {"NESpheres_10_1", "Confeti-ex03-Fc3D-SBM", "Rover1039", "Rover9770", "KaplasTower-i1061-4.hdf5", "Capsules-i100-889", "BoxesStack1-i100000-32.hdf5",
-                           "OneObject-i100000-499.hdf5", "RockPile_tob1"}) {
+  for (const int n : {2, 10, 50})
+    report(fmt::format("stack of {}", n), stack(n, 1.0).problem, Measure::natural_map, tolerance, cap);
+  for (const double r : {1e2, 1e4})
+    report(fmt::format("two boxes, the upper {} times as heavy", r), stack(2, r).problem, Measure::natural_map,
+           tolerance, cap);
+  for (const char* name :
+       {"NESpheres_10_1", "Confeti-ex03-Fc3D-SBM", "Rover1039", "Rover9770", "KaplasTower-i1061-4.hdf5",
+        "Capsules-i100-889", "BoxesStack1-i100000-32.hdf5", "OneObject-i100000-499.hdf5", "RockPile_tob1"}) {
     const std::string path = test::shared_file(fmt::format("friction-contact/{}.dat", name));
-    if (path.empty()) fmt::print("{}: skipped, no shared data folder\n", name);
-    else report(name, read_friction_contact(path).problem, Measure::siconos, tolerance, cap);
+    if (path.empty())
+      fmt::print("{}: skipped, no shared data folder\n", name);
+    else
+      report(name, read_friction_contact(path).problem, Measure::siconos, tolerance, cap);
   }
 }

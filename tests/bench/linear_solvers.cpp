@@ -1,7 +1,7 @@
-// Linear solves of deformable bodies by route: analysis, factorization, one right-hand side, and W = J A⁻¹ Jᵀ of contacts
-// on the surface, by whole solves and by half ones. Lattice solids clamped at z = 0, K + m/Δt² (lumped, ν 0.3, ρ 1000,
-// Δt 0.01 s). Prints CSV; processor time of one thread, ms.
-// usage: bench_linear_solvers [largest lattice, cells a side (default 26; from 100 on Eigen's takes part in all)] [smallest]
+// Linear solves of deformable bodies by route: analysis, factorization, one right-hand side, and W = J A⁻¹ Jᵀ of
+// contacts on the surface, by whole solves and by half ones. Lattice solids clamped at z = 0, K + m/Δt² (lumped, ν 0.3,
+// ρ 1000, Δt 0.01 s). Prints CSV; processor time of one thread, ms. usage: bench_linear_solvers [largest lattice, cells
+// a side (default 26; from 100 on Eigen's takes part in all)] [smallest]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

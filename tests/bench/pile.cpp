@@ -1,6 +1,6 @@
-// A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, residual, overlap, and the
-// frame from which on every speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s).
-// usage: bench_pile [boxes = 1000] [frames = 60] [response[:solver] …]
+// A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, residual, overlap,
+// and the frame from which on every speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s). usage: bench_pile
+// [boxes = 1000] [frames = 60] [response[:solver] …]
 #include <cstdio>
 #include <cstdlib>
 
@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
     methods.emplace_back("constraint_anticipation:projected_gauss_seidel");
     methods.emplace_back("constraint_anticipation:accelerated_projected_gradient");
   }
-  std::printf("%d boxes, %d frames\n%-58s %12s %12s %12s %12s %12s %8s\n", boxes, frames, "", "response ms", "of the last", "residual", "overlap m", "speed m/s", "still");
+  std::printf("%d boxes, %d frames\n%-58s %12s %12s %12s %12s %12s %8s\n", boxes, frames, "", "response ms",
+              "of the last", "residual", "overlap m", "speed m/s", "still");
   for (const std::string& method : methods) {
     World world;
     world.parameters.simulation.sleeping = false;
@@ -40,7 +41,8 @@ int main(int argc, char** argv) {
       for (const ContactRecord& c : world.record().contacts) overlap = std::max(overlap, -c.gap);
       still = speed >= 1e-3 ? -1 : still < 0 ? i : still;
     }
-    std::printf("%-58s %12.1f %12.1f %12.1e %12.1e %12.1e %8d\n", method.c_str(), ms / frames, last, world.record().stats.residual, overlap, speed, still);
+    std::printf("%-58s %12.1f %12.1f %12.1e %12.1e %12.1e %8d\n", method.c_str(), ms / frames, last,
+                world.record().stats.residual, overlap, speed, still);
     std::fflush(stdout);
   }
 }

@@ -1,7 +1,7 @@
-// Constraint anticipation against its iterative form: two lattice cubes on a floor (0.2 m, 1000 kg/m³, ν 0.4, h 10 ms, friction
-// 0.5), from about 50 contacts to 1000, at three stiffnesses. All ratios are of one run. Prints CSV; processor time of one thread.
-// error: ‖Δv - Δv of CA at 1e-11‖_A, relative. memory: numbers a method holds beside A, MB (W; or nine vectors and two inverses).
-// usage: bench_responses [most lattice cells a side = 8]
+// Constraint anticipation against its iterative form: two lattice cubes on a floor (0.2 m, 1000 kg/m³, ν 0.4, h 10 ms,
+// friction 0.5), from about 50 contacts to 1000, at three stiffnesses. All ratios are of one run. Prints CSV; processor
+// time of one thread. error: ‖Δv - Δv of CA at 1e-11‖_A, relative. memory: numbers a method holds beside A, MB (W; or
+// nine vectors and two inverses). usage: bench_responses [most lattice cells a side = 8]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -65,11 +65,12 @@ int main(int argc, char** argv) {
         const ResponseResult result = find_entry(responses(), method.response)->make()->solve(group, *lcp, settings);
         const double ms = now_ms() - start;
         if (exact_ms == 0.0) exact_ms = ms;
-        const double numbers = method.label == methods[0].label ? 9.0 * static_cast<double>(group.contacts.size() * group.contacts.size())
-                                                                 : 15.0 * static_cast<double>(unknowns);
-        std::printf("%.0e,%d,%zu,%s,%.2f,%.3f,%d,%d,%d,%.1e,%.1e,%.2f\n", young, static_cast<int>(unknowns / 3), group.contacts.size(), method.label, ms,
-                    ms / exact_ms, result.outer_iterations, result.iterations, result.converged, judge_group(group).residual(),
-                    relative_error(group, truth), 8e-6 * numbers);
+        const double numbers = method.label == methods[0].label
+                                   ? 9.0 * static_cast<double>(group.contacts.size() * group.contacts.size())
+                                   : 15.0 * static_cast<double>(unknowns);
+        std::printf("%.0e,%d,%zu,%s,%.2f,%.3f,%d,%d,%d,%.1e,%.1e,%.2f\n", young, static_cast<int>(unknowns / 3),
+                    group.contacts.size(), method.label, ms, ms / exact_ms, result.outer_iterations, result.iterations,
+                    result.converged, judge_group(group).residual(), relative_error(group, truth), 8e-6 * numbers);
         std::fflush(stdout);
       }
     }

@@ -1,6 +1,7 @@
-// The scenes with deformable bodies by stage: milliseconds a frame, contacts, and the overlap of their surfaces by the judge,
-// which shares nothing with detection. And constraint anticipation against its iterative form over the first frames of
-// dragon_spheres, time against contacts, at equal residual and with the seed's 5 % rule [Haapaoja16 Fig. 6.5].
+// The scenes with deformable bodies by stage: milliseconds a frame, contacts, and the overlap of their surfaces by the
+// judge, which shares nothing with detection. And constraint anticipation against its iterative form over the first
+// frames of dragon_spheres, time against contacts, at equal residual and with the seed's 5 % rule [Haapaoja16 Fig.
+// 6.5].
 //   usage: bench_soft_scenes [FRAMES]
 #include <algorithm>
 #include <cstdio>
@@ -18,7 +19,8 @@ const std::filesystem::path kScenes = std::filesystem::path(IMPINGE_SOURCE_DIR) 
 
 void by_stage(const char* name, int frames, const std::vector<std::string>& overrides) {
   const std::filesystem::path script = kScenes / (std::string(name) + ".script");
-  Session session(kScenes / (std::string(name) + ".toml"), overrides, std::filesystem::exists(script) ? script : std::filesystem::path());
+  Session session(kScenes / (std::string(name) + ".toml"), overrides,
+                  std::filesystem::exists(script) ? script : std::filesystem::path());
   StageTimes sum;
   std::int64_t contacts = 0, most = 0, unconverged = 0;
   double deepest = 0.0, residual = 0.0;
@@ -34,9 +36,10 @@ void by_stage(const char* name, int frames, const std::vector<std::string>& over
     residual = std::max(residual, s.residual);
     if (frame % 5 == 0) deepest = std::max(deepest, judge_overlap(session.world().bodies()).penetration);
   }
-  std::printf("%-17s %6d %7.2f %7.2f %9.2f %9.1f %10.1f %8.1f %8.0f (%ld) %10.1e %10.1e %6ld\n", name, session.record().stats.dofs, sum.broad_ms / n, sum.narrow_ms / n,
-              sum.assemble_ms / n, sum.response_ms / n, sum.integrate_ms / n, sum.step_ms / n, static_cast<double>(contacts) / n, static_cast<long>(most), deepest, residual,
-              static_cast<long>(unconverged));
+  std::printf("%-17s %6d %7.2f %7.2f %9.2f %9.1f %10.1f %8.1f %8.0f (%ld) %10.1e %10.1e %6ld\n", name,
+              session.record().stats.dofs, sum.broad_ms / n, sum.narrow_ms / n, sum.assemble_ms / n,
+              sum.response_ms / n, sum.integrate_ms / n, sum.step_ms / n, static_cast<double>(contacts) / n,
+              static_cast<long>(most), deepest, residual, static_cast<long>(unconverged));
   std::fflush(stdout);
 }
 
@@ -66,15 +69,20 @@ double mean_between(const Course& c, std::int64_t low, std::int64_t high, int& c
 
 int main(int argc, char** argv) {
   const int frames = argc > 1 ? std::atoi(argv[1]) : 120;
-  std::printf("ms a frame           DoF   broad  narrow  assemble  response  integrate     step contacts (most)  overlap[m] residual[m/s] unconverged\n");
+  std::printf(
+      "ms a frame           DoF   broad  narrow  assemble  response  integrate     step contacts (most)  overlap[m] "
+      "residual[m/s] unconverged\n");
   by_stage("dragon_spheres", frames, {});
   by_stage("face_press", frames, {});
   by_stage("dragon_stiffness", frames, {});
   by_stage("muscle", frames, {});
 
-  Course courses[] = {{"CA", {"response.method=constraint_anticipation"}, {}},
-                      {"ICA accelerated", {"response.method=iterative_constraint_anticipation"}, {}},
-                      {"ICA seed, 5 % rule", {"response.method=iterative_constraint_anticipation", "response.form=seed", "response.stop=change"}, {}}};
+  Course courses[] = {
+      {"CA", {"response.method=constraint_anticipation"}, {}},
+      {"ICA accelerated", {"response.method=iterative_constraint_anticipation"}, {}},
+      {"ICA seed, 5 % rule",
+       {"response.method=iterative_constraint_anticipation", "response.form=seed", "response.stop=change"},
+       {}}};
   for (Course& c : courses) {
     Session session(kScenes / "dragon_spheres.toml", c.overrides, {});
     try {
@@ -92,7 +100,8 @@ int main(int argc, char** argv) {
   }
   std::printf("\ndragon_spheres, %d frames: response ms a frame by contacts\n%-20s", frames, "contacts");
   const std::int64_t bins[] = {1, 25, 50, 100, 200, 400, 800, 1600};
-  for (std::size_t i = 0; i + 1 < std::size(bins); ++i) std::printf(" %5ld-%-5ld", static_cast<long>(bins[i]), static_cast<long>(bins[i + 1]));
+  for (std::size_t i = 0; i + 1 < std::size(bins); ++i)
+    std::printf(" %5ld-%-5ld", static_cast<long>(bins[i]), static_cast<long>(bins[i + 1]));
   std::printf("  total s  largest residual  outer iterations\n");
   for (const Course& c : courses) {
     std::printf("%-20s", c.name);

@@ -1,4 +1,5 @@
-// Bad input through the program: exit code 2, exactly one message, located, with what to do about it, and nothing written.
+// Bad input through the program: exit code 2, exactly one message, located, with what to do about it, and nothing
+// written.
 #include <catch2/catch.hpp>
 
 #include <unistd.h>
@@ -68,19 +69,24 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   check_scene(replaced(scene, "substeps = 2", "gravity = [0, inf, 0]"), "2:15", "inf");
   check_scene(replaced(scene, "substeps = 2", "gravity = [0, -9.81]"), "2:11", "[x, y, z]");
   check_scene(replaced(scene, "substeps = 2", "gravity = 9.81"), "2:11", "[x, y, z]");
-  check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[narrow_phase]\nmethod = \"bvh\""), "2:10", "not part of this version");
-  check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[response]\nmethod = \"constraint_anticipatoin\""), "2:10", "did you mean 'constraint_anticipation'?");
+  check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[narrow_phase]\nmethod = \"bvh\""), "2:10",
+              "not part of this version");
+  check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[response]\nmethod = \"constraint_anticipatoin\""), "2:10",
+              "did you mean 'constraint_anticipation'?");
   check_scene(replaced(scene, "position = [0, 2, 0]", "positon = [0, 2, 0]"), "11:1", "did you mean 'position'?");
   check_scene(replaced(scene, "position = [0, 2, 0]", "mass = -1"), "11:8", "greater than 0");
   check_scene(replaced(scene, "position = [0, 2, 0]", "mass = 0"), "11:8", "greater than 0");
   check_scene(replaced(scene, "position = [0, 2, 0]", "mass = nan"), "11:8", "greater than 0");
   check_scene(replaced(scene, "position = [0, 2, 0]", "scale = -2"), "11:9", "greater than 0");
-  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { density = 1e999 }"), "11:24", "greater than 0 and at most");
-  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { young = 1e5 }"), "11:14", "belongs to deformable bodies");
+  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { density = 1e999 }"), "11:24",
+              "greater than 0 and at most");
+  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { young = 1e5 }"), "11:14",
+              "belongs to deformable bodies");
   check_scene(replaced(scene, "position = [0, 2, 0]", "friction = -0.5"), "11:12", "[0, 100]");
   check_scene(replaced(scene, "position = [0, 2, 0]", "motion = [ { time = 0 } ]"), "11:1", "scripted bodies have one");
   check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"scripted\""), "7:1", "has no motion");
-  check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"scripted\"\nmotion = [ { time = 1 }, { time = 1 } ]"), "10:35", "times must increase");
+  check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"scripted\"\nmotion = [ { time = 1 }, { time = 1 } ]"),
+              "10:35", "times must increase");
   check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"dynamik\""), "9:8", "did you mean 'dynamic'?");
   check_scene(replaced(scene, "kind = \"dynamic\"", "kind = \"deformable\""), "7:1", "has no volume");
   check_scene(replaced(scene, "kind = \"static\"", "kind = \"dynamic\""), "6:9", "a plane is static or scripted");
@@ -153,7 +159,9 @@ TEST_CASE("files that are not there, not files or out of bounds are refused") {
 TEST_CASE("overrides are checked like the scene, and the message names them") {
   const TempFolder folder;
   folder.write("s.toml", kScene);
-  const auto refused = [&](const std::string& text, const std::string& contains) { check_refused(folder, run_with({"--set", text}), "--set " + text + ": ", contains); };
+  const auto refused = [&](const std::string& text, const std::string& contains) {
+    check_refused(folder, run_with({"--set", text}), "--set " + text + ": ", contains);
+  };
   refused("simulation.gravitty=[0,0,0]", "did you mean 'simulation.gravity'?");
   refused("simulation.gravity=[0,0]", "[x, y, z]");
   refused("simulation.gravity=down", "[x, y, z]");
@@ -203,15 +211,20 @@ TEST_CASE("folders that can't be written to, or hold something else, are left al
   const TempFolder folder;
   folder.write("s.toml", kScene);
   folder.write("taken/notes.txt", "mine");
-  check_refused(folder, {"run", "s.toml", "--out", "taken", "--frames", "1", "--no-images"}, "taken: ", "holds notes.txt");
+  check_refused(folder, {"run", "s.toml", "--out", "taken", "--frames", "1", "--no-images"},
+                "taken: ", "holds notes.txt");
   folder.write("file", "mine");
-  check_refused(folder, {"run", "s.toml", "--out", "file", "--frames", "1", "--no-images"}, "file: ", "a folder is wanted");
-  check_refused(folder, {"run", "s.toml", "--out", "file/out", "--frames", "1", "--no-images"}, "file/out: ", "can't be made");
-  check_refused(folder, {"run", "s.toml", "--out", "/proc/impinge", "--frames", "1", "--no-images"}, "/proc/impinge: ", "can't be made");
+  check_refused(folder, {"run", "s.toml", "--out", "file", "--frames", "1", "--no-images"},
+                "file: ", "a folder is wanted");
+  check_refused(folder, {"run", "s.toml", "--out", "file/out", "--frames", "1", "--no-images"},
+                "file/out: ", "can't be made");
+  check_refused(folder, {"run", "s.toml", "--out", "/proc/impinge", "--frames", "1", "--no-images"},
+                "/proc/impinge: ", "can't be made");
   if (geteuid() != 0) {  // root may write everywhere
     fs::create_directory(folder / "locked");
     fs::permissions(folder / "locked", fs::perms::owner_read | fs::perms::owner_exec);
-    check_refused(folder, {"run", "s.toml", "--out", "locked", "--frames", "1", "--no-images"}, "locked/run.toml: ", "can't be written");
+    check_refused(folder, {"run", "s.toml", "--out", "locked", "--frames", "1", "--no-images"},
+                  "locked/run.toml: ", "can't be written");
     fs::permissions(folder / "locked", fs::perms::owner_all);
   }
 }
@@ -219,7 +232,9 @@ TEST_CASE("folders that can't be written to, or hold something else, are left al
 TEST_CASE("the command line names what is wrong with it") {
   const TempFolder folder;
   folder.write("s.toml", kScene);
-  const auto refused = [&](const std::vector<std::string>& words, const std::string& contains) { check_refused(folder, words, "command line: ", contains); };
+  const auto refused = [&](const std::vector<std::string>& words, const std::string& contains) {
+    check_refused(folder, words, "command line: ", contains);
+  };
   refused({"rum", "s.toml"}, "did you mean 'run'?");
   refused({"verify"}, "not part of this version");
   refused({"debug", "s.toml", "--vnc", "5900"}, "not part of this version");

@@ -39,11 +39,10 @@ struct Runs {
   Runs() { folder.write("s.toml", kScene); }
   void run(const std::string& out, const std::string& script = "", const std::vector<std::string>& more = {}) const {
     folder.write("now.script", script);
-    REQUIRE(told(folder, {"run", "s.toml", "--script", "now.script", "--out", out, "--frames", "25", "--quiet"}, more).code == 0);
+    REQUIRE(told(folder, {"run", "s.toml", "--script", "now.script", "--out", out, "--frames", "25", "--quiet"}, more)
+                .code == 0);
   }
-  Outcome compare(const std::vector<std::string>& words) const {
-    return told(folder, {"compare"}, words);
-  }
+  Outcome compare(const std::vector<std::string>& words) const { return told(folder, {"compare"}, words); }
 };
 
 const std::vector<std::string> kNoImages = {"--no-images"};
@@ -68,7 +67,8 @@ TEST_CASE("the first frame, the body and the field that differ are those that we
     runs.run(b, fmt::format("at {} set body.right.angular_velocity 0 0.5 0\n", frame), kNoImages);
     const Outcome outcome = runs.compare({"a", b});
     CHECK(outcome.code == 1);
-    CHECK(holds(outcome.out, fmt::format("script: at {} set body.right.angular_velocity 0 0.5 0: (none) in A, there in B", frame)));
+    CHECK(holds(outcome.out,
+                fmt::format("script: at {} set body.right.angular_velocity 0 0.5 0: (none) in A, there in B", frame)));
     CHECK(holds(outcome.out, fmt::format("the first that differs is frame {} of 26", frame)));
     CHECK(holds(outcome.out, "body:   right: rotation by "));
     CHECK(holds(outcome.out, ", angular velocity by 0.5 rad/s"));
@@ -113,7 +113,9 @@ TEST_CASE("what was set differently comes first; a distance that a formula gives
 TEST_CASE("the sheet shows A, B and what differs; bodies of one run alone are named") {
   const Runs runs;
   runs.run("a", "", {"--size", "320x180"});
-  runs.folder.write("s.toml", std::string(kScene) + "[[body]]\nname = \"extra\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 0.3 } }\nposition = [0, 1, 1]\n");
+  runs.folder.write("s.toml", std::string(kScene) +
+                                  "[[body]]\nname = \"extra\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 0.3 } "
+                                  "}\nposition = [0, 1, 1]\n");
   runs.run("b", "", {"--size", "320x180"});
   const Outcome outcome = runs.compare({"a", "b", "--out", "cmp"});
   CHECK(outcome.code == 1);

@@ -1,6 +1,6 @@
 // The debugger without a screen: what a script does, it does every time, and so does what it recorded.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <map>
 #include <sstream>
@@ -130,11 +130,15 @@ TEST_CASE("a slider moved at frame 30, then back by 20 and on again, ends where 
   struct Case {
     const char *name, *scene, *path, *value;
   };
-  const Case c = GENERATE(Case{"rigid", kRigid, "contact.friction", "0.05"}, Case{"soft", kSoft, "body.beam.material.young", "4e5"});
+  const Case c = GENERATE(Case{"rigid", kRigid, "contact.friction", "0.05"},
+                          Case{"soft", kSoft, "body.beam.material.young", "4e5"});
   CAPTURE(c.name);
   const TempFolder folder;
   folder.write("s.toml", c.scene);
-  folder.write("a.script", fmt::format("step 30\nui drag parameters/{} {}\nstep 30\nback 20\nui key space\nui wait 40\nui key space\n", c.path, c.value));
+  folder.write(
+      "a.script",
+      fmt::format("step 30\nui drag parameters/{} {}\nstep 30\nback 20\nui key space\nui wait 40\nui key space\n",
+                  c.path, c.value));
   const Outcome by_hand = debug(folder, "s.toml", "a.script", {"--record", "r.script"});
   INFO(by_hand.err);
   REQUIRE(by_hand.code == 0);
@@ -142,7 +146,8 @@ TEST_CASE("a slider moved at frame 30, then back by 20 and on again, ends where 
   const auto set = lines_with(slurp(folder / "r.script"), std::string("set ") + c.path);
   REQUIRE(set.size() == 1);
   folder.write("run.script", fmt::format("at 31 {}\n", set[0]));
-  const Outcome run = impinge_run(folder.path(), {"run", "s.toml", "--script", "run.script", "--out", "out", "--frames", "100", "--no-images"});
+  const Outcome run = impinge_run(
+      folder.path(), {"run", "s.toml", "--script", "run.script", "--out", "out", "--frames", "100", "--no-images"});
   INFO(run.err);
   REQUIRE(run.code == 0);
   const auto [frame, hash] = end_of(by_hand);
@@ -150,7 +155,8 @@ TEST_CASE("a slider moved at frame 30, then back by 20 and on again, ends where 
   CHECK(frame >= 80);
   CHECK(hash == hash_in(folder / "out/stats.csv", frame));
   // the slider did something
-  const Outcome plain = impinge_run(folder.path(), {"run", "s.toml", "--out", "plain", "--frames", "100", "--no-images"});
+  const Outcome plain =
+      impinge_run(folder.path(), {"run", "s.toml", "--out", "plain", "--frames", "100", "--no-images"});
   REQUIRE(plain.code == 0);
   CHECK(hash != hash_in(folder / "plain/stats.csv", frame));
   CHECK(hash_in(folder / "out/stats.csv", 30) == hash_in(folder / "plain/stats.csv", 30));
@@ -165,7 +171,9 @@ TEST_CASE("a change in the past makes another future") {
   REQUIRE(outcome.code == 0);
   CHECK(outcome.err.empty());
   folder.write("run.script", "at 21 set simulation.gravity 0 -5 0\n");
-  REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--script", "run.script", "--out", "out", "--frames", "41", "--no-images"}).code == 0);
+  REQUIRE(impinge_run(folder.path(),
+                      {"run", "s.toml", "--script", "run.script", "--out", "out", "--frames", "41", "--no-images"})
+              .code == 0);
   CHECK(end_of(outcome) == std::pair(40, hash_in(folder / "out/stats.csv", 40)));
 }
 
@@ -227,10 +235,12 @@ TEST_CASE("what is wrong is one message that says where, what is allowed and wha
     std::vector<std::string> more = {};
   };
   const std::vector<Case> cases = {
-      {"step\nui click transport/plai\n", {"a.script:2:1: no widget 'transport/plai'; ", "did you mean 'transport/play'?"}},
+      {"step\nui click transport/plai\n",
+       {"a.script:2:1: no widget 'transport/plai'; ", "did you mean 'transport/play'?"}},
       {"ui drag parameters/contact.frictoin 1\n", {"a.script:1:1: ", "did you mean 'parameters/contact.friction'?"}},
       {"ui drag layers/meshes 1\n", {"a.script:1:1: 'layers/meshes' is no slider; "}},
-      {"ui drag parameters/contact.friction -3\n", {"a.script:1:1: -3 on the slider 'parameters/contact.friction'; it goes from 0 to "}},
+      {"ui drag parameters/contact.friction -3\n",
+       {"a.script:1:1: -3 on the slider 'parameters/contact.friction'; it goes from 0 to "}},
       {"\n  stepp 3\n", {"a.script:2:3: unknown command 'stepp'; allowed: set, ", "did you mean 'step'?"}},
       {"seek -1\n", {"a.script:1:6: ", "-1", "change it"}},
       {"seek 3.5\n", {"a.script:1:6: "}},
@@ -242,7 +252,8 @@ TEST_CASE("what is wrong is one message that says where, what is allowed and wha
       {"panel scroll nowhere 3\n", {"a.script:1:14: unknown panel 'nowhere'; allowed: "}},
       {"ui key f12\n", {"a.script:1:8: unknown key 'f12'; allowed: tab, "}},
       {"ui press top\n", {"a.script:1:10: unknown button 'top'; "}},
-      {"set contact.frictoin 1\n", {"a.script:1:5: unknown parameter 'contact.frictoin'; ", "did you mean 'contact.friction'?"}},
+      {"set contact.frictoin 1\n",
+       {"a.script:1:5: unknown parameter 'contact.frictoin'; ", "did you mean 'contact.friction'?"}},
       {"shot a.jpg\n", {"a.script:1:6: 'a.jpg'; a file name that ends in .png is wanted; "}},
       {"shot file/a.png\n", {"a.script:1:1: ", "file/a.png can't be written; "}},
       {"step\n", {"--size is 640x480; the panels want 800x500 at least", "choose a larger one"}, {"--size", "640x480"}},
@@ -269,8 +280,11 @@ TEST_CASE("what is wrong is one message that says where, what is allowed and wha
 
 TEST_CASE("a scene that diverges says so and can be gone on with from the last good frame") {
   const TempFolder folder;
-  folder.write("s.toml", "[simulation]\ngravity = [0, 1e4, 0]\nframe_time = 10\n[[body]]\nname = \"rocket\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 1 } }\n");
-  const Outcome run = impinge_run(folder.path(), {"run", "s.toml", "--out", "out", "--frames", "100000", "--no-images"});
+  folder.write("s.toml",
+               "[simulation]\ngravity = [0, 1e4, 0]\nframe_time = 10\n[[body]]\nname = \"rocket\"\nkind = "
+               "\"dynamic\"\nshape = { sphere = { radius = 1 } }\n");
+  const Outcome run =
+      impinge_run(folder.path(), {"run", "s.toml", "--out", "out", "--frames", "100000", "--no-images"});
   REQUIRE(run.code == 3);
   const std::string table = slurp(folder / "out/stats.csv");
   const auto last = static_cast<int>(std::count(table.begin(), table.end(), '\n')) - 2;
@@ -301,7 +315,8 @@ TEST_CASE("a break pauses play") {
   CHECK(outcome.code == 0);
   CHECK(outcome.err.find("stopped by break when contacts > 0") != std::string::npos);
   folder.write("run.script", "break when contacts > 0\n");
-  impinge_run(folder.path(), {"run", "s.toml", "--script", "run.script", "--out", "out", "--frames", "100", "--no-images"});
+  impinge_run(folder.path(),
+              {"run", "s.toml", "--script", "run.script", "--out", "out", "--frames", "100", "--no-images"});
   const auto [frame, hash] = end_of(outcome);
   CHECK(frame < 100);
   CHECK(hash == hash_in(folder / "out/stats.csv", frame));

@@ -31,13 +31,11 @@ struct Runs {
   TempFolder folder;
   Runs() { folder.write("s.toml", kScene); }
   void run(const std::string& out, const std::vector<std::string>& more = {}) const {
-    REQUIRE(told(folder, {"run", "s.toml", "--out", out, "--frames", "6", "--size", "320x180", "--quiet"}, more).code == 0);
+    REQUIRE(told(folder, {"run", "s.toml", "--out", out, "--frames", "6", "--size", "320x180", "--quiet"}, more).code ==
+            0);
   }
-  Outcome diff(const std::vector<std::string>& words) const {
-    return told(folder, {"diff"}, words);
-  }
+  Outcome diff(const std::vector<std::string>& words) const { return told(folder, {"diff"}, words); }
 };
-
 
 /// An environment variable for the life of a scope; the programs started meanwhile see it.
 struct Setting {
@@ -83,14 +81,17 @@ TEST_CASE("an interrupted run with ids goes on with ids") {
   fs::remove(runs.folder / "parts/ids/000005.png");  // as if killed while it was written
   runs.run("parts", {"--ids", "--resume"});
   for (int frame = 0; frame <= 6; ++frame)
-    CHECK(slurp(runs.folder / fmt::format("parts/ids/{:06}.png", frame)) == slurp(runs.folder / fmt::format("whole/ids/{:06}.png", frame)));
+    CHECK(slurp(runs.folder / fmt::format("parts/ids/{:06}.png", frame)) ==
+          slurp(runs.folder / fmt::format("whole/ids/{:06}.png", frame)));
 }
 
 TEST_CASE("another vector width or instruction set of the rasteriser is no difference") {
   const Runs runs;
   runs.run("here");
   std::string other;
-  for (const auto& [name, value] : {std::pair{"GALLIUM_OVERRIDE_CPU_CAPS", "sse2"}, {"LP_NATIVE_VECTOR_WIDTH", "128"}, {"GALLIUM_OVERRIDE_CPU_CAPS", "nosse"}}) {
+  for (const auto& [name, value] : {std::pair{"GALLIUM_OVERRIDE_CPU_CAPS", "sse2"},
+                                    {"LP_NATIVE_VECTOR_WIDTH", "128"},
+                                    {"GALLIUM_OVERRIDE_CPU_CAPS", "nosse"}}) {
     const Setting setting(name, value);
     const std::string out = std::string("there_") + value;
     runs.run(out);
@@ -126,7 +127,9 @@ TEST_CASE("the report stands alone and shows each picture that differs, the wors
   // used in a real browser
   const fs::path tools = fs::path(IMPINGE_SOURCE_DIR) / "tests/tools";
   const TempFolder said;
-  const int status = std::system(fmt::format("python3 {}/diff_in_browser.py {} > {} 2>&1", tools.string(), (runs.folder / "shown/report.html").string(), (said / "out").string()).c_str());
+  const int status = std::system(fmt::format("python3 {}/diff_in_browser.py {} > {} 2>&1", tools.string(),
+                                             (runs.folder / "shown/report.html").string(), (said / "out").string())
+                                     .c_str());
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   if (code == 77 || code == 127) {
     WARN("not opened: this needs python3 and chromium");
@@ -139,15 +142,18 @@ TEST_CASE("the report stands alone and shows each picture that differs, the wors
   CHECK(holds(checks, "ok      the slider wipes"));
 }
 
-TEST_CASE("a diff with --update makes the baselines what there is, says so, and leaves alone what is within the limits") {
+TEST_CASE(
+    "a diff with --update makes the baselines what there is, says so, and leaves alone what is within the limits") {
   const Runs runs;
   runs.run("a");
   runs.run("b", {"--set", "simulation.gravity=[0,-30,0]"});
   fs::create_directory(runs.folder / "kept");
-  for (const char* name : {"000000.png", "000005.png", "000006.png"}) fs::copy(runs.folder / ("a/frames/" + std::string(name)), runs.folder / ("kept/" + std::string(name)));
+  for (const char* name : {"000000.png", "000005.png", "000006.png"})
+    fs::copy(runs.folder / ("a/frames/" + std::string(name)), runs.folder / ("kept/" + std::string(name)));
   const std::string first = slurp(runs.folder / "kept/000000.png");
   fs::create_directory(runs.folder / "now");
-  for (const char* name : {"000000.png", "000005.png", "000006.png", "000004.png"}) fs::copy(runs.folder / ("b/frames/" + std::string(name)), runs.folder / ("now/" + std::string(name)));
+  for (const char* name : {"000000.png", "000005.png", "000006.png", "000004.png"})
+    fs::copy(runs.folder / ("b/frames/" + std::string(name)), runs.folder / ("now/" + std::string(name)));
   CHECK(runs.diff({"kept", "now"}).code == 1);
   const Outcome outcome = runs.diff({"kept", "now", "--update"});
   CHECK(outcome.code == 0);
@@ -178,7 +184,9 @@ TEST_CASE("a diff with --update keeps ids that tell of the picture they lie besi
   fs::create_directory(runs.folder / "kept");
   fs::copy(runs.folder / ("plain/frames/" + frame), runs.folder / ("kept/" + frame));
   const std::string picture = slurp(runs.folder / ("kept/" + frame));
-  const auto update = [&](const std::string& run) { return runs.diff({"kept/" + frame, run + "/frames/" + frame, "--update"}).out; };
+  const auto update = [&](const std::string& run) {
+    return runs.diff({"kept/" + frame, run + "/frames/" + frame, "--update"}).out;
+  };
 
   // the same picture: nothing to rewrite, but ids that were not there
   CHECK(holds(update("plain"), "1 picture compared, 0 rewritten, 0 new\n"));
@@ -247,12 +255,15 @@ TEST_CASE("pictures that can't be compared are refused with one clear message") 
   check_refused(folder, {"diff", "text.png", frame, "--update"}, "text.png: ", "is not a PNG file");
   check_refused(folder, {"diff", frame, frame, "--mask", "none.png"}, "none.png: ", "no such file");
   write_png(folder / "mask.png", Image(10, 10));
-  check_refused(folder, {"diff", frame, frame, "--mask", "mask.png"}, "the mask has 10 x 10 pixels", "draw it over that picture");
+  check_refused(folder, {"diff", frame, frame, "--mask", "mask.png"}, "the mask has 10 x 10 pixels",
+                "draw it over that picture");
   folder.write("empty/x.txt", "");
   check_refused(folder, {"diff", "empty", "empty"}, "empty and empty: ", "no PNG files");
   // where the report can't be
-  check_refused(folder, {"diff", "a/frames/000000.png", "a/frames/000006.png", "--out", "text.png"}, "text.png: can't be made", "choose another --out");
-  check_refused(folder, {"diff", "a/frames/000000.png", "a/frames/000006.png", "--out", "/proc/impinge"}, "/proc/impinge: can't be made", "choose another --out");
+  check_refused(folder, {"diff", "a/frames/000000.png", "a/frames/000006.png", "--out", "text.png"},
+                "text.png: can't be made", "choose another --out");
+  check_refused(folder, {"diff", "a/frames/000000.png", "a/frames/000006.png", "--out", "/proc/impinge"},
+                "/proc/impinge: can't be made", "choose another --out");
 
   // of another size: a difference, since both are fine pictures
   write_png(folder / "small.png", Image(160, 90));

@@ -1,5 +1,5 @@
-// impinge diff, test and compare where the disk is full: one clear message, nothing half written, and the same words work
-// once there is room.
+// impinge diff, test and compare where the disk is full: one clear message, nothing half written, and the same words
+// work once there is room.
 #include <catch2/catch.hpp>
 
 #include "tests/support/picture_scene.hpp"
@@ -22,7 +22,9 @@ struct Files {
   Files() {
     folder.write("s.toml", kScene);
     run({"run", "s.toml", "--out", "a", "--frames", "12", "--size", "320x180", "--ids", "--quiet"}, 0);
-    run({"run", "s.toml", "--out", "b", "--frames", "12", "--size", "320x180", "--ids", "--quiet", "--set", "simulation.gravity=[0,-30,0]"}, 0);
+    run({"run", "s.toml", "--out", "b", "--frames", "12", "--size", "320x180", "--ids", "--quiet", "--set",
+         "simulation.gravity=[0,-30,0]"},
+        0);
   }
   Outcome run(const std::vector<std::string>& words, int code) const {
     const Outcome outcome = impinge_run(folder.path(), words);
@@ -102,7 +104,8 @@ TEST_CASE("a suite of tests on a full disk ends at once, and its XML tells so") 
   const Files files;
   for (const char* name : {"one", "two"}) {
     files.folder.write(fmt::format("suite/{}.toml", name), kScene);
-    files.folder.write(fmt::format("suite/{}.script", name), "expect contacts == 0 at 4\nexpect image pictures/x.png at 4\n");
+    files.folder.write(fmt::format("suite/{}.script", name),
+                       "expect contacts == 0 at 4\nexpect image pictures/x.png at 4\n");
   }
   files.run({"test", "suite", "--out", "out", "--update"}, 0);
   const SmallDisk disk(files.folder / "disk", "24k");

@@ -1,6 +1,6 @@
 // What a run leaves behind, and that an interrupted one goes on bit for bit.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <sys/wait.h>
 
@@ -79,8 +79,10 @@ struct Files {
 std::vector<std::string> split(const std::string& text, char mark) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
-    if (c == mark) parts.emplace_back();
-    else parts.back() += c;
+    if (c == mark)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -104,7 +106,10 @@ std::vector<std::map<std::string, std::string>> table(const fs::path& file) {
 // without the columns that measure time
 std::vector<std::map<std::string, std::string>> timeless(const fs::path& file) {
   auto rows = table(file);
-  for (auto& row : rows) std::erase_if(row, [](const auto& cell) { return cell.first.size() > 3 && cell.first.substr(cell.first.size() - 3) == "_ms"; });
+  for (auto& row : rows)
+    std::erase_if(row, [](const auto& cell) {
+      return cell.first.size() > 3 && cell.first.substr(cell.first.size() - 3) == "_ms";
+    });
   return rows;
 }
 
@@ -112,7 +117,8 @@ std::vector<std::map<std::string, std::string>> timeless(const fs::path& file) {
 
 TEST_CASE("a run's folder holds what the contract says") {
   const Files files;
-  const Outcome outcome = impinge_run(files.folder.path(), files.run("out", {"--no-images", "--contacts", "--export", "ply"}));
+  const Outcome outcome =
+      impinge_run(files.folder.path(), files.run("out", {"--no-images", "--contacts", "--export", "ply"}));
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.err.empty());
@@ -123,8 +129,10 @@ TEST_CASE("a run's folder holds what the contract says") {
   for (const auto& entry : fs::recursive_directory_iterator(out)) CHECK(entry.path().extension() != ".tmp");
 
   const std::string stats = slurp(out / "stats.csv");
-  CHECK(stats.rfind("frame,time_s,substeps,bodies,dofs,broad_pairs,triangle_pairs,contacts,groups,max_penetration_m,residual,lcp_iterations,outer_iterations,"
-                    "kinetic_J,potential_J,elastic_J,momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_momentum_y,angular_momentum_z,"
+  CHECK(stats.rfind("frame,time_s,substeps,bodies,dofs,broad_pairs,triangle_pairs,contacts,groups,max_penetration_m,"
+                    "residual,lcp_iterations,outer_iterations,"
+                    "kinetic_J,potential_J,elastic_J,momentum_x,momentum_y,momentum_z,angular_momentum_x,angular_"
+                    "momentum_y,angular_momentum_z,"
                     "broad_ms,narrow_ms,assemble_ms,response_ms,integrate_ms,step_ms,render_ms,state_hash",
                     0) == 0);
   const auto rows = table(out / "stats.csv");
@@ -139,14 +147,18 @@ TEST_CASE("a run's folder holds what the contract says") {
   }
   CHECK(rows[0].at("lcp_iterations") == "0");
 
-  CHECK(slurp(out / "contacts.csv").rfind("frame,body_a,body_b,triangle_a,triangle_b,pa_x,pa_y,pa_z,pb_x,pb_y,pb_z,n_x,n_y,n_z,gap_m,gap0_m,lambda_n,lambda_t1,lambda_t2,mu,state,pair_id\n", 0) == 0);
+  CHECK(slurp(out / "contacts.csv")
+            .rfind("frame,body_a,body_b,triangle_a,triangle_b,pa_x,pa_y,pa_z,pb_x,pb_y,pb_z,n_x,n_y,n_z,gap_m,gap0_m,"
+                   "lambda_n,lambda_t1,lambda_t2,mu,state,pair_id\n",
+                   0) == 0);
   const auto contacts = table(out / "contacts.csv");
   REQUIRE(!contacts.empty());
   std::map<std::string, int> count;
   for (const auto& c : contacts) {
     ++count[c.at("frame")];
     const auto number = [&](const char* name) { return std::stod(c.at(name)); };
-    const Vec3 a(number("pa_x"), number("pa_y"), number("pa_z")), b(number("pb_x"), number("pb_y"), number("pb_z")), n(number("n_x"), number("n_y"), number("n_z"));
+    const Vec3 a(number("pa_x"), number("pa_y"), number("pa_z")), b(number("pb_x"), number("pb_y"), number("pb_z")),
+        n(number("n_x"), number("n_y"), number("n_z"));
     CHECK(n.norm() == Approx(1.0).epsilon(1e-12));
     CHECK(n.dot(a - b) == Approx(number("gap_m")).margin(1e-12));
     CHECK((c.at("state") == "open" || c.at("state") == "stick" || c.at("state") == "slip"));
@@ -157,7 +169,8 @@ TEST_CASE("a run's folder holds what the contract says") {
   CHECK_FALSE(fs::exists(out / "surfaces/000030/floor.ply"));
   const TriangleMesh tetra = read_mesh(out / "surfaces/000000/tetra.ply");
   CHECK(tetra.triangles == tetrahedron().triangles);
-  for (int v = 0; v < 4; ++v) CHECK((tetra.vertices[v] - (0.5 * tetrahedron().vertices[v] + Vec3(0.8, 1.2, 0.3))).norm() < 1e-14);
+  for (int v = 0; v < 4; ++v)
+    CHECK((tetra.vertices[v] - (0.5 * tetrahedron().vertices[v] + Vec3(0.8, 1.2, 0.3))).norm() < 1e-14);
   const TriangleMesh ball = read_mesh(out / "surfaces/000000/ball.ply");
   for (const Vec3& x : ball.vertices) CHECK((x - Vec3(0.1, 1.6, 0)).norm() == Approx(0.3).epsilon(1e-12));
   CHECK(make_topology(ball).is_closed());
@@ -174,12 +187,17 @@ TEST_CASE("a command at frame k shows first in frame k, and ramps reach both end
   CHECK(lines[2] == "at 5 set simulation.gravity [0, -15, 0]");
   CHECK(lines[4] == "at 7 set simulation.gravity [0.5, -12.5, 0]");
   CHECK(lines[6] == "at 9 set simulation.gravity [1, -10, 0]");
-  CHECK(log.find("at 14 layer +normals -contacts\nat 16 camera orbit 15 5\nat 20 set lcp.max_iterations 100\nat 21 set lcp.max_iterations 125\n") != std::string::npos);
+  CHECK(log.find("at 14 layer +normals -contacts\nat 16 camera orbit 15 5\nat 20 set lcp.max_iterations 100\nat 21 set "
+                 "lcp.max_iterations 125\n") != std::string::npos);
   CHECK(log.find("at 24 set lcp.max_iterations 200\n") != std::string::npos);
 
-  files.folder.write("drop.toml", "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nmass = 2\nshape = { sphere = { radius = 1 } }\nposition = [0, 5, 0]\n");
+  files.folder.write("drop.toml",
+                     "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nmass = 2\nshape = { sphere = { radius = 1 } "
+                     "}\nposition = [0, 5, 0]\n");
   files.folder.write("drop.script", "at 0 set simulation.gravity 0 -1 0\nat 2 set simulation.gravity 0 -3 0\n");
-  REQUIRE(impinge_run(files.folder.path(), {"run", "drop.toml", "--script", "drop.script", "--out", "drop", "--frames", "3", "--no-images"}).code == 0);
+  REQUIRE(impinge_run(files.folder.path(),
+                      {"run", "drop.toml", "--script", "drop.script", "--out", "drop", "--frames", "3", "--no-images"})
+              .code == 0);
   const auto rows = table(files.folder / "drop/stats.csv");
   REQUIRE(rows.size() == 4);
   const auto velocity = [&](int k) { return std::stod(rows[k].at("momentum_y")) / 2.0; };
@@ -189,14 +207,18 @@ TEST_CASE("a command at frame k shows first in frame k, and ramps reach both end
   CHECK(velocity(3) == Approx(-7 / 60.0).epsilon(1e-12));
 
   // the log is a script: it gives the same states
-  REQUIRE(impinge_run(files.folder.path(), {"run", "s.toml", "--script", "out/commands.log", "--out", "again", "--frames", "30", "--no-images"}).code == 0);
+  REQUIRE(impinge_run(files.folder.path(), {"run", "s.toml", "--script", "out/commands.log", "--out", "again",
+                                            "--frames", "30", "--no-images"})
+              .code == 0);
   CHECK(timeless(files.folder / "again/stats.csv") == timeless(files.folder / "out/stats.csv"));
 }
 
 TEST_CASE("the number of threads changes no bit") {
   const Files files;
-  REQUIRE(impinge_run(files.folder.path(), files.run("one", {"--no-images", "--contacts", "--threads", "1"})).code == 0);
-  REQUIRE(impinge_run(files.folder.path(), files.run("two", {"--no-images", "--contacts", "--threads", "2"})).code == 0);
+  REQUIRE(impinge_run(files.folder.path(), files.run("one", {"--no-images", "--contacts", "--threads", "1"})).code ==
+          0);
+  REQUIRE(impinge_run(files.folder.path(), files.run("two", {"--no-images", "--contacts", "--threads", "2"})).code ==
+          0);
   CHECK(timeless(files.folder / "one/stats.csv") == timeless(files.folder / "two/stats.csv"));
   CHECK(slurp(files.folder / "one/contacts.csv") == slurp(files.folder / "two/contacts.csv"));
   CHECK(slurp(files.folder / "one/run.toml") == slurp(files.folder / "two/run.toml"));
@@ -204,14 +226,18 @@ TEST_CASE("the number of threads changes no bit") {
 
 TEST_CASE("a replay repeats every hash, and sees a changed one") {
   const Files files;
-  REQUIRE(impinge_run(files.folder.path(), files.run("out", {"--no-images", "--set", "body.crate.material.density=300"})).code == 0);
+  REQUIRE(
+      impinge_run(files.folder.path(), files.run("out", {"--no-images", "--set", "body.crate.material.density=300"}))
+          .code == 0);
   const Outcome good = impinge_run("/", {"replay", (files.folder / "out").string()});
   INFO(good.err);
   CHECK(good.code == 0);
   CHECK(good.out.find("31 frames repeated") != std::string::npos);
 
   // run.toml is a scene: a run of it, script and all, is the same run
-  REQUIRE(impinge_run("/", {"run", (files.folder / "out/run.toml").string(), "--out", (files.folder / "again").string(), "--no-images"}).code == 0);
+  REQUIRE(impinge_run("/", {"run", (files.folder / "out/run.toml").string(), "--out", (files.folder / "again").string(),
+                            "--no-images"})
+              .code == 0);
   CHECK(timeless(files.folder / "again/stats.csv") == timeless(files.folder / "out/stats.csv"));
   CHECK(slurp(files.folder / "again/run.toml") == slurp(files.folder / "out/run.toml"));
 
@@ -238,7 +264,8 @@ TEST_CASE("expectations and breaks decide the exit code") {
   const auto run_script = [&](const std::string& script) {
     files.folder.write("b.script", script);
     fs::remove_all(files.folder / "b");
-    return impinge_run(files.folder.path(), {"run", "s.toml", "--script", "b.script", "--out", "b", "--frames", "8", "--no-images"});
+    return impinge_run(files.folder.path(),
+                       {"run", "s.toml", "--script", "b.script", "--out", "b", "--frames", "8", "--no-images"});
   };
   CHECK(run_script("expect bodies == 5 && !(time_s > 1) at 8\nexpect dofs / 6 - 1 == 2 at 0\n").code == 0);
   const Outcome failed = run_script("expect bodies == 5 at 3\nexpect contacts > 1000 at 4\n");
@@ -253,8 +280,11 @@ TEST_CASE("expectations and breaks decide the exit code") {
 
 TEST_CASE("a run that diverges keeps the frames before it and says where") {
   const Files files;
-  files.folder.write("wild.toml", "[simulation]\ngravity = [0, 1e4, 0]\nframe_time = 10\n[[body]]\nname = \"rocket\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 1 } }\n");
-  const Outcome outcome = impinge_run(files.folder.path(), {"run", "wild.toml", "--out", "wild", "--frames", "100000", "--no-images"});
+  files.folder.write("wild.toml",
+                     "[simulation]\ngravity = [0, 1e4, 0]\nframe_time = 10\n[[body]]\nname = \"rocket\"\nkind = "
+                     "\"dynamic\"\nshape = { sphere = { radius = 1 } }\n");
+  const Outcome outcome =
+      impinge_run(files.folder.path(), {"run", "wild.toml", "--out", "wild", "--frames", "100000", "--no-images"});
   CHECK(outcome.code == 3);
   CHECK(outcome.error_lines() == 1);
   CHECK(outcome.err.find("rocket") != std::string::npos);
@@ -271,7 +301,8 @@ TEST_CASE("the same run may be made again in place, another may not") {
   CHECK(impinge_run(files.folder.path(), files.run("out")).code == 0);
   CHECK(timeless(files.folder / "out/stats.csv") == first);
   CHECK(slurp(files.folder / "out/notes.txt") == "mine");
-  const Outcome other = impinge_run(files.folder.path(), files.run("out", {"--no-images", "--set", "contact.friction=0.1"}));
+  const Outcome other =
+      impinge_run(files.folder.path(), files.run("out", {"--no-images", "--set", "contact.friction=0.1"}));
   CHECK(other.code == 2);
   CHECK(other.err.find("holds another run") != std::string::npos);
   CHECK(timeless(files.folder / "out/stats.csv") == first);
@@ -280,7 +311,8 @@ TEST_CASE("the same run may be made again in place, another may not") {
 TEST_CASE("a finished run can be continued to more frames") {
   const Files files;
   const auto run = [&](const char* out, const char* frames, bool resume) {
-    std::vector<std::string> words = {"run", "s.toml", "--script", "a.script", "--out", out, "--frames", frames, "--no-images", "--contacts"};
+    std::vector<std::string> words = {"run", "s.toml",   "--script", "a.script",    "--out",
+                                      out,   "--frames", frames,     "--no-images", "--contacts"};
     if (resume) words.emplace_back("--resume");
     return impinge_run(files.folder.path(), words).code;
   };
@@ -289,7 +321,8 @@ TEST_CASE("a finished run can be continued to more frames") {
   CHECK(run("parts", "30", false) == 2);
   CHECK(run("parts", "30", true) == 0);
   CHECK(run("parts", "13", true) == 2);
-  for (const char* name : {"run.toml", "commands.log", "contacts.csv"}) CHECK(slurp(files.folder / "whole" / name) == slurp(files.folder / "parts" / name));
+  for (const char* name : {"run.toml", "commands.log", "contacts.csv"})
+    CHECK(slurp(files.folder / "whole" / name) == slurp(files.folder / "parts" / name));
   CHECK(timeless(files.folder / "whole/stats.csv") == timeless(files.folder / "parts/stats.csv"));
 }
 
@@ -297,7 +330,8 @@ TEST_CASE("a run that is killed at any moment resumes to the same bits") {
   const Files files;
   // enough frames for the signals to fall inside
   const auto words = [&](const std::string& out, bool resume) {
-    std::vector<std::string> list = {"run", "s.toml", "--script", "a.script", "--out", out, "--frames", "400", "--no-images", "--contacts"};
+    std::vector<std::string> list = {"run", "s.toml",   "--script", "a.script",    "--out",
+                                     out,   "--frames", "400",      "--no-images", "--contacts"};
     if (resume) list.emplace_back("--resume");
     return list;
   };
@@ -308,7 +342,8 @@ TEST_CASE("a run that is killed at any moment resumes to the same bits") {
   for (const int signal : {SIGKILL, SIGKILL, SIGINT}) {
     fs::remove_all(files.folder / "parts");
     for (int i = 1; i <= 4; ++i) {
-      const Outcome outcome = impinge_stopped(files.folder.path(), words("parts", true), seconds * (0.11 * i + 0.05), signal);
+      const Outcome outcome =
+          impinge_stopped(files.folder.path(), words("parts", true), seconds * (0.11 * i + 0.05), signal);
       if (outcome.code == 0) break;
       ++stopped;
       // an interrupt before main() runs ends the program as any other: a shell says 130 to both
@@ -324,7 +359,8 @@ TEST_CASE("a run that is killed at any moment resumes to the same bits") {
     const Outcome last = impinge_run(files.folder.path(), words("parts", true));
     INFO(last.err);
     CHECK(last.code == 0);
-    for (const char* name : {"run.toml", "commands.log", "contacts.csv"}) CHECK(slurp(files.folder / "whole" / name) == slurp(files.folder / "parts" / name));
+    for (const char* name : {"run.toml", "commands.log", "contacts.csv"})
+      CHECK(slurp(files.folder / "whole" / name) == slurp(files.folder / "parts" / name));
     CHECK(timeless(files.folder / "whole/stats.csv") == timeless(files.folder / "parts/stats.csv"));
   }
   CHECK(stopped > 0);
@@ -333,7 +369,8 @@ TEST_CASE("a run that is killed at any moment resumes to the same bits") {
 TEST_CASE("a run with pictures that is killed resumes to the same pixels, and pictures say what they show") {
   const Files files;
   const auto words = [&](const std::string& out) {
-    return std::vector<std::string>{"run", "s.toml", "--script", "a.script", "--out", out, "--frames", "30", "--size", "96x54", "--resume"};
+    return std::vector<std::string>{"run",      "s.toml", "--script", "a.script", "--out",   out,
+                                    "--frames", "30",     "--size",   "96x54",    "--resume"};
   };
   const auto start = std::chrono::steady_clock::now();
   const Outcome whole = impinge_run(files.folder.path(), words("whole"));
@@ -350,12 +387,17 @@ TEST_CASE("a run with pictures that is killed resumes to the same pixels, and pi
   CHECK(pictures == 31);
   CHECK(timeless(files.folder / "whole/stats.csv") == timeless(files.folder / "parts/stats.csv"));
   CHECK(impinge_run(files.folder.path(), {"diff", "whole", "parts", "--tolerance", "0"}).code == 0);
-  CHECK(impinge_run(files.folder.path(), {"diff", "whole/frames/000000.png", "whole/frames/000030.png", "--out", "shown"}).code == 1);
+  CHECK(
+      impinge_run(files.folder.path(), {"diff", "whole/frames/000000.png", "whole/frames/000030.png", "--out", "shown"})
+          .code == 1);
   CHECK(fs::exists(files.folder / "shown/000000.png"));
 
   const std::string png = slurp(files.folder / "whole/frames/000014.png");
-  for (const std::string& text : {std::string("impinge:scene") + '\0' + "s.toml", std::string("impinge:frame") + '\0' + "14", std::string("impinge:commands") + '\0' + "layer +normals -contacts",
-                                  std::string("impinge:state_hash") + '\0' + table(files.folder / "whole/stats.csv")[14].at("state_hash"), std::string("impinge:renderer") + '\0'})
+  for (const std::string& text :
+       {std::string("impinge:scene") + '\0' + "s.toml", std::string("impinge:frame") + '\0' + "14",
+        std::string("impinge:commands") + '\0' + "layer +normals -contacts",
+        std::string("impinge:state_hash") + '\0' + table(files.folder / "whole/stats.csv")[14].at("state_hash"),
+        std::string("impinge:renderer") + '\0'})
     CHECK(png.find(text) != std::string::npos);
   CHECK(png.find(files.folder.path().string()) == std::string::npos);
 
@@ -365,8 +407,13 @@ TEST_CASE("a run with pictures that is killed resumes to the same pixels, and pi
   CHECK(missing.code == 1);
   CHECK(missing.out.find("000007.png: missing in parts") != std::string::npos);
 
-  files.folder.write("picture.script", "expect image whole/frames/000003.png tolerance 0 at 3\nexpect image whole/frames/000003.png at 25\n");
-  const Outcome judged = impinge_run(files.folder.path(), {"run", "s.toml", "--script", "picture.script", "--out", "judged", "--frames", "25", "--size", "96x54", "--set", "contact.friction=0.5", "--set", "simulation.gravity=[0,-15,0]"});
+  files.folder.write(
+      "picture.script",
+      "expect image whole/frames/000003.png tolerance 0 at 3\nexpect image whole/frames/000003.png at 25\n");
+  const Outcome judged =
+      impinge_run(files.folder.path(),
+                  {"run", "s.toml", "--script", "picture.script", "--out", "judged", "--frames", "25", "--size",
+                   "96x54", "--set", "contact.friction=0.5", "--set", "simulation.gravity=[0,-15,0]"});
   CHECK(judged.code == 1);
   CHECK(judged.err.find("picture.script:2:1: frame 25") != std::string::npos);
 }
@@ -374,7 +421,9 @@ TEST_CASE("a run with pictures that is killed resumes to the same pixels, and pi
 TEST_CASE("a full disk stops the run with a message, and what is there can be resumed") {
   // a limit on the size of files stands for the disk: stats.csv passes 8 kB after some 20 frames
   const Files files;
-  const std::string command = fmt::format("cd {} && ulimit -f 8 && exec {} run s.toml --script a.script --out out --frames 60 --no-images 2> err", files.folder.path().string(), IMPINGE_PROGRAM);
+  const std::string command = fmt::format(
+      "cd {} && ulimit -f 8 && exec {} run s.toml --script a.script --out out --frames 60 --no-images 2> err",
+      files.folder.path().string(), IMPINGE_PROGRAM);
   const int status = std::system(fmt::format("bash -c '{}'", command).c_str());
   CHECK(WEXITSTATUS(status) == 2);
   const std::string error = slurp(files.folder / "err");
@@ -383,7 +432,11 @@ TEST_CASE("a full disk stops the run with a message, and what is there can be re
   const std::size_t rows = table(files.folder / "out/stats.csv").size();
   CHECK(rows > 10);
   CHECK(rows < 60);
-  const auto run = [&](const char* out) { return impinge_run(files.folder.path(), {"run", "s.toml", "--script", "a.script", "--out", out, "--frames", "60", "--no-images", "--resume"}).code; };
+  const auto run = [&](const char* out) {
+    return impinge_run(files.folder.path(), {"run", "s.toml", "--script", "a.script", "--out", out, "--frames", "60",
+                                             "--no-images", "--resume"})
+        .code;
+  };
   CHECK(run("out") == 0);
   CHECK(run("whole") == 0);
   CHECK(timeless(files.folder / "out/stats.csv") == timeless(files.folder / "whole/stats.csv"));
@@ -404,13 +457,17 @@ shape = { sphere = { radius = 1 } }
 position = [1.75, 0, 0]
 )");
   files.folder.write("j.script", "expect judged_penetration_m > 0.2 && judged_intersections == 0 at 0\n");
-  REQUIRE(impinge_run(files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "j", "--frames", "3", "--no-images", "--judge"}).code == 0);
+  REQUIRE(impinge_run(files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "j", "--frames", "3",
+                                            "--no-images", "--judge"})
+              .code == 0);
   const std::string stats = slurp(files.folder / "j/stats.csv");
-  CHECK(stats.substr(0, stats.find('\n')).ends_with(",state_hash,unconverged,asleep,judged_penetration_m,judged_intersections"));
+  CHECK(stats.substr(0, stats.find('\n'))
+            .ends_with(",state_hash,unconverged,asleep,judged_penetration_m,judged_intersections"));
   CHECK(std::stod(table(files.folder / "j/stats.csv")[0].at("judged_penetration_m")) == Approx(0.25).epsilon(1e-12));
   CHECK(impinge_run(files.folder.path(), {"replay", "j"}).code == 0);
   CHECK(impinge_run(files.folder.path(), {"check", "j.toml", "--script", "j.script"}).code == 0);
-  const Outcome without = impinge_run(files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "k", "--frames", "3", "--no-images"});
+  const Outcome without = impinge_run(
+      files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "k", "--frames", "3", "--no-images"});
   CHECK(without.code == 2);
   CHECK(without.err.find("unknown figure 'judged_penetration_m'") != std::string::npos);
 }

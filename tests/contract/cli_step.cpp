@@ -15,9 +15,11 @@ namespace {
 
 // one contact in either storage, W not symmetric so that an order of values shows; mu 0.5
 constexpr const char* kDense = "3\n1\n0\n3\n3\n3 3\n4 1 2\n0.5 5 3\n0.25 0.125 6\n-1 2 3\n0.5\n";
-constexpr const char* kSparse = "3\n1\n1\n3\n3\n1\n1\n1\n3\n3\n2\n1\n0 1\n0\n0\n4\n1\n2\n0.5\n5\n3\n0.25\n0.125\n6\n-1 2 3\n0.5\n1\n";
+constexpr const char* kSparse =
+    "3\n1\n1\n3\n3\n1\n1\n1\n3\n3\n2\n1\n0 1\n0\n0\n4\n1\n2\n0.5\n5\n3\n0.25\n0.125\n6\n-1 2 3\n0.5\n1\n";
 
-void check_refused(const TempFolder& folder, const std::string& text, const std::string& place, const std::string& words) {
+void check_refused(const TempFolder& folder, const std::string& text, const std::string& place,
+                   const std::string& words) {
   const auto file = folder.write("p.dat", text);
   std::string message;
   try {
@@ -89,7 +91,8 @@ TEST_CASE("impinge step: a table, and with --out the files; wrong input ends wit
   CHECK(table.out.find("pivoting does not apply") != std::string::npos);
   const std::string methods = slurp(folder / "result/methods.csv");
   CHECK(methods.rfind("method,iterations,ms,residual,stop_reason", 0) == 0);
-  for (const char* method : {"projected_gauss_seidel", "nonsmooth_nonlinear_conjugate_gradient", "accelerated_projected_gradient", "semismooth_newton"}) {
+  for (const char* method : {"projected_gauss_seidel", "nonsmooth_nonlinear_conjugate_gradient",
+                             "accelerated_projected_gradient", "semismooth_newton"}) {
     CHECK(table.out.find(method) != std::string::npos);
     CHECK(methods.find(fmt::format("\n{},", method)) != std::string::npos);
     const std::string solution = slurp(folder / fmt::format("result/solution_{}.csv", method));
@@ -97,7 +100,8 @@ TEST_CASE("impinge step: a table, and with --out the files; wrong input ends wit
     CHECK(std::count(solution.begin(), solution.end(), '\n') == 2);
     CHECK(slurp(folder / fmt::format("result/history_{}.csv", method)).rfind("iteration,residual\n0,", 0) == 0);
   }
-  const Outcome one = impinge_run(folder.path(), {"step", "p.dat", "--lcp", "semismooth_newton", "--tolerance", "1e-12", "--max-iterations", "50"});
+  const Outcome one = impinge_run(
+      folder.path(), {"step", "p.dat", "--lcp", "semismooth_newton", "--tolerance", "1e-12", "--max-iterations", "50"});
   CHECK(one.code == 0);
   CHECK(one.out.find("projected_gauss_seidel") == std::string::npos);
 

@@ -1,6 +1,7 @@
-// A sweep through the program: how many jobs, what is written, that it goes on where it was stopped, and what it refuses.
-#include <catch2/catch.hpp>
+// A sweep through the program: how many jobs, what is written, that it goes on where it was stopped, and what it
+// refuses.
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -23,16 +24,21 @@ namespace {
 namespace fs = std::filesystem;
 using Files = SweepFiles;
 
-std::vector<std::string> sweep(const std::string& out, const std::vector<std::string>& more) { return SweepFiles::words(out, more); }
+std::vector<std::string> sweep(const std::string& out, const std::vector<std::string>& more) {
+  return SweepFiles::words(out, more);
+}
 std::vector<Row> results(const fs::path& folder) { return sweep_results(folder); }
 
-std::size_t folders_in(const fs::path& folder) { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator())); }
+std::size_t folders_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
 
 }  // namespace
 
 TEST_CASE("a sweep makes a job of each combination, and a row of each job") {
   const Files files;
-  const Outcome outcome = files.run("out", {"--vary", "contact.friction=0,0.5", "--vary", "simulation.substeps=1:5:3", "--frames", "4"});
+  const Outcome outcome =
+      files.run("out", {"--vary", "contact.friction=0,0.5", "--vary", "simulation.substeps=1:5:3", "--frames", "4"});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(outcome.err.empty());
@@ -51,7 +57,8 @@ TEST_CASE("a sweep makes a job of each combination, and a row of each job") {
     hashes.insert(row.at("hash"));
     // the row is what the run alone says
     const std::string alone = fmt::format("alone{}", i);
-    REQUIRE(impinge_run(files.folder.path(), {"run", "s.toml", "--out", alone, "--no-images", "--frames", "4", "--set", "contact.friction=" + row.at("contact.friction"), "--set",
+    REQUIRE(impinge_run(files.folder.path(), {"run", "s.toml", "--out", alone, "--no-images", "--frames", "4", "--set",
+                                              "contact.friction=" + row.at("contact.friction"), "--set",
                                               "simulation.substeps=" + row.at("simulation.substeps")})
                 .code == 0);
     const std::string stats = slurp(files.folder / alone / "stats.csv");
@@ -65,7 +72,10 @@ TEST_CASE("a sweep makes a job of each combination, and a row of each job") {
 
 TEST_CASE("zipped values go together, and a hash names the input and not its place in the sweep") {
   const Files files;
-  REQUIRE(files.run("zip", {"--zip", "--vary", "contact.friction=0,0.5", "--vary", "simulation.substeps=2,3", "--frames", "2"}).code == 0);
+  REQUIRE(files
+              .run("zip",
+                   {"--zip", "--vary", "contact.friction=0,0.5", "--vary", "simulation.substeps=2,3", "--frames", "2"})
+              .code == 0);
   const std::vector<Row> zip = results(files.folder / "zip");
   REQUIRE(zip.size() == 2);
   CHECK(zip[1].at("contact.friction") == "0.5");
@@ -73,7 +83,10 @@ TEST_CASE("zipped values go together, and a hash names the input and not its pla
   // 2 is what the scene says: varied or not, it is the same job
   REQUIRE(files.run("one", {"--vary", "contact.friction=0.50,0", "--frames", "2"}).code == 0);
   CHECK(results(files.folder / "one")[1].at("hash") == zip[0].at("hash"));
-  REQUIRE(files.run("vectors", {"--vary", "simulation.gravity=[0,-9.81,0],[1,-5,0]", "--vary", "body.crate.position=[0,1,0],[0,2,0]", "--frames", "1"}).code == 0);
+  REQUIRE(files
+              .run("vectors", {"--vary", "simulation.gravity=[0,-9.81,0],[1,-5,0]", "--vary",
+                               "body.crate.position=[0,1,0],[0,2,0]", "--frames", "1"})
+              .code == 0);
   const std::vector<Row> vectors = results(files.folder / "vectors");
   REQUIRE(vectors.size() == 4);
   CHECK(vectors[2].at("simulation.gravity") == "[1, -5, 0]");
@@ -82,7 +95,10 @@ TEST_CASE("zipped values go together, and a hash names the input and not its pla
 
 TEST_CASE("a range has both ends, and a logarithmic one round numbers between them") {
   const Files files;
-  REQUIRE(files.run("out", {"--zip", "--vary", "simulation.substeps=log(1,64,4)", "--vary", "contact.friction=0.1:0.4:4", "--frames", "0"}).code == 0);
+  REQUIRE(files
+              .run("out", {"--zip", "--vary", "simulation.substeps=log(1,64,4)", "--vary", "contact.friction=0.1:0.4:4",
+                           "--frames", "0"})
+              .code == 0);
   const std::vector<Row> rows = results(files.folder / "out");
   REQUIRE(rows.size() == 4);
   const std::vector<std::string> substeps = {"1", "4", "16", "64"}, friction = {"0.1", "0.2", "0.3", "0.4"};
@@ -94,10 +110,13 @@ TEST_CASE("a range has both ends, and a logarithmic one round numbers between th
 
 TEST_CASE("a sweep that is there already runs nothing twice, and --job runs one alone") {
   const Files files;
-  const std::vector<std::string> few = {"--vary", "contact.friction=0,0.5", "--frames", "3"}, more = {"--vary", "contact.friction=0,0.25,0.5", "--frames", "3"};
+  const std::vector<std::string> few = {"--vary", "contact.friction=0,0.5", "--frames", "3"},
+                                 more = {"--vary", "contact.friction=0,0.25,0.5", "--frames", "3"};
   REQUIRE(files.run("out", few).code == 0);
   const std::vector<Row> before = results(files.folder / "out");
-  const auto written = [&](const Row& row) { return fs::last_write_time(files.folder / "out/jobs" / row.at("hash") / "run/stats.csv"); };
+  const auto written = [&](const Row& row) {
+    return fs::last_write_time(files.folder / "out/jobs" / row.at("hash") / "run/stats.csv");
+  };
   const auto first = written(before[0]), second = written(before[1]);
   REQUIRE(files.run("out", few).code == 0);
   CHECK(results(files.folder / "out") == before);
@@ -113,7 +132,8 @@ TEST_CASE("a sweep that is there already runs nothing twice, and --job runs one 
   const fs::path folder = files.folder / "out/jobs" / before[1].at("hash");
   fs::remove_all(folder / "run");
   fs::remove(folder / "done");
-  REQUIRE(impinge_run("/", {"sweep", "--job", before[1].at("hash"), "--out", (files.folder / "out").string()}).code == 0);
+  REQUIRE(impinge_run("/", {"sweep", "--job", before[1].at("hash"), "--out", (files.folder / "out").string()}).code ==
+          0);
   CHECK(fs::exists(folder / "done"));
   REQUIRE(files.run("out", {"--resume", "--vary", "contact.friction=0,0.25,0.5", "--frames", "3"}).code == 0);
   CHECK(results(files.folder / "out") == after);
@@ -126,7 +146,9 @@ TEST_CASE("a sweep killed at any moment goes on to the same results") {
   REQUIRE(files.run("whole", words).code == 0);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   int killed = 0;
-  for (const double part : {0.1, 0.3, 0.4, 0.2}) killed += impinge_stopped(files.folder.path(), sweep("parts", words), part * seconds, SIGKILL).code == -SIGKILL ? 1 : 0;
+  for (const double part : {0.1, 0.3, 0.4, 0.2})
+    killed +=
+        impinge_stopped(files.folder.path(), sweep("parts", words), part * seconds, SIGKILL).code == -SIGKILL ? 1 : 0;
   CHECK(killed > 0);
   REQUIRE(files.run("parts", words).code == 0);
   CHECK(results(files.folder / "parts") == results(files.folder / "whole"));
@@ -134,7 +156,8 @@ TEST_CASE("a sweep killed at any moment goes on to the same results") {
 
 TEST_CASE("an interrupted sweep ends its runs, writes what there is and says so") {
   const Files files;
-  const Outcome outcome = impinge_stopped(files.folder.path(), sweep("out", {"--vary", "contact.friction=0:1:4", "--frames", "1000000"}), 1.0, SIGINT);
+  const Outcome outcome = impinge_stopped(
+      files.folder.path(), sweep("out", {"--vary", "contact.friction=0:1:4", "--frames", "1000000"}), 1.0, SIGINT);
   INFO(outcome.err);
   CHECK(outcome.code == 130);
   CHECK(outcome.err == "interrupted; the same command goes on\n");
@@ -168,8 +191,12 @@ TEST_CASE("two sweeps at once in one folder share the work and don't spoil it") 
 TEST_CASE("a job that diverges or fails is a row with its reason, and the others go on") {
   const Files files;
   files.folder.write("a.script", "expect kinetic_J < 1e6 at 3\n");
-  files.folder.write("wild.toml", "[simulation]\nframe_time = 10\n[[body]]\nname = \"rocket\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 1 } }\n");
-  const Outcome outcome = impinge_run(files.folder.path(), {"sweep", "wild.toml", "--vary", "simulation.gravity=[0,1e4,0],[0,0,0]", "--frames", "2000", "--no-images", "--out", "out"});
+  files.folder.write("wild.toml",
+                     "[simulation]\nframe_time = 10\n[[body]]\nname = \"rocket\"\nkind = \"dynamic\"\nshape = { sphere "
+                     "= { radius = 1 } }\n");
+  const Outcome outcome =
+      impinge_run(files.folder.path(), {"sweep", "wild.toml", "--vary", "simulation.gravity=[0,1e4,0],[0,0,0]",
+                                        "--frames", "2000", "--no-images", "--out", "out"});
   INFO(outcome.err);
   INFO(outcome.out);
   CHECK(outcome.code == 1);
@@ -181,7 +208,8 @@ TEST_CASE("a job that diverges or fails is a row with its reason, and the others
   CHECK(rows[1].at("status") == "done");
   CHECK(rows[1].at("frames") == "2000");
 
-  const Outcome failing = files.run("expect", {"--script", "a.script", "--vary", "body.crate.velocity=[1e4,0,0],[1,0,0]", "--frames", "3"});
+  const Outcome failing =
+      files.run("expect", {"--script", "a.script", "--vary", "body.crate.velocity=[1e4,0,0],[1,0,0]", "--frames", "3"});
   CHECK(failing.code == 1);
   const std::vector<Row> two = results(files.folder / "expect");
   REQUIRE(two.size() == 2);
@@ -194,8 +222,13 @@ TEST_CASE("a job that diverges or fails is a row with its reason, and the others
 TEST_CASE("errors against a reference are distances of surfaces") {
   // free fall by the symplectic rule is low by g h t / 2 at time t: linear in the step
   const Files files;
-  files.folder.write("fall.toml", "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 1 } }\nposition = [0, 50, 0]\n");
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", "fall.toml", "--vary", "simulation.substeps=1,2,4,8", "--reference", "simulation.substeps=8", "--frames", "12", "--no-images", "--out", "out"}).code == 0);
+  files.folder.write(
+      "fall.toml",
+      "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 1 } }\nposition = [0, 50, 0]\n");
+  REQUIRE(
+      impinge_run(files.folder.path(), {"sweep", "fall.toml", "--vary", "simulation.substeps=1,2,4,8", "--reference",
+                                        "simulation.substeps=8", "--frames", "12", "--no-images", "--out", "out"})
+          .code == 0);
   const std::vector<Row> rows = results(files.folder / "out");
   REQUIRE(rows.size() == 4);
   const double h = 1.0 / 60.0, g = 9.81;
@@ -205,7 +238,8 @@ TEST_CASE("errors against a reference are distances of surfaces") {
   const std::vector<double> steps = {h, h / 2, h / 4, h / 8};
   for (std::size_t i = 0; i < 4; ++i) {
     CHECK(rows[i].at("reference") == rows[3].at("hash"));
-    CHECK(std::stod(rows[i].at("error_rms_m")) == Approx(0.5 * g * time * (steps[i] - steps[3])).epsilon(1e-9).margin(1e-15));
+    CHECK(std::stod(rows[i].at("error_rms_m")) ==
+          Approx(0.5 * g * time * (steps[i] - steps[3])).epsilon(1e-9).margin(1e-15));
   }
 }
 
@@ -214,7 +248,8 @@ TEST_CASE("sweeps that can't be are refused with one message, before anything is
   folder.write("s.toml", kCrateScene);
   folder.write("taken/other.txt", "x");
   folder.write("file", "x");
-  const auto refused = [&](const std::vector<std::string>& more, const std::string& start, const std::string& contains) { check_refused(folder, sweep("out", more), start, contains); };
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& start,
+                           const std::string& contains) { check_refused(folder, sweep("out", more), start, contains); };
   refused({"--vary", "contact.frictoin=0,1"}, "--vary contact.frictoin=0,1: ", "did you mean 'contact.friction'?");
   refused({"--vary", "body.crat.mass=1,2"}, "--vary body.crat.mass=1: ", "did you mean 'crate'?");
   refused({"--vary", "body.crate.mass=1,-2"}, "--vary body.crate.mass=-2: ", "greater than 0");
@@ -230,19 +265,27 @@ TEST_CASE("sweeps that can't be are refused with one message, before anything is
   refused({"--vary", "contact.friction=0,-1"}, "--vary contact.friction=0,-1: ", "-1");
   refused({"--vary", "contact.friction=0,1", "--vary", "contact.friction=2"}, "--vary contact.friction: ", "twice");
   refused({"--vary", "contact.friction=0,1", "--set", "contact.friction=2"}, "--vary contact.friction=0,1: ", "--set");
-  refused({"--zip", "--vary", "contact.friction=0,1", "--vary", "simulation.substeps=1,2,3"}, "--vary simulation.substeps: ", "--zip");
-  refused({"--vary", "contact.friction=0:1:1000", "--vary", "simulation.substeps=1:1000:1000"}, "--vary: 1000000 jobs", "--yes");
-  refused({"--vary", "contact.friction=0,1", "--reference", "simulation.substep=64"}, "--reference simulation.substep=64: ", "simulation.substeps");
+  refused({"--zip", "--vary", "contact.friction=0,1", "--vary", "simulation.substeps=1,2,3"},
+          "--vary simulation.substeps: ", "--zip");
+  refused({"--vary", "contact.friction=0:1:1000", "--vary", "simulation.substeps=1:1000:1000"}, "--vary: 1000000 jobs",
+          "--yes");
+  refused({"--vary", "contact.friction=0,1", "--reference", "simulation.substep=64"},
+          "--reference simulation.substep=64: ", "simulation.substeps");
   refused({}, "command line: no --vary", "--vary");
-  check_refused(folder, {"sweep", "s.toml", "--vary", "contact.friction=0,1", "--jobs", "0"}, "command line: --jobs is '0'", "1 to");
+  check_refused(folder, {"sweep", "s.toml", "--vary", "contact.friction=0,1", "--jobs", "0"},
+                "command line: --jobs is '0'", "1 to");
   refused({"--vary", "contact.friction=0,1", "--repeat", "0"}, "command line: --repeat is '0'", "1 to");
-  refused({"--vary", "contact.friction=0,1", "--engine", "slrum"}, "command line: --engine is 'slrum'", "did you mean 'slurm'?");
+  refused({"--vary", "contact.friction=0,1", "--engine", "slrum"}, "command line: --engine is 'slrum'",
+          "did you mean 'slurm'?");
   refused({"--vary", "contact.friction=0,1", "--window", "2"}, "--window 2: ", "without a reference");
-  refused({"--vary", "contact.friction=0,1", "--reference", "contact.friction=1", "--window", "soon"}, "--window soon: ", "seconds");
+  refused({"--vary", "contact.friction=0,1", "--reference", "contact.friction=1", "--window", "soon"},
+          "--window soon: ", "seconds");
   refused({"--job", "0123456789abcdef"}, "command line: --job beside", "");
   check_refused(folder, sweep("taken", {"--vary", "contact.friction=0,1"}), "taken: ", "holds other.txt");
   check_refused(folder, sweep("file", {"--vary", "contact.friction=0,1"}), "file: ", "a folder is wanted");
-  check_refused(folder, sweep("/proc/nowhere", {"--vary", "contact.friction=0,1"}), "/proc/nowhere", "may be written to");
+  check_refused(folder, sweep("/proc/nowhere", {"--vary", "contact.friction=0,1"}), "/proc/nowhere",
+                "may be written to");
   check_refused(folder, {"sweep", "none.toml", "--vary", "contact.friction=0,1"}, "none.toml: ", "no such file");
-  check_refused(folder, {"sweep", "--job", "0123456789abcdef", "--out", "taken"}, "--job 0123456789abcdef: ", "no such job");
+  check_refused(folder, {"sweep", "--job", "0123456789abcdef", "--out", "taken"},
+                "--job 0123456789abcdef: ", "no such job");
 }

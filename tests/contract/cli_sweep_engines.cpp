@@ -1,6 +1,6 @@
 // The jobs of a sweep by way of other schedulers: the same table and the same pixels as here.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <csignal>
 #include <cstdlib>
@@ -19,11 +19,17 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> kept_files(const fs::path& sweep) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(sweep / "jobs"))
-    if (entry.path().extension() == ".png" || entry.path().extension() == ".ply" || entry.path().filename() == "contacts.csv") all[fs::relative(entry.path(), sweep).string()] = slurp(entry.path());
+    if (entry.path().extension() == ".png" || entry.path().extension() == ".ply" ||
+        entry.path().filename() == "contacts.csv")
+      all[fs::relative(entry.path(), sweep).string()] = slurp(entry.path());
   return all;
 }
 
-const std::vector<std::string> kVary = {"--vary", "contact.friction=0,0.4", "--vary", "simulation.substeps=1,2,4", "--reference", "simulation.substeps=8", "--frames", "10", "--size", "160x120"};
+const std::vector<std::string> kVary = {"--vary",      "contact.friction=0,0.4",
+                                        "--vary",      "simulation.substeps=1,2,4",
+                                        "--reference", "simulation.substeps=8",
+                                        "--frames",    "10",
+                                        "--size",      "160x120"};
 
 Outcome sweep(const TempFolder& folder, const std::string& out, const std::vector<std::string>& more) {
   std::vector<std::string> words = {"sweep", "s.toml", "--out", out};
@@ -46,7 +52,9 @@ TEST_CASE("a list of commands run by xargs is the sweep") {
   CHECK(std::count(list.out.begin(), list.out.end(), '\n') == 10);
   CHECK(!fs::exists(folder / out / "results.csv"));
   folder.write("commands", list.out);
-  REQUIRE(std::system(fmt::format("cd / && tr '\\n' '\\0' < {}/commands | xargs -0 -P 2 -I C sh -c C", folder.path().string()).c_str()) == 0);
+  REQUIRE(std::system(
+              fmt::format("cd / && tr '\\n' '\\0' < {}/commands | xargs -0 -P 2 -I C sh -c C", folder.path().string())
+                  .c_str()) == 0);
   for (const auto& job : fs::directory_iterator(folder / out / "jobs")) {
     CHECK(fs::exists(job.path() / "done"));
     CHECK(fs::exists(job.path() / "repeats/2/done"));
@@ -82,11 +90,14 @@ TEST_CASE("a Slurm job array is the sweep") {
   CHECK(fs::exists(folder / "there/slurm/array.sh"));
   // it did run there: each task left its own output
   std::size_t tasks = 0;
-  for (const auto& entry : fs::directory_iterator(folder / "there/slurm")) tasks += entry.path().filename().string().rfind("task-", 0) == 0 ? 1 : 0;
+  for (const auto& entry : fs::directory_iterator(folder / "there/slurm"))
+    tasks += entry.path().filename().string().rfind("task-", 0) == 0 ? 1 : 0;
   CHECK(tasks == 10);
 
   // stopped in the middle the array is cancelled, and the same command goes on
-  const std::vector<std::string> longer = {"sweep", "s.toml", "--out", "long", "--vary", "contact.friction=0,0.2,0.4", "--frames", "3000000", "--no-images", "--engine", "slurm"};
+  const std::vector<std::string> longer = {
+      "sweep",    "s.toml",  "--out",       "long",     "--vary", "contact.friction=0,0.2,0.4",
+      "--frames", "3000000", "--no-images", "--engine", "slurm"};
   const Outcome stopped = impinge_stopped(folder.path(), longer, 5.0, SIGINT);
   INFO(stopped.err);
   CHECK(stopped.code == 130);

@@ -1,6 +1,6 @@
 // Sweeps where the machine says no, and where somebody kills them again and again.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <chrono>
 #include <csignal>
@@ -51,7 +51,13 @@ TEST_CASE("200 jobs killed ten times go on to the same table and the same pictur
   const TempFolder folder;
   folder.write("s.toml", kCrateScene);
   const auto words = [](const std::string& out) {
-    return std::vector<std::string>{"sweep", "s.toml", "--out", out, "--size", "96x64", "--jobs", "2", "--frames", "8", "--vary", "contact.friction=0:1:20", "--vary", "simulation.substeps=1:10:10"};
+    return std::vector<std::string>{"sweep",    "s.toml",
+                                    "--out",    out,
+                                    "--size",   "96x64",
+                                    "--jobs",   "2",
+                                    "--frames", "8",
+                                    "--vary",   "contact.friction=0:1:20",
+                                    "--vary",   "simulation.substeps=1:10:10"};
   };
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(impinge_run(folder.path(), words("whole")).code == 0);
@@ -60,7 +66,11 @@ TEST_CASE("200 jobs killed ten times go on to the same table and the same pictur
   int killed = 0;
   for (int i = 0; i < 10; ++i) {
     const double moment = std::uniform_real_distribution<>(0.02, 0.15)(random) * seconds;
-    killed += impinge_stopped(folder.path(), words("parts"), moment, SIGKILL, i % 2 == 0 ? Targets::program : Targets::children_first).code == -SIGKILL ? 1 : 0;
+    killed += impinge_stopped(folder.path(), words("parts"), moment, SIGKILL,
+                              i % 2 == 0 ? Targets::program : Targets::children_first)
+                          .code == -SIGKILL
+                  ? 1
+                  : 0;
   }
   CHECK(killed >= 5);
   std::vector<std::string> last = words("parts");

@@ -1,6 +1,6 @@
 // Which jobs a sweep has and in which order they run: filters, coarse first, repeats, and sweeps written down in files.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,10 @@ double total(const fs::path& run, const std::string& name) {
 
 TEST_CASE("a filter keeps the combinations for which it holds, with numbers and with words") {
   const SweepFiles files;
-  const std::vector<std::string> vary = {"--vary", "response.method=penalty,sequential_impulse", "--vary", "simulation.substeps=1,2,4", "--vary", "contact.friction=0,0.5", "--frames", "1"};
+  const std::vector<std::string> vary = {"--vary",   "response.method=penalty,sequential_impulse",
+                                         "--vary",   "simulation.substeps=1,2,4",
+                                         "--vary",   "contact.friction=0,0.5",
+                                         "--frames", "1"};
   const auto kept = [&](const std::string& out, const std::string& filter) {
     std::vector<std::string> words = vary;
     words.insert(words.end(), {"--filter", filter});
@@ -42,26 +45,39 @@ TEST_CASE("a filter keeps the combinations for which it holds, with numbers and 
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     std::vector<std::string> jobs;
-    for (const Row& row : sweep_results(files.folder / out)) jobs.push_back(row.at("response.method").substr(0, 1) + row.at("simulation.substeps") + (row.at("contact.friction") == "0" ? "-" : "+"));
+    for (const Row& row : sweep_results(files.folder / out))
+      jobs.push_back(row.at("response.method").substr(0, 1) + row.at("simulation.substeps") +
+                     (row.at("contact.friction") == "0" ? "-" : "+"));
     return jobs;
   };
-  CHECK(kept("a", "simulation.substeps > 1 && !(contact.friction > 0)") == std::vector<std::string>{"p2-", "p4-", "s2-", "s4-"});
-  CHECK(kept("b", "response.method == penalty || simulation.substeps * contact.friction == 2") == std::vector<std::string>{"p1-", "p1+", "p2-", "p2+", "p4-", "p4+", "s4+"});
-  CHECK(kept("c", "response.method != 'penalty' && simulation.substeps != 2 && contact.friction == 0") == std::vector<std::string>{"s1-", "s4-"});
+  CHECK(kept("a", "simulation.substeps > 1 && !(contact.friction > 0)") ==
+        std::vector<std::string>{"p2-", "p4-", "s2-", "s4-"});
+  CHECK(kept("b", "response.method == penalty || simulation.substeps * contact.friction == 2") ==
+        std::vector<std::string>{"p1-", "p1+", "p2-", "p2+", "p4-", "p4+", "s4+"});
+  CHECK(kept("c", "response.method != 'penalty' && simulation.substeps != 2 && contact.friction == 0") ==
+        std::vector<std::string>{"s1-", "s4-"});
   // a filtered job is the job it would be without the filter
   REQUIRE(files.run("all", vary).code == 0);
   const std::vector<Row> all = sweep_results(files.folder / "all"), some = sweep_results(files.folder / "c");
   CHECK(std::count(all.begin(), all.end(), some[0]) == 1);
   CHECK(std::count(all.begin(), all.end(), some[1]) == 1);
   // a filter makes a large product small enough not to be asked about
-  CHECK(files.run("few", {"--vary", "contact.friction=0:1:1000", "--vary", "simulation.substeps=1:1000:1000", "--frames", "0", "--filter", "contact.friction == 1 && simulation.substeps <= 2"}).code == 0);
+  CHECK(files
+            .run("few", {"--vary", "contact.friction=0:1:1000", "--vary", "simulation.substeps=1:1000:1000", "--frames",
+                         "0", "--filter", "contact.friction == 1 && simulation.substeps <= 2"})
+            .code == 0);
   CHECK(sweep_results(files.folder / "few").size() == 2);
 }
 
 TEST_CASE("coarse first runs ends, then middles, then quarters, and changes nothing in the table") {
   const SweepFiles files;
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", "s.toml", "--no-images", "--out", "plain", "--vary", "contact.friction=0:0.8:9", "--frames", "2", "--jobs", "1"}).code == 0);
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", "s.toml", "--no-images", "--out", "coarse", "--vary", "contact.friction=0:0.8:9", "--frames", "2", "--jobs", "1", "--coarse-first"}).code == 0);
+  REQUIRE(impinge_run(files.folder.path(), {"sweep", "s.toml", "--no-images", "--out", "plain", "--vary",
+                                            "contact.friction=0:0.8:9", "--frames", "2", "--jobs", "1"})
+              .code == 0);
+  REQUIRE(
+      impinge_run(files.folder.path(), {"sweep", "s.toml", "--no-images", "--out", "coarse", "--vary",
+                                        "contact.friction=0:0.8:9", "--frames", "2", "--jobs", "1", "--coarse-first"})
+          .code == 0);
   const std::vector<Row> rows = sweep_results(files.folder / "plain");
   CHECK(sweep_results(files.folder / "coarse") == rows);
   std::vector<std::string> in_turn, expected;
@@ -70,8 +86,10 @@ TEST_CASE("coarse first runs ends, then middles, then quarters, and changes noth
   CHECK(by_end(files, "plain", rows) == in_turn);
   CHECK(by_end(files, "coarse", rows) == expected);
   // of two paths the corners come first; words have no middle
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", "s.toml", "--no-images", "--out", "two", "--vary", "simulation.substeps=1,2,3", "--vary", "response.method=penalty,soft_constraint,sequential_impulse",
-                                            "--frames", "1", "--jobs", "1", "--coarse-first"})
+  REQUIRE(impinge_run(files.folder.path(),
+                      {"sweep", "s.toml", "--no-images", "--out", "two", "--vary", "simulation.substeps=1,2,3",
+                       "--vary", "response.method=penalty,soft_constraint,sequential_impulse", "--frames", "1",
+                       "--jobs", "1", "--coarse-first"})
               .code == 0);
   const std::vector<Row> two = sweep_results(files.folder / "two");
   std::vector<std::string> hashes;
@@ -81,7 +99,8 @@ TEST_CASE("coarse first runs ends, then middles, then quarters, and changes noth
 
 TEST_CASE("repeats make times medians with a spread, and change no other column") {
   const SweepFiles files;
-  const std::vector<std::string> words = {"--vary", "simulation.substeps=1,2", "--frames", "20", "--column", "step_mean_ms=mean(step_ms)"};
+  const std::vector<std::string> words = {"--vary",   "simulation.substeps=1,2",   "--frames", "20",
+                                          "--column", "step_mean_ms=mean(step_ms)"};
   REQUIRE(files.run("once", words).code == 0);
   std::vector<std::string> thrice = words;
   thrice.insert(thrice.end(), {"--repeat", "3"});
@@ -90,7 +109,8 @@ TEST_CASE("repeats make times medians with a spread, and change no other column"
   const std::vector<Row> rows = csv_rows(files.folder / "thrice/results.csv");
   for (const Row& row : rows) {
     const fs::path job = files.job("thrice", row);
-    std::vector<double> sums = {total(job / "run", "step_ms"), total(job / "repeats/2/run", "step_ms"), total(job / "repeats/3/run", "step_ms")};
+    std::vector<double> sums = {total(job / "run", "step_ms"), total(job / "repeats/2/run", "step_ms"),
+                                total(job / "repeats/3/run", "step_ms")};
     std::sort(sums.begin(), sums.end());
     CHECK(sums[0] < sums[2]);
     CHECK(std::stod(row.at("step_ms")) == Approx(sums[1]).epsilon(1e-12));
@@ -110,7 +130,8 @@ TEST_CASE("repeats make times medians with a spread, and change no other column"
   const fs::path stats = files.job("thrice", rows[1]) / "repeats/3/run/stats.csv";
   const std::string hash = csv_rows(stats)[17].at("state_hash");
   const std::string text = slurp(stats);
-  std::ofstream(stats, std::ios::binary) << replaced(text, hash, hash == "0123456789abcdef" ? "f123456789abcdef" : "0123456789abcdef");
+  std::ofstream(stats, std::ios::binary) << replaced(
+      text, hash, hash == "0123456789abcdef" ? "f123456789abcdef" : "0123456789abcdef");
   const Outcome outcome = files.run("thrice", thrice);
   CHECK(outcome.code == 1);
   const std::vector<Row> after = sweep_results(files.folder / "thrice");
@@ -143,33 +164,48 @@ deepest = "max(max_penetration_m)"
   const Outcome outcome = impinge_run(files.folder.path(), {"sweep", "plans/one.toml", "--out", "file"});
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
-  const std::vector<std::string> words = {"--set", "contact.restitution=0.25", "--vary", "simulation.substeps=1,2,3", "--vary", "body.crate.velocity=[1,0,0],[2,0,0]", "--vary", "contact.friction=0:0.5:2",
-                                          "--filter", "simulation.substeps != 3", "--reference", "simulation.substeps=8", "--window", "all", "--frames", "3", "--repeat", "2", "--column",
-                                          "deepest=max(max_penetration_m)"};
+  const std::vector<std::string> words = {"--set",       "contact.restitution=0.25",
+                                          "--vary",      "simulation.substeps=1,2,3",
+                                          "--vary",      "body.crate.velocity=[1,0,0],[2,0,0]",
+                                          "--vary",      "contact.friction=0:0.5:2",
+                                          "--filter",    "simulation.substeps != 3",
+                                          "--reference", "simulation.substeps=8",
+                                          "--window",    "all",
+                                          "--frames",    "3",
+                                          "--repeat",    "2",
+                                          "--column",    "deepest=max(max_penetration_m)"};
   REQUIRE(files.run("words", words).code == 0);
   CHECK(sweep_results(files.folder / "file") == sweep_results(files.folder / "words"));
   CHECK(sweep_results(files.folder / "file").size() == 8);
   CHECK(csv_rows(files.folder / "file/results.csv")[0].count("spread_step_ms") == 1);
   // what a sweep leaves of itself repeats it
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", "words/sweep.toml", "--window", "all", "--column", "deepest=max(max_penetration_m)", "--out", "again"}).code == 0);
+  REQUIRE(impinge_run(files.folder.path(), {"sweep", "words/sweep.toml", "--window", "all", "--column",
+                                            "deepest=max(max_penetration_m)", "--out", "again"})
+              .code == 0);
   CHECK(sweep_results(files.folder / "again") == sweep_results(files.folder / "words"));
 
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", "plans/one.toml", "--vary", "simulation.substeps=2,4", "--filter", "simulation.substeps > 2", "--frames", "1", "--out", "less"}).code == 0);
+  REQUIRE(impinge_run(files.folder.path(), {"sweep", "plans/one.toml", "--vary", "simulation.substeps=2,4", "--filter",
+                                            "simulation.substeps > 2", "--frames", "1", "--out", "less"})
+              .code == 0);
   const std::vector<Row> less = sweep_results(files.folder / "less");
   REQUIRE(less.size() == 1);
   CHECK(less[0].at("simulation.substeps") == "4");
   CHECK(less[0].at("frames") == "1");
 
   const std::string example = IMPINGE_SOURCE_DIR "/scenes/minimal_sweep.toml";
-  REQUIRE(impinge_run(files.folder.path(), {"sweep", example, "--frames", "2", "--repeat", "1", "--out", "example"}).code == 0);
+  REQUIRE(
+      impinge_run(files.folder.path(), {"sweep", example, "--frames", "2", "--repeat", "1", "--out", "example"}).code ==
+      0);
   CHECK(sweep_results(files.folder / "example").size() == 14);
   check_refused(files.folder, {"run", "plans/one.toml", "--out", "no"}, "plans/one.toml:2:1: ", "impinge sweep");
 
   // the table in the scene itself, which runs and checks as before
-  files.folder.write("both.toml", std::string(kCrateScene) + "[sweep]\nvary = [\"contact.friction=0,1\"]\nframes = 2\nimages = false\n");
+  files.folder.write("both.toml", std::string(kCrateScene) +
+                                      "[sweep]\nvary = [\"contact.friction=0,1\"]\nframes = 2\nimages = false\n");
   REQUIRE(impinge_run(files.folder.path(), {"sweep", "both.toml", "--out", "both"}).code == 0);
   CHECK(sweep_results(files.folder / "both").size() == 2);
-  CHECK(impinge_run(files.folder.path(), {"run", "both.toml", "--frames", "1", "--no-images", "--out", "run"}).code == 0);
+  CHECK(impinge_run(files.folder.path(), {"run", "both.toml", "--frames", "1", "--no-images", "--out", "run"}).code ==
+        0);
 }
 
 TEST_CASE("sweep files, filters and columns that can't be are refused at their place") {
@@ -186,12 +222,14 @@ TEST_CASE("sweep files, filters and columns that can't be are refused at their p
   refused("[sweep.vary]\ncontact.friction = [0.5, 0.50]", "p.toml:4:20: ", "twice");
   refused("[sweep.vary]\nbody.crate.mass = [1, -2]", "p.toml:4:19: ", "greater than 0");
   refused("[sweep.vary]\ncontact.friction = \"0:1:0\"", "p.toml:4:20: ", "empty range");
-  refused("[sweep.vary]\ncontact.friction = \"0:1:1000\"\nsimulation.substeps = \"1:1000:1000\"", "p.toml:4:20: ", "--yes");
+  refused("[sweep.vary]\ncontact.friction = \"0:1:1000\"\nsimulation.substeps = \"1:1000:1000\"",
+          "p.toml:4:20: ", "--yes");
   refused("vary = [\"contact.friction=0,1\"]\nfilter = \"contact.friction > x\"", "p.toml:4:30: ", "contact.friction");
   refused("vary = [\"contact.friction=0,1\"]\nrepeat = 0", "p.toml:4:10: ", "1 to");
   refused("vary = [\"contact.friction=0,1\"]\nwindow = -1", "p.toml:4:10: ", "seconds");
   refused("vary = [\"contact.friction=0,1\"]\nreference = \"fines\"", "p.toml:4:13: ", "finest");
-  refused("vary = [\"contact.friction=0,1\"]\n[sweep.columns]\na = \"max(contact)\"", "p.toml:5:6: ", "did you mean 'max(contacts)'?");
+  refused("vary = [\"contact.friction=0,1\"]\n[sweep.columns]\na = \"max(contact)\"",
+          "p.toml:5:6: ", "did you mean 'max(contacts)'?");
   refused("", "command line: no --vary, and no [sweep] vary in p.toml", "--vary");
   folder.write("p.toml", "[sweep]\nscene = \"s.toml\"\nvary = [\"contact.friction=0,1\"]\n[contact]\nfriction = 1\n");
   check_refused(folder, {"sweep", "p.toml", "--out", "out"}, "p.toml:4:2: ", "'contact' beside");
@@ -199,7 +237,8 @@ TEST_CASE("sweep files, filters and columns that can't be are refused at their p
   check_refused(folder, {"sweep", "p.toml", "--out", "out"}, "p.toml:2:9: ", "no scene none.toml");
 
   const auto words = [&](const std::vector<std::string>& more, const std::string& start, const std::string& contains) {
-    std::vector<std::string> all = SweepFiles::words("out", {"--vary", "contact.friction=0,1", "--vary", "response.method=penalty,soft_constraint"});
+    std::vector<std::string> all = SweepFiles::words(
+        "out", {"--vary", "contact.friction=0,1", "--vary", "response.method=penalty,soft_constraint"});
     all.insert(all.end(), more.begin(), more.end());
     check_refused(folder, all, start, contains);
   };
@@ -220,8 +259,11 @@ TEST_CASE("sweep files, filters and columns that can't be are refused at their p
 
 TEST_CASE("own columns are what the figures of the run say") {
   const SweepFiles files;
-  REQUIRE(files.run("out", {"--vary", "simulation.substeps=1,3", "--frames", "30", "--column", "a=max(contacts) + 10 * simulation.substeps", "--column", "b=mean(kinetic_J) / last(time_s)", "--column",
-                            "c=min(potential_J) - sum(residual)", "--column", "deep=max(max_penetration_m) > 1", "--column", "none=1 / (min(contacts) - min(contacts))"})
+  REQUIRE(files
+              .run("out", {"--vary", "simulation.substeps=1,3", "--frames", "30", "--column",
+                           "a=max(contacts) + 10 * simulation.substeps", "--column", "b=mean(kinetic_J) / last(time_s)",
+                           "--column", "c=min(potential_J) - sum(residual)", "--column",
+                           "deep=max(max_penetration_m) > 1", "--column", "none=1 / (min(contacts) - min(contacts))"})
               .code == 0);
   for (const Row& row : sweep_results(files.folder / "out")) {
     const std::vector<Row> frames = csv_rows(files.job("out", row) / "run/stats.csv");

@@ -31,7 +31,6 @@ struct Suite {
   }
 };
 
-
 }  // namespace
 
 TEST_CASE("a suite without its pictures fails, --update writes them, then it passes") {
@@ -39,7 +38,9 @@ TEST_CASE("a suite without its pictures fails, --update writes them, then it pas
   const Outcome before = suite.run();
   CHECK(before.code == 1);
   CHECK(holds(before.out, "FAILED  rest: 1 expectation, 1 picture"));
-  CHECK(holds(before.out, "suite/rest.script:2:1: frame 4: rest.png: there is no suite/pictures/rest.png; impinge test suite --update writes it"));
+  CHECK(holds(before.out,
+              "suite/rest.script:2:1: frame 4: rest.png: there is no suite/pictures/rest.png; impinge test suite "
+              "--update writes it"));
   CHECK(holds(before.out, "ok      fall: 1 expectation, 0 pictures"));
   CHECK(holds(before.out, "2 tests: 1 ok, 1 failed"));
   CHECK_FALSE(fs::exists(suite.folder / "suite/pictures"));
@@ -52,7 +53,9 @@ TEST_CASE("a suite without its pictures fails, --update writes them, then it pas
   CHECK(after.code == 0);
   CHECK(holds(after.out, "2 tests: 2 ok, 0 failed"));
   // the script alone says the same
-  CHECK(impinge_run(suite.folder.path(), {"run", "suite/rest.toml", "--script", "suite/rest.script", "--out", "alone", "--frames", "4", "--size", "200x120"}).code == 0);
+  CHECK(impinge_run(suite.folder.path(), {"run", "suite/rest.toml", "--script", "suite/rest.script", "--out", "alone",
+                                          "--frames", "4", "--size", "200x120"})
+            .code == 0);
 }
 
 TEST_CASE("a failure says why, leaves pictures and a report, and how to see it again") {
@@ -99,7 +102,8 @@ TEST_CASE("what is wrong with one test is an error of that test, and the others 
   suite.folder.write("suite/nothing.toml", kScene);
   suite.folder.write("suite/nothing.script", "at 1 set contact.friction 0\n");
   suite.folder.write("suite/sizes.toml", kScene);
-  suite.folder.write("suite/sizes.script", "expect image pictures/rest.png at 4\nexpect image pictures/small.png at 4\n");
+  suite.folder.write("suite/sizes.script",
+                     "expect image pictures/rest.png at 4\nexpect image pictures/small.png at 4\n");
   suite.folder.write("suite/text.toml", kScene);
   suite.folder.write("suite/text.script", "expect image pictures/text.png at 4\n");
   suite.folder.write("suite/pictures/text.png", "no picture");
@@ -110,7 +114,9 @@ TEST_CASE("what is wrong with one test is an error of that test, and the others 
   CHECK(holds(outcome.out, "suite/bad.toml:2:8: "));
   CHECK(holds(outcome.out, "suite/lost.script: has no scene lost.toml beside it"));
   CHECK(holds(outcome.out, "suite/nothing.script: expects nothing"));
-  CHECK(holds(outcome.out, "suite/sizes.script:2:1: suite/pictures/small.png has 64x48 pixels; 320x180 as in suite/pictures/rest.png are wanted"));
+  CHECK(holds(outcome.out,
+              "suite/sizes.script:2:1: suite/pictures/small.png has 64x48 pixels; 320x180 as in "
+              "suite/pictures/rest.png are wanted"));
   CHECK(holds(outcome.out, "suite/pictures/text.png: is not a PNG file"));
   CHECK(holds(outcome.out, "7 tests: 2 ok, 5 failed"));
   CHECK(holds(slurp(suite.folder / "junit.xml"), "failures=\"0\" errors=\"5\""));
@@ -123,7 +129,8 @@ TEST_CASE("a suite that can't be run at all is refused") {
   check_refused(suite.folder, {"test", "empty"}, "empty: ", "holds no script");
   suite.folder.write("file", "");
   check_refused(suite.folder, {"test", "suite", "--out", "file"}, "file: can't be made", "choose another --out");
-  check_refused(suite.folder, {"test", "suite", "--out", "/proc/impinge"}, "/proc/impinge: can't be made", "choose another --out");
+  check_refused(suite.folder, {"test", "suite", "--out", "/proc/impinge"}, "/proc/impinge: can't be made",
+                "choose another --out");
 }
 
 TEST_CASE("the limits tell the pictures of the project's own suite apart") {

@@ -11,7 +11,9 @@ TEST_CASE("a finished run's folder opens, and its frames are those of its table"
   const TempFolder folder;
   folder.write("s.toml", kRigid);
   folder.write("run.script", "at 12 set contact.friction 0.1\nat 20 layer +aabbs\n");
-  REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--script", "run.script", "--out", "done", "--frames", "60", "--no-images"}).code == 0);
+  REQUIRE(impinge_run(folder.path(),
+                      {"run", "s.toml", "--script", "run.script", "--out", "done", "--frames", "60", "--no-images"})
+              .code == 0);
   for (const int frame : {47, 3, 59}) {
     CAPTURE(frame);
     folder.write("a.script", fmt::format("seek 33\nseek {}\n", frame));
@@ -30,7 +32,8 @@ TEST_CASE("a finished run's folder opens, and its frames are those of its table"
 
   // what the table says is checked, frame by frame
   std::string table = slurp(folder / "done/stats.csv");
-  const std::string hash = hash_in(folder / "done/stats.csv", 47), other = (hash[0] == '0' ? "1" : "0") + hash.substr(1);
+  const std::string hash = hash_in(folder / "done/stats.csv", 47),
+                    other = (hash[0] == '0' ? "1" : "0") + hash.substr(1);
   table.replace(table.find(hash), 16, other);
   folder.write("done/stats.csv", table);
   folder.write("a.script", "seek 46\nstep\n");
@@ -64,14 +67,21 @@ TEST_CASE("a finished run's frames are shown without being simulated again") {
 TEST_CASE("a run's states keep to their room, and lie the farther apart the less it is") {
   const TempFolder folder;
   std::string bodies;  // of some size: 300 bodies a frame
-  for (int k = 0; k < 300; ++k) bodies += fmt::format("[[body]]\nname = \"b{}\"\nkind = \"dynamic\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nposition = [{}, 0, 0]\n", k, k);
+  for (int k = 0; k < 300; ++k)
+    bodies += fmt::format(
+        "[[body]]\nname = \"b{}\"\nkind = \"dynamic\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nposition = [{}, 0, "
+        "0]\n",
+        k, k);
   folder.write("s.toml", bodies);
   for (const char* room : {"0", "1", "256"}) {
     CAPTURE(room);
-    REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--out", room, "--frames", "70", "--no-images", "--snapshots", room}).code == 0);
+    REQUIRE(impinge_run(folder.path(),
+                        {"run", "s.toml", "--out", room, "--frames", "70", "--no-images", "--snapshots", room})
+                .code == 0);
     std::vector<int> frames;
     std::uintmax_t bytes = 0;
-    for (const auto& entry : fs::directory_iterator(folder / room / "snapshots")) frames.push_back(std::stoi(entry.path().stem().string())), bytes += entry.file_size();
+    for (const auto& entry : fs::directory_iterator(folder / room / "snapshots"))
+      frames.push_back(std::stoi(entry.path().stem().string())), bytes += entry.file_size();
     std::sort(frames.begin(), frames.end());
     CHECK(frames.front() == 0);
     CHECK(frames.back() == 70);
@@ -87,7 +97,8 @@ TEST_CASE("a run's states keep to their room, and lie the farther apart the less
     CHECK(outcome.err.empty());
     CHECK(end_of(outcome) == std::pair(33, hash_in(folder / room / "stats.csv", 33)));
   }
-  CHECK(impinge_run(folder.path(), {"run", "s.toml", "--out", "x", "--snapshots", "-1"}).err.find("--snapshots") != std::string::npos);
+  CHECK(impinge_run(folder.path(), {"run", "s.toml", "--out", "x", "--snapshots", "-1"}).err.find("--snapshots") !=
+        std::string::npos);
 }
 
 TEST_CASE("a damaged folder of a run is refused, and a window without a screen") {
@@ -121,6 +132,7 @@ TEST_CASE("a damaged folder of a run is refused, and a window without a screen")
 
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  refused(impinge_run(folder.path(), {"debug", "s.toml", "--window"}), "--window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
+  refused(impinge_run(folder.path(), {"debug", "s.toml", "--window"}),
+          "--window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
   refused(impinge_run(folder.path(), {"debug", "s.toml"}), "debug without a screen and without --script; ");
 }

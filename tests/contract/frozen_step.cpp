@@ -1,5 +1,5 @@
-// Frozen steps: what run --freeze writes is read back to the bit and solves to what the run found; damaged files are refused; what
-// impinge step makes of them.
+// Frozen steps: what run --freeze writes is read back to the bit and solves to what the run found; damaged files are
+// refused; what impinge step makes of them.
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 #include "engine/world/frozen_comparison.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/soft_bodies.hpp"
 #include "tests/support/refusal.hpp"
+#include "tests/support/soft_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -69,14 +69,19 @@ void check_equal(const FrozenGroup& a, const FrozenGroup& b) {
   for (std::size_t i = 0; i < a.system.contacts.size(); ++i) {
     const ContactRows &l = a.system.contacts[i], &r = b.system.contacts[i];
     CHECK(l.directions == r.directions);
-    CHECK((l.kind == r.kind && l.gap == r.gap && l.bound == r.bound && l.friction == r.friction && l.restitution == r.restitution && l.velocity_before == r.velocity_before && l.surface == r.surface));
-    CHECK((l.a.rigid == r.a.rigid && l.a.soft == r.a.soft && l.a.arm == r.a.arm && l.b.rigid == r.b.rigid && l.b.soft == r.b.soft && l.b.arm == r.b.arm));
+    CHECK((l.kind == r.kind && l.gap == r.gap && l.bound == r.bound && l.friction == r.friction &&
+           l.restitution == r.restitution && l.velocity_before == r.velocity_before && l.surface == r.surface));
+    CHECK((l.a.rigid == r.a.rigid && l.a.soft == r.a.soft && l.a.arm == r.a.arm && l.b.rigid == r.b.rigid &&
+           l.b.soft == r.b.soft && l.b.arm == r.b.arm));
     REQUIRE(l.a.nodes.size() == r.a.nodes.size());
     REQUIRE(l.b.nodes.size() == r.b.nodes.size());
-    for (std::size_t k = 0; k < l.a.nodes.size(); ++k) CHECK((l.a.nodes[k].node == r.a.nodes[k].node && l.a.nodes[k].weight == r.a.nodes[k].weight));
-    for (std::size_t k = 0; k < l.b.nodes.size(); ++k) CHECK((l.b.nodes[k].node == r.b.nodes[k].node && l.b.nodes[k].weight == r.b.nodes[k].weight));
+    for (std::size_t k = 0; k < l.a.nodes.size(); ++k)
+      CHECK((l.a.nodes[k].node == r.a.nodes[k].node && l.a.nodes[k].weight == r.a.nodes[k].weight));
+    for (std::size_t k = 0; k < l.b.nodes.size(); ++k)
+      CHECK((l.b.nodes[k].node == r.b.nodes[k].node && l.b.nodes[k].weight == r.b.nodes[k].weight));
     const FrozenContact &p = a.geometry[i], &q = b.geometry[i];
-    CHECK((p.body_a == q.body_a && p.body_b == q.body_b && p.triangle_a == q.triangle_a && p.triangle_b == q.triangle_b && p.feature == q.feature));
+    CHECK((p.body_a == q.body_a && p.body_b == q.body_b && p.triangle_a == q.triangle_a &&
+           p.triangle_b == q.triangle_b && p.feature == q.feature));
     CHECK((p.point_a == q.point_a && p.point_b == q.point_b));
   }
 }
@@ -132,9 +137,11 @@ TEST_CASE("a frozen step is read back to the bit, and freezing changes nothing")
     CHECK(step.contacts() == watched.record().contacts.size());
     write_frozen_step(folder / "a.step", step);
     const FrozenStep read = read_frozen_step(folder / "a.step");
-    CHECK((read.frame == 8 && read.time == step.time && read.time_step == step.time_step && read.gravity == step.gravity));
+    CHECK((read.frame == 8 && read.time == step.time && read.time_step == step.time_step &&
+           read.gravity == step.gravity));
     CHECK(read.time + read.time_step == Approx(watched.time()));
-    CHECK((read.response == response && read.lcp == step.lcp && read.integrator == step.integrator && read.settings.lcp.tolerance == step.settings.lcp.tolerance));
+    CHECK((read.response == response && read.lcp == step.lcp && read.integrator == step.integrator &&
+           read.settings.lcp.tolerance == step.settings.lcp.tolerance));
     CHECK(read.bodies == std::vector<std::string>{"floor", "soft", "above", "apart"});
     REQUIRE(read.groups.size() == 2);
     for (std::size_t g = 0; g < 2; ++g) check_equal(read.groups[g], step.groups[g]);
@@ -146,13 +153,16 @@ TEST_CASE("a frozen step is read back to the bit, and freezing changes nothing")
       for (const Vec3& lambda : group.answer.lambda) CHECK(lambda == watched.record().contacts[at++].lambda);
 
     // solved once more as the run did: the same to 1e-12
-    const FrozenOutcome again = solve_frozen(read, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), read.lcp)->make(), read.settings);
+    const FrozenOutcome again = solve_frozen(read, *find_entry(responses(), response)->make(),
+                                             *find_entry(lcp_solvers(), read.lcp)->make(), read.settings);
     for (std::size_t g = 0; g < 2; ++g) {
       const GroupAnswer& before = step.groups[g].answer;
       double largest = 0.0;
       for (const Vec3& l : before.lambda) largest = std::max(largest, l.norm());
-      for (std::size_t i = 0; i < before.lambda.size(); ++i) CHECK((again.answers[g].lambda[i] - before.lambda[i]).norm() <= 1e-12 * largest);
-      CHECK(energy_distance(read.groups[g], again.answers[g], before) <= 1e-12 * std::sqrt(energy_product(read.groups[g], before, before)));
+      for (std::size_t i = 0; i < before.lambda.size(); ++i)
+        CHECK((again.answers[g].lambda[i] - before.lambda[i]).norm() <= 1e-12 * largest);
+      CHECK(energy_distance(read.groups[g], again.answers[g], before) <=
+            1e-12 * std::sqrt(energy_product(read.groups[g], before, before)));
     }
   }
 }
@@ -172,12 +182,15 @@ TEST_CASE("a damaged frozen step is refused, with the byte and a remedy") {
     CHECK(message.find(words) != std::string::npos);
     CHECK(std::count(message.begin(), message.end(), ';') == 2);
   };
-  for (std::size_t length = 0; length < 100; ++length) check(whole.substr(0, length), length < 20 ? "no frozen step" : "ends early");
-  for (int k = 0; k < 50; ++k) check(whole.substr(0, 100 + random.below(static_cast<int>(whole.size()) - 100)), "ends early");
+  for (std::size_t length = 0; length < 100; ++length)
+    check(whole.substr(0, length), length < 20 ? "no frozen step" : "ends early");
+  for (int k = 0; k < 50; ++k)
+    check(whole.substr(0, 100 + random.below(static_cast<int>(whole.size()) - 100)), "ends early");
   check(whole + "x", "behind its end");
   for (int k = 0; k < 200; ++k) {
     std::string bytes = whole;
-    const std::size_t at = k < 60 ? static_cast<std::size_t>(k % 44) : static_cast<std::size_t>(random.below(static_cast<int>(whole.size())));
+    const std::size_t at = k < 60 ? static_cast<std::size_t>(k % 44)
+                                  : static_cast<std::size_t>(random.below(static_cast<int>(whole.size())));
     bytes[at] = static_cast<char>(bytes[at] ^ (1 << random.below(8)));
     check(bytes, "");
   }
@@ -199,14 +212,23 @@ TEST_CASE("a frozen step with a fitting checksum is checked all the same: read i
     std::string bytes = whole;
     // where the counts and indices are: near the beginning, and among the contacts near the end
     const int near = std::min(4000, static_cast<int>(whole.size() - kHead) - 8);
-    const std::size_t at = k % 3 == 0   ? kHead + static_cast<std::size_t>(random.below(near))
-                           : k % 3 == 1 ? whole.size() - 8 - static_cast<std::size_t>(random.below(near))
-                                        : kHead + static_cast<std::size_t>(random.below(static_cast<int>(whole.size() - kHead) - 8));
+    const std::size_t at =
+        k % 3 == 0   ? kHead + static_cast<std::size_t>(random.below(near))
+        : k % 3 == 1 ? whole.size() - 8 - static_cast<std::size_t>(random.below(near))
+                     : kHead + static_cast<std::size_t>(random.below(static_cast<int>(whole.size() - kHead) - 8));
     switch (random.below(4)) {
-      case 0: bytes.replace(at, 4, "\xff\xff\xff\xff", 4); break;
-      case 1: bytes.replace(at, 4, "\xff\xff\xff\x7f", 4); break;
-      case 2: bytes[at] = static_cast<char>(random.below(256)); break;
-      default: bytes.erase(at, static_cast<std::size_t>(1 + random.below(8))); break;
+      case 0:
+        bytes.replace(at, 4, "\xff\xff\xff\xff", 4);
+        break;
+      case 1:
+        bytes.replace(at, 4, "\xff\xff\xff\x7f", 4);
+        break;
+      case 2:
+        bytes[at] = static_cast<char>(random.below(256));
+        break;
+      default:
+        bytes.erase(at, static_cast<std::size_t>(1 + random.below(8)));
+        break;
     }
     const std::string message = refusal(folder.write("b.step", sealed(bytes)));
     refused += !message.empty();
@@ -218,7 +240,8 @@ TEST_CASE("a frozen step with a fitting checksum is checked all the same: read i
 TEST_CASE("impinge run --freeze and impinge step: files, columns, figures") {
   const TempFolder folder;
   folder.write("s.toml", kScene);
-  const Outcome ran = impinge_run(folder.path(), {"run", "s.toml", "--frames", "12", "--freeze", "12", "--no-images", "--contacts", "--out", "r"});
+  const Outcome ran = impinge_run(
+      folder.path(), {"run", "s.toml", "--frames", "12", "--freeze", "12", "--no-images", "--contacts", "--out", "r"});
   CAPTURE(ran.out, ran.err);
   REQUIRE(ran.code == 0);
   CHECK(ran.out.find("r/frozen/000012.step") != std::string::npos);
@@ -227,7 +250,8 @@ TEST_CASE("impinge run --freeze and impinge step: files, columns, figures") {
   REQUIRE(step.contacts() >= 2);
   // contacts.csv of that frame has the same contacts and impulses
   const std::string contacts = slurp(folder / "r/contacts.csv");
-  for (const Vec3& l : step.groups[0].answer.lambda) CHECK(contacts.find(fmt::format(",{},{},{},0.3,", l.x(), l.y(), l.z())) != std::string::npos);
+  for (const Vec3& l : step.groups[0].answer.lambda)
+    CHECK(contacts.find(fmt::format(",{},{},{},0.3,", l.x(), l.y(), l.z())) != std::string::npos);
 
   const Outcome solved = impinge_run(folder.path(), {"step", "r/frozen/000012.step", "--out", "result"});
   CAPTURE(solved.out, solved.err);
@@ -235,8 +259,10 @@ TEST_CASE("impinge run --freeze and impinge step: files, columns, figures") {
   CHECK(solved.out.find("pivoting does not apply") != std::string::npos);
   const std::string methods = slurp(folder / "result/methods.csv");
   CHECK(methods.rfind("method,iterations,ms,residual,stop_reason,", 0) == 0);
-  for (const Entry<Response>& response : responses()) CHECK(methods.find(fmt::format("\n{}", response.name)) != std::string::npos);
-  for (const char* solver : {"projected_gauss_seidel", "nonsmooth_nonlinear_conjugate_gradient", "accelerated_projected_gradient", "semismooth_newton"}) {
+  for (const Entry<Response>& response : responses())
+    CHECK(methods.find(fmt::format("\n{}", response.name)) != std::string::npos);
+  for (const char* solver : {"projected_gauss_seidel", "nonsmooth_nonlinear_conjugate_gradient",
+                             "accelerated_projected_gradient", "semismooth_newton"}) {
     const std::string method = fmt::format("constraint_anticipation-{}", solver);
     CHECK(methods.find("\n" + method + ",") != std::string::npos);
     const std::string solution = slurp(folder / ("result/solution_" + method + ".csv"));
@@ -244,14 +270,18 @@ TEST_CASE("impinge run --freeze and impinge step: files, columns, figures") {
     CHECK(static_cast<std::size_t>(std::count(solution.begin(), solution.end(), '\n')) == step.contacts() + 1);
     CHECK(slurp(folder / ("result/history_" + method + ".csv")).rfind("iteration,residual\n0,", 0) == 0);
   }
-  CHECK(slurp(folder / "result/work_precision.csv").rfind("method,iterations_allowed,ms,residual,distance_to_exact\n", 0) == 0);
-  for (const char* picture : {"history.png", "work_precision.png"}) CHECK(slurp(folder / "result" / picture).rfind("\x89PNG", 0) == 0);
+  CHECK(slurp(folder / "result/work_precision.csv")
+            .rfind("method,iterations_allowed,ms,residual,distance_to_exact\n", 0) == 0);
+  for (const char* picture : {"history.png", "work_precision.png"})
+    CHECK(slurp(folder / "result" / picture).rfind("\x89PNG", 0) == 0);
 
-  const Outcome one = impinge_run(folder.path(), {"step", "r/frozen/000012.step", "--response", "constraint_anticipation", "--lcp", "semismooth_newton"});
+  const Outcome one = impinge_run(folder.path(), {"step", "r/frozen/000012.step", "--response",
+                                                  "constraint_anticipation", "--lcp", "semismooth_newton"});
   CHECK(one.code == 0);
   CHECK(one.out.find("projected_gauss_seidel  ") == std::string::npos);
 
-  const Outcome early = impinge_run(folder.path(), {"run", "s.toml", "--frames", "1", "--freeze", "1", "--no-images", "--out", "none"});
+  const Outcome early =
+      impinge_run(folder.path(), {"run", "s.toml", "--frames", "1", "--freeze", "1", "--no-images", "--out", "none"});
   CHECK(early.code == 0);  // nothing touches yet: an empty step, which there is nothing to solve in
   CHECK(early.out.find("0 contacts") != std::string::npos);
   std::string damaged = slurp(folder / "r/frozen/000012.step");
@@ -259,9 +289,13 @@ TEST_CASE("impinge run --freeze and impinge step: files, columns, figures") {
   folder.write("damaged.step", damaged);
   check_refused(folder, {"step", "none/frozen/000001.step"}, "none/frozen/000001.step: ", "has no contacts");
   check_refused(folder, {"step", "damaged.step"}, "damaged.step: byte 36: ", "checksum");
-  check_refused(folder, {"step", "r/frozen/000012.step", "--response", "constraint_anticipations"}, "command line: ", "did you mean 'constraint_anticipation'?");
-  check_refused(folder, {"step", "r/frozen/000012.step", "--lcp", "pivoting"}, "r/frozen/000012.step: ", "no chosen solver applies");
-  check_refused(folder, {"run", "s.toml", "--frames", "5", "--freeze", "6", "--out", "x"}, "command line: --freeze is 6", "from 1 to 5");
-  check_refused(folder, {"run", "s.toml", "--frames", "5", "--freeze", "0", "--out", "x"}, "command line: --freeze is 0", "frame 0 has no response");
+  check_refused(folder, {"step", "r/frozen/000012.step", "--response", "constraint_anticipations"},
+                "command line: ", "did you mean 'constraint_anticipation'?");
+  check_refused(folder, {"step", "r/frozen/000012.step", "--lcp", "pivoting"},
+                "r/frozen/000012.step: ", "no chosen solver applies");
+  check_refused(folder, {"run", "s.toml", "--frames", "5", "--freeze", "6", "--out", "x"},
+                "command line: --freeze is 6", "from 1 to 5");
+  check_refused(folder, {"run", "s.toml", "--frames", "5", "--freeze", "0", "--out", "x"},
+                "command line: --freeze is 0", "frame 0 has no response");
   check_refused(folder, {"run", "s.toml", "--freeze", "-1", "--out", "x"}, "command line: ", "--freeze");
 }

@@ -1,4 +1,5 @@
-// The architecture as a test: includes go down only, the model knows no view, each registered file is on its folder's list.
+// The architecture as a test: includes go down only, the model knows no view, each registered file is on its folder's
+// list.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -30,10 +31,11 @@ std::vector<fs::path> sources() {
 /// The floor of a folder; folders of one floor don't include each other, except what `shared` below allows.
 const std::map<std::string, int>& floors() {
   static const std::map<std::string, int> map = {
-      {"engine/core", 0},        {"engine/geometry", 1},   {"engine/materials", 2},    {"engine/bodies", 3}, {"engine/broadphase", 4},
-      {"engine/narrowphase", 4}, {"engine/integrators", 4}, {"engine/contact", 4},      {"engine/lcp", 5},       {"engine/response", 6},
-      {"engine/world", 7},       {"engine/io", 8},          {"viewer/image", 9},        {"viewer/draw", 9},      {"viewer/gl", 10},
-      {"viewer/layers", 11},     {"viewer/panels", 12},     {"viewer/present", 13},     {"viewer/controller", 14}, {"viewer/app", 15}};
+      {"engine/core", 0},       {"engine/geometry", 1},    {"engine/materials", 2},   {"engine/bodies", 3},
+      {"engine/broadphase", 4}, {"engine/narrowphase", 4}, {"engine/integrators", 4}, {"engine/contact", 4},
+      {"engine/lcp", 5},        {"engine/response", 6},    {"engine/world", 7},       {"engine/io", 8},
+      {"viewer/image", 9},      {"viewer/draw", 9},        {"viewer/gl", 10},         {"viewer/layers", 11},
+      {"viewer/panels", 12},    {"viewer/present", 13},    {"viewer/controller", 14}, {"viewer/app", 15}};
   return map;
 }
 
@@ -72,7 +74,8 @@ TEST_CASE("the model knows no view and no terminal") {
     if (own.rfind("engine/", 0) != 0) continue;
     const std::string text = text_of(file);
     for (const char* word : {"<GL/", "imgui", "std::cout", "std::cerr", "printf(", "exit(", "<iostream>"}) {
-      if (std::string(word) == "exit(" && own == "engine/io/read_with_assimp.cpp") continue;  // ends its child process with _exit
+      // ends its child process with _exit
+      if (std::string(word) == "exit(" && own == "engine/io/read_with_assimp.cpp") continue;
       CAPTURE(own, word);
       CHECK(text.find(word) == std::string::npos);
     }
@@ -80,7 +83,8 @@ TEST_CASE("the model knows no view and no terminal") {
 }
 
 TEST_CASE("every registered algorithm's file is named in its folder's list") {
-  for (const char* folder : {"engine/broadphase", "engine/narrowphase", "engine/integrators", "engine/lcp", "engine/response", "viewer/layers"}) {
+  for (const char* folder : {"engine/broadphase", "engine/narrowphase", "engine/integrators", "engine/lcp",
+                             "engine/response", "viewer/layers"}) {
     const std::string list = text_of(kRoot / folder / "all.cpp");
     int entries = 0;
     for (const auto& e : fs::directory_iterator(kRoot / folder)) {

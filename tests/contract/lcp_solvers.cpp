@@ -19,7 +19,8 @@ namespace {
 struct RandomProblem {
   DenseDelassus w;
   ConeProblem problem;
-  RandomProblem(Random& random, int contacts, int rank, double epsilon, double mu) : w(make(random, contacts, rank, epsilon)) {
+  RandomProblem(Random& random, int contacts, int rank, double epsilon, double mu)
+      : w(make(random, contacts, rank, epsilon)) {
     problem.w = &w;
     for (int i = 0; i < contacts; ++i) {
       problem.q.push_back(random.vector() + Vec3(-0.3, 0, 0));
@@ -108,7 +109,8 @@ TEST_CASE("every LCP solver: with friction the judge agrees with every claim of 
         CHECK(residual.map.relative <= 1e-11 * (1 + 1e-6));
         CHECK(residual.cone_violation <= 1e-12);
         for (int i = 0; i < n; ++i) {
-          const double t = law == FrictionLaw::cone ? lambda[i].tail<2>().norm() : lambda[i].tail<2>().cwiseAbs().maxCoeff();
+          const double t =
+              law == FrictionLaw::cone ? lambda[i].tail<2>().norm() : lambda[i].tail<2>().cwiseAbs().maxCoeff();
           ++(lambda[i].x() == 0.0 ? open : t < mu * lambda[i].x() * (1 - 1e-9) ? stick : slip);
         }
       }
@@ -172,7 +174,8 @@ TEST_CASE("every LCP solver: attachments and sliding constraints hold as equatio
     Random random(26);
     for (int trial = 0; trial < 20; ++trial) {
       RandomProblem p(random, 9, 30, 0.1, 0.4);
-      for (int i = 0; i < 9; ++i) p.problem.kind.push_back(i % 3 == 0 ? RowKind::attachment : i % 3 == 1 ? RowKind::sliding : RowKind::contact);
+      for (int i = 0; i < 9; ++i)
+        p.problem.kind.push_back(i % 3 == 0 ? RowKind::attachment : i % 3 == 1 ? RowKind::sliding : RowKind::contact);
       if (!solver->applies(p.problem).empty()) continue;
       std::vector<Vec3> lambda(9, Vec3::Zero());
       const LcpResult result = solver->solve(p.problem, {1e-11, 50000}, lambda);
@@ -204,7 +207,8 @@ TEST_CASE("every LCP solver: the history holds the relative residual before the 
     const LcpResult result = e.make()->solve(p.problem, settings, lambda);
     REQUIRE(result.reason == StopReason::converged);
     REQUIRE(history.size() >= 2);
-    if (e.name != "pivoting") CHECK(history.size() == std::size_t(result.iterations) + 1);  // pivots leave no λ in between
+    // pivots leave no λ in between
+    if (e.name != "pivoting") CHECK(history.size() == std::size_t(result.iterations) + 1);
     CHECK(history.front() > 1e-3);
     CHECK(history.back() == Approx(judge(p.problem, lambda).map.relative).margin(1e-13));
   }
@@ -238,7 +242,8 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
     BodyBlock block;
     block.inverse_mass = random.in(0.2, 2.0);
     const Mat3 r = random.rotation();
-    block.inverse_inertia = r * Vec3(random.in(0.5, 5), random.in(0.5, 5), random.in(0.5, 5)).asDiagonal() * r.transpose();
+    block.inverse_inertia =
+        r * Vec3(random.in(0.5, 5), random.in(0.5, 5), random.in(0.5, 5)).asDiagonal() * r.transpose();
     block.velocity = random.vector();
     block.angular_velocity = random.vector();
     group.bodies.push_back(block);

@@ -1,5 +1,5 @@
-// What every registered response promises of any group: Δv belongs to λ, no contact pulls, friction stays in its cone, the same
-// answer again. And what those promise that solve complementarity: the judge's natural map.
+// What every registered response promises of any group: Δv belongs to λ, no contact pulls, friction stays in its cone,
+// the same answer again. And what those promise that solve complementarity: the judge's natural map.
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/tet_mesh.hpp"
@@ -12,7 +12,8 @@ using namespace impinge::test;
 
 namespace {
 
-/// Random bodies, rigid and deformable, with contacts, attachments and sliding points between them, and what they refer to.
+/// Random bodies, rigid and deformable, with contacts, attachments and sliding points between them, and what they refer
+/// to.
 struct RandomGroup {
   GroupSystem system;
   std::vector<BlockMatrix> a;
@@ -24,7 +25,8 @@ struct RandomGroup {
       BodyBlock block;
       block.inverse_mass = random.in(0.2, 2.0);
       const Mat3 r = random.rotation();
-      block.inverse_inertia = r * Vec3(random.in(0.5, 5), random.in(0.5, 5), random.in(0.5, 5)).asDiagonal() * r.transpose();
+      block.inverse_inertia =
+          r * Vec3(random.in(0.5, 5), random.in(0.5, 5), random.in(0.5, 5)).asDiagonal() * r.transpose();
       block.velocity = random.vector();
       block.angular_velocity = random.vector();
       system.bodies.push_back(block);
@@ -40,7 +42,9 @@ struct RandomGroup {
         for (int k = p.begin[i]; !lumped && k < p.begin[i + 1]; ++k) {
           const int j = p.column[k];
           if (j <= i) continue;
-          const Mat3 r = random.rotation(), spring = r * Vec3(random.in(0.01, 0.3), random.in(0.01, 0.3), random.in(0.01, 0.3)).asDiagonal() * r.transpose();
+          const Mat3 r = random.rotation(),
+                     spring = r * Vec3(random.in(0.01, 0.3), random.in(0.01, 0.3), random.in(0.01, 0.3)).asDiagonal() *
+                              r.transpose();
           m.values[p.diagonal[i]] += spring;
           m.values[p.diagonal[j]] += spring;
           m.values[k] -= spring;
@@ -76,7 +80,8 @@ struct RandomGroup {
     };
     for (int c = 0; c < contacts; ++c) {
       ContactRows rows;
-      const int first = random.below(bodies), second = c % 3 == 0 ? -1 : (first + 1 + random.below(std::max(1, bodies - 1))) % bodies;
+      const int first = random.below(bodies),
+                second = c % 3 == 0 ? -1 : (first + 1 + random.below(std::max(1, bodies - 1))) % bodies;
       rows.a = side(first);
       rows.b = side(second == first ? -1 : second);
       rows.directions = random.rotation();
@@ -97,7 +102,8 @@ struct Case {
   bool lumped;
   int contacts;
 };
-constexpr Case kCases[] = {{4, 0, false, 9}, {0, 2, false, 8}, {0, 2, true, 8}, {3, 1, false, 10}, {2, 2, true, 12}, {1, 0, false, 1}};
+constexpr Case kCases[] = {{4, 0, false, 9},  {0, 2, false, 8}, {0, 2, true, 8},
+                           {3, 1, false, 10}, {2, 2, true, 12}, {1, 0, false, 1}};
 
 ResponseSettings patient() {
   ResponseSettings settings;
@@ -158,7 +164,9 @@ TEST_CASE("every response gives the same bits again") {
 TEST_CASE("without friction impulses and constraint anticipation move bodies alike") {
   for (std::uint64_t seed = 20; seed < 26; ++seed) {
     RandomGroup exact(seed, 2, 2, false, 12, true);
-    find_entry(responses(), "constraint_anticipation")->make()->solve(exact.system, *lcp_solvers().front().make(), patient());
+    find_entry(responses(), "constraint_anticipation")
+        ->make()
+        ->solve(exact.system, *lcp_solvers().front().make(), patient());
     for (const char* name : {"sequential_impulse", "simultaneous_impulse"}) {
       CAPTURE(seed, name);
       RandomGroup group(seed, 2, 2, false, 12, true);
@@ -179,14 +187,16 @@ TEST_CASE("the implicit penalty obeys its own law: λ of the velocities that it 
     settings.lcp.tolerance = 1e-11;
     settings.penalty_stiffness = 1e5;
     settings.penalty_damping = 20.0;
-    const ResponseResult result = find_entry(responses(), "penalty")->make()->solve(group.system, *lcp_solvers().front().make(), settings);
+    const ResponseResult result =
+        find_entry(responses(), "penalty")->make()->solve(group.system, *lcp_solvers().front().make(), settings);
     REQUIRE(result.converged);
     const double h = settings.time_step, slope = h * (h * settings.penalty_stiffness + settings.penalty_damping);
     for (std::size_t i = 0; i < group.system.contacts.size(); ++i) {
       const ContactRows& rows = group.system.contacts[i];
       if (rows.kind != RowKind::contact) continue;
       const Vec3 u = group.system.contact_velocity(i, true), lambda = group.system.lambda[i];
-      const double normal = std::max(0.0, rows.gap > 0.0 ? -slope * (u.x() + rows.gap / h) : -h * settings.penalty_stiffness * rows.gap - slope * u.x());
+      const double normal = std::max(0.0, rows.gap > 0.0 ? -slope * (u.x() + rows.gap / h)
+                                                         : -h * settings.penalty_stiffness * rows.gap - slope * u.x());
       CHECK(lambda.x() == Approx(normal).margin(1e-7));
       const double y = std::min(1.0, u.tail<2>().norm() / settings.penalty_slip_speed);
       CHECK(lambda.tail<2>().norm() == Approx(rows.friction * normal * (2 * y - y * y)).margin(1e-6));

@@ -18,7 +18,8 @@ int last_expectation(const fs::path& script) {
   std::ifstream file(script);
   int last = -1;
   for (std::string line; std::getline(file, line);)
-    if (const std::size_t at = line.rfind(" at "); line.starts_with("expect ") && at != std::string::npos) last = std::max(last, std::stoi(line.substr(at + 4)));
+    if (const std::size_t at = line.rfind(" at "); line.starts_with("expect ") && at != std::string::npos)
+      last = std::max(last, std::stoi(line.substr(at + 4)));
   return last;
 }
 
@@ -33,7 +34,9 @@ TEST_CASE("every scene's script finds what it expects", "[long]") {
     CAPTURE(scene.string(), last);
     CHECK(last > 0);
     const TempFolder folder;
-    const Outcome outcome = impinge_run(folder.path(), {"run", scene.string(), "--script", script.string(), "--out", "out", "--frames", std::to_string(last), "--no-images", "--quiet"});
+    const Outcome outcome =
+        impinge_run(folder.path(), {"run", scene.string(), "--script", script.string(), "--out", "out", "--frames",
+                                    std::to_string(last), "--no-images", "--quiet"});
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     ++scenes;

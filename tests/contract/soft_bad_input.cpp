@@ -1,4 +1,5 @@
-// Bad deformable bodies and attachments through the program: exit code 2, one located message with a remedy, nothing written.
+// Bad deformable bodies and attachments through the program: exit code 2, one located message with a remedy, nothing
+// written.
 #include <catch2/catch.hpp>
 
 #include "tests/support/mesh_text.hpp"
@@ -30,8 +31,10 @@ body_a = "jelly"
 body_b = "floor"
 point = [0, 0.25, 0]
 )";
-constexpr const char *kKind = "kind = \"deformable\"", *kShape = "shape = { box = { size = [0.2, 0.2, 0.2] } }", *kVolume = "volume = { cage = { cells = 3 } }";
-constexpr const char* kShapeAndVolume = "shape = { box = { size = [0.2, 0.2, 0.2] } }\nvolume = { cage = { cells = 3 } }";
+constexpr const char *kKind = "kind = \"deformable\"", *kShape = "shape = { box = { size = [0.2, 0.2, 0.2] } }",
+                     *kVolume = "volume = { cage = { cells = 3 } }";
+constexpr const char* kShapeAndVolume =
+    "shape = { box = { size = [0.2, 0.2, 0.2] } }\nvolume = { cage = { cells = 3 } }";
 constexpr const char* kMaterial = "material = { young = 1e5, poisson = 0.4, density = 1000 }";
 constexpr const char* kFixed = "fixed = { box = { min = [-1, 0.38, -1], max = [1, 1, 1] } }";
 constexpr const char* kAttachment = "body_a = \"jelly\"\nbody_b = \"floor\"\npoint = [0, 0.25, 0]\n";
@@ -39,7 +42,8 @@ constexpr const char* kAttachment = "body_a = \"jelly\"\nbody_b = \"floor\"\npoi
 const std::vector<std::string> kRun = {"run", "s.toml", "--out", "out", "--frames", "1", "--no-images"};
 
 // the scene with `from` exchanged, in a folder of good and bad meshes; `start` is where the message says it is
-void check_refused_at(const std::string& from, const std::string& to, const std::string& start, const std::string& contains) {
+void check_refused_at(const std::string& from, const std::string& to, const std::string& start,
+                      const std::string& contains) {
   static const TempFolder folder;
   static const bool written = [] {
     const TetMesh cube = make_tet_box(Vec3::Constant(0.2), 2, 2, 2);
@@ -53,7 +57,8 @@ void check_refused_at(const std::string& from, const std::string& to, const std:
     folder.write("open.off", off_text(open));
     folder.write("far.off", off_text(far));
     folder.write("cube.veg", veg_text(cube));
-    folder.write("bad.veg", replaced(veg_text(cube), "ELEMENTS\nTET\n48 4 0\n1 1 2 5 14\n", "ELEMENTS\nTET\n48 4 0\n1 1 2 5 140\n"));
+    folder.write("bad.veg", replaced(veg_text(cube), "ELEMENTS\nTET\n48 4 0\n1 1 2 5 14\n",
+                                     "ELEMENTS\nTET\n48 4 0\n1 1 2 5 140\n"));
     folder.write("inverted.msh", msh22_text(inverted));
     folder.write("lonely.node", node_text(cube));
     return true;
@@ -91,7 +96,8 @@ TEST_CASE("volumes that can't be made are refused at the right place") {
   check_refused_at(kVolume, "volume = 3", "s.toml:11:10", "a file name, or a table");
   check_refused_at(kVolume, "volume = [true]", "s.toml:11:10", "a file name, or a table");
   check_refused_at(kVolume, "volume = {}", "s.toml:11:10", "names 0 ways");
-  check_refused_at(kVolume, "volume = { cage = { cells = 3 }, lattice = { cells = 3 } }", "s.toml:11:10", "names 2 ways");
+  check_refused_at(kVolume, "volume = { cage = { cells = 3 }, lattice = { cells = 3 } }", "s.toml:11:10",
+                   "names 2 ways");
   check_refused_at(kVolume, "volume = { cge = { cells = 3 } }", "s.toml:11:12", "did you mean 'cage'?");
   check_refused_at(kVolume, "volume = { cage = 3 }", "s.toml:11:19", "a table { ... } is wanted");
   check_refused_at(kVolume, "volume = { cage = {} }", "s.toml:11:19", "has no cells");
@@ -101,12 +107,15 @@ TEST_CASE("volumes that can't be made are refused at the right place") {
   check_refused_at(kVolume, "volume = { cage = { cells = 2.5 } }", "s.toml:11:29", "a whole number");
   check_refused_at(kVolume, "volume = { cage = { cells = nan } }", "s.toml:11:29", "nan");
   check_refused_at(kVolume, "volume = { lattice = { cells = \"many\" } }", "s.toml:11:32", "a real number");
-  check_refused_at(kShapeAndVolume, "shape = { sphere = { radius = 0.1 } }\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12", "use a cage");
-  check_refused_at(kShapeAndVolume, "surface = \"cube.off\"\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12", "use a cage");
+  check_refused_at(kShapeAndVolume, "shape = { sphere = { radius = 0.1 } }\nvolume = { lattice = { cells = 3 } }",
+                   "s.toml:11:12", "use a cage");
+  check_refused_at(kShapeAndVolume, "surface = \"cube.off\"\nvolume = { lattice = { cells = 3 } }", "s.toml:11:12",
+                   "use a cage");
   check_refused_at(kShape, "", "s.toml:7:1", "has no surface");
   check_refused_at(kShape, "shape = { plane = { normal = [0, 1, 0] } }", "s.toml:10:9", "sphere, box, capsule");
   check_refused_at(kShape, "shape = { capsule = { radius = 1 } }", "s.toml:10:21", "has no length");
-  check_refused_at(kShapeAndVolume, std::string(kShape) + "\nsurface = \"cube.off\"\n" + kVolume, "s.toml:11:1", "one of them is wanted");
+  check_refused_at(kShapeAndVolume, std::string(kShape) + "\nsurface = \"cube.off\"\n" + kVolume, "s.toml:11:1",
+                   "one of them is wanted");
   check_refused_at(kShape, "surface = \"none.off\"", "s.toml:10:11", "there is no such file");
   check_refused_at(kShape, "surface = \"open.off\"", "s.toml:10:11", "not closed");
   check_refused_at(kShape, "shape = { box = { size = [0.2, 0.2, -1] } }", "s.toml:10:37", "greater than 0");
@@ -121,7 +130,8 @@ TEST_CASE("volume files that don't fit are refused at the right place") {
   check_refused_at(kShapeAndVolume, "volume = \"bad.veg\"", "bad.veg:36:9", "vertex 140");
   check_refused_at(kShapeAndVolume, "volume = \"inverted.msh\"", "inverted.msh:45:1", "inverted");
   check_refused_at(kShapeAndVolume, "volume = \"lonely.node\"", "lonely.node", "'lonely.ele' is not there");
-  check_refused_at(kShapeAndVolume, "surface = \"far.off\"\nvolume = \"cube.veg\"", "s.toml:11:10", "outside of the volume");
+  check_refused_at(kShapeAndVolume, "surface = \"far.off\"\nvolume = \"cube.veg\"", "s.toml:11:10",
+                   "outside of the volume");
 }
 
 TEST_CASE("materials that don't exist are refused at the right place") {
@@ -155,7 +165,8 @@ TEST_CASE("materials that don't exist are refused at the right place") {
   refused_material("extension_threshold = 1", "36", "[0.001, 0.9]");
   check_refused_at(kMaterial, std::string(kMaterial) + "\nmass = 3", "s.toml:13:1", "a mass and a density");
   check_refused_at(kMaterial, "mass = 0", "s.toml:12:8", "greater than 0");
-  check_refused_at(kMaterial, std::string(kMaterial) + "\nmotion = [ { time = 0 } ]", "s.toml:13:1", "scripted bodies have one");
+  check_refused_at(kMaterial, std::string(kMaterial) + "\nmotion = [ { time = 0 } ]", "s.toml:13:1",
+                   "scripted bodies have one");
 }
 
 TEST_CASE("held regions that hold nothing, or make no sense, are refused at the right place") {
@@ -169,7 +180,8 @@ TEST_CASE("held regions that hold nothing, or make no sense, are refused at the 
   check_refused_fixed("{ box = { min = [0, 0, 0] } }", "17", "has no max");
   check_refused_fixed("{ box = { min = [1, 1, 1], max = [0, 0, 0] } }", "17", "exchange them");
   check_refused_fixed("{ box = { min = [0, 0], max = [1, 1, 1] } }", "25", "[x, y, z]");
-  check_refused_fixed("{ box = { min = [5, 5, 5], max = [6, 6, 6] } }", "9", "holds no node; the body's nodes lie in [-0.1");
+  check_refused_fixed("{ box = { min = [5, 5, 5], max = [6, 6, 6] } }", "9",
+                      "holds no node; the body's nodes lie in [-0.1");
   check_refused_fixed("{ sphere = { radius = 1 } }", "20", "has no center");
   check_refused_fixed("{ sphere = { center = [0, 0, 0] } }", "20", "has no radius");
   check_refused_fixed("{ sphere = { center = [0, 0, 0], radius = 0 } }", "51", "greater than 0");
@@ -181,12 +193,14 @@ TEST_CASE("held regions that hold nothing, or make no sense, are refused at the 
   check_refused_fixed("{ nodes = [-1] }", "20", "[0, 1e+09]");
   check_refused_fixed("{ nodes = [\"a\"] }", "20", "a real number");
   check_refused_fixed("{ nodes = [0, 99999] }", "9", "the body has nodes 0 to ");
-  check_refused_fixed("[ { nodes = [7] }, { nodes = [0, 1, 2, -0] }, { nodes = [7] } ]", "55", "fixed[2] holds no node that the regions before it leave");
+  check_refused_fixed("[ { nodes = [7] }, { nodes = [0, 1, 2, -0] }, { nodes = [7] } ]", "55",
+                      "fixed[2] holds no node that the regions before it leave");
   check_refused_fixed("{ nodes = [0], motion = 3 }", "33", "motion is an integer");
   check_refused_fixed("{ nodes = [0], motion = [] }", "33", "no key frames");
   check_refused_fixed("{ nodes = [0], motion = [ { position = [0, 0, 0] } ] }", "35", "has no time");
   check_refused_fixed("{ nodes = [0], motion = [ { time = 1 }, { time = 0 } ] }", "58", "times must increase");
-  check_refused_fixed("{ nodes = [0], motion = [ { time = 0, velocity = [0, 0, 0] } ] }", "47", "allowed: time, position, rotation");
+  check_refused_fixed("{ nodes = [0], motion = [ { time = 0, velocity = [0, 0, 0] } ] }", "47",
+                      "allowed: time, position, rotation");
 }
 
 TEST_CASE("attachments that join nothing are refused at the right place") {
@@ -203,12 +217,14 @@ TEST_CASE("attachments that join nothing are refused at the right place") {
   refused_attachment("body_a = \"jelly\"\nbody_b = \"jelly\"\npoint = [0, 0.3, 0]\n", "17:10", "with itself");
   refused_attachment("body_a = \"floor\"\npoint = [0, 0, 0]\n", "15:1", "joins nothing that can move");
   refused_attachment("body_a = \"jelly\"\nbody_b = 3\npoint = [0, 0.3, 0]\n", "17:10", "a text is wanted");
-  refused_attachment("body_a = \"jelly\"\nbody_c = \"floor\"\npoint = [0, 0.3, 0]\n", "17:1", "allowed: name, body_a, body_b, point");
+  refused_attachment("body_a = \"jelly\"\nbody_c = \"floor\"\npoint = [0, 0.3, 0]\n", "17:1",
+                     "allowed: name, body_a, body_b, point");
   refused_attachment("body_a = \"jelly\"\npoint = [0, 0.3]\n", "17:9", "[x, y, z]");
   refused_attachment("body_a = \"jelly\"\npoint = [0, nan, 0]\n", "17:13", "nan");
   refused_attachment("body_a = \"jelly\"\npoint = [5, 5, 5]\n", "15:1", "outside of the deformable body 'jelly'");
   refused_attachment("name = 3\nbody_a = \"jelly\"\npoint = [0, 0.3, 0]\n", "16:8", "a text is wanted");
-  refused_attachment(std::string("name = \"hook\"\n") + kAttachment + "[[attachment]]\nname = \"hook\"\n" + kAttachment, "20:1", "a second attachment named 'hook'");
+  refused_attachment(std::string("name = \"hook\"\n") + kAttachment + "[[attachment]]\nname = \"hook\"\n" + kAttachment,
+                     "20:1", "a second attachment named 'hook'");
 }
 
 TEST_CASE("overrides and scripts of a deformable body are checked like the scene") {
@@ -233,7 +249,8 @@ TEST_CASE("overrides and scripts of a deformable body are checked like the scene
   refused_script("at 1 set body.jelly.material.young 0\n", "1:36", "out of range");
   refused_script("at 1 set body.jelly.material.poisson 0.5\n", "1:38", "out of range");
   refused_script("at 1 set body.jelly.material.yung 1e5\n", "1:10", "did you mean 'body.jelly.material.young'?");
-  refused_script("at 1 set body.jelly.fixed_1.displacement 0 1 0\n", "1:10", "did you mean 'body.jelly.fixed_0.displacement'?");
+  refused_script("at 1 set body.jelly.fixed_1.displacement 0 1 0\n", "1:10",
+                 "did you mean 'body.jelly.fixed_0.displacement'?");
   refused_script("at 1 set body.jelly.fixed_0.displacement 0 1\n", "1:42", "[x, y, z]");
   refused_script("at 1 set body.jelly.velocity 0 1 0\n", "1:10", "unknown parameter 'body.jelly.velocity'");
 }

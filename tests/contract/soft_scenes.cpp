@@ -1,6 +1,7 @@
-// Scenes of deformable bodies from every kind of volume: what arrives in the world, what moves, and that a run can be repeated.
-#include <catch2/catch.hpp>
+// Scenes of deformable bodies from every kind of volume: what arrives in the world, what moves, and that a run can be
+// repeated.
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include "engine/bodies/soft_body.hpp"
 #include "engine/geometry/mass_properties.hpp"
@@ -25,7 +26,9 @@ struct Meshes {
   Meshes() {
     const TetMesh box = make_tet_box(kSize, 3, 2, 1);
     folder.write("box.veg", veg_text(box));
-    folder.write("material.veg", veg_text(box) + "\n*MATERIAL soft\nENU, 900, 20000, 0.3\n\n*SET all\n1\n\n*REGION\nallElements, soft\n");
+    folder.write(
+        "material.veg",
+        veg_text(box) + "\n*MATERIAL soft\nENU, 900, 20000, 0.3\n\n*SET all\n1\n\n*REGION\nallElements, soft\n");
     folder.write("box.msh", msh22_text(box));
     folder.write("box.node", node_text(box));
     folder.write("box.ele", ele_text(box));
@@ -38,7 +41,8 @@ struct Meshes {
     for (Vec3& x : mesh.vertices) x += 0.5 * kSize;
     return mesh;
   }
-  std::unique_ptr<Session> open(const std::string& body, const std::string& script = "", const std::vector<std::string>& overrides = {}) const {
+  std::unique_ptr<Session> open(const std::string& body, const std::string& script = "",
+                                const std::vector<std::string>& overrides = {}) const {
     folder.write("s.toml", "[[body]]\nname = \"soft\"\nkind = \"deformable\"\n" + body);
     if (!script.empty()) folder.write("a.script", script);
     return std::make_unique<Session>(folder / "s.toml", overrides, script.empty() ? fs::path() : folder / "a.script");
@@ -81,11 +85,15 @@ TEST_CASE("every kind of volume makes a body of the right mass that falls") {
   check("volume = \"material.veg\"\n", 0.9 * box_mass, 1e-12);
   check("volume = \"material.veg\"\nmaterial = { density = 500 }\n", 0.5 * box_mass, 1e-12);
   check("shape = { box = { size = [0.3, 0.2, 0.1] } }\nvolume = { lattice = { cells = 3 } }\n", box_mass, 1e-12);
-  check("shape = { box = { size = [0.3, 0.2, 0.1] } }\nvolume = { lattice = { cells = 3 } }\nmass = 2\nmaterial = { mass = \"consistent\" }\n", 2.0, 1e-12);
+  check(
+      "shape = { box = { size = [0.3, 0.2, 0.1] } }\nvolume = { lattice = { cells = 3 } }\nmass = 2\nmaterial = { mass "
+      "= \"consistent\" }\n",
+      2.0, 1e-12);
   // of a cage the filled part counts, sampled by rays
   check("shape = { box = { size = [0.3, 0.2, 0.1] } }\nvolume = { cage = { cells = 4 } }\n", box_mass, 5e-3);
   const double ball = signed_volume(icosphere(2, 0.1));
-  check("surface = \"ball.off\"\nvolume = { cage = { cells = 5 } }\nmaterial = { density = 700 }\n", 700.0 * ball, 5e-3);
+  check("surface = \"ball.off\"\nvolume = { cage = { cells = 5 } }\nmaterial = { density = 700 }\n", 700.0 * ball,
+        5e-3);
   check("surface = \"ball.off\"\nvolume = { cage = { cells = 5 } }\nscale = 2\nmass = 1.5\n", 1.5, 1e-12);
   check("shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 6 } }\nmass = 1.5\n", 1.5, 1e-12);
 }
@@ -96,13 +104,17 @@ TEST_CASE("a deformable body's material comes from the scene, its file, an overr
   const auto file = meshes.open("volume = \"material.veg\"\n");
   CHECK(settings(*file).young == 20000.0);
   CHECK(settings(*file).poisson == 0.3);
-  const auto over_file = meshes.open("volume = \"material.veg\"\nmaterial = { young = 7e4, model = \"neo_hookean\" }\n");
+  const auto over_file =
+      meshes.open("volume = \"material.veg\"\nmaterial = { young = 7e4, model = \"neo_hookean\" }\n");
   CHECK(settings(*over_file).young == 7e4);
   CHECK(settings(*over_file).poisson == 0.3);
 
-  const std::string body = "volume = \"box.veg\"\nmaterial = { young = 1e5, damping = [0.5, 0.01] }\nfixed = { box = { min = [-1, -1, -1], max = [0.01, 1, 1] } }\n";
+  const std::string body =
+      "volume = \"box.veg\"\nmaterial = { young = 1e5, damping = [0.5, 0.01] }\nfixed = { box = { min = [-1, -1, -1], "
+      "max = [0.01, 1, 1] } }\n";
   const std::string script =
-      "at 2 set body.soft.material.young 1e6\nat 2 set body.soft.material.damping_beta 0.003\nfrom 3 to 5 ramp body.soft.material.poisson 0.3 0.4\n"
+      "at 2 set body.soft.material.young 1e6\nat 2 set body.soft.material.damping_beta 0.003\nfrom 3 to 5 ramp "
+      "body.soft.material.poisson 0.3 0.4\n"
       "at 4 set body.soft.fixed_0.displacement 0 0.02 0\n";
   const auto s = meshes.open(body, script, {"body.soft.material.young=2e5", "body.soft.material.damping_alpha=0.25"});
   CHECK(settings(*s).young == 2e5);
@@ -122,15 +134,18 @@ TEST_CASE("a deformable body's material comes from the scene, its file, an overr
   }
 
   // a body without the table takes an override too
-  const auto bare = meshes.open("volume = \"box.veg\"\n", "", {"body.soft.material.young=4e5", "body.soft.material.model=stvk"});
+  const auto bare =
+      meshes.open("volume = \"box.veg\"\n", "", {"body.soft.material.young=4e5", "body.soft.material.model=stvk"});
   CHECK(settings(*bare).young == 4e5);
 }
 
 TEST_CASE("the override's stiffness is felt: a held beam sags in inverse proportion to it") {
   const Meshes meshes;
   const auto sag = [&](const std::string& young) {
-    const auto s = meshes.open("volume = \"box.veg\"\nmaterial = { model = \"linear\", poisson = 0.3, damping = [50, 0.05] }\nfixed = { box = { min = [-1, -1, -1], max = [0.01, 1, 1] } }\n", "",
-                               {"body.soft.material.young=" + young, "simulation.sleeping=false"});
+    const auto s = meshes.open(
+        "volume = \"box.veg\"\nmaterial = { model = \"linear\", poisson = 0.3, damping = [50, 0.05] }\nfixed = { box = "
+        "{ min = [-1, -1, -1], max = [0.01, 1, 1] } }\n",
+        "", {"body.soft.material.young=" + young, "simulation.sleeping=false"});
     for (int i = 0; i < 120; ++i) s->advance();
     const int tip = 3;  // (i, j, k) = (3, 0, 0) of the lattice
     return soft(*s).fem.rest_position(tip).y() - soft(*s).fem.position[3 * tip + 1];
@@ -154,11 +169,16 @@ fixed = [ { box = { min = [0.9, -1, -1], max = [1.01, 1, 1] } },
   CHECK(soft(*s).held[2].nodes == std::vector<int>{23});
   CHECK(soft(*s).fem.free_nodes() == 24 - 11);
   for (int i = 0; i < 6; ++i) s->advance();  // past the last key
-  for (const int node : {0, 20, 23}) CHECK((soft(*s).fem.position.segment<3>(3 * node) - soft(*s).fem.rest_position(node) - Vec3(1, 0, 0)).norm() < 1e-12);
-  for (const int node : {2, 15}) CHECK((soft(*s).fem.position.segment<3>(3 * node) - soft(*s).fem.rest_position(node) - Vec3(1.02, 0.01, 0)).norm() < 1e-12);
+  for (const int node : {0, 20, 23})
+    CHECK((soft(*s).fem.position.segment<3>(3 * node) - soft(*s).fem.rest_position(node) - Vec3(1, 0, 0)).norm() <
+          1e-12);
+  for (const int node : {2, 15})
+    CHECK((soft(*s).fem.position.segment<3>(3 * node) - soft(*s).fem.rest_position(node) - Vec3(1.02, 0.01, 0)).norm() <
+          1e-12);
 
   // all of it held: a body without freedom is refused
-  CHECK_THROWS_AS(meshes.open("volume = \"box.veg\"\nfixed = { sphere = { center = [0, 0, 0], radius = 9 } }\n"), InputError);
+  CHECK_THROWS_AS(meshes.open("volume = \"box.veg\"\nfixed = { sphere = { center = [0, 0, 0], radius = 9 } }\n"),
+                  InputError);
 }
 
 TEST_CASE("attachments keep two points together: of a body and the world, of two bodies") {
@@ -219,8 +239,11 @@ name = "hook"
 body_a = "beam"
 point = [0.8, 0.4, 0.05]
 )");
-  meshes.folder.write("r.script", "at 2 set body.ball.material.young 1e6\nat 3 set body.beam.fixed_0.displacement 0 0.005 0\n");
-  const Outcome run = impinge_run(meshes.folder.path(), {"run", "r.toml", "--script", "r.script", "--out", "out", "--frames", "8", "--no-images", "--set", "body.brick.material.young=3e4"});
+  meshes.folder.write("r.script",
+                      "at 2 set body.ball.material.young 1e6\nat 3 set body.beam.fixed_0.displacement 0 0.005 0\n");
+  const Outcome run =
+      impinge_run(meshes.folder.path(), {"run", "r.toml", "--script", "r.script", "--out", "out", "--frames", "8",
+                                         "--no-images", "--set", "body.brick.material.young=3e4"});
   INFO(run.err);
   REQUIRE(run.code == 0);
   const Outcome replay = impinge_run("/", {"replay", (meshes.folder / "out").string()});
@@ -230,7 +253,8 @@ point = [0.8, 0.4, 0.05]
   const std::string record = slurp(meshes.folder / "out/run.toml");
   CHECK(record.find("young = 30000") != std::string::npos);
   CHECK(record.find("[[attachment]]") != std::string::npos);
-  const Outcome again = impinge_run("/", {"run", (meshes.folder / "out/run.toml").string(), "--out", (meshes.folder / "again").string(), "--no-images"});
+  const Outcome again = impinge_run("/", {"run", (meshes.folder / "out/run.toml").string(), "--out",
+                                          (meshes.folder / "again").string(), "--no-images"});
   INFO(again.err);
   REQUIRE(again.code == 0);
   CHECK(slurp(meshes.folder / "again/run.toml") == record);

@@ -1,4 +1,5 @@
-// Volumes made from surfaces: kept between runs bit for bit, shared in a scene, and tetrahedra from a program of its own.
+// Volumes made from surfaces: kept between runs bit for bit, shared in a scene, and tetrahedra from a program of its
+// own.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
@@ -37,7 +38,9 @@ class Variable {
   std::optional<std::string> old_;
 };
 
-const std::string kBall = "[[body]]\nname = \"ball\"\nkind = \"deformable\"\nsurface = \"ball.off\"\nvolume = { cage = { cells = 4 } }\nposition = [0, 1, 0]\n";
+const std::string kBall =
+    "[[body]]\nname = \"ball\"\nkind = \"deformable\"\nsurface = \"ball.off\"\nvolume = { cage = { cells = 4 } "
+    "}\nposition = [0, 1, 0]\n";
 
 struct Files {
   TempFolder folder;
@@ -101,7 +104,8 @@ TEST_CASE("a cage from the cache is the cage that was made, bit for bit") {
   flipped[bytes.size() / 2] ^= 1;
   std::string old = bytes;
   old[0] ^= 1;
-  for (const std::string& damaged : {flipped, old, bytes.substr(0, bytes.size() / 2), bytes + "x", std::string(), std::string(1000, 'x')}) {
+  for (const std::string& damaged :
+       {flipped, old, bytes.substr(0, bytes.size() / 2), bytes + "x", std::string(), std::string(1000, 'x')}) {
     std::ofstream(file, std::ios::binary) << damaged;
     CHECK(bits(files.scene()) == made);
     CHECK(slurp(file) == bytes);
@@ -112,8 +116,11 @@ TEST_CASE("a cage from the cache is the cage that was made, bit for bit") {
 TEST_CASE("bodies share a cage where surface, scale and cells are the same") {
   const Files files;
   const Variable cache("IMPINGE_CACHE", files.cache());
-  const auto more = [](const std::string& name, const std::string& keys) { return replaced(kBall, "\"ball\"", "\"" + name + "\"") + keys; };
-  files.folder.write("scene/s.toml", kBall + more("b", "material = { young = 1e6 }\n") + more("c", "rotation = [0, 90, 0]\n"));
+  const auto more = [](const std::string& name, const std::string& keys) {
+    return replaced(kBall, "\"ball\"", "\"" + name + "\"") + keys;
+  };
+  files.folder.write("scene/s.toml",
+                     kBall + more("b", "material = { young = 1e6 }\n") + more("c", "rotation = [0, 90, 0]\n"));
   bits(files.scene());
   CHECK(files.kept().size() == 1);
   files.folder.write("scene/s.toml", kBall + more("b", "scale = 2\n"));
@@ -127,7 +134,8 @@ TEST_CASE("bodies share a cage where surface, scale and cells are the same") {
 TEST_CASE("a cache that can't be written is no reason to fail") {
   const Files files;
   files.folder.write("taken", "a file");
-  for (const std::string& folder : {std::string("/proc/impinge"), (files.folder / "taken").string(), (files.folder / "taken/below").string()}) {
+  for (const std::string& folder :
+       {std::string("/proc/impinge"), (files.folder / "taken").string(), (files.folder / "taken/below").string()}) {
     const Variable cache("IMPINGE_CACHE", folder);
     const Outcome outcome = impinge_run(files.folder.path(), {"check", "scene/s.toml"});
     CHECK(outcome.code == 0);
@@ -155,7 +163,8 @@ TEST_CASE("tetrahedra come from the program that the environment names") {
   const TetMesh volume = make_tet_box(Vec3::Constant(0.2), 2, 2, 2);
   files.folder.write("scene/cube.off", off_text(boundary_surface(volume)));
   files.folder.write("made.msh", msh22_text(volume));
-  files.folder.write("scene/s.toml", replaced(replaced(kBall, "ball.off", "cube.off"), "cage = { cells = 4 }", "tetrahedralize = { max_size = 0.1 }"));
+  files.folder.write("scene/s.toml", replaced(replaced(kBall, "ball.off", "cube.off"), "cage = { cells = 4 }",
+                                              "tetrahedralize = { max_size = 0.1 }"));
   const auto tool = [&](const std::string& name, const std::string& lines) {
     const fs::path path = files.folder.write(name, "#!/bin/sh\n" + lines);
     fs::permissions(path, fs::perms::owner_all);
@@ -174,7 +183,8 @@ TEST_CASE("tetrahedra come from the program that the environment names") {
   refused(tool("wrong", "echo nonsense > \"$2\"\n"), "volume.msh:1:1");
   CHECK(files.kept().empty());
 
-  const std::string good = tool("good", "test \"$3 $4\" = '--max-size 0.1' && grep -q '^26 48 0$' \"$1\" && cp \"" + (files.folder / "made.msh").string() + "\" \"$2\"\n");
+  const std::string good = tool("good", "test \"$3 $4\" = '--max-size 0.1' && grep -q '^26 48 0$' \"$1\" && cp \"" +
+                                            (files.folder / "made.msh").string() + "\" \"$2\"\n");
   {
     const Variable named("IMPINGE_TETRAHEDRALIZE", good);
     Session session(files.scene(), {}, {});
@@ -188,7 +198,8 @@ TEST_CASE("tetrahedra come from the program that the environment names") {
   CHECK(impinge_run(files.folder.path(), {"check", "scene/s.toml"}).code == 0);
 
   const auto refused_value = [&](const std::string& value, const std::string& contains) {
-    files.folder.write("scene/s.toml", replaced(replaced(kBall, "ball.off", "cube.off"), "cage = { cells = 4 }", "tetrahedralize = " + value));
+    files.folder.write("scene/s.toml", replaced(replaced(kBall, "ball.off", "cube.off"), "cage = { cells = 4 }",
+                                                "tetrahedralize = " + value));
     check_refused(files.folder, {"check", "scene/s.toml"}, "scene/s.toml:5:", contains);
   };
   refused_value("0.1", "a table { ... } is wanted");
@@ -217,7 +228,8 @@ TEST_CASE("the real tetrahedralizer fills a ball with good tetrahedra") {
   CHECK(smallest_dihedral_angle(mesh) > 8.0);
   double longest = 0.0;
   for (const Tet& tet : mesh.tets)
-    for (const auto& [i, j] : kTetEdges) longest = std::max(longest, (mesh.vertices[tet[i]] - mesh.vertices[tet[j]]).norm());
+    for (const auto& [i, j] : kTetEdges)
+      longest = std::max(longest, (mesh.vertices[tet[i]] - mesh.vertices[tet[j]]).norm());
   CHECK(longest < 1.5 * 0.03);
 
   // the same bits each time

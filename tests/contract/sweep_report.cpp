@@ -1,6 +1,7 @@
-// What a sweep leaves to look at: report.html, used in a real browser, its pictures, and the ablation of `impinge info`.
-#include <catch2/catch.hpp>
+// What a sweep leaves to look at: report.html, used in a real browser, its pictures, and the ablation of `impinge
+// info`.
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <sys/wait.h>
 
@@ -45,8 +46,10 @@ TEST_CASE("the report of a sweep works in a browser, asks for nothing outside an
   const TempFolder folder;
   folder.write("s.toml", kCrateScene);
   folder.write("a.script", "expect kinetic_J < 1e6 at 3\n");  // the fastest crate fails it: a row with its reason
-  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--script", "a.script", "--vary", "contact.friction=0,0.3,0.6", "--vary", "simulation.substeps=1,2,4", "--vary",
-                                      "body.crate.velocity=[1,0,0],[1e5,0,0]", "--reference", "simulation.substeps=8", "--frames", "6", "--size", "320x180", "--out", "out"})
+  REQUIRE(impinge_run(folder.path(),
+                      {"sweep", "s.toml", "--script", "a.script", "--vary", "contact.friction=0,0.3,0.6", "--vary",
+                       "simulation.substeps=1,2,4", "--vary", "body.crate.velocity=[1,0,0],[1e5,0,0]", "--reference",
+                       "simulation.substeps=8", "--frames", "6", "--size", "320x180", "--out", "out"})
               .code == 1);
   CHECK(fs::exists(folder / "out/work_precision.png"));
   CHECK(read_png(folder / "out/heat_map.png").width == 1280);
@@ -54,7 +57,8 @@ TEST_CASE("the report of a sweep works in a browser, asks for nothing outside an
   CHECK(page.find("a.script:1:1") != std::string::npos);  // the reason
   CHECK(page.find("http://") == std::string::npos);
   CHECK(page.find("https://") == std::string::npos);
-  const Outcome used = program(fmt::format("python3 {}/tests/tools/report_in_browser.py {}", IMPINGE_SOURCE_DIR, (folder / "out/report.html").string()));
+  const Outcome used = program(fmt::format("python3 {}/tests/tools/report_in_browser.py {}", IMPINGE_SOURCE_DIR,
+                                           (folder / "out/report.html").string()));
   if (used.code == 77 || used.code == 127) {
     WARN("not opened: this test needs python3 and chromium");
     return;
@@ -68,7 +72,9 @@ TEST_CASE("the report of a sweep works in a browser, asks for nothing outside an
 TEST_CASE("a sweep without reference, pictures and a second parameter has a report without their sections") {
   const TempFolder folder;
   folder.write("s.toml", kCrateScene);
-  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2", "--no-images", "--out", "out"}).code == 0);
+  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2",
+                                      "--no-images", "--out", "out"})
+              .code == 0);
   const std::string page = slurp(folder / "out/report.html");
   CHECK(!fs::exists(folder / "out/work_precision.png"));
   CHECK(!fs::exists(folder / "out/heat_map.png"));
@@ -106,17 +112,22 @@ TEST_CASE("the report takes whatever columns the table has, and nothing in it ca
   CHECK(!column("note").is_numeric);
   CHECK(column("spread_step_ms").kind == ReportColumn::spread);
   CHECK(column("error_rms_m").distinct == 4);
-  CHECK(table.best(table.column("step_ms"), table.column("error_rms_m")) == std::vector<bool>{true, true, false, false});
+  CHECK(table.best(table.column("step_ms"), table.column("error_rms_m")) ==
+        std::vector<bool>{true, true, false, false});
   CHECK(html_text(table.cell(3, "reason")).find('<') == std::string::npos);
   CHECK(json_text(table.cell(3, "reason")) == "\"frame 3, a \\\"body\\\" of \\u003c/script>, 2 lines\\u000ahere\"");
   const TempFolder folder;
-  CHECK(machine_html(table, folder.path()).find("spread_step_ms say how far the runs lie apart: 6.7 % of the time on average, 10.0 % at most") != std::string::npos);
+  CHECK(machine_html(table, folder.path())
+            .find("spread_step_ms say how far the runs lie apart: 6.7 % of the time on average, 10.0 % at most") !=
+        std::string::npos);
 }
 
 TEST_CASE("an ablation runs the scene with each economy off, and the sweep's report shows it") {
   const TempFolder folder;
   folder.write("s.toml", replaced(kCrateScene, "velocity = [1, 0, 0]\n", "velocity = [1, 0, 0]\nfriction = 0\n"));
-  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2", "--no-images", "--out", "out"}).code == 0);
+  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2",
+                                      "--no-images", "--out", "out"})
+              .code == 0);
   CHECK(slurp(folder / "out/report.html").find("id=\"ablation\"") == std::string::npos);
   const Outcome outcome = impinge_run(folder.path(), {"info", "s.toml", "--ablation", "--frames", "8", "--out", "out"});
   INFO(outcome.err);
@@ -136,12 +147,16 @@ TEST_CASE("an ablation runs the scene with each economy off, and the sweep's rep
   CHECK(rows.at("one system a group")[6] == "always");
   CHECK(rows.at("one system a group")[7].empty());
   CHECK(rows.at("all of these at once")[2].find("simulation.sleeping=false") != std::string::npos);
-  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2", "--no-images", "--out", "out"}).code == 0);
+  REQUIRE(impinge_run(folder.path(), {"sweep", "s.toml", "--vary", "contact.friction=0,0.3", "--frames", "2",
+                                      "--no-images", "--out", "out"})
+              .code == 0);
   const std::string table = between(slurp(folder / "out/report.html"), "id=\"ablation\"", "</table>");
   CHECK(count_of(table, "<tr><th scope=\"row\">") == rows.size());
 
   check_refused(folder, {"info", "s.toml", "--frames", "3"}, "command line: ", "--ablation");
   check_refused(folder, {"info", "s.toml", "--ablation", "--frames", "0"}, "command line: ", "at least one frame");
-  folder.write("still.toml", "[[body]]\nname = \"floor\"\nkind = \"static\"\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n");
+  folder.write(
+      "still.toml",
+      "[[body]]\nname = \"floor\"\nkind = \"static\"\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n");
   check_refused(folder, {"info", "still.toml", "--ablation"}, "still.toml: ", "nothing in it can move");
 }

@@ -1,7 +1,7 @@
-// The debugger's window on a real X server (Xvfb), worked by a real mouse and keyboard (xdotool): it shows what the same session
-// shows without a screen, in every pixel.
-#include <catch2/catch.hpp>
+// The debugger's window on a real X server (Xvfb), worked by a real mouse and keyboard (xdotool): it shows what the
+// same session shows without a screen, in every pixel.
 #include <fmt/format.h>
+#include <catch2/catch.hpp>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -14,8 +14,8 @@
 
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "viewer/image/png.hpp"
 #include "viewer/controller/debug_loop.hpp"
+#include "viewer/image/png.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -38,7 +38,8 @@ bool is_installed(const std::string& program) {
 
 /// Says so where one of the programs is.
 bool is_missing(const std::vector<std::string>& programs) {
-  const auto missing = std::find_if(programs.begin(), programs.end(), [](const std::string& program) { return !is_installed(program); });
+  const auto missing =
+      std::find_if(programs.begin(), programs.end(), [](const std::string& program) { return !is_installed(program); });
   if (missing == programs.end()) return false;
   WARN(*missing << " is missing (.ci/setup checks installs it): the window was not tried");
   SUCCEED();
@@ -74,7 +75,8 @@ class Background {
   void signal(int number) { kill(pid_, number); }
 
   bool is_running() {
-    if (!code_ && waitpid(pid_, &status_, WNOHANG) == pid_) code_ = WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
+    if (!code_ && waitpid(pid_, &status_, WNOHANG) == pid_)
+      code_ = WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
     return !code_;
   }
   /// The exit code; -1000 if it goes on.
@@ -96,8 +98,11 @@ class Screen {
   explicit Screen(const fs::path& folder) : folder_(folder) {
     int ends[2];
     REQUIRE(pipe(ends) == 0);
-    server_ = std::make_unique<Background>(
-        std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", fmt::format("{}x{}x24", kWidth, kHeight), "-fbdir", folder.string(), "-nolisten", "tcp"}, folder, "", ends[1]);
+    server_ =
+        std::make_unique<Background>(std::vector<std::string>{"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen",
+                                                              "0", fmt::format("{}x{}x24", kWidth, kHeight), "-fbdir",
+                                                              folder.string(), "-nolisten", "tcp"},
+                                     folder, "", ends[1]);
     close(ends[1]);
     char number[16] = {};
     for (std::size_t n = 0; n + 1 < sizeof number && read(ends[0], number + n, 1) == 1 && number[n] != '\n'; ++n) {
@@ -108,7 +113,8 @@ class Screen {
   }
   const std::string& display() const { return display_; }
 
-  /// Pixels of the screen: an XWD file, whose header is big-endian and whose pixels are 32 bits, least byte first, blue first.
+  /// Pixels of the screen: an XWD file, whose header is big-endian and whose pixels are 32 bits, least byte first, blue
+  /// first.
   Image picture() const {
     const std::string bytes = slurp(folder_ / "Xvfb_screen0");
     const auto word = [&](std::size_t k) {
@@ -125,7 +131,8 @@ class Screen {
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
         for (std::size_t c = 0; c < 3; ++c)
-          image.pixel(x, y)[c] = static_cast<std::uint8_t>(bytes.at(begin + row * static_cast<std::size_t>(y) + 4 * static_cast<std::size_t>(x) + 2 - c));
+          image.pixel(x, y)[c] = static_cast<std::uint8_t>(
+              bytes.at(begin + row * static_cast<std::size_t>(y) + 4 * static_cast<std::size_t>(x) + 2 - c));
     return image;
   }
 
@@ -133,7 +140,8 @@ class Screen {
   Image still() const {
     Image last = picture();
     auto since = Clock::now();
-    for (const auto end = since + std::chrono::seconds(20); Clock::now() < end && Clock::now() - since < std::chrono::milliseconds(500); nap(50))
+    for (const auto end = since + std::chrono::seconds(20);
+         Clock::now() < end && Clock::now() - since < std::chrono::milliseconds(500); nap(50))
       if (Image now = picture(); now.rgb != last.rgb) last = std::move(now), since = Clock::now();
     return last;
   }
@@ -169,12 +177,14 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     DebugLoop loop(debugger, pixels, folder.path());
     debugger.try_execute("panel filter fric");  // as will be typed
     loop.picture();
-    for (const char* name : {"transport/play", "parameters/contact.friction", "parameters/search", "layers/aabbs", "console/line"}) {
+    for (const char* name :
+         {"transport/play", "parameters/contact.friction", "parameters/search", "layers/aabbs", "console/line"}) {
       const UiWidget* widget = pixels.ui().find(name);
       CAPTURE(name);
       REQUIRE(widget != nullptr);
       REQUIRE(widget->visible);
-      at[name] = {static_cast<int>(widget->area.x + 0.5f * widget->area.width), static_cast<int>(widget->area.y + 0.5f * widget->area.height)};
+      at[name] = {static_cast<int>(widget->area.x + 0.5f * widget->area.width),
+                  static_cast<int>(widget->area.y + 0.5f * widget->area.height)};
       if (widget->is_slider) friction_x = pixels.ui().slider_x(*widget, 0.15);
     }
     layout = debug_layout(kWidth, kHeight, 1.0f);
@@ -184,7 +194,9 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
   const Screen screen(folder.path());
   Image seen;
   {
-    Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size", fmt::format("{}x{}", kWidth, kHeight), "--record", "hand.script"}, folder.path(), screen.display());
+    Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size",
+                       fmt::format("{}x{}", kWidth, kHeight), "--record", "hand.script"},
+                      folder.path(), screen.display());
     screen.hand({"search", "--sync", "--name", "impinge crate_and_ball.toml", "windowfocus"});
     screen.still();
     const auto click = [&](const char* name) {
@@ -233,7 +245,8 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     // the same without a screen; what came after the picture was taken is where the pointer went
     std::string script = slurp(folder / "hand.script");
     INFO(script);
-    for (const char* part : {"\nlayer +aabbs\n", "\nstep ", "\nback\n", "\npanel filter fric\n", "\nset contact.friction 0.275\n", "\ncamera eye "}) {
+    for (const char* part : {"\nlayer +aabbs\n", "\nstep ", "\nback\n", "\npanel filter fric\n",
+                             "\nset contact.friction 0.275\n", "\ncamera eye "}) {
       CAPTURE(part);
       CHECK(script.find(part) != std::string::npos);
     }
@@ -241,13 +254,15 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     script += fmt::format("ui move {} {}\nshot seen.png\n", static_cast<int>(x + 60), static_cast<int>(y - 20));
     folder.write("hand.script", script);
   }
-  const Outcome replay = impinge_run(folder.path(), {"debug", scene.string(), "--headless", "--script", "hand.script", "--size", fmt::format("{}x{}", kWidth, kHeight)});
+  const Outcome replay = impinge_run(folder.path(), {"debug", scene.string(), "--headless", "--script", "hand.script",
+                                                     "--size", fmt::format("{}x{}", kWidth, kHeight)});
   INFO(replay.err);
   REQUIRE(replay.code == 0);
   const Image wanted = read_png(folder / "seen.png");
   REQUIRE(wanted.rgb.size() == seen.rgb.size());
   int differing = 0;
-  for (std::size_t k = 0; k < wanted.rgb.size(); k += 3) differing += !std::equal(&wanted.rgb[k], &wanted.rgb[k] + 3, &seen.rgb[k]);
+  for (std::size_t k = 0; k < wanted.rgb.size(); k += 3)
+    differing += !std::equal(&wanted.rgb[k], &wanted.rgb[k] + 3, &seen.rgb[k]);
   if (differing > 0) {
     const fs::path shown = fs::path(IMPINGE_BINARY_DIR) / "window_seen.png";
     write_png(shown, seen);
@@ -263,7 +278,9 @@ TEST_CASE("a window that is interrupted keeps what was done") {
   const fs::path scene = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml";
   const Screen screen(folder.path());
   folder.write("a.script", "step 3\nset contact.friction 0.1\n");
-  Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size", "960x600", "--script", "a.script", "--record", "r.script"}, folder.path(), screen.display());
+  Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size", "960x600", "--script", "a.script",
+                     "--record", "r.script"},
+                    folder.path(), screen.display());
   screen.still();
   window.signal(SIGINT);
   CHECK(window.wait(60) == 130);
@@ -277,7 +294,8 @@ TEST_CASE("the window of a script that quits closes by itself") {
   const fs::path scene = fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml";
   const Screen screen(folder.path());
   folder.write("a.script", "step 3\nquit\n");
-  Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size", "960x600", "--script", "a.script"}, folder.path(), screen.display());
+  Background window({IMPINGE_PROGRAM, "debug", scene.string(), "--window", "--size", "960x600", "--script", "a.script"},
+                    folder.path(), screen.display());
   CHECK(window.wait(60) == 0);
   CHECK(slurp(folder / "log").find("frame 3, state ") != std::string::npos);
 }

@@ -1,5 +1,5 @@
-// Damaged files: every reader either gives a mesh whose indices are in range and whose coordinates are finite, or throws
-// InputError. Anything else (a crash, another exception, a hang) fails. Seeds are fixed, so a failure repeats.
+// Damaged files: every reader either gives a mesh whose indices are in range and whose coordinates are finite, or
+// throws InputError. Anything else (a crash, another exception, a hang) fails. Seeds are fixed, so a failure repeats.
 #include <catch2/catch.hpp>
 
 #include "engine/core/error.hpp"
@@ -20,8 +20,9 @@ struct Sample {
 
 std::vector<Sample> samples() {
   const TriangleMesh mesh = tetrahedron();
-  return {{"a.off", off_text(mesh)},           {"a.obj", obj_text(mesh)},  {"a.ply", ply_ascii(mesh)},  {"b.ply", ply_binary(mesh, false)},
-          {"c.ply", ply_binary(mesh, true)}, {"a.stl", stl_ascii(mesh)}, {"b.stl", stl_binary(mesh)}};
+  return {{"a.off", off_text(mesh)},          {"a.obj", obj_text(mesh)},         {"a.ply", ply_ascii(mesh)},
+          {"b.ply", ply_binary(mesh, false)}, {"c.ply", ply_binary(mesh, true)}, {"a.stl", stl_ascii(mesh)},
+          {"b.stl", stl_binary(mesh)}};
 }
 
 // true if the mesh was taken
@@ -43,11 +44,22 @@ std::string damaged(const std::string& bytes, Random& random) {
   for (int n = 1 + random.below(4); n > 0; --n) {
     const std::size_t at = static_cast<std::size_t>(random.below(static_cast<int>(out.size())));
     switch (random.below(5)) {
-      case 0: out[at] = static_cast<char>(random.below(256)); break;
-      case 1: out[at] = static_cast<char>(out[at] ^ (1 << random.below(8))); break;
-      case 2: out.erase(at, static_cast<std::size_t>(1 + random.below(8))); break;
-      case 3: out.insert(at, out.substr(static_cast<std::size_t>(random.below(static_cast<int>(out.size()))), static_cast<std::size_t>(1 + random.below(16)))); break;
-      default: out[at] = "0123456789-+.e[]{}=#\"\n"[random.below(22)]; break;
+      case 0:
+        out[at] = static_cast<char>(random.below(256));
+        break;
+      case 1:
+        out[at] = static_cast<char>(out[at] ^ (1 << random.below(8)));
+        break;
+      case 2:
+        out.erase(at, static_cast<std::size_t>(1 + random.below(8)));
+        break;
+      case 3:
+        out.insert(at, out.substr(static_cast<std::size_t>(random.below(static_cast<int>(out.size()))),
+                                  static_cast<std::size_t>(1 + random.below(16))));
+        break;
+      default:
+        out[at] = "0123456789-+.e[]{}=#\"\n"[random.below(22)];
+        break;
     }
     if (out.empty()) return out;
   }

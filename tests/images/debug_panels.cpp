@@ -1,15 +1,15 @@
-// The debugger's panels, each as a kept picture, and where they are. IMPINGE_UPDATE_BASELINES=1 writes the pictures anew; look at
-// them before they are committed.
+// The debugger's panels, each as a kept picture, and where they are. IMPINGE_UPDATE_BASELINES=1 writes the pictures
+// anew; look at them before they are committed.
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
 #include <filesystem>
 
 #include "engine/core/types.hpp"
+#include "viewer/controller/debug_loop.hpp"
 #include "viewer/draw/palette.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
-#include "viewer/controller/debug_loop.hpp"
 
 using namespace impinge;
 
@@ -23,7 +23,10 @@ struct PanelSession {
   DebugLoop loop;
 
   PanelSession(int width, int height)
-      : window(width, height), debugger(fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml", {}, {}, options(width, height, window)), loop(debugger, window, fs::temp_directory_path()) {}
+      : window(width, height),
+        debugger(fs::path(IMPINGE_SOURCE_DIR) / "tests/images/suite/crate_and_ball.toml", {}, {},
+                 options(width, height, window)),
+        loop(debugger, window, fs::temp_directory_path()) {}
   static DebuggerOptions options(int, int height, const DebugWindow& window) {
     DebuggerOptions o;
     o.session.height = height;
@@ -37,11 +40,19 @@ struct PanelSession {
   }
 };
 
-const std::vector<std::string> kLines = {"step 60", "set contact.friction 0.25", "layer +aabbs -normals", "panel sort gap", "step 10", "select contact 1", "panel plot +max_penetration_m +potential_J", "back 5"};
+const std::vector<std::string> kLines = {"step 60",
+                                         "set contact.friction 0.25",
+                                         "layer +aabbs -normals",
+                                         "panel sort gap",
+                                         "step 10",
+                                         "select contact 1",
+                                         "panel plot +max_penetration_m +potential_J",
+                                         "back 5"};
 
 Image crop(const Image& whole, const UiArea& area) {
   const int x0 = static_cast<int>(area.x), y0 = static_cast<int>(area.y);
-  Image part(std::min(static_cast<int>(area.width), whole.width - x0), std::min(static_cast<int>(area.height), whole.height - y0));
+  Image part(std::min(static_cast<int>(area.width), whole.width - x0),
+             std::min(static_cast<int>(area.height), whole.height - y0));
   for (int y = 0; y < part.height; ++y) std::copy_n(whole.pixel(x0, y0 + y), 3 * part.width, part.pixel(0, y));
   return part;
 }
@@ -69,8 +80,9 @@ void check_baseline(const std::string& name, const Image& now, std::uintmax_t mo
 }
 
 std::vector<std::pair<std::string, UiArea>> areas(const DebugLayout& l) {
-  return {{"view", l.view},     {"layers", l.layers},       {"parameters", l.parameters}, {"inspector", l.inspector}, {"contacts", l.contacts},
-          {"stages", l.stages}, {"transport", l.transport}, {"timeline", l.timeline},     {"console", l.console}};
+  return {{"view", l.view},           {"layers", l.layers},     {"parameters", l.parameters},
+          {"inspector", l.inspector}, {"contacts", l.contacts}, {"stages", l.stages},
+          {"transport", l.transport}, {"timeline", l.timeline}, {"console", l.console}};
 }
 
 }  // namespace
@@ -86,7 +98,10 @@ TEST_CASE("the debugger's panels are those of the baselines") {
 
   session.run({"select body crate 3", "ui key f1"});
   const Image help = session.loop.picture();
-  check_baseline("help", crop(help, {layout.view.x + 0.2f * layout.view.width, layout.view.y + 0.2f * layout.view.height, 0.6f * layout.view.width, 0.6f * layout.view.height}), 60'000);
+  check_baseline("help",
+                 crop(help, {layout.view.x + 0.2f * layout.view.width, layout.view.y + 0.2f * layout.view.height,
+                             0.6f * layout.view.width, 0.6f * layout.view.height}),
+                 60'000);
   check_baseline("inspector_of_a_body", crop(help, layout.inspector), 60'000);
 }
 
@@ -104,9 +119,30 @@ TEST_CASE("a frame that is gone back to looks as it did") {
 
 TEST_CASE("a window of which only parts are drawn again is the window drawn as a whole") {
   PanelSession session(960, 600);
-  const char* const deeds[] = {"step 20",         "ui move 480 200", "ui press left",     "ui move 520 220",          "ui move 560 210",   "ui release left", "ui wheel 2",          "select contact 0",
-                               "ui move 100 60",  "ui wait 3",       "ui key f1",         "ui key f1",                "panel filter fric", "step 3",          "panel sort gap down", "ui click timeline/columns",
-                               "ui key escape",   "back 4",          "ui click layers/aabbs", "ui move 700 300", "ui wait 2",         "set contact.friction 0.3", "play", "ui wait 4"};
+  const char* const deeds[] = {"step 20",
+                               "ui move 480 200",
+                               "ui press left",
+                               "ui move 520 220",
+                               "ui move 560 210",
+                               "ui release left",
+                               "ui wheel 2",
+                               "select contact 0",
+                               "ui move 100 60",
+                               "ui wait 3",
+                               "ui key f1",
+                               "ui key f1",
+                               "panel filter fric",
+                               "step 3",
+                               "panel sort gap down",
+                               "ui click timeline/columns",
+                               "ui key escape",
+                               "back 4",
+                               "ui click layers/aabbs",
+                               "ui move 700 300",
+                               "ui wait 2",
+                               "set contact.friction 0.3",
+                               "play",
+                               "ui wait 4"};
   int changed = 0;
   Image before = session.loop.picture();
   for (const char* deed : deeds) {
@@ -123,7 +159,13 @@ TEST_CASE("a window of which only parts are drawn again is the window drawn as a
 }
 
 TEST_CASE("no two panels overlap, and all lie in the window") {
-  for (const auto& [width, height] : {std::pair(1280, 720), {1920, 1080}, {3840, 2160}, {2560, 1080}, {kLeastWidth, kLeastHeight}, {4000, 500}, {800, 2000}}) {
+  for (const auto& [width, height] : {std::pair(1280, 720),
+                                      {1920, 1080},
+                                      {3840, 2160},
+                                      {2560, 1080},
+                                      {kLeastWidth, kLeastHeight},
+                                      {4000, 500},
+                                      {800, 2000}}) {
     for (const int scale : {debug_scale(height), 1}) {
       CAPTURE(width, height, scale);
       if (width < scale * kLeastWidth || height < scale * kLeastHeight) continue;

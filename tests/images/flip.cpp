@@ -95,8 +95,10 @@ TEST_CASE("FLIP is zero for equal pictures, within 0 and 1, and grows with the d
     CHECK(*std::max_element(f.error.begin(), f.error.end()) <= 1.0f);
   }
   // from far away black and white pixels in turn are the grey that gives as much light: half of white's, level 188
-  const Image checkers = painted([](int x, int y, std::uint8_t* p) { std::fill_n(p, 3, static_cast<std::uint8_t>((x + y) % 2 * 255)); });
-  const double near = flip(checkers, all_of({188, 188, 188}), 20.0).mean, far = flip(checkers, all_of({188, 188, 188}), 200.0).mean;
+  const Image checkers =
+      painted([](int x, int y, std::uint8_t* p) { std::fill_n(p, 3, static_cast<std::uint8_t>((x + y) % 2 * 255)); });
+  const double near = flip(checkers, all_of({188, 188, 188}), 20.0).mean,
+               far = flip(checkers, all_of({188, 188, 188}), 200.0).mean;
   CHECK(near > 0.1);
   CHECK(far < 0.25 * near);
   CHECK_THROWS_AS(flip(Image(3, 3), Image(3, 4)), InternalError);

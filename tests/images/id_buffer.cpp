@@ -24,9 +24,12 @@ struct Hit {
   double distance = 1e300;
 };
 
-void cast_at(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, int body, const Vec3& eye, const Vec3& way, Hit& hit) {
+void cast_at(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, int body, const Vec3& eye,
+             const Vec3& way, Hit& hit) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Vec3 &a = vertices[static_cast<std::size_t>(triangles[t][0])], &b = vertices[static_cast<std::size_t>(triangles[t][1])], &c = vertices[static_cast<std::size_t>(triangles[t][2])];
+    const Vec3 &a = vertices[static_cast<std::size_t>(triangles[t][0])],
+               &b = vertices[static_cast<std::size_t>(triangles[t][1])],
+               &c = vertices[static_cast<std::size_t>(triangles[t][2])];
     Mat3 m;
     m << b - a, c - a, -way;
     if (std::abs(m.determinant()) < 1e-14) continue;
@@ -48,7 +51,8 @@ TEST_CASE("each pixel names the body, and of a mesh the triangle, that a ray thr
   HandMadeRecord scene;
   const MeshPointer stone = surface(scaled_to(bumpy_sphere(3), 0.8)), ring = surface(torus(0.32, 0.12, 24, 12));
   scene.add("stone", BodyKind::dynamic, stone, {-0.3, 0.3, 0.0});
-  scene.add("ring", BodyKind::dynamic, ring, {0.2, 0.35, 0.4}, Eigen::AngleAxisd(1.1, Vec3::UnitX()).toRotationMatrix());
+  scene.add("ring", BodyKind::dynamic, ring, {0.2, 0.35, 0.4},
+            Eigen::AngleAxisd(1.1, Vec3::UnitX()).toRotationMatrix());
   scene.add("ball", BodyKind::dynamic, Sphere{0.3}, {0.35, 0.4, -0.3});
   const StepRecord& record = scene.record();
   ViewSettings settings = settings_with({"meshes"});
@@ -69,10 +73,14 @@ TEST_CASE("each pixel names the body, and of a mesh the triangle, that a ray thr
   std::set<int> bodies;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
-      const Vec3 way = (rotation.transpose() * Vec3((x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1.0)).normalized();
+      const Vec3 way =
+          (rotation.transpose() * Vec3((x + 0.5 - 0.5 * kWidth) / focal, (0.5 * kHeight - y - 0.5) / focal, -1.0))
+              .normalized();
       Hit hit;
-      cast_at(std::vector<Vec3>(record.bodies[0].vertices.begin(), record.bodies[0].vertices.end()), stone->mesh.triangles, 0, camera.eye, way, hit);
-      cast_at(std::vector<Vec3>(record.bodies[1].vertices.begin(), record.bodies[1].vertices.end()), ring->mesh.triangles, 1, camera.eye, way, hit);
+      cast_at(std::vector<Vec3>(record.bodies[0].vertices.begin(), record.bodies[0].vertices.end()),
+              stone->mesh.triangles, 0, camera.eye, way, hit);
+      cast_at(std::vector<Vec3>(record.bodies[1].vertices.begin(), record.bodies[1].vertices.end()),
+              ring->mesh.triangles, 1, camera.eye, way, hit);
       cast_at_ball({0.35, 0.4, -0.3}, 0.3, 2, camera.eye, way, hit);
       const IdObject* object = ids.object_at(x, y);
       wrong_body += (object == nullptr ? -1 : object->body_index) != hit.body;
@@ -102,7 +110,8 @@ TEST_CASE("the picture is the same with ids and without, and so are its ids what
   FramePainter with(480, 270), without(480, 270);
   Image a, b;
   IdImage first, again;
-  for (const auto& [record, settings] : {std::pair{&sample_record(), &full}, {&soft_record(), &full}, {&sample_record(), &clipped}}) {
+  for (const auto& [record, settings] :
+       {std::pair{&sample_record(), &full}, {&soft_record(), &full}, {&sample_record(), &clipped}}) {
     with.paint(*record, *settings, a, first);
     without.paint(*record, *settings, b);
     CHECK(a == b);
@@ -134,7 +143,8 @@ TEST_CASE("marks are told apart by layer, kind and contact, and panels hide what
       CHECK(object.other == record.bodies[static_cast<std::size_t>(c.body_b)].name);
       contacts[object.layer + " " + object.mark].insert(object.identity);
     } else if (object.mark == "surface" || object.mark == "fixed surface") {
-      CHECK((object.mark == "surface") == (record.bodies[static_cast<std::size_t>(object.body_index)].kind != BodyKind::fixed));
+      CHECK((object.mark == "surface") ==
+            (record.bodies[static_cast<std::size_t>(object.body_index)].kind != BodyKind::fixed));
       bodies.insert(object.body);
     }
   }

@@ -43,19 +43,25 @@ struct Painted {
     const fs::path file = folder / (side + "/frames/000007.png");
     fs::create_directories(file.parent_path());
     fs::create_directories(id_picture_of(file).parent_path());
-    write_png(file, image, {{"impinge:scene", "s.toml"}, {"impinge:frame", facts.frame}, {"impinge:state_hash", facts.state}, {"impinge:renderer", facts.renderer}});
+    write_png(file, image,
+              {{"impinge:scene", "s.toml"},
+               {"impinge:frame", facts.frame},
+               {"impinge:state_hash", facts.state},
+               {"impinge:renderer", facts.renderer}});
     write_png(id_picture_of(file), id_picture(ids), id_text(ids));
     return file;
   }
 };
 
 bool says(const PictureComparison& c, const std::string& words) {
-  return std::any_of(c.details.begin(), c.details.end(), [&](const std::string& line) { return line.find(words) != std::string::npos; });
+  return std::any_of(c.details.begin(), c.details.end(),
+                     [&](const std::string& line) { return line.find(words) != std::string::npos; });
 }
 
 PictureComparison compared(const Painted& a, const Painted& b, const Facts& facts_a = {}, const Facts& facts_b = {}) {
   const TempFolder folder;
-  const PictureComparison c = compare_pictures("000007.png", a.write(folder, "a", facts_a), b.write(folder, "b", facts_b), {});
+  const PictureComparison c =
+      compare_pictures("000007.png", a.write(folder, "a", facts_a), b.write(folder, "b", facts_b), {});
   UNSCOPED_INFO(c.headline);
   for (const std::string& line : c.details) UNSCOPED_INFO(line);
   return c;
@@ -87,10 +93,13 @@ TEST_CASE("one contact's arrow that is missing is named with its two bodies") {
 
 TEST_CASE("a picture moved by whole pixels says which way") {
   const Painted a(with_identities(sample_record()));
-  for (const auto& [dx, dy, words] : {std::tuple{1, 0, "moved by 1 pixel to the right"}, {0, -1, "moved by 1 pixel up"}, {-2, 3, "moved by 2 pixels to the left and 3 pixels down"}}) {
+  for (const auto& [dx, dy, words] : {std::tuple{1, 0, "moved by 1 pixel to the right"},
+                                      {0, -1, "moved by 1 pixel up"},
+                                      {-2, 3, "moved by 2 pixels to the left and 3 pixels down"}}) {
     Painted b = a;
     for (int y = 0; y < 360; ++y)
-      for (int x = 0; x < 640; ++x) std::copy_n(a.image.pixel(std::clamp(x - dx, 0, 639), std::clamp(y - dy, 0, 359)), 3, b.image.pixel(x, y));
+      for (int x = 0; x < 640; ++x)
+        std::copy_n(a.image.pixel(std::clamp(x - dx, 0, 639), std::clamp(y - dy, 0, 359)), 3, b.image.pixel(x, y));
     const PictureComparison c = compared(a, b);
     CHECK(c.verdict == PictureComparison::different);
     CHECK(c.kind.kind == ChangeKind::moved);
@@ -105,7 +114,8 @@ TEST_CASE("a body in another colour is named, and nothing is said to be missing"
   Painted b = a;
   for (int y = 0; y < 360; ++y)
     for (int x = 0; x < 640; ++x)
-      if (const IdObject* o = a.ids.object_at(x, y); o != nullptr && o->mark == "surface" && o->body == "ball") std::swap(b.image.pixel(x, y)[0], b.image.pixel(x, y)[2]);
+      if (const IdObject* o = a.ids.object_at(x, y); o != nullptr && o->mark == "surface" && o->body == "ball")
+        std::swap(b.image.pixel(x, y)[0], b.image.pixel(x, y)[2]);
   const PictureComparison c = compared(a, b);
   CHECK(c.verdict == PictureComparison::different);
   CHECK(c.kind.kind == ChangeKind::recolored);
@@ -121,7 +131,8 @@ TEST_CASE("another frame, another state and another renderer are told apart by w
   CHECK(says(state, "the state changed (hash 0123456789abcdef in A, fedcba9876543210 in B)"));
   CHECK(says(state, "meshes: ball changed"));
   CHECK(state.kind.kind == ChangeKind::other);
-  const PictureComparison renderer = compared(a, b, {}, {"7", "0123456789abcdef", "llvmpipe (LLVM 19.1.7, 256 bits) 25.0.7"});
+  const PictureComparison renderer =
+      compared(a, b, {}, {"7", "0123456789abcdef", "llvmpipe (LLVM 19.1.7, 256 bits) 25.0.7"});
   CHECK(renderer.cause == ChangeCause::renderer);
   CHECK(says(renderer, "only the renderer changed"));
 }
@@ -146,7 +157,8 @@ TEST_CASE("renderers have short keys, and alternates stand beside their baseline
 
   const TempFolder folder;
   const Painted a(with_identities(sample_record())), b(with_identities(other_record()));
-  const fs::path kept = a.write(folder, "a"), drawn = b.write(folder, "b", {"7", "0123456789abcdef", "softpipe 25.0.7"});
+  const fs::path kept = a.write(folder, "a"),
+                 drawn = b.write(folder, "b", {"7", "0123456789abcdef", "softpipe 25.0.7"});
   CHECK(baseline_for(kept, drawn) == kept);
   const PictureComparison c = compare_pictures("x", kept, drawn, {});
   const fs::path written = update_baseline(c, kept, drawn);
@@ -164,6 +176,12 @@ TEST_CASE("renderers have short keys, and alternates stand beside their baseline
 TEST_CASE("data URIs hold a file's bytes") {
   // RFC 4648 §10
   const std::string start = "data:image/png;base64,";
-  for (const auto& [bytes, text] : {std::pair{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}})
+  for (const auto& [bytes, text] : {std::pair{"", ""},
+                                    {"f", "Zg=="},
+                                    {"fo", "Zm8="},
+                                    {"foo", "Zm9v"},
+                                    {"foob", "Zm9vYg=="},
+                                    {"fooba", "Zm9vYmE="},
+                                    {"foobar", "Zm9vYmFy"}})
     CHECK(png_data_uri(bytes) == start + text);
 }

@@ -36,15 +36,17 @@ double met_at(const Vec3& eye, const Vec3& direction, const std::array<Vec3, 3>&
   return along > 0.0 ? along : 1e30;
 }
 
-/// The surface seen through each pixel's middle, by rays and brute force: its number, -1 where there is none, -2 where a
-/// nudge of the ray would change the answer.
+/// The surface seen through each pixel's middle, by rays and brute force: its number, -1 where there is none, -2 where
+/// a nudge of the ray would change the answer.
 std::vector<int> seen_by_rays(const std::vector<DrawSurface>& surfaces, const Camera& camera, int width, int height) {
   const Mat3 axes = camera.view_rotation();
   const double tangent = std::tan(0.5 * camera.fov_deg * M_PI / 180.0);
   std::vector<std::pair<int, std::array<Vec3, 3>>> triangles;  // of which surface, corners
   for (std::size_t k = 0; k < surfaces.size(); ++k)
     for (const auto& t : surfaces[k].surface->triangles) {
-      const auto corner = [&](int i) { return surfaces[k].pose.apply(surfaces[k].surface->positions[t[i]].cast<double>()); };
+      const auto corner = [&](int i) {
+        return surfaces[k].pose.apply(surfaces[k].surface->positions[t[i]].cast<double>());
+      };
       triangles.push_back({static_cast<int>(k), {corner(0), corner(1), corner(2)}});
     }
   const auto seen = [&](double px, double py) {
@@ -90,8 +92,8 @@ TEST_CASE("every pixel shows the surface that a ray through its middle meets fir
   Random random(201);
   constexpr int kWidth = 96, kHeight = 54;
   Easel easel(kWidth, kHeight);
-  const std::vector<ShadedSurfacePointer> shapes = {shaded(icosphere(1, 0.5)), shaded(Box{{0.6, 0.3, 0.4}}), shaded(torus(0.6, 0.2, 16, 8)),
-                                                    shaded(Box{{0.2, 0.8, 0.3}})};
+  const std::vector<ShadedSurfacePointer> shapes = {shaded(icosphere(1, 0.5)), shaded(Box{{0.6, 0.3, 0.4}}),
+                                                    shaded(torus(0.6, 0.2, 16, 8)), shaded(Box{{0.2, 0.8, 0.3}})};
   for (int scene = 0; scene < 4; ++scene) {
     DrawList list;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -210,7 +212,8 @@ TEST_CASE("a line that starts behind the eye is drawn where it is in front, and 
   int on_line = 0, sampled = 0;
   for (double t = 0.0; t <= 1.0; t += 0.001) {
     const auto pixel = camera.project(behind + t * (far_end - behind), 320, 180);
-    if (!pixel || pixel->z() < 0.3 || pixel->x() < 0 || pixel->x() >= 320 || pixel->y() < 0 || pixel->y() >= 180) continue;
+    if (!pixel || pixel->z() < 0.3 || pixel->x() < 0 || pixel->x() >= 320 || pixel->y() < 0 || pixel->y() >= 180)
+      continue;
     if ((pixel->head<2>() - end).norm() < 2.0) continue;  // its last pixel is covered in part
     ++sampled;
     on_line += is_color(image.pixel(static_cast<int>(pixel->x()), static_cast<int>(pixel->y())), kInk, 130);

@@ -62,9 +62,18 @@ const std::vector<Baseline>& baselines() {
          scene.add("ball", BodyKind::dynamic, Sphere{0.5}, {0, 0.5, 0});
          return painted(scene.record(), settings_with({"meshes"}), 160, 90);
        }},
-      {"soft_meshes", [] { return painted(soft_record(), settings_with({"meshes", "contacts", "contact_forces"})); }},
-      {"soft_wireframe", [] { return painted(soft_record(), settings_with({"meshes", "wireframe", "attachments"})); }},
-      {"tetrahedra", [] { return painted(soft_record(), settings_with({"meshes", "tetrahedra"})); }},
+      {"soft_meshes",
+       [] {
+         return painted(soft_record(), settings_with({"meshes", "contacts", "contact_forces"}));
+       }},
+      {"soft_wireframe",
+       [] {
+         return painted(soft_record(), settings_with({"meshes", "wireframe", "attachments"}));
+       }},
+      {"tetrahedra",
+       [] {
+         return painted(soft_record(), settings_with({"meshes", "tetrahedra"}));
+       }},
       {"tetrahedra_alone", [] { return painted(soft_record(), settings_with({"tetrahedra"})); }},
       {"tetrahedra_shrunk",
        [] {
@@ -85,9 +94,18 @@ const std::vector<Baseline>& baselines() {
          settings.strain_max = 0.4;
          return painted(soft_record(), settings);
        }},
-      {"fixed_nodes", [] { return painted(soft_record(), settings_with({"meshes", "fixed_nodes"})); }},
-      {"embedding", [] { return painted(soft_record(), settings_with({"meshes", "embedding"})); }},
-      {"soft_velocities", [] { return painted(soft_record(), settings_with({"meshes", "velocities", "mass_centers"})); }},
+      {"fixed_nodes",
+       [] {
+         return painted(soft_record(), settings_with({"meshes", "fixed_nodes"}));
+       }},
+      {"embedding",
+       [] {
+         return painted(soft_record(), settings_with({"meshes", "embedding"}));
+       }},
+      {"soft_velocities",
+       [] {
+         return painted(soft_record(), settings_with({"meshes", "velocities", "mass_centers"}));
+       }},
       {"clip",
        [] {
          ViewSettings settings = settings_with({"meshes", "contacts"});
@@ -104,7 +122,8 @@ const std::vector<Baseline>& baselines() {
        [] {
          ViewSettings settings = settings_with({"meshes", "stress", "fixed_nodes", "tetrahedra"});
          settings.show_figures = settings.show_legend = true;
-         for (LayerSwitch& layer : settings.layers) layer.on = layer.on && layer.name != "meshes" && layer.name != "tetrahedra";
+         for (LayerSwitch& layer : settings.layers)
+           layer.on = layer.on && layer.name != "meshes" && layer.name != "tetrahedra";
          return painted(soft_record(), settings, 640, 240);
        }},
       {"panels",

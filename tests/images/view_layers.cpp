@@ -41,8 +41,9 @@ TEST_CASE("layers have distinct names and each says what it draws") {
     CHECK(names.insert(layer.name).second);
     CHECK_FALSE(layer.doc.empty());
   }
-  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps", "stress", "strain", "tetrahedra", "fixed_nodes", "embedding", "attachments",
-                           "velocities", "mass_centers", "broad_pairs", "triangle_pairs", "groups", "labels"})
+  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps", "stress",
+                           "strain", "tetrahedra", "fixed_nodes", "embedding", "attachments", "velocities",
+                           "mass_centers", "broad_pairs", "triangle_pairs", "groups", "labels"})
     CHECK(names.count(name) == 1);
 }
 

@@ -15,7 +15,8 @@ Camera random_camera(Random& random) {
   return camera;
 }
 
-/// The textbook way: look-at and perspective as 4 x 4 matrices, then the viewport. Independent of Camera's own formulas.
+/// The textbook way: look-at and perspective as 4 x 4 matrices, then the viewport. Independent of Camera's own
+/// formulas.
 Vec3 project_by_matrices(const Camera& camera, const Vec3& point, int width, int height) {
   const Vec3 forward = (camera.target - camera.eye).normalized(), side = forward.cross(camera.up).normalized(),
              upwards = side.cross(forward);

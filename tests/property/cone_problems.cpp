@@ -29,7 +29,8 @@ Case make_case(Random& random, int kind) {
   const int n = 1 + static_cast<int>(std::pow(random.u(), 2.0) * 66.0), rows = 3 * n;
   MatX g(rows, rows + random.below(rows + 1));
   for (Eigen::Index i = 0; i < g.size(); ++i) g.data()[i] = random.sym();
-  MatX w = g * g.transpose() / static_cast<double>(g.cols()) + std::pow(10.0, random.in(-1.5, -0.3)) * MatX::Identity(rows, rows);
+  MatX w = g * g.transpose() / static_cast<double>(g.cols()) +
+           std::pow(10.0, random.in(-1.5, -0.3)) * MatX::Identity(rows, rows);
   for (int i = 0; i < n; ++i) {
     const double s = std::pow(10.0, random.in(-0.25, 0.25));
     w.middleRows<3>(3 * i) *= s;
@@ -54,9 +55,13 @@ Case make_case(Random& random, int kind) {
 
 void count_regimes(const Case& c, const std::vector<Vec3>& lambda, Tally& tally) {
   for (std::size_t i = 0; i < lambda.size(); ++i) {
-    if (lambda[i].x() <= 0.0) ++tally.open;
-    else if (cone_violation((1.0 + 1e-7) * Vec3(lambda[i].x() / (1.0 + 2e-7), lambda[i].y(), lambda[i].z()), c.problem.mu[i], c.problem.law) > 0.0) ++tally.slip;
-    else ++tally.stick;
+    if (lambda[i].x() <= 0.0)
+      ++tally.open;
+    else if (cone_violation((1.0 + 1e-7) * Vec3(lambda[i].x() / (1.0 + 2e-7), lambda[i].y(), lambda[i].z()),
+                            c.problem.mu[i], c.problem.law) > 0.0)
+      ++tally.slip;
+    else
+      ++tally.stick;
   }
 }
 
@@ -69,7 +74,8 @@ void check_problem(Random& random, int kind, Tally& tally) {
   if (kind != 2) {
     reference.assign(c.problem.q.size(), Vec3::Zero());
     const LcpResult exact = find_entry(lcp_solvers(), "pivoting")->make()->solve(c.problem, {1e-11, 100000}, reference);
-    CAPTURE(kind, c.problem.q.size(), exact.iterations, name_of(exact.reason), judge(c.problem, reference).map.relative);
+    CAPTURE(kind, c.problem.q.size(), exact.iterations, name_of(exact.reason),
+            judge(c.problem, reference).map.relative);
     REQUIRE(exact.reason == StopReason::converged);
     count_regimes(c, reference, tally);
   }
@@ -79,7 +85,8 @@ void check_problem(Random& random, int kind, Tally& tally) {
     std::vector<Vec3> lambda(c.problem.q.size(), Vec3::Zero());
     const LcpResult result = solver->solve(c.problem, {1e-11, 100000}, lambda);
     const Residual residual = judge(c.problem, lambda);
-    CAPTURE(e.name, kind, c.problem.q.size(), c.condition, result.iterations, name_of(result.reason), residual.map.relative);
+    CAPTURE(e.name, kind, c.problem.q.size(), c.condition, result.iterations, name_of(result.reason),
+            residual.map.relative);
     REQUIRE(result.reason == StopReason::converged);
     REQUIRE(residual.map.relative <= 1e-10);
     REQUIRE(residual.cone.relative <= 1e-12);
@@ -89,9 +96,12 @@ void check_problem(Random& random, int kind, Tally& tally) {
       continue;
     }
     double difference = 0.0;
-    for (std::size_t i = 0; i < lambda.size(); ++i) difference = std::max(difference, (lambda[i] - reference[i]).norm());
-    if (c.unique) REQUIRE(difference <= 1e-8 * c.condition);
-    else if (difference > 1e-8 * c.condition) ++tally.two_solutions;  // both satisfy the judge
+    for (std::size_t i = 0; i < lambda.size(); ++i)
+      difference = std::max(difference, (lambda[i] - reference[i]).norm());
+    if (c.unique)
+      REQUIRE(difference <= 1e-8 * c.condition);
+    else if (difference > 1e-8 * c.condition)
+      ++tally.two_solutions;  // both satisfy the judge
   }
 }
 

@@ -51,7 +51,8 @@ struct Threads {
 
 }  // namespace
 
-TEST_CASE("deformable bodies in contact have the same hashes for 1, 2 and 4 threads, for every response and integrator") {
+TEST_CASE(
+    "deformable bodies in contact have the same hashes for 1, 2 and 4 threads, for every response and integrator") {
   for (const auto& response : responses())
     for (const auto& integrator : integrators()) {
       if (response.name != responses().front().name && integrator.name != integrators().front().name) continue;

@@ -40,7 +40,8 @@ backdrop = "flat"
 
 inline constexpr const char* kSize = "960x600";
 
-inline Outcome debug(const TempFolder& folder, const std::string& scene, const std::string& script, std::vector<std::string> more = {}) {
+inline Outcome debug(const TempFolder& folder, const std::string& scene, const std::string& script,
+                     std::vector<std::string> more = {}) {
   std::vector<std::string> words = {"debug", scene, "--headless", "--script", script};
   if (std::find(more.begin(), more.end(), "--size") == more.end()) words.insert(words.end(), {"--size", kSize});
   words.insert(words.end(), more.begin(), more.end());

@@ -16,7 +16,9 @@ class DenseDelassus : public Delassus {
     for (std::size_t i = 0; i < lambda.size(); ++i) lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) = lambda[i];
   }
   Vec3 row(std::size_t i, bool) const override { return w_.middleRows<3>(3 * static_cast<Eigen::Index>(i)) * lambda_; }
-  void change(std::size_t i, const Vec3& delta, bool) override { lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) += delta; }
+  void change(std::size_t i, const Vec3& delta, bool) override {
+    lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) += delta;
+  }
   const MatX& matrix() const { return w_; }
 
  private:

@@ -31,7 +31,8 @@ struct Easel {
 inline bool is_color(const std::uint8_t* pixel, Color c, int tolerance = 2) {
   const float wanted[3] = {c.r, c.g, c.b};
   for (int k = 0; k < 3; ++k)
-    if (std::abs(static_cast<int>(pixel[k]) - static_cast<int>(std::lround(255.0f * wanted[k]))) > tolerance) return false;
+    if (std::abs(static_cast<int>(pixel[k]) - static_cast<int>(std::lround(255.0f * wanted[k]))) > tolerance)
+      return false;
   return true;
 }
 

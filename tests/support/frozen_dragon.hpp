@@ -21,7 +21,9 @@ inline std::vector<FrozenStep> dragon_frames(const std::vector<std::string>& ove
 /// The frame of most contacts among them.
 inline FrozenStep hardest_frame(const std::vector<std::string>& overrides, int frames) {
   std::vector<FrozenStep> steps = dragon_frames(overrides, frames);
-  return std::move(*std::max_element(steps.begin(), steps.end(), [](const FrozenStep& l, const FrozenStep& r) { return l.contacts() < r.contacts(); }));
+  return std::move(*std::max_element(steps.begin(), steps.end(), [](const FrozenStep& l, const FrozenStep& r) {
+    return l.contacts() < r.contacts();
+  }));
 }
 
 /// Solved far beyond what a run asks for.
@@ -29,7 +31,8 @@ inline FrozenOutcome solved(const FrozenStep& step, const char* response, const 
   ResponseSettings settings;
   settings.lcp = {tolerance, 20000};
   settings.max_outer_iterations = 20000;
-  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(), settings);
+  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(),
+                      settings);
 }
 
 }  // namespace impinge::test

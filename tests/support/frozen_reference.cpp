@@ -36,7 +36,8 @@ Triplets entries_of_a(const FrozenGroup& group) {
   for (std::size_t s = 0; s < group.matrices.size(); ++s) {
     const BlockPattern& p = *group.matrices[s].pattern;
     for (int i = 0; i < p.rows; ++i)
-      for (int k = p.begin[i]; k < p.begin[i + 1]; ++k) put(list, first[s] + 3 * i, first[s] + 3 * p.column[k], group.matrices[s].values[k]);
+      for (int k = p.begin[i]; k < p.begin[i + 1]; ++k)
+        put(list, first[s] + 3 * i, first[s] + 3 * p.column[k], group.matrices[s].values[k]);
   }
   return list;
 }
@@ -54,7 +55,8 @@ Sparse jacobian(const FrozenGroup& group) {
         for (int k = 0; k < 3; ++k) arm.row(k) = sign * side->arm.cross(rows.directions.row(k).transpose()).transpose();
         put(list, 3 * i, 6 * side->rigid + 3, arm);
       }
-      for (const NodeWeight& n : side->nodes) put(list, 3 * i, first[side->soft] + 3 * n.node, sign * n.weight * rows.directions);
+      for (const NodeWeight& n : side->nodes)
+        put(list, 3 * i, first[side->soft] + 3 * n.node, sign * n.weight * rows.directions);
     }
   }
   Sparse j(static_cast<int>(3 * group.system.contacts.size()), first.back());
@@ -70,7 +72,8 @@ MatX columns_on(const Sparse& j, int from, int count) { return MatX(j.middleCols
 FrozenStep frozen_of(const GroupSystem& group) {
   FrozenStep step;
   step.scene = "test", step.time_step = 0.01;
-  step.integrator = "linearly_implicit_euler", step.linear_solver = "automatic", step.response = "constraint_anticipation", step.lcp = "projected_gauss_seidel";
+  step.integrator = "linearly_implicit_euler", step.linear_solver = "automatic",
+  step.response = "constraint_anticipation", step.lcp = "projected_gauss_seidel";
   step.groups.push_back(freeze(group));
   return step;
 }
@@ -95,7 +98,8 @@ GroupAnswer kkt_answer(const FrozenGroup& group) {
     for (Sparse::InnerIterator it(j_all, c); it; ++it)
       if (it.row() % 3 == 0) normal.emplace_back(static_cast<int>(it.row()) / 3, c, it.value());
   j.setFromTriplets(normal.begin(), normal.end());
-  for (int i = 0; i < m; ++i) q[i] = group.system.contact_velocity(static_cast<std::size_t>(i), false).x() - group.system.contacts[i].bound;
+  for (int i = 0; i < m; ++i)
+    q[i] = group.system.contact_velocity(static_cast<std::size_t>(i), false).x() - group.system.contacts[i].bound;
 
   // in velocities and in impulses that make such velocities, so that 1 is a natural size of both
   const double speed = std::max(q.cwiseAbs().maxCoeff(), 1e-300);
@@ -107,7 +111,8 @@ GroupAnswer kkt_answer(const FrozenGroup& group) {
     const double mean = lambda.dot(s) / m;
     if (mean < 1e-22 * impulse * speed && gap.cwiseAbs().maxCoeff() < 1e-14 * speed) break;
     Triplets list = of_a;
-    for (const auto& e : normal) list.emplace_back(n + e.row(), e.col(), e.value()), list.emplace_back(e.col(), n + e.row(), e.value());
+    for (const auto& e : normal)
+      list.emplace_back(n + e.row(), e.col(), e.value()), list.emplace_back(e.col(), n + e.row(), e.value());
     for (int i = 0; i < m; ++i) list.emplace_back(n + i, n + i, -s[i] / lambda[i]);
     Sparse kkt(n + m, n + m);
     kkt.setFromTriplets(list.begin(), list.end());
@@ -135,7 +140,8 @@ GroupAnswer kkt_answer(const FrozenGroup& group) {
     answer.delta_angular_velocity.push_back(x.segment<3>(6 * b + 3));
   }
   const auto first = offsets(group);
-  for (std::size_t b = 0; b < group.matrices.size(); ++b) answer.soft_delta.push_back(x.segment(first[b], group.matrices[b].rows()));
+  for (std::size_t b = 0; b < group.matrices.size(); ++b)
+    answer.soft_delta.push_back(x.segment(first[b], group.matrices[b].rows()));
   return answer;
 }
 

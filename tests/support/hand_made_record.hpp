@@ -51,7 +51,8 @@ class HandMadeRecord {
     elastic->configure({});
     DeformableBody& soft = soft_.emplace_back(FemAssembly(mesh, {{elastic, 1000.0}}, MassKind::lumped));
     soft.hold(held);
-    for (int i = 0; i < soft.nodes(); ++i) soft.position.segment<3>(3 * i) = place(mesh.vertices[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < soft.nodes(); ++i)
+      soft.position.segment<3>(3 * i) = place(mesh.vertices[static_cast<std::size_t>(i)]);
     embeddings_.push_back(embedding);
     const int index = add(name, BodyKind::deformable, surface, Vec3::Zero());
     BodyRecord& body = record_.bodies.back();

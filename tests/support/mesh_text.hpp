@@ -34,7 +34,8 @@ inline std::string obj_text(const TriangleMesh& mesh) {
 
 inline std::string ply_head(const TriangleMesh& mesh, const char* format) {
   return fmt::format(
-      "ply\nformat {} 1.0\ncomment made by a test\nelement vertex {}\nproperty double x\nproperty double y\nproperty uchar red\nproperty double z\n"
+      "ply\nformat {} 1.0\ncomment made by a test\nelement vertex {}\nproperty double x\nproperty double y\nproperty "
+      "uchar red\nproperty double z\n"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
       format, mesh.vertices.size(), mesh.triangles.size());
 }
@@ -66,7 +67,8 @@ inline std::string stl_ascii(const TriangleMesh& mesh) {
   std::string out = "solid a name\n";
   for (const Triangle& t : mesh.triangles) {
     out += "facet normal 0 0 0\n outer loop\n";
-    for (const int v : t) out += fmt::format("  vertex {} {} {}\n", mesh.vertices[v].x(), mesh.vertices[v].y(), mesh.vertices[v].z());
+    for (const int v : t)
+      out += fmt::format("  vertex {} {} {}\n", mesh.vertices[v].x(), mesh.vertices[v].y(), mesh.vertices[v].z());
     out += " endloop\nendfacet\n";
   }
   return out + "endsolid a name\n";

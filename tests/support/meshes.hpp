@@ -24,7 +24,8 @@ TriangleMesh box(const Vec3& half, const Eigen::Vector3i& cells = Eigen::Vector3
 TriangleMesh sheet(double half, int cells);
 
 TriangleMesh read_off(const std::string& path);  ///< throws std::runtime_error
-/// The shared data folder (IMPINGE_SHARED_DATA, or ../shared/data beside the sources) with that file, or "" if it is absent.
+/// The shared data folder (IMPINGE_SHARED_DATA, or ../shared/data beside the sources) with that file, or "" if it is
+/// absent.
 std::string shared_file(const std::string& name);
 
 MeshPointer surface(TriangleMesh mesh);

@@ -1,4 +1,5 @@
-// Runs whose pictures and states are held against each other: a crate on a slab, looked at from the front, and the program on it.
+// Runs whose pictures and states are held against each other: a crate on a slab, looked at from the front, and the
+// program on it.
 #pragma once
 
 #include "tests/support/refusal.hpp"
@@ -22,7 +23,8 @@ inline constexpr const char* kFrontView = "[view]\ncamera = { eye = [2.2, 1.6, 2
 inline bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// impinge VERB WORDS MORE in the folder; what it says stands beside the next check.
-inline Outcome told(const TempFolder& folder, std::vector<std::string> words, const std::vector<std::string>& more = {}) {
+inline Outcome told(const TempFolder& folder, std::vector<std::string> words,
+                    const std::vector<std::string>& more = {}) {
   words.insert(words.end(), more.begin(), more.end());
   Outcome outcome = impinge_run(folder.path(), words);
   UNSCOPED_INFO(outcome.out << outcome.err);

@@ -8,7 +8,8 @@ namespace impinge::test {
 
 inline void add_pile(World& world, Random& random, int boxes) {
   for (int k = 0; k < boxes; ++k) {
-    const Vec3 at = Vec3(0.6 * (k % 10) - 2.7, 0.6 * (k / 100) + 0.35, 0.6 * (k / 10 % 10) - 2.7) + 0.02 * random.vector();
+    const Vec3 at =
+        Vec3(0.6 * (k % 10) - 2.7, 0.6 * (k / 100) + 0.35, 0.6 * (k / 10 % 10) - 2.7) + 0.02 * random.vector();
     BodyDescription box = cube("box" + std::to_string(k), 0.5, at);
     box.mass = 1.0;
     box.rotation = 16.5 * random.vector();  // degrees: about half a radian in all

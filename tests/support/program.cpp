@@ -18,14 +18,16 @@ namespace impinge::test {
 
 namespace {
 
-pid_t start(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const std::filesystem::path& out, const std::filesystem::path& err) {
+pid_t start(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+            const std::filesystem::path& out, const std::filesystem::path& err) {
   std::vector<const char*> words = {IMPINGE_PROGRAM};
   for (const std::string& argument : arguments) words.push_back(argument.c_str());
   words.push_back(nullptr);
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error("no process");
   if (pid > 0) return pid;
-  const int o = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), e = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int o = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600),
+            e = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (chdir(folder.c_str()) != 0 || dup2(o, STDOUT_FILENO) < 0 || dup2(e, STDERR_FILENO) < 0) _exit(127);
   execv(words[0], const_cast<char* const*>(words.data()));
   _exit(127);
@@ -52,7 +54,8 @@ Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::
   return finish(status, streams / "out", streams / "err");
 }
 
-Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds, int signal, Targets targets) {
+Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds,
+                        int signal, Targets targets) {
   const TempFolder streams;
   const pid_t pid = start(folder, arguments, streams / "out", streams / "err");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);

@@ -18,7 +18,9 @@ Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::
 
 enum class Targets { program, children_first };
 
-/// The same, but the program gets the signal after `seconds` unless it has ended; its children just before it if wanted.
-Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds, int signal, Targets targets = Targets::program);
+/// The same, but the program gets the signal after `seconds` unless it has ended; its children just before it if
+/// wanted.
+Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds,
+                        int signal, Targets targets = Targets::program);
 
 }  // namespace impinge::test

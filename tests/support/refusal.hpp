@@ -19,13 +19,16 @@ inline std::string replaced(std::string text, const std::string& from, const std
 /// Everything in a folder, so that nothing new in it goes unseen.
 inline std::vector<std::string> listing(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) names.push_back(entry.path().string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    names.push_back(entry.path().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
-/// Runs the program: exit code 2, one message that begins with `start`, holds `contains` and a remedy, and nothing written.
-inline void check_refused(const TempFolder& folder, const std::vector<std::string>& arguments, const std::string& start, const std::string& contains) {
+/// Runs the program: exit code 2, one message that begins with `start`, holds `contains` and a remedy, and nothing
+/// written.
+inline void check_refused(const TempFolder& folder, const std::vector<std::string>& arguments, const std::string& start,
+                          const std::string& contains) {
   const auto before = listing(folder.path());
   const Outcome outcome = impinge_run(folder.path(), arguments);
   INFO(outcome.err);

@@ -31,7 +31,9 @@ int free_port() {
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
-  if (s < 0 || bind(s, reinterpret_cast<sockaddr*>(&address), size) != 0 || getsockname(s, reinterpret_cast<sockaddr*>(&address), &size) != 0) throw std::runtime_error("no free port");
+  if (s < 0 || bind(s, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+      getsockname(s, reinterpret_cast<sockaddr*>(&address), &size) != 0)
+    throw std::runtime_error("no free port");
   close(s);
   return ntohs(address.sin_port);
 }
@@ -81,18 +83,26 @@ SlurmCluster::SlurmCluster() {
   }
   char host[256] = {};
   gethostname(host, sizeof host - 1);
-  const std::string name = std::string(host).substr(0, std::string(host).find('.')), user = geteuid() == 0 ? "root" : said("id -un");
+  const std::string name = std::string(host).substr(0, std::string(host).find('.')),
+                    user = geteuid() == 0 ? "root" : said("id -un");
   const std::string at = folder_.path().string();
   fs::create_directories(folder_ / "state");
   fs::create_directories(folder_ / "spool");
   const fs::path conf = folder_.write(
-      "slurm.conf", fmt::format("ClusterName=impinge\nSlurmctldHost={0}(127.0.0.1)\nSlurmctldPort={1}\nSlurmdPort={2}\nAuthType=auth/none\nCredType=cred/none\nSlurmUser={3}\nSlurmdUser={3}\n"
-                                "StateSaveLocation={4}/state\nSlurmdSpoolDir={4}/spool\nSlurmctldPidFile={4}/slurmctld.pid\nSlurmdPidFile={4}/slurmd.pid\nSlurmctldLogFile={4}/slurmctld.log\n"
-                                "SlurmdLogFile={4}/slurmd.log\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nJobAcctGatherType=jobacct_gather/none\n"
-                                "AccountingStorageType=accounting_storage/none\nSelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\nSwitchType=switch/none\nMpiDefault=none\nReturnToService=2\n"
-                                "SchedulerParameters=sched_interval=1,batch_sched_delay=0\nMinJobAge=2\nKillWait=5\nNodeName={0} NodeAddr=127.0.0.1 CPUs={5} State=UNKNOWN\n"
-                                "PartitionName=all Nodes={0} Default=YES MaxTime=INFINITE State=UP\n",
-                                name, free_port(), free_port(), user.substr(0, user.find('\n')), at, std::max(1u, std::thread::hardware_concurrency())));
+      "slurm.conf",
+      fmt::format("ClusterName=impinge\nSlurmctldHost={0}(127.0.0.1)\nSlurmctldPort={1}\nSlurmdPort={2}\nAuthType=auth/"
+                  "none\nCredType=cred/none\nSlurmUser={3}\nSlurmdUser={3}\n"
+                  "StateSaveLocation={4}/state\nSlurmdSpoolDir={4}/spool\nSlurmctldPidFile={4}/"
+                  "slurmctld.pid\nSlurmdPidFile={4}/slurmd.pid\nSlurmctldLogFile={4}/slurmctld.log\n"
+                  "SlurmdLogFile={4}/slurmd.log\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/"
+                  "none\nJobAcctGatherType=jobacct_gather/none\n"
+                  "AccountingStorageType=accounting_storage/none\nSelectType=select/"
+                  "cons_tres\nSelectTypeParameters=CR_CPU\nSwitchType=switch/none\nMpiDefault=none\nReturnToService=2\n"
+                  "SchedulerParameters=sched_interval=1,batch_sched_delay=0\nMinJobAge=2\nKillWait=5\nNodeName={0} "
+                  "NodeAddr=127.0.0.1 CPUs={5} State=UNKNOWN\n"
+                  "PartitionName=all Nodes={0} Default=YES MaxTime=INFINITE State=UP\n",
+                  name, free_port(), free_port(), user.substr(0, user.find('\n')), at,
+                  std::max(1u, std::thread::hardware_concurrency())));
   setenv("SLURM_CONF", conf.c_str(), 1);
   controller_ = start(controller, folder_ / "slurmctld.out");
   node_ = start(node, folder_ / "slurmd.out");

@@ -1,4 +1,5 @@
-// A whole Slurm cluster on this machine for the life of a test: one slurmctld, one slurmd, no munge, ports that were free.
+// A whole Slurm cluster on this machine for the life of a test: one slurmctld, one slurmd, no munge, ports that were
+// free.
 #pragma once
 
 #include <sys/types.h>

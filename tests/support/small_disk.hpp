@@ -21,7 +21,9 @@ class SmallDisk {
   SmallDisk(const SmallDisk&) = delete;
   SmallDisk& operator=(const SmallDisk&) = delete;
   bool is_mounted() const { return is_mounted_; }
-  bool resize(const std::string& size) const { return mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT, ("size=" + size).c_str()) == 0; }
+  bool resize(const std::string& size) const {
+    return mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT, ("size=" + size).c_str()) == 0;
+  }
 
  private:
   std::filesystem::path folder_;

@@ -31,7 +31,8 @@ inline TriangleMesh boundary_surface(const TetMesh& mesh) {
 }
 
 /// A cube of `size` metres, `cells` lattice cells a side, its lowest corner at `corner`.
-inline BodyDescription soft_box(const std::string& name, const Vec3& size, const Eigen::Vector3i& cells, const Vec3& corner, const SoftOptions& o = {}) {
+inline BodyDescription soft_box(const std::string& name, const Vec3& size, const Eigen::Vector3i& cells,
+                                const Vec3& corner, const SoftOptions& o = {}) {
   auto soft = std::make_shared<SoftDescription>();
   soft->mesh = make_tet_box(size, cells.x(), cells.y(), cells.z());
   soft->model = o.model;
@@ -50,7 +51,8 @@ inline BodyDescription soft_box(const std::string& name, const Vec3& size, const
   return d;
 }
 
-inline BodyDescription soft_cube(const std::string& name, double size, int cells, const Vec3& corner, const SoftOptions& o = {}) {
+inline BodyDescription soft_cube(const std::string& name, double size, int cells, const Vec3& corner,
+                                 const SoftOptions& o = {}) {
   return soft_box(name, Vec3::Constant(size), Eigen::Vector3i::Constant(cells), corner, o);
 }
 

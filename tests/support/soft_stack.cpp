@@ -53,7 +53,8 @@ SoftStack make_soft_stack(const StackOptions& o) {
     TetMesh mesh = make_tet_box(Vec3::Constant(kSize), o.cells[level], o.cells[level], o.cells[level]);
     for (Vec3& v : mesh.vertices) v += corner_of(level);
     auto made = std::make_unique<SoftStack::Body>();
-    made->body = std::make_unique<DeformableBody>(FemAssembly(std::move(mesh), {{material, o.density}}, MassKind::lumped));
+    made->body =
+        std::make_unique<DeformableBody>(FemAssembly(std::move(mesh), {{material, o.density}}, MassKind::lumped));
     DeformableBody& body = *made->body;
     body.damping = {0.0, 0.001};
     for (int i = 0; i < body.nodes(); ++i) {
@@ -79,12 +80,14 @@ SoftStack make_soft_stack(const StackOptions& o) {
     for (int k = 0; k <= n; ++k)
       for (int i = 0; i <= n; ++i) each(corner_of(level).x() + kSize * i / n, corner_of(level).z() + kSize * k / n);
   };
-  nodes_of(0, [&](double x, double z) { add_contact(stack, side_at(stack, 0, o.cells[0], false, x, z), {}, o.friction); });
+  nodes_of(0,
+           [&](double x, double z) { add_contact(stack, side_at(stack, 0, o.cells[0], false, x, z), {}, o.friction); });
   for (int level = 1; level < static_cast<int>(o.cells.size()); ++level) {
     const auto add = [&](double x, double z) {
       const double low = kShift * level, high = kShift * (level - 1) + kSize;
       if (std::min(x, z) < low - 1e-12 || std::max(x, z) > high + 1e-12) return;
-      add_contact(stack, side_at(stack, level, o.cells[level], false, x, z), side_at(stack, level - 1, o.cells[level - 1], true, x, z), o.friction);
+      add_contact(stack, side_at(stack, level, o.cells[level], false, x, z),
+                  side_at(stack, level - 1, o.cells[level - 1], true, x, z), o.friction);
     };
     nodes_of(level, add);
     nodes_of(level - 1, add);

@@ -1,5 +1,5 @@
-// Group systems with deformable bodies, made without a world: lattice cubes on top of each other that don't match, at the
-// first sub-step of a fall or a push, with contacts from every node of a touching face to the other face.
+// Group systems with deformable bodies, made without a world: lattice cubes on top of each other that don't match, at
+// the first sub-step of a fall or a push, with contacts from every node of a touching face to the other face.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,10 @@ namespace impinge::test {
 
 struct StackOptions {
   double young = 1e5, poisson = 0.4, density = 1000.0;
-  double time_step = 0.01;    ///< s
+  double time_step = 0.01;  ///< s
   double friction = 0.0;
   std::vector<int> cells = {4, 3};  ///< lattice cells a side of each cube, from below
-  bool rigid_on_top = false;  ///< a rigid cube's four lower corners on the uppermost face
+  bool rigid_on_top = false;        ///< a rigid cube's four lower corners on the uppermost face
 };
 
 /// Owns what the group refers to.
@@ -29,7 +29,8 @@ struct SoftStack {
   GroupSystem group;
 };
 
-/// Two 0.2 m cubes or more, each 5 % to the side of the one below, on a fixed floor; sheared and falling at some 0.5 m/s.
+/// Two 0.2 m cubes or more, each 5 % to the side of the one below, on a fixed floor; sheared and falling at some 0.5
+/// m/s.
 SoftStack make_soft_stack(const StackOptions& options);
 
 }  // namespace impinge::test

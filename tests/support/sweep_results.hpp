@@ -30,9 +30,12 @@ inline std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> list(1);
   bool quoted = false;
   for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    else if (c == ',' && !quoted) list.emplace_back();
-    else list.back() += c;
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      list.emplace_back();
+    else
+      list.back() += c;
   }
   return list;
 }
@@ -80,13 +83,18 @@ inline std::vector<double> numbers(const std::vector<Row>& rows, const std::stri
 struct SweepFiles {
   TempFolder folder;
   SweepFiles() { folder.write("s.toml", kCrateScene); }
-  static std::vector<std::string> words(const std::string& out, const std::vector<std::string>& more, const std::string& scene = "s.toml") {
+  static std::vector<std::string> words(const std::string& out, const std::vector<std::string>& more,
+                                        const std::string& scene = "s.toml") {
     std::vector<std::string> words = {"sweep", scene, "--out", out, "--no-images", "--jobs", "2"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-  Outcome run(const std::string& out, const std::vector<std::string>& more, const std::string& scene = "s.toml") const { return impinge_run(folder.path(), words(out, more, scene)); }
-  std::filesystem::path job(const std::string& out, const Row& row) const { return folder / out / "jobs" / row.at("hash"); }
+  Outcome run(const std::string& out, const std::vector<std::string>& more, const std::string& scene = "s.toml") const {
+    return impinge_run(folder.path(), words(out, more, scene));
+  }
+  std::filesystem::path job(const std::string& out, const Row& row) const {
+    return folder / out / "jobs" / row.at("hash");
+  }
 };
 
 }  // namespace impinge::test

@@ -84,8 +84,9 @@ std::unique_ptr<HandMadeRecord> make_soft_record() {
   Embedding in_block = embed(block, box_surface->mesh.vertices);
   in_block.weight[0] = {1.2, -0.1, -0.05, -0.05};
   in_block.outside = 1;
-  const int crate = scene->add_soft("block", box_surface, block, in_block,
-                                    [](const Vec3& p) { return Vec3(p.x() + 1.0 + 0.5 * p.y(), 0.9 * p.y() + 0.135, p.z() + 0.55); });
+  const int crate = scene->add_soft("block", box_surface, block, in_block, [](const Vec3& p) {
+    return Vec3(p.x() + 1.0 + 0.5 * p.y(), 0.9 * p.y() + 0.135, p.z() + 0.55);
+  });
   scene->touch(0, body, {0.1, 0.0, 0.2}, -Vec3::UnitY(), ContactState::stick).lambda = {900.0, 20.0, 0.0};
   scene->touch(ball, body, {0.15, 0.73, 0.05}, Vec3::UnitY(), ContactState::slip).lambda = {600.0, 90.0, 0.0};
   StepRecord& r = scene->record();

@@ -16,8 +16,8 @@ const StepRecord& sample_record();
 /// The same bodies elsewhere.
 const StepRecord& other_record();
 
-/// Two deformable bodies: a lump between a slab and a scripted ball with held and moved nodes, and a sheared block with a
-/// vertex outside its tetrahedra; contacts with both, an attachment between the two.
+/// Two deformable bodies: a lump between a slab and a scripted ball with held and moved nodes, and a sheared block with
+/// a vertex outside its tetrahedra; contacts with both, an attachment between the two.
 const StepRecord& soft_record();
 
 /// Settings with exactly these layers, no panels, a fixed camera.

@@ -1,4 +1,5 @@
-// Constraint anticipation and its iterative form against an interior-point method on dense matrices, and against each other.
+// Constraint anticipation and its iterative form against an interior-point method on dense matrices, and against each
+// other.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -39,7 +40,8 @@ Dense dense(const GroupSystem& group) {
   for (std::size_t s = 0; s < group.soft.size(); ++s) {
     const BlockPattern& p = *group.soft[s].a->pattern;
     for (int i = 0; i < p.rows; ++i)
-      for (int k = p.begin[i]; k < p.begin[i + 1]; ++k) d.a.block<3, 3>(first[s] + 3 * i, first[s] + 3 * p.column[k]) = group.soft[s].a->values[k];
+      for (int k = p.begin[i]; k < p.begin[i + 1]; ++k)
+        d.a.block<3, 3>(first[s] + 3 * i, first[s] + 3 * p.column[k]) = group.soft[s].a->values[k];
     v.segment(first[s], group.soft[s].velocity.size()) = group.soft[s].velocity;
   }
   for (Eigen::Index c = 0; c < m; ++c) {
@@ -51,7 +53,8 @@ Dense dense(const GroupSystem& group) {
           d.j.block<1, 3>(3 * c + k, 6 * side->rigid) += sign * direction.transpose();
           d.j.block<1, 3>(3 * c + k, 6 * side->rigid + 3) += sign * side->arm.cross(direction).transpose();
         }
-        for (const NodeWeight& n : side->nodes) d.j.block<1, 3>(3 * c + k, first[side->soft] + 3 * n.node) += sign * n.weight * direction.transpose();
+        for (const NodeWeight& n : side->nodes)
+          d.j.block<1, 3>(3 * c + k, first[side->soft] + 3 * n.node) += sign * n.weight * direction.transpose();
       }
   }
   d.q = d.j * v;
@@ -123,7 +126,9 @@ double largest_speed(const Dense& d) {
 ResponseResult respond(const char* name, GroupSystem& group, ResponseSettings settings) {
   settings.lcp.max_iterations = 200000;
   settings.max_outer_iterations = std::min(settings.max_outer_iterations, 20000);
-  return find_entry(responses(), name)->make()->solve(group, *find_entry(lcp_solvers(), "projected_gauss_seidel")->make(), settings);
+  return find_entry(responses(), name)
+      ->make()
+      ->solve(group, *find_entry(lcp_solvers(), "projected_gauss_seidel")->make(), settings);
 }
 
 constexpr const char* kExact = "constraint_anticipation";
@@ -144,7 +149,8 @@ TEST_CASE("the assembled Delassus operator is J A^-1 J^T, symmetric") {
     for (const std::size_t keep : {std::size_t{1000}, std::size_t{5}}) {
       CAPTURE(rigid, keep);
       SoftStack stack = make_soft_stack({.young = 1e6, .friction = 0.5, .cells = {3, 2}, .rigid_on_top = rigid});
-      if (stack.group.contacts.size() > keep) stack.group.contacts.erase(stack.group.contacts.begin(), stack.group.contacts.end() - keep);
+      if (stack.group.contacts.size() > keep)
+        stack.group.contacts.erase(stack.group.contacts.begin(), stack.group.contacts.end() - keep);
       const Dense d = dense(stack.group);
       const MatX truth = d.j * d.a.ldlt().solve(MatX(d.j.transpose()));
       const AssembledDelassus w(stack.group);
@@ -185,7 +191,8 @@ TEST_CASE("two stacked cubes: the iterative form meets the exact one to a millio
 TEST_CASE("with friction both anticipations reach the natural map they were asked for") {
   for (const double young : {1e4, 1e6})
     for (const bool rigid : {false, true}) {
-      const SoftStack stack = make_soft_stack({.young = young, .friction = 0.4, .cells = {4, 3}, .rigid_on_top = rigid});
+      const SoftStack stack =
+          make_soft_stack({.young = young, .friction = 0.4, .cells = {4, 3}, .rigid_on_top = rigid});
       const Dense d = dense(stack.group);
       GroupSystem exact = stack.group, iterative = stack.group;
       CHECK(respond(kExact, exact, accuracy(1e-9)).converged);
@@ -231,7 +238,8 @@ TEST_CASE("attachments and sliding rows are equations to both anticipations") {
 }
 
 TEST_CASE("the seed's form is honest: its 5 % rule stops far away, and a cap is not convergence") {
-  const SoftStack soft = make_soft_stack({.young = 1e4, .cells = {3, 2}}), stiff = make_soft_stack({.young = 1e6, .cells = {3, 2}});
+  const SoftStack soft = make_soft_stack({.young = 1e4, .cells = {3, 2}}),
+                  stiff = make_soft_stack({.young = 1e6, .cells = {3, 2}});
   const Dense d = dense(soft.group), d_stiff = dense(stiff.group);
   ResponseSettings seed = accuracy(1e-9);
   seed.form = "seed";

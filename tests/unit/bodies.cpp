@@ -26,7 +26,10 @@ TEST_CASE("rotations: degrees, exponential and logarithm agree") {
 }
 
 TEST_CASE("key-framed motion passes its keys, rests at the ends and never overshoots") {
-  const Motion motion({{0.0, {0, 0, 0}, {0, 0, 0}}, {1.0, {1, 0, 0}, {0, 90, 0}}, {1.5, {1, 2, 0}, {0, 720, 0}}, {3.0, {4, 2, 1}, {0, 720, 0}}});
+  const Motion motion({{0.0, {0, 0, 0}, {0, 0, 0}},
+                       {1.0, {1, 0, 0}, {0, 90, 0}},
+                       {1.5, {1, 2, 0}, {0, 720, 0}},
+                       {3.0, {4, 2, 1}, {0, 720, 0}}});
   for (const MotionKey& key : motion.keys()) CHECK((motion.at(key.time).position - key.position).norm() < 1e-14);
   CHECK((motion.at(-1.0).position - motion.at(0.0).position).norm() == 0.0);
   CHECK((motion.at(9.0).position - Vec3(4, 2, 1)).norm() == 0.0);
@@ -34,7 +37,8 @@ TEST_CASE("key-framed motion passes its keys, rests at the ends and never oversh
   CHECK((motion.at(h).position - motion.at(0.0).position).norm() / h < 1e-4);
   CHECK((motion.at(3.0).position - motion.at(3.0 - h).position).norm() / h < 1e-4);
   for (double t = 0.0; t < 3.0; t += 0.001) {  // continuous velocity, monotone components
-    const Vec3 v0 = (motion.at(t).position - motion.at(t - h).position) / h, v1 = (motion.at(t + h).position - motion.at(t).position) / h;
+    const Vec3 v0 = (motion.at(t).position - motion.at(t - h).position) / h,
+               v1 = (motion.at(t + h).position - motion.at(t).position) / h;
     CHECK((v1 - v0).norm() < 1e-3);
     CHECK(motion.at(t + h).position.x() >= motion.at(t).position.x() - 1e-15);
     CHECK(motion.at(t).position.y() <= 2.0 + 1e-15);
@@ -86,7 +90,8 @@ TEST_CASE("collision groups are the connected components; what does not move joi
     for (bool changed = true; changed;) {
       changed = false;
       for (auto [a, b] : pairs)
-        if (free[a] && free[b] && label[a] != label[b]) label[a] = label[b] = std::min(label[a], label[b]), changed = true;
+        if (free[a] && free[b] && label[a] != label[b])
+          label[a] = label[b] = std::min(label[a], label[b]), changed = true;
     }
     for (const CollisionGroup& g : make_groups(pairs, free)) {
       for (int b : g.bodies) CHECK(label[b] == label[g.bodies.front()]);

@@ -20,7 +20,8 @@ Vec3 lab(const Vec3& rgb) {
   return {116.0 * f(xyz[1]) - 16.0, 500.0 * (f(xyz[0]) - f(xyz[1])), 200.0 * (f(xyz[1]) - f(xyz[2]))};
 }
 
-// linear RGB as normal eyes and dichromats see it (Machado, Oliveira & Fernandes 2009, severity 1): protan, deutan, tritan
+// linear RGB as normal eyes and dichromats see it (Machado, Oliveira & Fernandes 2009, severity 1): protan, deutan,
+// tritan
 std::array<Mat3, 4> all_eyes() {
   std::array<Mat3, 4> eyes;
   eyes[0].setIdentity();
@@ -70,5 +71,6 @@ TEST_CASE("plots and states of contacts are told apart by colour-blind eyes, and
   for (const Mat3& eye : all_eyes())
     for (const auto& [colors, least] : {std::pair(plots, 9.0), {states, 30.0}})  // just noticeable is about 1
       for (std::size_t i = 0; i < colors.size(); ++i)
-        for (std::size_t k = i + 1; k < colors.size(); ++k) CHECK((seen(eye, colors[i]) - seen(eye, colors[k])).norm() > least);
+        for (std::size_t k = i + 1; k < colors.size(); ++k)
+          CHECK((seen(eye, colors[i]) - seen(eye, colors[k])).norm() > least);
 }

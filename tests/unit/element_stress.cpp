@@ -16,8 +16,7 @@ constexpr double kLambda = kYoung * kPoisson / ((1.0 + kPoisson) * (1.0 - 2.0 * 
 DeformableBody deformed(std::string_view material, const Mat3& f) {
   TetMesh mesh = make_tet_box(Vec3(0.2, 0.1, 0.1), 2, 1, 1);
   DeformableBody body = test::make_body(mesh, {.material = material, .young = kYoung, .poisson = kPoisson});
-  for (int i = 0; i < body.nodes(); ++i)
-    body.position.segment<3>(3 * i) = f * mesh.vertices[i] + Vec3(0.3, -5.0, 2.0);
+  for (int i = 0; i < body.nodes(); ++i) body.position.segment<3>(3 * i) = f * mesh.vertices[i] + Vec3(0.3, -5.0, 2.0);
   return body;
 }
 
@@ -59,8 +58,7 @@ TEST_CASE("uniaxial tension and simple shear give the tension and √3 times the
     CHECK(element_von_mises(deformed(entry.name, pulled.asDiagonal()))[3] == Approx(kYoung * strain).epsilon(1e-5));
     Mat3 sheared = Mat3::Identity();
     sheared(0, 1) = strain;
-    CHECK(element_von_mises(deformed(entry.name, sheared))[3] ==
-          Approx(std::sqrt(3.0) * kMu * strain).epsilon(1e-5));
+    CHECK(element_von_mises(deformed(entry.name, sheared))[3] == Approx(std::sqrt(3.0) * kMu * strain).epsilon(1e-5));
     CHECK(element_equivalent_strain(deformed(entry.name, sheared))[3] == Approx(strain / std::sqrt(3.0)).epsilon(1e-5));
   }
   CHECK(equivalent_strain(Vec3(1.02, 0.99, 0.99)) == Approx(0.02).epsilon(1e-12));
@@ -107,7 +105,7 @@ TEST_CASE("stress is the work of straining further, for springs too, and for inv
       d = 0.5 * (d + d.transpose()).eval();
       const double t = 1e-5;
       const DeformableBody now = deformed(entry.name, f), more = deformed(entry.name, (Mat3::Identity() + t * d) * f),
-                          less = deformed(entry.name, (Mat3::Identity() - t * d) * f);
+                           less = deformed(entry.name, (Mat3::Identity() - t * d) * f);
       for (int e = 0; e < 12; ++e) {
         const auto energy = [&](const DeformableBody& body) {
           Corners x;
@@ -115,8 +113,8 @@ TEST_CASE("stress is the work of straining further, for springs too, and for inv
           return body.fem.material(e).energy(body.fem.elements()[e], x);
         };
         const ElementState state = element_state(now, e);
-        const double power = now.fem.elements()[e].volume * std::abs(state.volume_ratio) *
-                             state.stress.cwiseProduct(d).sum();
+        const double power =
+            now.fem.elements()[e].volume * std::abs(state.volume_ratio) * state.stress.cwiseProduct(d).sum();
         CHECK((energy(more) - energy(less)) / (2.0 * t) ==
               Approx(power).epsilon(1e-5).margin(1e-6 * kYoung * now.fem.elements()[e].volume));
       }

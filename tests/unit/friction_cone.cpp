@@ -43,8 +43,11 @@ TEST_CASE("the pyramid's projection is its nearest point, and the shift makes bo
     const Vec3 u(0.0, random.sym(), random.sym()), slip(n, u.y() > 0 ? -mu * n : mu * n, u.z() > 0 ? -mu * n : mu * n);
     CHECK(natural_map(Mat3::Identity(), u, slip, mu, FrictionLaw::pyramid) == Approx(0.0).margin(1e-13));
     CHECK(natural_map(Mat3::Identity(), Vec3::Zero(), p, mu, FrictionLaw::pyramid) == Approx(0.0).margin(1e-13));
-    CHECK(natural_map(Mat3::Identity(), Vec3(random.u(), u.y(), u.z()), Vec3::Zero(), mu, FrictionLaw::pyramid) == Approx(0.0).margin(1e-13));
-    if (mu > 0.01) CHECK(natural_map(Mat3::Identity(), u, Vec3(n, -slip.y(), slip.z()), mu, FrictionLaw::pyramid) > 1e-4 * std::abs(u.y()) * mu * n);
+    CHECK(natural_map(Mat3::Identity(), Vec3(random.u(), u.y(), u.z()), Vec3::Zero(), mu, FrictionLaw::pyramid) ==
+          Approx(0.0).margin(1e-13));
+    if (mu > 0.01)
+      CHECK(natural_map(Mat3::Identity(), u, Vec3(n, -slip.y(), slip.z()), mu, FrictionLaw::pyramid) >
+            1e-4 * std::abs(u.y()) * mu * n);
   }
 }
 

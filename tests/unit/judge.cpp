@@ -10,7 +10,8 @@ using namespace impinge::test;
 
 namespace {
 
-double penetration(const Shape& a, const Vec3& xa, const Vec3& ra, const Shape& b, const Vec3& xb, std::int64_t* crossings = nullptr) {
+double penetration(const Shape& a, const Vec3& xa, const Vec3& ra, const Shape& b, const Vec3& xb,
+                   std::int64_t* crossings = nullptr) {
   BodyDescription da = dynamic_body("a", a, xa), db = dynamic_body("b", b, xb);
   da.rotation = ra;
   if (std::holds_alternative<Plane>(b)) db.kind = BodyKind::fixed;
@@ -42,7 +43,8 @@ TEST_CASE("the overlap judge agrees with formulas for every pair of exact shapes
   CHECK(penetration(unit, {0.9, 0.3, 0.2}, o, unit, o) == Approx(0.1));
   CHECK(penetration(unit, {0.5 + std::sqrt(0.5) - 0.02, 0, 0}, {0, 45, 0}, unit, o) == Approx(0.02));
   for (const Shape& s : {Shape(Sphere{0.5}), Shape(unit), Shape(capsule)})
-    for (const Shape& t : {Shape(Sphere{0.5}), Shape(unit), Shape(capsule)}) CHECK(penetration(s, {2.1, 0, 0}, {10, 20, 30}, t, o) == 0.0);
+    for (const Shape& t : {Shape(Sphere{0.5}), Shape(unit), Shape(capsule)})
+      CHECK(penetration(s, {2.1, 0, 0}, {10, 20, 30}, t, o) == 0.0);
 }
 
 TEST_CASE("the overlap judge agrees with the exact box when boxes are given as meshes") {
@@ -56,9 +58,11 @@ TEST_CASE("the overlap judge agrees with the exact box when boxes are given as m
           Approx(penetration(Box{half}, place, turn, ball, Vec3::Zero())).margin(1e-12));
   }
   std::int64_t crossings = 0;
-  CHECK(penetration(make_box_mesh(half), {0.97, 0.1, 0.08}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) == Approx(0.03));
+  CHECK(penetration(make_box_mesh(half), {0.97, 0.1, 0.08}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) ==
+        Approx(0.03));
   CHECK(crossings > 0);
-  CHECK(penetration(make_box_mesh(half), {1.05, 0, 0}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) == 0.0);
+  CHECK(penetration(make_box_mesh(half), {1.05, 0, 0}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) ==
+        0.0);
   CHECK(crossings == 0);
 }
 
@@ -69,7 +73,8 @@ TEST_CASE("winding number and distance of a box are those of the box") {
   for (int i = 0; i < 300; ++i) {
     const Vec3 x = 1.5 * random.vector();
     const Vec3 q = x.cwiseAbs() - half;
-    CHECK(winding_number(x, box->mesh.vertices, box->mesh.triangles) == Approx(q.maxCoeff() < 0.0 ? 1.0 : 0.0).margin(1e-9));
+    CHECK(winding_number(x, box->mesh.vertices, box->mesh.triangles) ==
+          Approx(q.maxCoeff() < 0.0 ? 1.0 : 0.0).margin(1e-9));
     const double distance = q.maxCoeff() < 0.0 ? -q.maxCoeff() : q.cwiseMax(0.0).norm();
     CHECK(distance_to_surface(x, box->mesh.vertices, box->mesh.triangles) == Approx(distance).margin(1e-12));
   }

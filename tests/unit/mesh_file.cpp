@@ -26,8 +26,10 @@ bool starts_with(const std::string& text, const std::string& start) { return tex
 
 TEST_CASE("each format gives the vertices in double precision and in source order") {
   const TriangleMesh mesh = tetrahedron();
-  const std::pair<std::string, std::string> files[] = {{"a.off", off_text(mesh)},           {"a.obj", obj_text(mesh)},
-                                                       {"a.ply", ply_ascii(mesh)},          {"b.ply", ply_binary(mesh, false)},
+  const std::pair<std::string, std::string> files[] = {{"a.off", off_text(mesh)},
+                                                       {"a.obj", obj_text(mesh)},
+                                                       {"a.ply", ply_ascii(mesh)},
+                                                       {"b.ply", ply_binary(mesh, false)},
                                                        {"c.PLY", ply_binary(mesh, true)}};
   for (const auto& [name, bytes] : files) {
     INFO(name);
@@ -53,23 +55,32 @@ TEST_CASE("STL gives three vertices a facet") {
 TEST_CASE("polygons are fanned from their first corner") {
   const TriangleMesh off = parse_mesh("a.off", "OFF 4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3 255 0 0\n");
   CHECK(off.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
-  const TriangleMesh obj = parse_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1\nvt 0 0\nf -4/1 -3/1 \\\n -2 -1\n");
+  const TriangleMesh obj =
+      parse_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0 1\nvt 0 0\nf -4/1 -3/1 \\\n -2 -1\n");
   CHECK(obj.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
 }
 
 TEST_CASE("variants of the formats are understood") {
-  CHECK(parse_mesh("a.off", "# c\nCOFF\n# c\n3 1 0  # counts\n\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 255 0 0 255\n3 0 1 2").vertices.size() == 3);
+  CHECK(
+      parse_mesh("a.off",
+                 "# c\nCOFF\n# c\n3 1 0  # counts\n\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 255 0 0 255\n3 0 1 2")
+          .vertices.size() == 3);
   CHECK(parse_mesh("a.off", "OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n").triangles.size() == 1);
-  const std::string extra = "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar uint vertex_index\nproperty list uchar float texcoord\nelement vertex 3\n"
-                            "property float32 x\nproperty float32 y\nproperty float32 z\nelement edge 1\nproperty int a\nproperty int b\nend_header\n"
-                            "3 0 1 2 2 0.5 0.5\n0 0 0\n1 0 0\n0 1 0\n0 1\n";
+  const std::string extra =
+      "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar uint vertex_index\nproperty list uchar float "
+      "texcoord\nelement vertex 3\n"
+      "property float32 x\nproperty float32 y\nproperty float32 z\nelement edge 1\nproperty int a\nproperty int "
+      "b\nend_header\n"
+      "3 0 1 2 2 0.5 0.5\n0 0 0\n1 0 0\n0 1 0\n0 1\n";
   CHECK(parse_mesh("a.ply", extra).triangles == std::vector<Triangle>{{0, 1, 2}});
 }
 
 TEST_CASE("what is wrong is located") {
   const TriangleMesh mesh = tetrahedron();
-  CHECK(starts_with(message("a.off", "OFF\n4 1 0\n0 0 0\n1 0 nan\n0 1 0\n0 0 1\n3 0 1 2\n"), "a.off:4:5: 'nan'; a finite number is wanted"));
-  CHECK(starts_with(message("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"), "a.off:6:7: vertex 3; there are vertices 0 to 2"));
+  CHECK(starts_with(message("a.off", "OFF\n4 1 0\n0 0 0\n1 0 nan\n0 1 0\n0 0 1\n3 0 1 2\n"),
+                    "a.off:4:5: 'nan'; a finite number is wanted"));
+  CHECK(starts_with(message("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+                    "a.off:6:7: vertex 3; there are vertices 0 to 2"));
   CHECK(starts_with(message("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n"), "a.off:6:1: a face of 2 corners"));
   CHECK(starts_with(message("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n"), "a.off:5:3: the line ends early"));
   CHECK(starts_with(message("a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n"), "a.off: has no faces"));
@@ -80,22 +91,30 @@ TEST_CASE("what is wrong is located") {
   CHECK(starts_with(message("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n"), "a.obj:4:7: vertex 0"));
   CHECK(starts_with(message("a.obj", "v 0 0 1e999\n"), "a.obj:1:7: '1e999'"));
   CHECK(starts_with(message("a.obj", "curv 0 1\n"), "a.obj:1:1: 'curv'"));
-  CHECK(starts_with(message("a.ply", "ply\nformat ascii 1.0\nelement vertex 90000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n"),
+  CHECK(starts_with(message("a.ply",
+                            "ply\nformat ascii 1.0\nelement vertex 90000000\nproperty float x\nproperty float "
+                            "y\nproperty float z\nend_header\n"),
                     "a.ply:7: 90000000 elements 'vertex'; no more than the file has room for"));
-  CHECK(starts_with(message("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n"), "a.ply:1: vertices without z"));
+  CHECK(starts_with(
+      message("a.ply",
+              "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n"),
+      "a.ply:1: vertices without z"));
   std::string infinite = ply_binary(mesh, false);
   const std::size_t body = infinite.find("end_header\n") + 11;
   const double inf = std::numeric_limits<double>::infinity();
   std::memcpy(infinite.data() + body + 8, &inf, 8);
-  CHECK(starts_with(message("a.ply", infinite), fmt::format("a.ply: byte {}: a coordinate that is not finite", body + 8)));
+  CHECK(starts_with(message("a.ply", infinite),
+                    fmt::format("a.ply: byte {}: a coordinate that is not finite", body + 8)));
   std::string far = ply_binary(mesh, true);
   far[far.size() - 1] = 4;
-  CHECK(starts_with(message("a.ply", far), fmt::format("a.ply: byte {}: vertex 4; there are vertices 0 to 3", far.size() - 4)));
+  CHECK(starts_with(message("a.ply", far),
+                    fmt::format("a.ply: byte {}: vertex 4; there are vertices 0 to 3", far.size() - 4)));
   CHECK(starts_with(message("a.ply", ply_binary(mesh, false) + "x"), "a.ply: byte "));
   std::string cut = stl_binary(mesh);
   cut.pop_back();
   CHECK(starts_with(message("a.stl", cut), "a.stl: byte 80: 4 facets in a file of 283 bytes"));
-  CHECK(starts_with(message("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0\n"), "a.stl:5:10: the line ends early"));
+  CHECK(starts_with(message("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0\n"),
+                    "a.stl:5:10: the line ends early"));
 }
 
 TEST_CASE("a PLY that is written reads back bit for bit, with the head that was promised") {
@@ -105,8 +124,10 @@ TEST_CASE("a PLY that is written reads back bit for bit, with the head that was 
   mesh.vertices[1].y() = 5e-324;
   write_ply(folder / "a.ply", mesh.vertices, mesh.triangles);
   const std::string bytes = slurp(folder / "a.ply");
-  CHECK(starts_with(bytes, "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
-                           "element face 4\nproperty list uchar uint vertex_indices\nend_header\n"));
+  CHECK(starts_with(bytes,
+                    "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty double x\nproperty double "
+                    "y\nproperty double z\n"
+                    "element face 4\nproperty list uchar uint vertex_indices\nend_header\n"));
   const TriangleMesh read = read_mesh(folder / "a.ply");
   CHECK(read.triangles == mesh.triangles);
   CHECK(std::memcmp(read.vertices.data(), mesh.vertices.data(), 4 * sizeof(Vec3)) == 0);
@@ -117,7 +138,9 @@ TEST_CASE("a PLY that is written reads back bit for bit, with the head that was 
 TEST_CASE("other formats are read in a process of their own, whose death is an error message") {
   const TempFolder folder;
   // DirectX text: read by assimp only
-  const auto good = folder.write("a.x", "xof 0303txt 0032\nMesh m {\n 4;\n 0;0;0;,\n 1;0;0;,\n 0;1;0;,\n 0;0;1;;\n 4;\n 3;0,2,1;,\n 3;0,1,3;,\n 3;0,3,2;,\n 3;1,2,3;;\n}\n");
+  const auto good = folder.write("a.x",
+                                 "xof 0303txt 0032\nMesh m {\n 4;\n 0;0;0;,\n 1;0;0;,\n 0;1;0;,\n 0;0;1;;\n 4;\n "
+                                 "3;0,2,1;,\n 3;0,1,3;,\n 3;0,3,2;,\n 3;1,2,3;;\n}\n");
   CHECK(read_mesh(good).triangles.size() == 4);
   CHECK_THROWS_AS(read_mesh(folder.write("b.x", "xof 0303txt 0032\nMesh m {\n 4000000000;\n 0;0")), InputError);
   CHECK_THROWS_AS(read_mesh(folder.write("c.dae", "<?xml version=\"1.0\"?><COLLADA")), InputError);

@@ -64,10 +64,12 @@ TEST_CASE("a bound row reads and writes its variable") {
 
 TEST_CASE("values that are not allowed are refused and change nothing") {
   Example e;
-  for (const char* text : {"nan", "inf", "-inf", "1e999", "99999999999999999999999e300", "10.0000001", "-1e-300", "0.5m", "", "0,5", "+-1", "true"})
+  for (const char* text : {"nan", "inf", "-inf", "1e999", "99999999999999999999999e300", "10.0000001", "-1e-300",
+                           "0.5m", "", "0,5", "+-1", "true"})
     CHECK(e.message("contact.size", text) != "");
   for (const char* text : {"0", "101", "2.0", "99999999999999999999999", "x"}) CHECK(e.message("a.count", text) != "");
-  for (const char* text : {"[1, 2]", "[1, 2, 3, 4]", "1 2", "[1, nan, 3]", "[1,,3]", "[1, 2, 3", "[1, 2, 2000]"}) CHECK(e.message("a.pull", text) != "");
+  for (const char* text : {"[1, 2]", "[1, 2, 3, 4]", "1 2", "[1, nan, 3]", "[1,,3]", "[1, 2, 3", "[1, 2, 2000]"})
+    CHECK(e.message("a.pull", text) != "");
   CHECK(e.message("a.on", "yes") != "");
   CHECK(e.on);
   CHECK(e.size == 0.5);
@@ -78,7 +80,8 @@ TEST_CASE("values that are not allowed are refused and change nothing") {
 TEST_CASE("a message names what was found, what is allowed and the nearest name") {
   Example e;
   CHECK(e.message("contact.size", "11") == "11 is out of range for contact.size; allowed: a real number in [0, 10] m");
-  CHECK(e.message("response.method", "exat") == "'exat' is not known (did you mean 'exact'?) for response.method; allowed: one of fast, exact");
+  CHECK(e.message("response.method", "exat") ==
+        "'exat' is not known (did you mean 'exact'?) for response.method; allowed: one of fast, exact");
   CHECK(e.message("response.method", "penalty").find("reserved") != std::string::npos);
   CHECK(e.set.unknown_message("contact.siez") == "unknown parameter 'contact.siez'; did you mean 'contact.size'?");
   CHECK(e.set.nearest("size") == "contact.size");
@@ -98,7 +101,15 @@ TEST_CASE("a typed value is checked like a text") {
 
 TEST_CASE("what is written reads back exactly") {
   Example e;
-  e.set.add({.path = "a.free", .kind = ParameterKind::real, .unit = "", .range = {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()}, .names = {}, .doc = "", .initial = 0.0, .get = {}, .set = {}});
+  e.set.add({.path = "a.free",
+             .kind = ParameterKind::real,
+             .unit = "",
+             .range = {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()},
+             .names = {},
+             .doc = "",
+             .initial = 0.0,
+             .get = {},
+             .set = {}});
   const Parameter& row = *e.set.find("a.free");
   test::Random random(11);
   for (int i = 0; i < 2000; ++i) {

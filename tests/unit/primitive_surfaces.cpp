@@ -26,7 +26,8 @@ TEST_CASE("tessellated shapes are closed, outward, and converge to the shape's v
     CHECK(bounds_a_solid(sphere));
     CHECK(bounds_a_solid(capsule));
     for (const Vec3& v : sphere.vertices) CHECK(v.norm() == Approx(0.3).epsilon(1e-12));
-    for (const Vec3& v : capsule.vertices) CHECK((v - Vec3(0, std::clamp(v.y(), -0.4, 0.4), 0)).norm() == Approx(0.3).epsilon(1e-12));
+    for (const Vec3& v : capsule.vertices)
+      CHECK((v - Vec3(0, std::clamp(v.y(), -0.4, 0.4), 0)).norm() == Approx(0.3).epsilon(1e-12));
     // inscribed, so from below; half the edge leaves a quarter of the error
     const double ball_error = 1.0 - signed_volume(sphere) / ball, pill_error = 1.0 - signed_volume(capsule) / pill;
     CHECK(ball_error > 0.0);
@@ -52,13 +53,15 @@ TEST_CASE("the alternating box is a body without a favoured direction") {
     CHECK_FALSE(check_tet_mesh(mesh).has_value());
     CHECK(mesh.tets.size() == static_cast<std::size_t>(5 * n.prod()));
     CHECK(total_volume(mesh) == Approx(6.0));
-    CHECK(boundary_triangles(mesh).size() == static_cast<std::size_t>(4 * (n.x() * n.y() + n.y() * n.z() + n.z() * n.x())));
+    CHECK(boundary_triangles(mesh).size() ==
+          static_cast<std::size_t>(4 * (n.x() * n.y() + n.y() * n.z() + n.z() * n.x())));
   }
   // mirrored in any axis, a cube of an even number of cells is itself
   const TetMesh mesh = make_alternating_box(Vec3::Constant(2.0), 2, 2, 2);
   const auto key = [](std::array<Vec3, 4> corners) {
     std::array<std::array<int, 3>, 4> k;
-    for (int i = 0; i < 4; ++i) k[i] = {static_cast<int>(corners[i].x()), static_cast<int>(corners[i].y()), static_cast<int>(corners[i].z())};
+    for (int i = 0; i < 4; ++i)
+      k[i] = {static_cast<int>(corners[i].x()), static_cast<int>(corners[i].y()), static_cast<int>(corners[i].z())};
     std::sort(k.begin(), k.end());
     return k;
   };
@@ -84,6 +87,7 @@ TEST_CASE("the smallest dihedral angle is that of known tetrahedra") {
   mesh.tets = {{0, 1, 2, 3}};
   if (total_volume(mesh) < 0) std::swap(mesh.tets[0][0], mesh.tets[0][1]);
   CHECK(smallest_dihedral_angle(mesh) == Approx(70.528779).epsilon(1e-7));  // regular: arccos 1/3
-  CHECK(smallest_dihedral_angle(make_alternating_box(Vec3::Ones(), 2, 2, 2)) == Approx(54.735610).epsilon(1e-7));  // arctan √2
+  // arctan √2
+  CHECK(smallest_dihedral_angle(make_alternating_box(Vec3::Ones(), 2, 2, 2)) == Approx(54.735610).epsilon(1e-7));
   CHECK(smallest_dihedral_angle(make_tet_box(Vec3::Ones(), 2, 2, 2)) == Approx(45.0).epsilon(1e-9));
 }

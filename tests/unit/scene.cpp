@@ -77,7 +77,8 @@ TEST_CASE("a scene's parameters and bodies arrive in SI") {
   CHECK((tetra.angular_velocity() - Vec3(0, 0, 2)).norm() < 1e-12);
   Mat3 turn;  // 90° about y: x goes to -z
   turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
-  for (int v = 0; v < 4; ++v) CHECK((tetra.world_vertices[v] - (turn * (2.0 * tetrahedron().vertices[v]) + Vec3(1, 2, 3))).norm() < 1e-12);
+  for (int v = 0; v < 4; ++v)
+    CHECK((tetra.world_vertices[v] - (turn * (2.0 * tetrahedron().vertices[v]) + Vec3(1, 2, 3))).norm() < 1e-12);
 
   const RigidBody& pill = s.world.bodies()[2];
   CHECK(std::get<Capsule>(pill.shape).half_length == Approx(0.3));
@@ -91,8 +92,10 @@ TEST_CASE("a scene's parameters and bodies arrive in SI") {
 TEST_CASE("overrides replace what the scene says, bodies by name") {
   const TempFolder folder;
   folder.write("meshes/t.off", off_text(tetrahedron()));
-  const Loaded s(folder.write("s.toml", kScene), {"simulation.gravity=[0,-20,0]", "body.tetra.mass=7", "body.pill.shape.capsule.radius=0.2", "contact.points=intersection", "simulation.sleeping=false",
-                                                  "contact.friction=0.5", "contact.friction=0.75"});
+  const Loaded s(
+      folder.write("s.toml", kScene),
+      {"simulation.gravity=[0,-20,0]", "body.tetra.mass=7", "body.pill.shape.capsule.radius=0.2",
+       "contact.points=intersection", "simulation.sleeping=false", "contact.friction=0.5", "contact.friction=0.75"});
   CHECK(s.world.parameters.simulation.gravity == Vec3(0, -20, 0));
   CHECK(s.world.bodies()[1].mass == Approx(7.0));
   CHECK(std::get<Capsule>(s.world.bodies()[2].shape).radius == 0.2);
@@ -118,13 +121,16 @@ TEST_CASE("a resolved scene is a scene: it loads to the same world and writes th
   CHECK(again.scene.run->frames == 12);
   CHECK(again.world.state_hash() == s.world.state_hash());
   CHECK(format_run(again.scene, again.rows, *again.scene.run) == text);
-  for (const Parameter& row : s.rows.all()) CHECK(format_value(again.rows.find(row.path)->get()) == format_value(row.get()));
+  for (const Parameter& row : s.rows.all())
+    CHECK(format_value(again.rows.find(row.path)->get()) == format_value(row.get()));
 }
 
 TEST_CASE("seams are welded, in the order of first appearance") {
   const TempFolder folder;
   folder.write("t.stl", stl_ascii(tetrahedron()));
-  const Loaded s(folder.write("s.toml", "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nsurface = \"t.stl\"\n[[body]]\nname = \"b\"\nkind = \"dynamic\"\nsurface = \"t.stl\"\n"));
+  const Loaded s(folder.write("s.toml",
+                              "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nsurface = \"t.stl\"\n[[body]]\nname = "
+                              "\"b\"\nkind = \"dynamic\"\nsurface = \"t.stl\"\n"));
   REQUIRE(s.scene.surfaces.size() == 1);
   CHECK(s.scene.surfaces[0].welded == 8);
   CHECK(s.scene.surfaces[0].vertices == 4);
@@ -133,7 +139,8 @@ TEST_CASE("seams are welded, in the order of first appearance") {
 }
 
 TEST_CASE("TOML values round trip through one line") {
-  for (const char* text : {"[0, -20.5, 1e-300]", "true", "\"a \\\"b\\\" \\\\ \\n\"", "{ a = [1, 2], b = { c = \"d\" } }", "[]", "9007199254740993"}) {
+  for (const char* text : {"[0, -20.5, 1e-300]", "true", "\"a \\\"b\\\" \\\\ \\n\"",
+                           "{ a = [1, 2], b = { c = \"d\" } }", "[]", "9007199254740993"}) {
     const TomlNode node = parse_toml_value(text, "here");
     CHECK(format_toml(parse_toml_value(format_toml(node), "here")) == format_toml(node));
   }

@@ -53,10 +53,11 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
     const char* lines;
     double volume, tolerance;
   };
-  for (const Case& c : {Case{"shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 6 } }\n", ball, 0.03},
-                        Case{"shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { cage = { cells = 6 } }\n", 6e-3, 0.02},
-                        Case{"shape = { capsule = { radius = 0.1, length = 0.2 } }\nvolume = { cage = { cells = 6 } }\n", pill, 0.03},
-                        Case{"shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n", 6e-3, 1e-9}}) {
+  for (const Case& c :
+       {Case{"shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 6 } }\n", ball, 0.03},
+        Case{"shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { cage = { cells = 6 } }\n", 6e-3, 0.02},
+        Case{"shape = { capsule = { radius = 0.1, length = 0.2 } }\nvolume = { cage = { cells = 6 } }\n", pill, 0.03},
+        Case{"shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n", 6e-3, 1e-9}}) {
     INFO(c.lines);
     Loaded s(folder.write("s.toml", body_text(c.lines)));
     const RigidBody& body = s.body();
@@ -65,11 +66,13 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
     // the surface that collides is the shape's, moved by nothing yet
     const TriangleMesh& surface = std::get<MeshPointer>(body.shape)->mesh;
     REQUIRE(body.world_vertices.size() == surface.vertices.size());
-    for (std::size_t v = 0; v < surface.vertices.size(); ++v) CHECK((body.world_vertices[v] - surface.vertices[v]).norm() < 1e-12);
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+      CHECK((body.world_vertices[v] - surface.vertices[v]).norm() < 1e-12);
     CHECK(s.steps());
   }
   // cells as cubic as the sides allow: 2:1:3
-  const Loaded lattice(folder.write("s.toml", body_text("shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n")));
+  const Loaded lattice(folder.write(
+      "s.toml", body_text("shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n")));
   CHECK(lattice.soft().fem.nodes() == 5 * 3 * 7);
 }
 
@@ -83,13 +86,18 @@ TEST_CASE("volume files of every format give the same body") {
   folder.write("four.msh", msh41_text(mesh));
   for (const char* name : {"v.veg", "v.node", "v.ele", "two.msh", "four.msh"}) {
     INFO(name);
-    Loaded s(folder.write("s.toml", body_text(fmt::format("volume = \"{}\"\nscale = 2\nrotation = [0, 90, 0]\nposition = [1, 2, 3]\nmaterial = {{ density = 500 }}\n", name))));
+    Loaded s(folder.write(
+        "s.toml",
+        body_text(fmt::format(
+            "volume = \"{}\"\nscale = 2\nrotation = [0, 90, 0]\nposition = [1, 2, 3]\nmaterial = {{ density = 500 }}\n",
+            name))));
     REQUIRE(s.soft().fem.nodes() == 27);
     CHECK(s.body().mass == Approx(8 * 500 * 6e-3));
     Mat3 turn;  // 90° about y: x goes to -z
     turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
     for (int i = 0; i < 27; ++i)
-      CHECK((Vec3(s.soft().fem.position.segment<3>(3 * i)) - (turn * (2.0 * mesh.vertices[i]) + Vec3(1, 2, 3))).norm() < 1e-12);
+      CHECK((Vec3(s.soft().fem.position.segment<3>(3 * i)) - (turn * (2.0 * mesh.vertices[i]) + Vec3(1, 2, 3))).norm() <
+            1e-12);
     const TriangleMesh& boundary = std::get<MeshPointer>(s.body().shape)->mesh;
     CHECK(boundary.vertices.size() == 26);
     CHECK(signed_volume(boundary) == Approx(8 * 6e-3));
@@ -107,7 +115,8 @@ TEST_CASE("a surface is carried by a volume file; both are scaled; a little outs
   folder.write("s.off", off_text(surface));
   Loaded s(folder.write("s.toml", body_text("volume = \"v.veg\"\nsurface = \"s.off\"\nscale = 3\n")));
   CHECK(s.soft().embedding.outside == static_cast<int>(surface.vertices.size()));
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v) CHECK((s.body().world_vertices[v] - 3.0 * surface.vertices[v]).norm() < 1e-12);
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v)
+    CHECK((s.body().world_vertices[v] - 3.0 * surface.vertices[v]).norm() < 1e-12);
   CHECK(s.steps());
 }
 
@@ -116,8 +125,12 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
   const std::string shape = "shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 4 } }\n";
   for (const char* model : {"linear", "corotational", "stvk", "fixed_corotated", "neo_hookean", "mass_spring"}) {
     INFO(model);
-    Loaded s(folder.write("s.toml", body_text(shape + "mass = 2.5\nself_collision = true\nfriction = 0.7\nrestitution = 0.2\nvelocity = [1, 2, 3]\nangular_velocity = [0, 0, 2]\n" +
-                                              fmt::format("material = {{ model = \"{}\", young = 3e4, poisson = 0.3, damping = [0.5, 0.02], mass = \"consistent\" }}\n", model))));
+    Loaded s(folder.write("s.toml", body_text(shape +
+                                              "mass = 2.5\nself_collision = true\nfriction = 0.7\nrestitution = "
+                                              "0.2\nvelocity = [1, 2, 3]\nangular_velocity = [0, 0, 2]\n" +
+                                              fmt::format("material = {{ model = \"{}\", young = 3e4, poisson = 0.3, "
+                                                          "damping = [0.5, 0.02], mass = \"consistent\" }}\n",
+                                                          model))));
     const SoftBody& soft = s.soft();
     CHECK(soft.model == model);
     CHECK(soft.material->settings().young == 3e4);
@@ -132,7 +145,12 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
     CHECK((soft.fem.momentum() - 2.5 * Vec3(1, 2, 3)).norm() < 1e-12);
     CHECK(s.steps());
   }
-  const Loaded s(folder.write("s.toml", body_text(shape + "material = { model = \"neo_hookean\", extension_threshold = 0.2, tangent = \"exact\" }\n")), {"body.a.material.young=7e3"});
+  const Loaded s(
+      folder.write(
+          "s.toml",
+          body_text(shape +
+                    "material = { model = \"neo_hookean\", extension_threshold = 0.2, tangent = \"exact\" }\n")),
+      {"body.a.material.young=7e3"});
   CHECK(s.soft().material->settings().extension_threshold == 0.2);
   CHECK(s.soft().material->settings().tangent == Tangent::exact);
   CHECK(s.soft().material->settings().young == 7e3);
@@ -140,12 +158,14 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
 
 TEST_CASE("a volume file's own material is used where the scene is silent") {
   const TempFolder folder;
-  folder.write("v.veg", veg_text(sample_volume()) + "\n*MATERIAL rubber\nENU, 1234, 5e5, 0.25\n\n*REGION\nallElements, rubber\n");
+  folder.write("v.veg", veg_text(sample_volume()) +
+                            "\n*MATERIAL rubber\nENU, 1234, 5e5, 0.25\n\n*REGION\nallElements, rubber\n");
   const Loaded own(folder.write("s.toml", body_text("volume = \"v.veg\"\n")));
   CHECK(own.soft().material->settings().young == 5e5);
   CHECK(own.soft().material->settings().poisson == 0.25);
   CHECK(own.body().mass == Approx(1234 * 6e-3));
-  const Loaded given(folder.write("s.toml", body_text("volume = \"v.veg\"\nmaterial = { young = 1e3, density = 10 }\n")));
+  const Loaded given(
+      folder.write("s.toml", body_text("volume = \"v.veg\"\nmaterial = { young = 1e3, density = 10 }\n")));
   CHECK(given.soft().material->settings().young == 1e3);
   CHECK(given.soft().material->settings().poisson == 0.25);
   CHECK(given.body().mass == Approx(10 * 6e-3));
@@ -153,7 +173,9 @@ TEST_CASE("a volume file's own material is used where the scene is silent") {
 
 TEST_CASE("regions hold the nodes they name, and move them") {
   const TempFolder folder;
-  const std::string lines = "shape = { box = { size = [0.2, 0.2, 0.2] } }\nvolume = { lattice = { cells = 4 } }\nposition = [0, 1, 0]\nfixed = ";
+  const std::string lines =
+      "shape = { box = { size = [0.2, 0.2, 0.2] } }\nvolume = { lattice = { cells = 4 } }\nposition = [0, 1, 0]\nfixed "
+      "= ";
   {
     Loaded s(folder.write("s.toml", body_text(lines + "{ box = { min = [-1, 0.89, -1], max = [1, 0.91, 1] } }\n")));
     REQUIRE(s.soft().held.size() == 1);
@@ -163,22 +185,29 @@ TEST_CASE("regions hold the nodes they name, and move them") {
     CHECK(s.steps());
   }
   {
-    Loaded s(folder.write("s.toml", body_text(lines + "[ { sphere = { center = [0.1, 1.1, 0.1], radius = 0.06 } }, { nodes = [0, 1, 2], motion = [ { time = 0 }, { time = 0.03, position = [0.01, 0, 0] } ] } ]\n")));
+    Loaded s(folder.write(
+        "s.toml", body_text(lines + "[ { sphere = { center = [0.1, 1.1, 0.1], radius = 0.06 } }, { nodes = [0, 1, 2], "
+                                    "motion = [ { time = 0 }, { time = 0.03, position = [0.01, 0, 0] } ] } ]\n")));
     REQUIRE(s.soft().held.size() == 2);
     CHECK(s.soft().held[0].nodes.size() == 4);  // a corner and its three neighbours
     CHECK(s.soft().held[1].nodes == std::vector<int>{0, 1, 2});
     const VecX start = s.soft().fem.position;
     CHECK(s.steps());  // two frames of 1/60 s: past the last key
-    for (const int i : {0, 1, 2}) CHECK((s.soft().fem.position.segment<3>(3 * i) - start.segment<3>(3 * i) - Vec3(0.01, 0, 0)).norm() < 1e-12);
-    for (const int i : s.soft().held[0].nodes) CHECK((s.soft().fem.position.segment<3>(3 * i) - start.segment<3>(3 * i)).norm() < 1e-15);
+    for (const int i : {0, 1, 2})
+      CHECK((s.soft().fem.position.segment<3>(3 * i) - start.segment<3>(3 * i) - Vec3(0.01, 0, 0)).norm() < 1e-12);
+    for (const int i : s.soft().held[0].nodes)
+      CHECK((s.soft().fem.position.segment<3>(3 * i) - start.segment<3>(3 * i)).norm() < 1e-15);
   }
 }
 
 TEST_CASE("attachments join bodies to one another and to the world") {
   const TempFolder folder;
   const std::string a = body_text("shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 3 } }\n");
-  Loaded s(folder.write("s.toml", a + "[[body]]\nname = \"b\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0.5, 0]\n"
-                                      "[[attachment]]\nbody_a = \"a\"\nbody_b = \"b\"\npoint = [0, 0.2, 0]\n[[attachment]]\nname = \"nail\"\nbody_a = \"b\"\npoint = [0, 0.6, 0]\n"));
+  Loaded s(folder.write(
+      "s.toml",
+      a + "[[body]]\nname = \"b\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0.5, 0]\n"
+          "[[attachment]]\nbody_a = \"a\"\nbody_b = \"b\"\npoint = [0, 0.2, 0]\n[[attachment]]\nname = "
+          "\"nail\"\nbody_a = \"b\"\npoint = [0, 0.6, 0]\n"));
   CHECK(s.scene.attachments.size() == 2);
   CHECK(s.steps());
 }

@@ -39,7 +39,9 @@ struct Rows {
 
 const std::vector<std::string> kFigures = {"a", "b", "contacts"};
 
-Script script(const Rows& rows, const std::vector<std::string>& lines) { return Script("t.script", "", lines, rows.set, kFigures); }
+Script script(const Rows& rows, const std::vector<std::string>& lines) {
+  return Script("t.script", "", lines, rows.set, kFigures);
+}
 
 bool holds(const std::string& text, std::vector<double> values) {
   const std::string file = "x";
@@ -60,7 +62,8 @@ bool refused(const std::string& text) {
 
 TEST_CASE("commands come with their frame, in the order of the lines") {
   const Rows rows;
-  const Script s = script(rows, {"at 2 set contact.friction 0.5 # why", "", "at 0 layer +contacts -meshes", "at 2 camera eye [1, 2, 3]", "at 2 camera fit", "at 0 set start.only true"});
+  const Script s = script(rows, {"at 2 set contact.friction 0.5 # why", "", "at 0 layer +contacts -meshes",
+                                 "at 2 camera eye [1, 2, 3]", "at 2 camera fit", "at 0 set start.only true"});
   CHECK(s.commands_at(1).empty());
   REQUIRE(s.commands_at(2).size() == 3);
   CHECK(format_command(s.commands_at(2)[0]) == "set contact.friction 0.5");
@@ -73,12 +76,15 @@ TEST_CASE("commands come with their frame, in the order of the lines") {
 
 TEST_CASE("a ramp is linear and reaches both ends exactly") {
   const Rows rows;
-  const Script s = script(rows, {"from 5 to 12 ramp contact.friction 0.1 0.7", "from 5 to 7 ramp simulation.gravity 0 -10 0 1 -20 3", "from 3 to 7 ramp lcp.sweeps 10 15", "from 9 to 9 ramp contact.friction 1 2"});
+  const Script s =
+      script(rows, {"from 5 to 12 ramp contact.friction 0.1 0.7", "from 5 to 7 ramp simulation.gravity 0 -10 0 1 -20 3",
+                    "from 3 to 7 ramp lcp.sweeps 10 15", "from 9 to 9 ramp contact.friction 1 2"});
   const auto value = [&](int frame, std::size_t i) { return std::get<SetCommand>(s.commands_at(frame).at(i)).value; };
   CHECK(s.commands_at(2).empty());
   CHECK(std::get<double>(value(5, 0)) == 0.1);
   CHECK(std::get<double>(value(12, 0)) == 0.7);
-  for (int k = 5; k <= 12; ++k) CHECK(std::get<double>(value(k, 0)) == Approx(0.1 + 0.6 * (k - 5) / 7.0).epsilon(1e-14));
+  for (int k = 5; k <= 12; ++k)
+    CHECK(std::get<double>(value(k, 0)) == Approx(0.1 + 0.6 * (k - 5) / 7.0).epsilon(1e-14));
   CHECK(std::get<Vec3>(value(6, 1)) == Vec3(0.5, -15, 1.5));
   CHECK(std::get<std::int64_t>(value(3, 0)) == 10);
   CHECK(std::get<std::int64_t>(value(4, 0)) == 11);
@@ -97,8 +103,10 @@ TEST_CASE("conditions follow the usual rules of precedence") {
   CHECK_FALSE(holds("(a > 1 || b > 1) && contacts > 1", {2, 0, 0}));
   CHECK(holds("!(a > 1) && !b > 5 || a != a + 1", {0, 0, 0}));
   CHECK(holds("a > 1e-3", {2e-3, 0, 0}));
-  for (const char* text : {"a > 1", "a < 1", "a == a", "a != a", "a >= 0"}) CHECK_FALSE(holds(text, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
-  for (const char* text : {"", "a", "a >", "> a", "a > 1 2", "a > (1", "a > 1)", "a = 1", "a & b", "x > 1", "a > 1 > 2", "(a > 1) + 1 > 0", "a && b", "1e999 > a", "a > 1 ||", "!a"}) {
+  for (const char* text : {"a > 1", "a < 1", "a == a", "a != a", "a >= 0"})
+    CHECK_FALSE(holds(text, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
+  for (const char* text : {"", "a", "a >", "> a", "a > 1 2", "a > (1", "a > 1)", "a = 1", "a & b", "x > 1", "a > 1 > 2",
+                           "(a > 1) + 1 > 0", "a && b", "1e999 > a", "a > 1 ||", "!a"}) {
     INFO(text);
     CHECK(refused(text));
   }
@@ -108,15 +116,22 @@ TEST_CASE("conditions follow the usual rules of precedence") {
 
 TEST_CASE("damaged scripts are refused or read, never more") {
   const Rows rows;
-  const std::string lines[] = {"from 5 to 12 ramp contact.friction 0.1 0.7", "at 2 set simulation.gravity [0, -10, 0]", "at 2 camera orbit 30 -5.5", "expect contacts > 0 && (a + 1) * 2 < b at 120", "break when a / b >= 1e-3", "at 0 layer +contacts -meshes"};
+  const std::string lines[] = {"from 5 to 12 ramp contact.friction 0.1 0.7",
+                               "at 2 set simulation.gravity [0, -10, 0]",
+                               "at 2 camera orbit 30 -5.5",
+                               "expect contacts > 0 && (a + 1) * 2 < b at 120",
+                               "break when a / b >= 1e-3",
+                               "at 0 layer +contacts -meshes"};
   test::Random random(5);
   int bad = 0, good = 0;
   for (int i = 0; i < 20000; ++i) {
     std::string line = lines[random.below(6)];
     for (int n = 1 + random.below(3); n > 0 && !line.empty(); --n) {
       const auto at = static_cast<std::size_t>(random.below(static_cast<int>(line.size())));
-      if (random.below(3) == 0) line.erase(at, 1 + random.below(3));
-      else line[at] = " 0123456789-+.e[]()<>=!&|#\"atx"[random.below(30)];
+      if (random.below(3) == 0)
+        line.erase(at, 1 + random.below(3));
+      else
+        line[at] = " 0123456789-+.e[]()<>=!&|#\"atx"[random.below(30)];
     }
     try {
       script(rows, {line});

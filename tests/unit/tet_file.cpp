@@ -285,7 +285,8 @@ TEST_CASE("each damaged .msh file gives one located error") {
 
 TEST_CASE("each damaged binary .msh file gives one located error") {
   const TetMesh mesh = make_tet_box(Vec3::Ones(), 1, 1, 1);
-  for (const std::string& whole : {test::msh22_binary(mesh), test::msh41_binary(mesh), test::msh22_binary(mesh, true)}) {
+  for (const std::string& whole :
+       {test::msh22_binary(mesh), test::msh41_binary(mesh), test::msh22_binary(mesh, true)}) {
     const std::size_t end = whole.rfind("$EndElements");
     // cut anywhere before the last word
     for (std::size_t length = 0; length < end + 12; ++length)

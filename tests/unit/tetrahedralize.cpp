@@ -1,4 +1,5 @@
-// The program that tetrahedralizes is stood in for by scripts: what it does well is tested in contract/cli_soft_input.cpp.
+// The program that tetrahedralizes is stood in for by scripts: what it does well is tested in
+// contract/cli_soft_input.cpp.
 #include "engine/io/tetrahedralize.hpp"
 
 #include <catch2/catch.hpp>
@@ -49,7 +50,8 @@ TEST_CASE("the tetrahedralizer's answer is read and checked; it gets the surface
 
   const TetMesh mesh = make_tet_box(Vec3::Ones(), 2, 2, 2);
   path.folder.write("good.msh", msh22_text(mesh));
-  path.script("/bin/cp \"$1\" " + (path.folder / "seen.off").string() + "\n/bin/cp " + (path.folder / "good.msh").string() + " \"$2\"\necho \"$3 $4 $5 $6\" > " +
+  path.script("/bin/cp \"$1\" " + (path.folder / "seen.off").string() + "\n/bin/cp " +
+              (path.folder / "good.msh").string() + " \"$2\"\necho \"$3 $4 $5 $6\" > " +
               (path.folder / "words").string() + "\n");
   CHECK(find_tetrahedralizer() == path.folder / "impinge-tetrahedralize");
   const TetMesh made = tetrahedralize(surface, {.max_size = 0.25, .min_angle = 8});

@@ -57,7 +57,8 @@ TEST_CASE("a winding is the turns of the ring: 1 however it is stretched, 2, −
   const TetWinding winding(box);
   test::Random random(2);
   const Mat3 f = test::stretched(random, Vec3(5.0, 1.0, 0.01)), mirror = Vec3(1, 1, -1).asDiagonal();
-  for (const auto& [map, expected] : {std::pair(f, 1), std::pair(Mat3(f * mirror), -1), std::pair(Mat3(Mat3::Zero()), 0)})
+  for (const auto& [map, expected] :
+       {std::pair(f, 1), std::pair(Mat3(f * mirror), -1), std::pair(Mat3(Mat3::Zero()), 0)})
     for (int i = 0; i < winding.inner_edges(); ++i) {
       VecX x = flat(box);
       for (Eigen::Index k = 0; k < x.size(); k += 3) x.segment<3>(k) = map * x.segment<3>(k);
@@ -123,7 +124,8 @@ TEST_CASE("only tangled elements of materials that unwind are let go, and while 
   }
 }
 
-TEST_CASE("elements that are let go: force and stiffness are derivatives, no net force, no torque, no tangled minimum") {
+TEST_CASE(
+    "elements that are let go: force and stiffness are derivatives, no net force, no torque, no tangled minimum") {
   DeformableBody body = test::make_body(make_tet_box(Vec3::Ones(), 2, 2, 2), {.material = "neo_hookean"});
   test::Random random(5);
   for (Eigen::Index k = 0; k < body.position.size(); ++k) body.position[k] = random.sym();

@@ -23,8 +23,9 @@ CarriedVolume cage(const TriangleMesh& surface, int cells) {
 }
 
 bool same(const CarriedVolume& a, const CarriedVolume& b) {
-  return a.mesh.vertices == b.mesh.vertices && a.mesh.tets == b.mesh.tets && a.fraction == b.fraction && a.embedding.tet == b.embedding.tet &&
-         a.embedding.weight == b.embedding.weight && a.embedding.outside == b.embedding.outside && a.embedding.farthest == b.embedding.farthest;
+  return a.mesh.vertices == b.mesh.vertices && a.mesh.tets == b.mesh.tets && a.fraction == b.fraction &&
+         a.embedding.tet == b.embedding.tet && a.embedding.weight == b.embedding.weight &&
+         a.embedding.outside == b.embedding.outside && a.embedding.farthest == b.embedding.farthest;
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -39,12 +40,16 @@ class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
     if (const char* old = std::getenv(name)) old_ = old, had_ = true;
-    if (value != nullptr) setenv(name, value, 1);
-    else unsetenv(name);
+    if (value != nullptr)
+      setenv(name, value, 1);
+    else
+      unsetenv(name);
   }
   ~Variable() {
-    if (had_) setenv(name_, old_.c_str(), 1);
-    else unsetenv(name_);
+    if (had_)
+      setenv(name_, old_.c_str(), 1);
+    else
+      unsetenv(name_);
   }
 
  private:
@@ -68,7 +73,8 @@ TEST_CASE("a volume is made once, then found in memory and on disk, bit for bit"
   CHECK(files_in(folder / "cache").size() == 1);
 
   VolumeCache second(folder / "cache");
-  const VolumePointer again = second.get(surface, "cage 5", [&]() -> CarriedVolume { throw std::runtime_error("made twice"); });
+  const VolumePointer again =
+      second.get(surface, "cage 5", [&]() -> CarriedVolume { throw std::runtime_error("made twice"); });
   CHECK(second.made() == 0);
   CHECK(same(*again, truth));
 }
@@ -99,7 +105,8 @@ TEST_CASE("damaged files are made again without a word, and are whole afterwards
   REQUIRE(files_in(folder.path()).size() == 1);
   const fs::path file = files_in(folder.path())[0];
   const std::string whole = slurp(file);
-  std::vector<std::string> damaged = {"", "x", whole.substr(0, 20), whole.substr(0, whole.size() - 1), whole + "x", std::string(whole.size(), '\0')};
+  std::vector<std::string> damaged = {
+      "", "x", whole.substr(0, 20), whole.substr(0, whole.size() - 1), whole + "x", std::string(whole.size(), '\0')};
   for (const std::size_t at : {std::size_t{3}, std::size_t{30}, std::size_t{55}, whole.size() / 2, whole.size() - 1}) {
     damaged.push_back(whole);
     damaged.back()[at] ^= 1;

@@ -14,7 +14,8 @@ void FrameProgress::show(int frame, int last, const std::string& more) {
   if (Seconds(now - shown_at_).count() < 0.1) return;
   shown_at_ = now;
   shown_ = true;
-  fmt::print(stderr, "\rframe {}/{}{}  {:.0f} s left\x1b[K", frame, last, more, Seconds(now - start_).count() / (frame - first_) * (last - frame));
+  fmt::print(stderr, "\rframe {}/{}{}  {:.0f} s left\x1b[K", frame, last, more,
+             Seconds(now - start_).count() / (frame - first_) * (last - frame));
   std::fflush(stderr);
 }
 

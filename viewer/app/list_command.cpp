@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "engine/broadphase/broad_phase.hpp"
 #include "engine/bodies/soft_body.hpp"
+#include "engine/broadphase/broad_phase.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/linear_solver.hpp"
 #include "engine/integrators/integrator.hpp"
@@ -23,7 +23,8 @@ using Row = std::vector<std::string>;
 
 // characters, not bytes: units hold some beyond ASCII
 std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
 void print_table(const std::vector<Row>& rows) {
@@ -50,7 +51,8 @@ void print_registry(const Registry<Interface>& registry) {
 }
 
 std::string range_of(const Parameter& row) {
-  const bool number = row.kind == ParameterKind::integer || row.kind == ParameterKind::real || row.kind == ParameterKind::vector3;
+  const bool number =
+      row.kind == ParameterKind::integer || row.kind == ParameterKind::real || row.kind == ParameterKind::vector3;
   if (number) return fmt::format("[{}, {}]", shortest(row.range.low), shortest(row.range.high));
   return row.names.empty() ? "" : fmt::format("{}", fmt::join(row.names, " | "));
 }
@@ -95,14 +97,16 @@ void print_parameters() {
     // what both have is shown once
     const std::string own = "body.DEFORMABLE.";
     if (row.path.rfind(own, 0) == 0 && rows.find("body.NAME." + row.path.substr(own.size())) != nullptr) continue;
-    table.push_back({row.path, kKinds[static_cast<int>(row.kind)], row.unit, range_of(row), of_body ? "" : format_value(row.initial), row.doc});
+    table.push_back({row.path, kKinds[static_cast<int>(row.kind)], row.unit, range_of(row),
+                     of_body ? "" : format_value(row.initial), row.doc});
   }
   print_table(table);
 }
 
 void print_layers() {
   std::vector<Row> rows;
-  for (const Layer& layer : layers()) rows.push_back({std::string(layer.name), layer.on ? "on" : "off", std::string(layer.doc)});
+  for (const Layer& layer : layers())
+    rows.push_back({std::string(layer.name), layer.on ? "on" : "off", std::string(layer.doc)});
   print_table(rows);
 }
 
@@ -112,25 +116,37 @@ void print_cases() {
   print_table(rows);
 }
 
-const std::vector<std::string> kTopics = {"parameters", "layers", "responses", "lcp_solvers", "broad_phases", "narrow_phases", "materials", "integrators", "linear_solvers", "cases"};
+const std::vector<std::string> kTopics = {"parameters",    "layers",    "responses",   "lcp_solvers",    "broad_phases",
+                                          "narrow_phases", "materials", "integrators", "linear_solvers", "cases"};
 
 }  // namespace
 
 int list_command(const Arguments& arguments) {
   const std::string& topic = arguments.a;
-  if (topic == "parameters") print_parameters();
-  else if (topic == "layers") print_layers();
-  else if (topic == "responses") print_registry(responses());
-  else if (topic == "lcp_solvers") print_registry(lcp_solvers());
-  else if (topic == "broad_phases") print_registry(broad_phases());
-  else if (topic == "narrow_phases") print_registry(narrow_phases());
-  else if (topic == "integrators") print_registry(integrators());
-  else if (topic == "materials") print_registry(materials());
-  else if (topic == "linear_solvers") print_registry(linear_solvers());
-  else if (topic == "cases") print_cases();
+  if (topic == "parameters")
+    print_parameters();
+  else if (topic == "layers")
+    print_layers();
+  else if (topic == "responses")
+    print_registry(responses());
+  else if (topic == "lcp_solvers")
+    print_registry(lcp_solvers());
+  else if (topic == "broad_phases")
+    print_registry(broad_phases());
+  else if (topic == "narrow_phases")
+    print_registry(narrow_phases());
+  else if (topic == "integrators")
+    print_registry(integrators());
+  else if (topic == "materials")
+    print_registry(materials());
+  else if (topic == "linear_solvers")
+    print_registry(linear_solvers());
+  else if (topic == "cases")
+    print_cases();
   else {
     const std::string near = nearest_word(topic, kTopics);
-    throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", topic, fmt::join(kTopics, ", "), near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
+    throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", topic, fmt::join(kTopics, ", "),
+                                 near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
   }
   return 0;
 }

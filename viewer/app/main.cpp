@@ -12,18 +12,31 @@ namespace {
 int dispatch(const impinge::Arguments& arguments) {
   using impinge::Arguments;
   switch (arguments.kind) {
-    case Arguments::run: return impinge::run_command(arguments);
-    case Arguments::replay: return impinge::replay_command(arguments);
-    case Arguments::diff: return impinge::diff_command(arguments);
-    case Arguments::check: return impinge::check_command(arguments);
-    case Arguments::info: return impinge::info_command(arguments);
-    case Arguments::list: return impinge::list_command(arguments);
-    case Arguments::step: return impinge::step_command(arguments);
-    case Arguments::sweep: return impinge::sweep_command(arguments);
-    case Arguments::debug: return impinge::debug_command(arguments);
-    case Arguments::test: return impinge::test_command(arguments);
-    case Arguments::compare: return impinge::compare_command(arguments);
-    case Arguments::print: std::fputs(arguments.text.c_str(), stdout); return 0;
+    case Arguments::run:
+      return impinge::run_command(arguments);
+    case Arguments::replay:
+      return impinge::replay_command(arguments);
+    case Arguments::diff:
+      return impinge::diff_command(arguments);
+    case Arguments::check:
+      return impinge::check_command(arguments);
+    case Arguments::info:
+      return impinge::info_command(arguments);
+    case Arguments::list:
+      return impinge::list_command(arguments);
+    case Arguments::step:
+      return impinge::step_command(arguments);
+    case Arguments::sweep:
+      return impinge::sweep_command(arguments);
+    case Arguments::debug:
+      return impinge::debug_command(arguments);
+    case Arguments::test:
+      return impinge::test_command(arguments);
+    case Arguments::compare:
+      return impinge::compare_command(arguments);
+    case Arguments::print:
+      std::fputs(arguments.text.c_str(), stdout);
+      return 0;
   }
   return 4;
 }

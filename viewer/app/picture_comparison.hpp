@@ -1,5 +1,5 @@
-// Two picture files compared the way a person would tell about it: same or not, by which rule, where, since when it differs
-// in what, and to what the changed pixels belong.
+// Two picture files compared the way a person would tell about it: same or not, by which rule, where, since when it
+// differs in what, and to what the changed pixels belong.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace impinge {
 struct PictureComparison {
   enum Verdict { same, different, sizes, missing_in_a, missing_in_b };
   std::string name;
-  std::filesystem::path a, b;        ///< the missing one "" where one is missing
+  std::filesystem::path a, b;  ///< the missing one "" where one is missing
   Verdict verdict = same;
-  Difference difference;             ///< of same and different
-  double flip = 0.0;                 ///< mean LDR-FLIP of a different one
+  Difference difference;  ///< of same and different
+  double flip = 0.0;      ///< mean LDR-FLIP of a different one
   ChangeKind kind;
   PictureFacts facts_a, facts_b;
   ChangeCause cause = ChangeCause::unknown;
@@ -34,9 +34,10 @@ struct PictureRules {
   const Image* mask = nullptr;
 };
 
-/// Reads both and compares them; id pictures beside them (frames/X.png with ids/X.png, or X.png with ids/X.png in the same
-/// folder) are used where both have them. Throws InputError where a file is missing or no PNG.
-PictureComparison compare_pictures(const std::string& name, const std::filesystem::path& a, const std::filesystem::path& b, const PictureRules& rules);
+/// Reads both and compares them; id pictures beside them (frames/X.png with ids/X.png, or X.png with ids/X.png in the
+/// same folder) are used where both have them. Throws InputError where a file is missing or no PNG.
+PictureComparison compare_pictures(const std::string& name, const std::filesystem::path& a,
+                                   const std::filesystem::path& b, const PictureRules& rules);
 
 /// Where the id picture of a picture would be.
 std::filesystem::path id_picture_of(const std::filesystem::path& picture);
@@ -47,17 +48,20 @@ std::filesystem::path baseline_for(const std::filesystem::path& baseline, const 
 std::filesystem::path alternate_for(const std::filesystem::path& baseline, const std::filesystem::path& picture);
 bool is_alternate(const std::string& file_name);
 
-/// Makes `baseline` a copy of `picture`: or its alternate, where only the renderer changed. Its id picture is copied into the
-/// folder ids beside it; one that was there is removed where `picture` has none, for it would tell of the picture before.
-/// Returns the file written. Throws InputError.
-std::filesystem::path update_baseline(const PictureComparison& comparison, const std::filesystem::path& baseline, const std::filesystem::path& picture);
+/// Makes `baseline` a copy of `picture`: or its alternate, where only the renderer changed. Its id picture is copied
+/// into the folder ids beside it; one that was there is removed where `picture` has none, for it would tell of the
+/// picture before. Returns the file written. Throws InputError.
+std::filesystem::path update_baseline(const PictureComparison& comparison, const std::filesystem::path& baseline,
+                                      const std::filesystem::path& picture);
 
-/// Of two pictures that are the same within the limits: copies the id picture of B beside A where A has none, or one that names
-/// other objects (a body that was given another name, say). Returns the file written, "" if none was. Throws InputError.
+/// Of two pictures that are the same within the limits: copies the id picture of B beside A where A has none, or one
+/// that names other objects (a body that was given another name, say). Returns the file written, "" if none was. Throws
+/// InputError.
 std::filesystem::path update_ids(const PictureComparison& same);
 
-/// Into `out` (made if need be): the three-panel picture of each that differs, and report.html. Throws InputError where that
-/// can't be written; then nothing of it is left.
-void write_picture_report(const std::filesystem::path& out, const std::string& title, const std::vector<PictureComparison>& pictures, const PictureRules& rules);
+/// Into `out` (made if need be): the three-panel picture of each that differs, and report.html. Throws InputError where
+/// that can't be written; then nothing of it is left.
+void write_picture_report(const std::filesystem::path& out, const std::string& title,
+                          const std::vector<PictureComparison>& pictures, const PictureRules& rules);
 
 }  // namespace impinge

@@ -11,15 +11,19 @@ namespace impinge {
 int replay_command(const Arguments& arguments) {
   const std::filesystem::path folder = arguments.a;
   if (!std::filesystem::is_regular_file(folder / "run.toml"))
-    throw InputError(folder.string() + ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
+    throw InputError(folder.string() +
+                     ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
   const std::string table = read_file(folder / "stats.csv", std::uint64_t{64} << 30);
   Session session(folder / "run.toml", {}, {});
-  if (!session.scene().run) throw InputError((folder / "run.toml").string() + ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
+  if (!session.scene().run)
+    throw InputError((folder / "run.toml").string() +
+                     ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
 
   int frames = 0, different = 0;
   std::size_t begin = table.find('\n');
   if (begin == std::string::npos || table.substr(0, begin) != stats_header(session.is_judged()))
-    throw InputError((folder / "stats.csv").string() + ":1:1: another header; the columns of this version are wanted; run the scene again");
+    throw InputError((folder / "stats.csv").string() +
+                     ":1:1: another header; the columns of this version are wanted; run the scene again");
   for (++begin; begin < table.size();) {
     const std::size_t end = table.find('\n', begin);
     if (end == std::string::npos) break;  // the row of an interrupted run that was not finished
@@ -27,14 +31,20 @@ int replay_command(const Arguments& arguments) {
     begin = end + 1;
     session.advance();
     const std::string hash = hex64(session.record().stats.state_hash);
-    if (row.figures[0] != session.frame()) throw InputError(fmt::format("{}: row {} is of frame {}; rows in order are wanted; run the scene again", (folder / "stats.csv").string(), frames, row.figures[0]));
-    if (hash != row.state_hash && different++ == 0) fmt::print("frame {}: state hash {}, recorded {}\n", session.frame(), hash, row.state_hash);
+    if (row.figures[0] != session.frame())
+      throw InputError(fmt::format("{}: row {} is of frame {}; rows in order are wanted; run the scene again",
+                                   (folder / "stats.csv").string(), frames, row.figures[0]));
+    if (hash != row.state_hash && different++ == 0)
+      fmt::print("frame {}: state hash {}, recorded {}\n", session.frame(), hash, row.state_hash);
     ++frames;
   }
-  if (frames == 0) throw InputError((folder / "stats.csv").string() + ": has no frames; a recorded run is wanted; run the scene first");
+  if (frames == 0)
+    throw InputError((folder / "stats.csv").string() +
+                     ": has no frames; a recorded run is wanted; run the scene first");
   if (different > 0) {
     fmt::print("{}: {} of {} frames differ\n", folder.string(), different, frames);
-    if (session.scene().run->version != IMPINGE_VERSION) fmt::print("it was recorded by version {}, this is {}\n", session.scene().run->version, IMPINGE_VERSION);
+    if (session.scene().run->version != IMPINGE_VERSION)
+      fmt::print("it was recorded by version {}, this is {}\n", session.scene().run->version, IMPINGE_VERSION);
     return 1;
   }
   fmt::print("{}: {} frames repeated, every state hash is the recorded one\n", folder.string(), frames);

@@ -19,14 +19,18 @@ namespace fs = std::filesystem;
 constexpr std::size_t kPictures = 480, kJobs = 120;  // about 6 MB of page at most
 constexpr int kFrames = 13, kWidth = 360, kQuality = 82;
 
-fs::path picture(const fs::path& out, const std::string& hash, int frame) { return out / "jobs" / hash / "run" / "frames" / fmt::format("{:06}.png", frame); }
+fs::path picture(const fs::path& out, const std::string& hash, int frame) {
+  return out / "jobs" / hash / "run" / "frames" / fmt::format("{:06}.png", frame);
+}
 
 int last_picture(const fs::path& out, const std::string& hash) {
   int last = -1;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(out / "jobs" / hash / "run" / "frames", error)) {
     const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".png" && stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos) last = std::max(last, std::stoi(stem));
+    if (entry.path().extension() == ".png" && stem.size() == 6 &&
+        stem.find_first_not_of("0123456789") == std::string::npos)
+      last = std::max(last, std::stoi(stem));
   }
   return last;
 }
@@ -50,7 +54,8 @@ std::string frames_json(const ReportTable& table, const fs::path& out, double fr
   for (std::size_t i = 0; i < jobs; ++i) lasts.push_back(last_picture(out, table.cell(i, "hash")));
   const int last = lasts.empty() ? -1 : *std::max_element(lasts.begin(), lasts.end());
   if (last < 0) return "null";
-  const int count = std::clamp(static_cast<int>(kPictures / jobs), 2, std::min(kFrames, last + 1) < 2 ? 2 : std::min(kFrames, last + 1));
+  const int count = std::clamp(static_cast<int>(kPictures / jobs), 2,
+                               std::min(kFrames, last + 1) < 2 ? 2 : std::min(kFrames, last + 1));
   std::vector<int> frames;
   for (int k = 0; k < count; ++k) {
     const int frame = (k * last + (count - 1) / 2) / (count - 1);
@@ -58,7 +63,9 @@ std::string frames_json(const ReportTable& table, const fs::path& out, double fr
   }
   // and, as one more, the last picture of each job that ended before the others
   const std::size_t per_job = frames.size() + 1;
-  const auto frame_of = [&](std::size_t i) { return i % per_job < frames.size() ? frames[i % per_job] : lasts[i / per_job] < last ? lasts[i / per_job] : -1; };
+  const auto frame_of = [&](std::size_t i) {
+    return i % per_job < frames.size() ? frames[i % per_job] : lasts[i / per_job] < last ? lasts[i / per_job] : -1;
+  };
   std::vector<std::string> pictures(jobs * per_job);
   std::vector<std::pair<int, int>> sizes(pictures.size());
   parallel_for(pictures.size(), 1, [&](std::size_t i) {
@@ -73,9 +80,13 @@ std::string frames_json(const ReportTable& table, const fs::path& out, double fr
   bool first = true;
   for (std::size_t i = 0; i < jobs; ++i) {
     const auto begin = pictures.begin() + static_cast<std::ptrdiff_t>(i * per_job);
-    if (std::all_of(begin, begin + static_cast<std::ptrdiff_t>(per_job), [](const std::string& p) { return p.empty(); })) continue;
-    json += fmt::format("{}{{\"row\":{},\"last\":{},\"lastPicture\":\"{}\",\"pictures\":[", first ? "" : ",", i, lasts[i], *(begin + static_cast<std::ptrdiff_t>(frames.size())));
-    for (std::size_t k = 0; k < frames.size(); ++k) json += fmt::format("{}\"{}\"", k == 0 ? "" : ",", *(begin + static_cast<std::ptrdiff_t>(k)));
+    if (std::all_of(begin, begin + static_cast<std::ptrdiff_t>(per_job),
+                    [](const std::string& p) { return p.empty(); }))
+      continue;
+    json += fmt::format("{}{{\"row\":{},\"last\":{},\"lastPicture\":\"{}\",\"pictures\":[", first ? "" : ",", i,
+                        lasts[i], *(begin + static_cast<std::ptrdiff_t>(frames.size())));
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      json += fmt::format("{}\"{}\"", k == 0 ? "" : ",", *(begin + static_cast<std::ptrdiff_t>(k)));
     json += "]}\n";
     first = false;
   }

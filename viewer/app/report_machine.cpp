@@ -57,9 +57,13 @@ std::string noise(const ReportTable& table) {
       sum += share, most = std::max(most, share), ++count;
     }
   }
-  if (count == 0) return "One run each: the noise of the times isn't known from this sweep, and small differences between them mean nothing. <code>--repeat K</code> measures it.";
-  return fmt::format("Each job was run several times; times are medians, and {} say how far the runs lie apart: {:.1f} % of the time on average, {:.1f} % at most. Bars at the plot's points show it.", html_text(names),
-                     100.0 * sum / count, 100.0 * most);
+  if (count == 0)
+    return "One run each: the noise of the times isn't known from this sweep, and small differences between them mean "
+           "nothing. <code>--repeat K</code> measures it.";
+  return fmt::format(
+      "Each job was run several times; times are medians, and {} say how far the runs lie apart: {:.1f} % of the time "
+      "on average, {:.1f} % at most. Bars at the plot's points show it.",
+      html_text(names), 100.0 * sum / count, 100.0 * most);
 }
 
 }  // namespace
@@ -67,12 +71,15 @@ std::string noise(const ReportTable& table) {
 std::string machine_html(const ReportTable& table, const fs::path& out) {
   utsname system{};
   uname(&system);
-  const std::string renderer = renderer_of(table, out), processor = line_of("/proc/cpuinfo", "model name"), os = line_of("/etc/os-release", "PRETTY_NAME");
+  const std::string renderer = renderer_of(table, out), processor = line_of("/proc/cpuinfo", "model name"),
+                    os = line_of("/etc/os-release", "PRETTY_NAME");
   std::string html = "<table class=\"plain\"><tbody>\n";
   const auto line = [&](const char* name, const std::string& text) {
     if (!text.empty()) html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, text);
   };
-  line("processor", html_text(fmt::format("{}, {} threads; a job has one", processor.empty() ? system.machine : processor, std::thread::hardware_concurrency())));
+  line("processor",
+       html_text(fmt::format("{}, {} threads; a job has one", processor.empty() ? system.machine : processor,
+                             std::thread::hardware_concurrency())));
   line("system", html_text(fmt::format("{}, {} {}", os.empty() ? "unknown" : os, system.sysname, system.release)));
   line("program", html_text(fmt::format("impinge {}, compiled by {}", IMPINGE_VERSION,
 #ifdef __clang__
@@ -83,7 +90,8 @@ std::string machine_html(const ReportTable& table, const fs::path& out) {
                                         )));
   line("pictures", html_text(renderer));
   line("noise of the times", noise(table));
-  line("where", "this table is of the machine that wrote the report; jobs may have run on others that share the folder");
+  line("where",
+       "this table is of the machine that wrote the report; jobs may have run on others that share the folder");
   return html + "</tbody></table>\n";
 }
 

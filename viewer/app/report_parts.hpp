@@ -19,13 +19,16 @@ struct ReportChoice {
 };
 ReportChoice choose_columns(const ReportTable& table);
 
-/// Error against time, a line for each combination of the values that are no numbers or that the reference leaves alone.
+/// Error against time, a line for each combination of the values that are no numbers or that the reference leaves
+/// alone.
 Plot work_precision_plot(const ReportTable& table, const ReportChoice& choice, const std::string& title);
 
-/// The first two parameters that were varied against each other, the others at their first values; false if there are none.
+/// The first two parameters that were varied against each other, the others at their first values; false if there are
+/// none.
 bool heat_table_of(const ReportTable& table, const ReportChoice& choice, const std::string& title, HeatTable& heat);
 
-/// Small copies of chosen frames of each job, as JSON; "null" where no job has pictures. `frame_time` in seconds; 0: it differs from job to job.
+/// Small copies of chosen frames of each job, as JSON; "null" where no job has pictures. `frame_time` in seconds; 0: it
+/// differs from job to job.
 std::string frames_json(const ReportTable& table, const std::filesystem::path& out, double frame_time);
 
 /// What the jobs modelled and left out, and the table of `impinge info --ablation` where out/ablation.csv has one.

@@ -12,12 +12,15 @@ namespace impinge {
 
 namespace {
 
-std::string heading(const ReportColumn& column) { return column.unit.empty() ? column.label : fmt::format("{} ({})", column.label, column.unit); }
+std::string heading(const ReportColumn& column) {
+  return column.unit.empty() ? column.label : fmt::format("{} ({})", column.label, column.unit);
+}
 
 std::vector<std::string> values_of(const ReportTable& table, int column) {
   std::vector<std::string> values;
   for (const auto& row : table.rows)
-    if (std::find(values.begin(), values.end(), row[static_cast<std::size_t>(column)]) == values.end()) values.push_back(row[static_cast<std::size_t>(column)]);
+    if (std::find(values.begin(), values.end(), row[static_cast<std::size_t>(column)]) == values.end())
+      values.push_back(row[static_cast<std::size_t>(column)]);
   return values;
 }
 
@@ -40,7 +43,8 @@ ReportChoice choose_columns(const ReportTable& table) {
   choice.x = first_of({"step_ms", "wall_ms"});
   choice.y = first_of({"error_rms_m", "penetration_max_m", "residual_max", "contacts_max"});
   choice.measure = first_of({"error_rms_m", "step_ms", "wall_ms"});
-  choice.has_errors = choice.y >= 0 && table.columns[static_cast<std::size_t>(choice.y)].kind == ReportColumn::error && choice.x >= 0;
+  choice.has_errors =
+      choice.y >= 0 && table.columns[static_cast<std::size_t>(choice.y)].kind == ReportColumn::error && choice.x >= 0;
   return choice;
 }
 
@@ -61,7 +65,8 @@ Plot work_precision_plot(const ReportTable& table, const ReportChoice& choice, c
     const Vec2 point(table.number(i, choice.x), table.number(i, choice.y));
     if (!(point.x() > 0.0 && point.y() > 0.0)) continue;
     const std::string name = table.job_name(i, keys);
-    auto series = std::find_if(plot.series.begin(), plot.series.end(), [&](const PlotSeries& s) { return s.name == name; });
+    auto series =
+        std::find_if(plot.series.begin(), plot.series.end(), [&](const PlotSeries& s) { return s.name == name; });
     if (series == plot.series.end()) series = plot.series.insert(plot.series.end(), {name, {}});
     series->points.push_back(point);
     if (best[i]) plot.best.push_back(point);
@@ -76,7 +81,8 @@ bool heat_table_of(const ReportTable& table, const ReportChoice& choice, const s
   if (axes.size() < 2 || choice.measure < 0) return false;
   const std::vector<std::string> down = values_of(table, axes[0]), across = values_of(table, axes[1]);
   std::set<std::pair<std::string, std::string>> pairs;
-  for (const auto& row : table.rows) pairs.emplace(row[static_cast<std::size_t>(axes[0])], row[static_cast<std::size_t>(axes[1])]);
+  for (const auto& row : table.rows)
+    pairs.emplace(row[static_cast<std::size_t>(axes[0])], row[static_cast<std::size_t>(axes[1])]);
   if (2 * pairs.size() < down.size() * across.size()) return false;  // zipped: a line, and no table
   heat.title = title;
   heat.row_label = table.columns[static_cast<std::size_t>(axes[0])].name;
@@ -92,9 +98,13 @@ bool heat_table_of(const ReportTable& table, const ReportChoice& choice, const s
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const auto& row = table.rows[i];
     bool shown = true;
-    for (std::size_t k = 2; k < axes.size(); ++k) shown = shown && row[static_cast<std::size_t>(axes[k])] == table.rows.front()[static_cast<std::size_t>(axes[k])];
+    for (std::size_t k = 2; k < axes.size(); ++k)
+      shown = shown && row[static_cast<std::size_t>(axes[k])] == table.rows.front()[static_cast<std::size_t>(axes[k])];
     if (!shown) continue;
-    const auto at = [&](const std::vector<std::string>& list, int axis) { return static_cast<std::size_t>(std::find(list.begin(), list.end(), row[static_cast<std::size_t>(axis)]) - list.begin()); };
+    const auto at = [&](const std::vector<std::string>& list, int axis) {
+      return static_cast<std::size_t>(std::find(list.begin(), list.end(), row[static_cast<std::size_t>(axis)]) -
+                                      list.begin());
+    };
     const std::size_t cell = at(down, axes[0]) * across.size() + at(across, axes[1]);
     heat.values[cell] = table.number(i, choice.measure);
     heat.notes[cell] = table.cell(i, "status") == "done" ? "" : table.cell(i, "status");

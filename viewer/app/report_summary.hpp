@@ -6,6 +6,7 @@
 
 namespace impinge {
 
-std::string summary_html(const SweepReport& report, const ReportTable& table, const ReportChoice& choice, const Session& base);
+std::string summary_html(const SweepReport& report, const ReportTable& table, const ReportChoice& choice,
+                         const Session& base);
 
 }  // namespace impinge

@@ -17,39 +17,61 @@ struct Known {
 
 constexpr std::array kKnown = {
     Known{"frames", "frames", "the last frame that was made", false},
-    Known{"penetration_last_m", "penetration, last frame", "deepest overlap at the end of the last frame, as contacts measure it", false},
-    Known{"penetration_max_m", "penetration, largest", "deepest overlap at the end of any frame, as contacts measure it", true},
-    Known{"residual_last", "residual, last frame", "how far the last frame's contact impulses are from the law of contact: the judge's natural map", false},
+    Known{"penetration_last_m", "penetration, last frame",
+          "deepest overlap at the end of the last frame, as contacts measure it", false},
+    Known{"penetration_max_m", "penetration, largest",
+          "deepest overlap at the end of any frame, as contacts measure it", true},
+    Known{"residual_last", "residual, last frame",
+          "how far the last frame's contact impulses are from the law of contact: the judge's natural map", false},
     Known{"residual_max", "residual, largest", "the same of the worst frame", true},
     Known{"contacts_last", "contacts, last frame", "contacts handed to the solver in the last frame", false},
     Known{"contacts_max", "contacts, most", "contacts handed to the solver in the frame that had most", true},
-    Known{"unconverged", "unconverged solves", "solves of a collision group that ended at the limit of iterations, in all frames", true},
-    Known{"energy_drift_last_J", "energy drift, last frame", "kinetic, potential and elastic energy of the last frame less that of frame 0; contact and damping take energy away", false},
+    Known{"unconverged", "unconverged solves",
+          "solves of a collision group that ended at the limit of iterations, in all frames", true},
+    Known{"energy_drift_last_J", "energy drift, last frame",
+          "kinetic, potential and elastic energy of the last frame less that of frame 0; contact and damping take "
+          "energy away",
+          false},
     Known{"energy_drift_max_J", "energy drift, largest", "the largest size of it in any frame", false},
     Known{"state_hash", "state hash", "equal hashes are equal states, bit for bit", false},
     Known{"step_ms", "simulation time", "sum over all frames, without pictures", true},
     Known{"render_ms", "drawing time", "pictures of all frames", false},
-    Known{"wall_ms", "wall time", "of the whole process, with loading and files; of the attempt that ended the job", false},
+    Known{"wall_ms", "wall time", "of the whole process, with loading and files; of the attempt that ended the job",
+          false},
     Known{"reference", "reference", "the job that this one is measured against", false},
-    Known{"error_rms_m", "error", "root of the mean square of the distance to the reference, over surface points and frames", true},
+    Known{"error_rms_m", "error",
+          "root of the mean square of the distance to the reference, over surface points and frames", true},
     Known{"error_relative", "error, relative", "the same in sizes of the scene", true},
-    Known{"error_force_N", "force error", "root of the mean square difference of the contact force from the reference's", false},
+    Known{"error_force_N", "force error",
+          "root of the mean square difference of the contact force from the reference's", false},
     Known{"error_force_relative", "force error, relative", "the same as a part of the reference's force", false},
     Known{"error_penetration_m", "penetration error", "difference of the deepest overlap from the reference's", false},
     Known{"error_energy_J", "energy error", "difference of the energy from the reference's", false},
     Known{"error_momentum_Ns", "momentum error", "difference of the momentum from the reference's", false},
     Known{"window_s", "window of the errors", "simulated time over which the errors are taken", false},
     Known{"window_reason", "why this window", "", false},
-    Known{"momentum_drift_max_Ns", "momentum drift, largest", "the largest change of the momentum since frame 0; gravity and the floor change it", false},
-    Known{"spread_step_ms", "spread of the time", "largest less smallest simulation time of a job's repeated runs", true},
+    Known{"momentum_drift_max_Ns", "momentum drift, largest",
+          "the largest change of the momentum since frame 0; gravity and the floor change it", false},
+    Known{"spread_step_ms", "spread of the time", "largest less smallest simulation time of a job's repeated runs",
+          true},
     Known{"spread_render_ms", "spread of the drawing time", "largest less smallest of the repeated runs", false},
     Known{"spread_wall_ms", "spread of the wall time", "largest less smallest of the repeated runs", false},
     Known{"status", "status", "", true},
     Known{"reason", "reason", "what the run said", true},
 };
 
-constexpr std::array<std::pair<const char*, const char*>, 12> kUnits = {{{"_m_per_s", "m/s"}, {"_kg_m_per_s", "kg m/s"}, {"_percent", "%"}, {"_ms", "ms"}, {"_Ns", "N·s"}, {"_Pa", "Pa"},
-                                                                         {"_m", "m"}, {"_J", "J"}, {"_s", "s"}, {"_N", "N"}, {"_kg", "kg"}, {"_deg", "°"}}};
+constexpr std::array<std::pair<const char*, const char*>, 12> kUnits = {{{"_m_per_s", "m/s"},
+                                                                         {"_kg_m_per_s", "kg m/s"},
+                                                                         {"_percent", "%"},
+                                                                         {"_ms", "ms"},
+                                                                         {"_Ns", "N·s"},
+                                                                         {"_Pa", "Pa"},
+                                                                         {"_m", "m"},
+                                                                         {"_J", "J"},
+                                                                         {"_s", "s"},
+                                                                         {"_N", "N"},
+                                                                         {"_kg", "kg"},
+                                                                         {"_deg", "°"}}};
 
 bool parses(const std::string& text, double& value) {
   char* end = nullptr;
@@ -90,7 +112,8 @@ void describe(ReportColumn& column) {
 }  // namespace
 
 const char* kind_name(ReportColumn::Kind kind) {
-  constexpr const char* kNames[] = {"hash", "varied", "status", "reason", "reference", "text", "figure", "error", "time", "spread"};
+  constexpr const char* kNames[] = {"hash", "varied", "status", "reason", "reference",
+                                    "text", "figure", "error",  "time",   "spread"};
   return kNames[kind];
 }
 
@@ -102,9 +125,12 @@ std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
     if (begins) lines.emplace_back(1), begins = false;
     std::string& cell = lines.back().back();
     if (quoted) {
-      if (c != '"') cell += c;
-      else if (i + 1 < text.size() && text[i + 1] == '"') cell += text[++i];
-      else quoted = false;
+      if (c != '"')
+        cell += c;
+      else if (i + 1 < text.size() && text[i + 1] == '"')
+        cell += text[++i];
+      else
+        quoted = false;
     } else if (c == '"') {
       quoted = true;
     } else if (c == ',') {
@@ -126,7 +152,8 @@ int ReportTable::column(const std::string& name) const {
 
 double ReportTable::number(std::size_t row, int column) const {
   double value = 0.0;
-  if (column < 0 || !parses(rows[row][static_cast<std::size_t>(column)], value)) return std::numeric_limits<double>::quiet_NaN();
+  if (column < 0 || !parses(rows[row][static_cast<std::size_t>(column)], value))
+    return std::numeric_limits<double>::quiet_NaN();
   return value;
 }
 
@@ -149,7 +176,9 @@ std::vector<bool> ReportTable::best(int x, int y) const {
     if (!counts(i)) continue;
     is_best[i] = true;
     for (std::size_t k = 0; k < rows.size() && is_best[i]; ++k)
-      if (counts(k) && number(k, x) <= number(i, x) && number(k, y) <= number(i, y) && (number(k, x) < number(i, x) || number(k, y) < number(i, y))) is_best[i] = false;
+      if (counts(k) && number(k, x) <= number(i, x) && number(k, y) <= number(i, y) &&
+          (number(k, x) < number(i, x) || number(k, y) < number(i, y)))
+        is_best[i] = false;
   }
   return is_best;
 }
@@ -159,12 +188,14 @@ std::string ReportTable::job_name(std::size_t row, const std::vector<int>& by) c
   for (const int c : by) {
     const ReportColumn& column = columns[static_cast<std::size_t>(c)];
     const std::string& value = rows[row][static_cast<std::size_t>(c)];
-    name += (name.empty() ? "" : ", ") + (column.is_numeric ? column.name.substr(column.name.rfind('.') + 1) + " " : "") + value;
+    name += (name.empty() ? "" : ", ") +
+            (column.is_numeric ? column.name.substr(column.name.rfind('.') + 1) + " " : "") + value;
   }
   return name.empty() ? "all jobs" : name;
 }
 
-ReportTable read_report_table(const std::string& csv, const std::vector<std::string>& paths, const std::vector<std::string>& reference, const ParameterSet& rows) {
+ReportTable read_report_table(const std::string& csv, const std::vector<std::string>& paths,
+                              const std::vector<std::string>& reference, const ParameterSet& rows) {
   ReportTable table;
   std::vector<std::vector<std::string>> lines = parse_csv(csv);
   if (lines.empty()) return table;
@@ -177,7 +208,8 @@ ReportTable read_report_table(const std::string& csv, const std::vector<std::str
       column.label = name;
       column.is_main = true;
       if (const Parameter* row = rows.find(name)) column.unit = row->unit, column.doc = row->doc;
-      column.in_reference = std::any_of(reference.begin(), reference.end(), [&](const std::string& text) { return text.rfind(name + "=", 0) == 0; });
+      column.in_reference = std::any_of(reference.begin(), reference.end(),
+                                        [&](const std::string& text) { return text.rfind(name + "=", 0) == 0; });
     } else {
       column.kind = kind_of(name);
       describe(column);

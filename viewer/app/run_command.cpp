@@ -30,8 +30,10 @@ struct Convergence {
   }
   void report() const {
     if (solves == 0) return;
-    fmt::print("note:     {} group solve{} in {} frame{} stopped at lcp.max_iterations; the largest residual was {:.2g} m/s in frame {}\n", solves,
-               solves == 1 ? "" : "s", frames, frames == 1 ? "" : "s", worst, worst_frame);
+    fmt::print(
+        "note:     {} group solve{} in {} frame{} stopped at lcp.max_iterations; the largest residual was {:.2g} m/s "
+        "in frame {}\n",
+        solves, solves == 1 ? "" : "s", frames, frames == 1 ? "" : "s", worst, worst_frame);
   }
 };
 
@@ -40,11 +42,13 @@ void check_video_path(const std::filesystem::path& video, const std::filesystem:
   const std::filesystem::path folder = std::filesystem::absolute(video).lexically_normal().parent_path();
   static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
   if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
-    throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(), fmt::join(kEndings, ", ")));
+    throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(),
+                                 fmt::join(kEndings, ", ")));
   // the run's own folder comes into being with the run
   const bool is_own = folder == (std::filesystem::absolute(out) / "").lexically_normal().parent_path();
   if (!is_own && !std::filesystem::is_directory(folder))
-    throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another", video.string(), folder.string()));
+    throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another",
+                                 video.string(), folder.string()));
 }
 
 // the path of the sheet
@@ -84,18 +88,22 @@ int run_command(const Arguments& arguments) {
   const RunResult result = run(options, watcher);
   progress.clear();
   if (!result.diverged.empty()) fmt::print(stderr, "diverged: {}\n", result.diverged);
-  if (result.interrupted) fmt::print(stderr, "interrupted after frame {}; the same command with --resume goes on\n", result.last_frame);
-  const std::string sheet = options.images && result.exit_code() < 2 ? write_contact_sheet(options.out, result.last_frame) : "";
+  if (result.interrupted)
+    fmt::print(stderr, "interrupted after frame {}; the same command with --resume goes on\n", result.last_frame);
+  const std::string sheet =
+      options.images && result.exit_code() < 2 ? write_contact_sheet(options.out, result.last_frame) : "";
   const bool filmed = !sheet.empty() && !arguments.video.empty() && write_video(arguments, result.frames_per_second);
   if (arguments.quiet) return result.exit_code();
 
   convergence.report();
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
-  if (options.images && result.last_frame >= 0) fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);
+  if (options.images && result.last_frame >= 0)
+    fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);
   fmt::print("figures:  {}/stats.csv ({} frames)\n", options.out.string(), result.last_frame + 1);
   if (!result.frozen_step.empty())
-    fmt::print("frozen:   {} ({} group{}, {} contact{}); impinge step solves it\n", result.frozen_step.string(), result.frozen_groups, result.frozen_groups == 1 ? "" : "s",
-               result.frozen_contacts, result.frozen_contacts == 1 ? "" : "s");
+    fmt::print("frozen:   {} ({} group{}, {} contact{}); impinge step solves it\n", result.frozen_step.string(),
+               result.frozen_groups, result.frozen_groups == 1 ? "" : "s", result.frozen_contacts,
+               result.frozen_contacts == 1 ? "" : "s");
   if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
   if (filmed) fmt::print("video:    {}\n", arguments.video);
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");

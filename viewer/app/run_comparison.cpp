@@ -24,7 +24,9 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 30;
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 bool is_named_list(const TomlNode& node) {
-  return node.kind == TomlNode::array && !node.items.empty() && std::all_of(node.items.begin(), node.items.end(), [](const TomlNode& item) { return item.kind == TomlNode::table && item.find("name") != nullptr; });
+  return node.kind == TomlNode::array && !node.items.empty() &&
+         std::all_of(node.items.begin(), node.items.end(),
+                     [](const TomlNode& item) { return item.kind == TomlNode::table && item.find("name") != nullptr; });
 }
 
 // every value of a document by its path; bodies by their names
@@ -32,11 +34,14 @@ void flatten(const TomlNode& table, const std::string& prefix, Settings& out) {
   for (const TomlEntry& entry : table.entries) {
     const std::string path = prefix + entry.key;
     if (is_named_list(entry.value)) {
-      for (const TomlNode& item : entry.value.items) flatten(item, path + "." + item.find("name")->value.string + ".", out);
+      for (const TomlNode& item : entry.value.items)
+        flatten(item, path + "." + item.find("name")->value.string + ".", out);
     } else if (path == "run.script") {
       // by what they say, not by their number; what says nothing counts for nothing
       for (const TomlNode& line : entry.value.items)
-        if (const std::size_t begin = line.string.find_first_not_of(" \t"); begin != std::string::npos && line.string[begin] != '#') out.emplace_back("script: " + line.string.substr(begin), "there");
+        if (const std::size_t begin = line.string.find_first_not_of(" \t");
+            begin != std::string::npos && line.string[begin] != '#')
+          out.emplace_back("script: " + line.string.substr(begin), "there");
     } else if (entry.value.kind == TomlNode::table) {
       flatten(entry.value, path + ".", out);
     } else {
@@ -55,26 +60,30 @@ std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
   const std::string table = read_file(file, kMostBytes);
   std::size_t begin = table.find('\n');
   if (begin == std::string::npos || table.substr(0, begin) != stats_header(judged))
-    throw InputError(file.string() + ":1:1: another header; the columns of this version are wanted; run the scene again");
+    throw InputError(file.string() +
+                     ":1:1: another header; the columns of this version are wanted; run the scene again");
   std::vector<StatsLine> rows;
   for (++begin; begin < table.size();) {
     const std::size_t end = table.find('\n', begin);
     if (end == std::string::npos) break;  // the row of an interrupted run that was not finished
     rows.push_back(parse_stats_row(std::string_view(table).substr(begin, end - begin), judged));
     if (rows.back().figures[0] != static_cast<double>(rows.size() - 1))
-      throw InputError(fmt::format("{}:{}: is of frame {}; rows in order are wanted; run the scene again", file.string(), rows.size() + 1, rows.back().figures[0]));
+      throw InputError(fmt::format("{}:{}: is of frame {}; rows in order are wanted; run the scene again",
+                                   file.string(), rows.size() + 1, rows.back().figures[0]));
     begin = end + 1;
   }
   if (rows.empty()) throw InputError(file.string() + ": has no frames; a recorded run is wanted; run the scene first");
   return rows;
 }
 
-void compare_vectors(const std::string& body, const char* field, const char* unit, const Vec3& a, const Vec3& b, std::vector<FieldDifference>& out) {
+void compare_vectors(const std::string& body, const char* field, const char* unit, const Vec3& a, const Vec3& b,
+                     std::vector<FieldDifference>& out) {
   if (a != b) out.push_back({body, field, unit, (a - b).norm(), ""});
 }
 
 // node by node
-void compare_nodes(const std::string& body, const char* field, const char* unit, const VecX& a, const VecX& b, std::vector<FieldDifference>& out) {
+void compare_nodes(const std::string& body, const char* field, const char* unit, const VecX& a, const VecX& b,
+                   std::vector<FieldDifference>& out) {
   if (a.size() != b.size()) {
     out.push_back({body, fmt::format("number of nodes ({} and {})", a.size() / 3, b.size() / 3), "", 0.0, ""});
     return;
@@ -82,7 +91,8 @@ void compare_nodes(const std::string& body, const char* field, const char* unit,
   FieldDifference difference{body, field, unit, -1.0, ""};
   for (Eigen::Index i = 0; i + 2 < a.size(); i += 3) {
     const Vec3 p = a.segment<3>(i), q = b.segment<3>(i);
-    if (p != q && (p - q).norm() > difference.largest) difference.largest = (p - q).norm(), difference.where = fmt::format("node {}", i / 3);
+    if (p != q && (p - q).norm() > difference.largest)
+      difference.largest = (p - q).norm(), difference.where = fmt::format("node {}", i / 3);
   }
   if (difference.largest >= 0.0) out.push_back(std::move(difference));
 }
@@ -100,8 +110,10 @@ std::vector<SettingDifference> setting_differences(const fs::path& run_a, const 
   std::vector<SettingDifference> differences;
   for (const auto& [path, value] : a) {
     const auto it = in_b.find(path);
-    if (it == in_b.end()) differences.push_back({path, value, ""});
-    else if (it->second != value) differences.push_back({path, value, it->second});
+    if (it == in_b.end())
+      differences.push_back({path, value, ""});
+    else if (it->second != value)
+      differences.push_back({path, value, it->second});
   }
   for (const auto& [path, value] : b)
     if (!in_a.contains(path)) differences.push_back({path, "", value});
@@ -109,16 +121,23 @@ std::vector<SettingDifference> setting_differences(const fs::path& run_a, const 
 }
 
 RecordedRun::RecordedRun(const fs::path& folder) : folder_(folder) {
-  if (!fs::is_regular_file(folder / "run.toml")) throw InputError(folder.string() + ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
-  session_ = std::make_unique<Session>(folder / "run.toml", std::vector<std::string>(), fs::path(), SessionOptions{1280, 720, false, true});
-  if (!session_->scene().run) throw InputError((folder / "run.toml").string() + ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
+  if (!fs::is_regular_file(folder / "run.toml"))
+    throw InputError(folder.string() +
+                     ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
+  session_ = std::make_unique<Session>(folder / "run.toml", std::vector<std::string>(), fs::path(),
+                                       SessionOptions{1280, 720, false, true});
+  if (!session_->scene().run)
+    throw InputError((folder / "run.toml").string() +
+                     ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
   is_judged_ = session_->is_judged();
   rows_ = read_rows(folder / "stats.csv", is_judged_);
 }
 
 fs::path RecordedRun::picture(int frame) const { return folder_ / "frames" / PngSequence::file_name(frame); }
 
-bool RecordedRun::has_snapshot(int frame) const { return is_valid_snapshot(folder_ / "snapshots" / fmt::format("{:06}.bin", frame)); }
+bool RecordedRun::has_snapshot(int frame) const {
+  return is_valid_snapshot(folder_ / "snapshots" / fmt::format("{:06}.bin", frame));
+}
 
 bool RecordedRun::go_to(int frame) {
   IMPINGE_ASSERT(frame >= session_->frame() && frame < static_cast<int>(rows_.size()));
@@ -134,7 +153,8 @@ bool RecordedRun::go_to(int frame) {
 std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRecord& b) {
   std::vector<FieldDifference> out;
   for (const BodyRecord& p : a.bodies) {
-    const auto it = std::find_if(b.bodies.begin(), b.bodies.end(), [&](const BodyRecord& body) { return body.name == p.name; });
+    const auto it =
+        std::find_if(b.bodies.begin(), b.bodies.end(), [&](const BodyRecord& body) { return body.name == p.name; });
     if (it == b.bodies.end()) continue;
     const BodyRecord& q = *it;
     const std::string name(p.name);
@@ -148,10 +168,12 @@ std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRe
       continue;
     }
     compare_vectors(name, "position", "m", p.pose.position, q.pose.position, out);
-    if (p.pose.rotation != q.pose.rotation) out.push_back({name, "rotation", "degrees", angle_between(p.pose.rotation, q.pose.rotation), ""});
+    if (p.pose.rotation != q.pose.rotation)
+      out.push_back({name, "rotation", "degrees", angle_between(p.pose.rotation, q.pose.rotation), ""});
     compare_vectors(name, "velocity", "m/s", p.velocity, q.velocity, out);
     compare_vectors(name, "angular velocity", "rad/s", p.angular_velocity, q.angular_velocity, out);
-    if (p.asleep != q.asleep) out.push_back({name, p.asleep ? "sleep (asleep in A only)" : "sleep (asleep in B only)", "", 0.0, ""});
+    if (p.asleep != q.asleep)
+      out.push_back({name, p.asleep ? "sleep (asleep in A only)" : "sleep (asleep in B only)", "", 0.0, ""});
   }
   return out;
 }
@@ -160,7 +182,9 @@ std::vector<std::string> bodies_of_one(const StepRecord& a, const StepRecord& b)
   std::vector<std::string> names;
   const auto add = [&](const StepRecord& from, const StepRecord& other, const char* side) {
     for (const BodyRecord& body : from.bodies)
-      if (std::none_of(other.bodies.begin(), other.bodies.end(), [&](const BodyRecord& o) { return o.name == body.name; })) names.push_back(fmt::format("{} (only in {})", body.name, side));
+      if (std::none_of(other.bodies.begin(), other.bodies.end(),
+                       [&](const BodyRecord& o) { return o.name == body.name; }))
+        names.push_back(fmt::format("{} (only in {})", body.name, side));
   };
   add(a, b, "A");
   add(b, a, "B");

@@ -1,8 +1,8 @@
 // Two recorded runs side by side: what was set differently, the first frame whose states differ, and in what.
 //
-// Where they part is read from the state hashes of both stats.csv. In what they part is found by making that frame again: each
-// run is continued from its nearest snapshot, ten frames at most, and the frame counts only if its hash is the recorded one.
-// So no exported surface is needed and what is compared is the whole state, bit by bit.
+// Where they part is read from the state hashes of both stats.csv. In what they part is found by making that frame
+// again: each run is continued from its nearest snapshot, ten frames at most, and the frame counts only if its hash is
+// the recorded one. So no exported surface is needed and what is compared is the whole state, bit by bit.
 #pragma once
 
 #include <filesystem>
@@ -19,13 +19,14 @@ namespace impinge {
 struct SettingDifference {
   std::string path, a, b;  ///< values as TOML; "" where there is none
 };
-std::vector<SettingDifference> setting_differences(const std::filesystem::path& run_a, const std::filesystem::path& run_b);
+std::vector<SettingDifference> setting_differences(const std::filesystem::path& run_a,
+                                                   const std::filesystem::path& run_b);
 
 /// How far a body's state differs in one field.
 struct FieldDifference {
   std::string body, field, unit;
-  double largest = 0.0;    ///< in `unit`
-  std::string where;       ///< "node 17", or ""
+  double largest = 0.0;  ///< in `unit`
+  std::string where;     ///< "node 17", or ""
 };
 
 class RecordedRun {

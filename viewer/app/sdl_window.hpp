@@ -12,7 +12,9 @@ namespace impinge {
 bool has_screen();
 
 /// `now_and_then` is called every few seconds.
-/// Shows the debugger until it is closed, quits or is interrupted; plays no faster than the scene's own time. Throws InputError where no window can be had.
-void show_window(DebugLoop& loop, DebugWindow& window, const std::string& title, const std::atomic<bool>& interrupted, const std::function<void()>& now_and_then);
+/// Shows the debugger until it is closed, quits or is interrupted; plays no faster than the scene's own time. Throws
+/// InputError where no window can be had.
+void show_window(DebugLoop& loop, DebugWindow& window, const std::string& title, const std::atomic<bool>& interrupted,
+                 const std::function<void()>& now_and_then);
 
 }  // namespace impinge

@@ -5,6 +5,8 @@
 
 namespace impinge {
 
-int step_command(const Arguments& arguments) { return is_frozen_step(arguments.a) ? step_frozen(arguments) : step_published(arguments); }
+int step_command(const Arguments& arguments) {
+  return is_frozen_step(arguments.a) ? step_frozen(arguments) : step_published(arguments);
+}
 
 }  // namespace impinge

@@ -12,7 +12,9 @@ int step_frozen(const Arguments& arguments);
 
 /// The entries of those names, all of them for no names. Throws InputError naming the nearest where there is none.
 template <class Interface>
-std::vector<const Entry<Interface>*> chosen_entries(const Registry<Interface>& registry, const std::vector<std::string>& names, const char* what, const char* option) {
+std::vector<const Entry<Interface>*> chosen_entries(const Registry<Interface>& registry,
+                                                    const std::vector<std::string>& names, const char* what,
+                                                    const char* option) {
   std::vector<const Entry<Interface>*> chosen;
   if (names.empty())
     for (const auto& e : registry) chosen.push_back(&e);
@@ -26,8 +28,8 @@ std::vector<const Entry<Interface>*> chosen_entries(const Registry<Interface>& r
         allowed += (allowed.empty() ? "" : ", ") + all.back();
       }
       const std::string near = nearest_word(name, all);
-      throw InputError("command line: unknown " + std::string(what) + " '" + name + "' in " + option + "; allowed: " + allowed + "; " +
-                       (near.empty() ? "use one of them" : "did you mean '" + near + "'?"));
+      throw InputError("command line: unknown " + std::string(what) + " '" + name + "' in " + option + "; allowed: " +
+                       allowed + "; " + (near.empty() ? "use one of them" : "did you mean '" + near + "'?"));
     }
     bool there = false;
     for (const auto* e : chosen) there |= e == found;

@@ -23,9 +23,12 @@ std::string regimes(const ConeProblem& problem, const std::vector<Vec3>& lambda)
   int open = 0, stick = 0, slip = 0;
   for (std::size_t i = 0; i < lambda.size(); ++i) {
     const double bound = problem.mu[i] * lambda[i].x();
-    if (!(lambda[i].x() > 0.0)) ++open;
-    else if (lambda[i].tail<2>().norm() < bound * (1.0 - 1e-9)) ++stick;
-    else ++slip;
+    if (!(lambda[i].x() > 0.0))
+      ++open;
+    else if (lambda[i].tail<2>().norm() < bound * (1.0 - 1e-9))
+      ++stick;
+    else
+      ++slip;
   }
   return fmt::format("{} open, {} stick, {} slip", open, stick, slip);
 }
@@ -62,11 +65,13 @@ double distance(const ConeProblem& problem, std::vector<Vec3> lambda, const std:
 /// The shortest of several, where they are short: what else the machine does shows less.
 Solved timed(const LcpSolver& solver, const ConeProblem& problem, const LcpSettings& settings) {
   Solved solved = solve(solver, problem, settings);
-  for (int k = 1; k < kRepeats && solved.ms < kQuick; ++k) solved.ms = std::min(solved.ms, solve(solver, problem, settings).ms);
+  for (int k = 1; k < kRepeats && solved.ms < kQuick; ++k)
+    solved.ms = std::min(solved.ms, solve(solver, problem, settings).ms);
   return solved;
 }
 
-MethodReport report_of(const Entry<LcpSolver>& entry, const ConeProblem& problem, const LcpSettings& settings, const std::vector<Vec3>& exact) {
+MethodReport report_of(const Entry<LcpSolver>& entry, const ConeProblem& problem, const LcpSettings& settings,
+                       const std::vector<Vec3>& exact) {
   Solved solved = timed(*entry.make(), problem, settings);
   const Residual r = judge(problem, solved.lambda);
   MethodReport report;
@@ -84,7 +89,8 @@ MethodReport report_of(const Entry<LcpSolver>& entry, const ConeProblem& problem
 }
 
 /// Runs the method again: once to write down each residual, which takes time of its own, and stopped early.
-void take_curves(const Entry<LcpSolver>& entry, const ConeProblem& problem, const LcpSettings& settings, const std::vector<Vec3>& exact, MethodReport& report) {
+void take_curves(const Entry<LcpSolver>& entry, const ConeProblem& problem, const LcpSettings& settings,
+                 const std::vector<Vec3>& exact, MethodReport& report) {
   const auto solver = entry.make();
   LcpSettings own = settings;
   own.history = &report.history;
@@ -93,7 +99,8 @@ void take_curves(const Entry<LcpSolver>& entry, const ConeProblem& problem, cons
   for (const int stop : early_stops(report.iterations)) {
     own.max_iterations = stop;
     const Solved solved = timed(*solver, problem, own);
-    report.work.push_back({stop, solved.ms, judge(problem, solved.lambda).siconos, distance(problem, solved.lambda, exact)});
+    report.work.push_back(
+        {stop, solved.ms, judge(problem, solved.lambda).siconos, distance(problem, solved.lambda, exact)});
   }
   report.work.push_back({report.iterations, report.ms, report.residual, report.distance});
 }
@@ -103,24 +110,31 @@ void take_curves(const Entry<LcpSolver>& entry, const ConeProblem& problem, cons
 int step_published(const Arguments& arguments) {
   const auto chosen = chosen_entries(lcp_solvers(), arguments.lcp, "solver", "--lcp");
   if (!arguments.responses.empty())
-    throw InputError(fmt::format("{}: has no bodies, so --response means nothing; a frozen step of impinge run --freeze is wanted; leave it out", arguments.a));
+    throw InputError(fmt::format(
+        "{}: has no bodies, so --response means nothing; a frozen step of impinge run --freeze is wanted; leave it out",
+        arguments.a));
   const FrictionContactProblem read = read_friction_contact(arguments.a);
   const ConeProblem& problem = read.problem;
   LcpSettings settings{arguments.step_tolerance, arguments.max_iterations};
   settings.measure = Measure::siconos;
   const auto [least, most] = std::minmax_element(problem.mu.begin(), problem.mu.end());
   const std::string friction = *least == *most ? fmt::format("{}", *least) : fmt::format("{} to {}", *least, *most);
-  fmt::print("{}: {} contacts, friction {}, {} of {} blocks of W\n", arguments.a, problem.q.size(), friction, read.w->blocks().size(), problem.q.size() * problem.q.size());
+  fmt::print("{}: {} contacts, friction {}, {} of {} blocks of W\n", arguments.a, problem.q.size(), friction,
+             read.w->blocks().size(), problem.q.size() * problem.q.size());
 
   std::vector<const Entry<LcpSolver>*> applying;
   std::vector<std::string> left_out;
   for (const Entry<LcpSolver>* entry : chosen) {
     const std::string why = entry->make()->applies(problem);
-    if (why.empty()) applying.push_back(entry);
-    else left_out.push_back(fmt::format("{} does not apply: {}", entry->name, why));
+    if (why.empty())
+      applying.push_back(entry);
+    else
+      left_out.push_back(fmt::format("{} does not apply: {}", entry->name, why));
   }
   if (applying.empty())
-    throw InputError(fmt::format("{}: no chosen solver applies ({}); see impinge list lcp_solvers; choose others for --lcp", arguments.a, left_out.front()));
+    throw InputError(
+        fmt::format("{}: no chosen solver applies ({}); see impinge list lcp_solvers; choose others for --lcp",
+                    arguments.a, left_out.front()));
 
   // what the others are held against, as exact as it comes
   const bool newton_applies = find_entry(lcp_solvers(), "semismooth_newton")->make()->applies(problem).empty();
@@ -132,7 +146,8 @@ int step_published(const Arguments& arguments) {
   fmt::print("reference: {} at {:.0e}; residual {:.1e}, natural map {:.1e} m/s\n", best_solver, kExact, reached.siconos,
              reached.natural_map);
 
-  StepReport report{std::filesystem::path(arguments.a).filename().string(), "residual (Siconos), relative", "", false, "mu,", {}, {}};
+  StepReport report{
+      std::filesystem::path(arguments.a).filename().string(), "residual (Siconos), relative", "", false, "mu,", {}, {}};
   for (const double mu : problem.mu) report.solution_columns.push_back(fmt::format("{},", mu));
   TablePrinter table(false);
   for (const Entry<LcpSolver>* entry : applying) {
@@ -141,9 +156,12 @@ int step_published(const Arguments& arguments) {
     if (!arguments.out.empty()) take_curves(*entry, problem, settings, exact, report.methods.back());
   }
   for (const std::string& line : left_out) fmt::print("{}\n", line);
-  const MethodReport& best = *std::min_element(report.methods.begin(), report.methods.end(), [](const auto& l, const auto& r) { return l.residual < r.residual; });
+  const MethodReport& best = *std::min_element(report.methods.begin(), report.methods.end(),
+                                               [](const auto& l, const auto& r) { return l.residual < r.residual; });
   fmt::print("smallest residual: {}, {}\n", best.method, regimes(problem, best.lambda));
-  fmt::print("residual: by Siconos' definition; natural map: m/s, with the contact where it is worst; distance: of λ to the reference in W's norm, relative\n");
+  fmt::print(
+      "residual: by Siconos' definition; natural map: m/s, with the contact where it is worst; distance: of λ to the "
+      "reference in W's norm, relative\n");
   if (!arguments.out.empty()) write_report(arguments.out, report);
   return 0;
 }

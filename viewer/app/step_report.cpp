@@ -20,8 +20,9 @@ std::vector<int> early_stops(int most) {
 }
 
 TablePrinter::TablePrinter(bool has_bodies) : has_bodies_(has_bodies) {
-  fmt::print("{:<42}{:>11}{}{:>11}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", "method", "iterations", has_bodies ? "  outer" : "", "ms", "residual", "natural map",
-             "relative", "contact", has_bodies ? "   momentum" : "", "distance", "stop");
+  fmt::print("{:<42}{:>11}{}{:>11}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", "method", "iterations",
+             has_bodies ? "  outer" : "", "ms", "residual", "natural map", "relative", "contact",
+             has_bodies ? "   momentum" : "", "distance", "stop");
 }
 
 void TablePrinter::row(const MethodReport& r) {
@@ -30,9 +31,11 @@ void TablePrinter::row(const MethodReport& r) {
     if (name.substr(0, at) != response_) fmt::print("{}\n", response_ = name.substr(0, at));
     name = "  " + name.substr(at + 1);
   }
-  const std::string outer = has_bodies_ ? fmt::format("{:>7}", r.outer_iterations) : "", momentum = has_bodies_ ? fmt::format("{:>11.2e}", r.momentum) : "";
-  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11.2e}{:>13.2e}{:>11.2e}{:>9}{}{:>11.2e}  {}\n", name, r.iterations, outer, r.ms, r.residual, r.natural_map,
-             r.natural_map_relative, r.worst_contact, momentum, r.distance, r.stop_reason);
+  const std::string outer = has_bodies_ ? fmt::format("{:>7}", r.outer_iterations) : "",
+                    momentum = has_bodies_ ? fmt::format("{:>11.2e}", r.momentum) : "";
+  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11.2e}{:>13.2e}{:>11.2e}{:>9}{}{:>11.2e}  {}\n", name, r.iterations, outer,
+             r.ms, r.residual, r.natural_map, r.natural_map_relative, r.worst_contact, momentum, r.distance,
+             r.stop_reason);
   std::fflush(stdout);
 }
 
@@ -40,11 +43,13 @@ namespace {
 
 std::string methods_table(const StepReport& report) {
   std::string text =
-      "method,iterations,ms,residual,stop_reason,natural_map_m_per_s,natural_map_relative,worst_contact,complementarity_J,cone_violation_Ns,outer_iterations,"
+      "method,iterations,ms,residual,stop_reason,natural_map_m_per_s,natural_map_relative,worst_contact,"
+      "complementarity_J,cone_violation_Ns,outer_iterations,"
       "momentum_m_per_s,distance_to_exact\n";
   for (const MethodReport& r : report.methods)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.method, r.iterations, r.ms, r.residual, r.stop_reason, r.natural_map,
-                        r.natural_map_relative, r.worst_contact, r.complementarity, r.cone_violation, r.outer_iterations, r.momentum, r.distance);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.method, r.iterations, r.ms, r.residual,
+                        r.stop_reason, r.natural_map, r.natural_map_relative, r.worst_contact, r.complementarity,
+                        r.cone_violation, r.outer_iterations, r.momentum, r.distance);
   return text;
 }
 
@@ -60,7 +65,11 @@ Plot history_plot(const StepReport& report) {
 }
 
 Plot work_plot(const StepReport& report) {
-  Plot plot{report.title + ": error against time, by stopping early", "time, ms", report.plots_distance ? report.distance_label : report.residual_label, {}, false};
+  Plot plot{report.title + ": error against time, by stopping early",
+            "time, ms",
+            report.plots_distance ? report.distance_label : report.residual_label,
+            {},
+            false};
   for (const MethodReport& r : report.methods) {
     PlotSeries series{r.method, {}};
     for (const WorkPoint& p : r.work) series.points.emplace_back(p.ms, report.plots_distance ? p.distance : p.residual);
@@ -74,17 +83,22 @@ Plot work_plot(const StepReport& report) {
 void write_report(const fs::path& folder, const StepReport& report) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error.message()));
+  if (error)
+    throw InputError(
+        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
+                    folder.string(), error.message()));
   std::string work = "method,iterations_allowed,ms,residual,distance_to_exact\n";
   for (const MethodReport& r : report.methods) {
     std::string text = "contact," + report.solution_head + "r_n,r_t1,r_t2\n";
     for (std::size_t i = 0; i < r.lambda.size(); ++i)
-      text += fmt::format("{},{}{},{},{}\n", i, report.solution_columns[i], r.lambda[i].x(), r.lambda[i].y(), r.lambda[i].z());
+      text += fmt::format("{},{}{},{},{}\n", i, report.solution_columns[i], r.lambda[i].x(), r.lambda[i].y(),
+                          r.lambda[i].z());
     write_file(folder / ("solution_" + r.method + ".csv"), text);
     text = "iteration,residual\n";
     for (std::size_t i = 0; i < r.history.size(); ++i) text += fmt::format("{},{}\n", i, r.history[i]);
     write_file(folder / ("history_" + r.method + ".csv"), text);
-    for (const WorkPoint& p : r.work) work += fmt::format("{},{},{},{},{}\n", r.method, p.iterations_allowed, p.ms, p.residual, p.distance);
+    for (const WorkPoint& p : r.work)
+      work += fmt::format("{},{},{},{},{}\n", r.method, p.iterations_allowed, p.ms, p.residual, p.distance);
   }
   write_file(folder / "work_precision.csv", work);
   const std::vector<Image> pictures = paint_plots({history_plot(report), work_plot(report)}, 1280, 720);

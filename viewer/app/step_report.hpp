@@ -21,22 +21,23 @@ struct MethodReport {
   std::string method;
   int iterations = 0, outer_iterations = 0;
   double ms = 0.0;
-  double residual = 0.0;      ///< relative: of a frozen step by natural map and momentum, of a published problem Siconos'
+  /// relative: of a frozen step by natural map and momentum, of a published problem Siconos'
+  double residual = 0.0;
   std::string stop_reason;
   double natural_map = 0.0, natural_map_relative = 0.0, momentum = 0.0;  ///< m/s, 1, m/s
   int worst_contact = -1;
-  double complementarity = 0.0, cone_violation = 0.0;                    ///< J, N·s
-  double distance = 0.0;      ///< to the exact solution, relative
+  double complementarity = 0.0, cone_violation = 0.0;  ///< J, N·s
+  double distance = 0.0;                               ///< to the exact solution, relative
   std::vector<Vec3> lambda;
   std::vector<double> history;  ///< residual before the first and after each iteration
   std::vector<WorkPoint> work;
 };
 
 struct StepReport {
-  std::string title;             ///< of the plots
+  std::string title;                           ///< of the plots
   std::string residual_label, distance_label;  ///< of the plots' axes
-  bool plots_distance = false;   ///< work_precision.png shows the distance, else the residual
-  std::string solution_head;     ///< columns of solution_METHOD.csv between `contact` and `r_n`, each with its comma
+  bool plots_distance = false;                 ///< work_precision.png shows the distance, else the residual
+  std::string solution_head;  ///< columns of solution_METHOD.csv between `contact` and `r_n`, each with its comma
   std::vector<std::string> solution_columns;  ///< by contact, what they hold
   std::vector<MethodReport> methods;
 };

@@ -22,12 +22,15 @@ std::vector<std::string> moving_bodies(const Session& session) {
   return names;
 }
 
-bool has_ended(const fs::path& out, const std::string& hash) { return read_sweep_outcome(job_folder(out, hash)).status <= SweepOutcome::failed; }
+bool has_ended(const fs::path& out, const std::string& hash) {
+  return read_sweep_outcome(job_folder(out, hash)).status <= SweepOutcome::failed;
+}
 
 // errors of each row, each reference's window once
 class ErrorTaker {
  public:
-  ErrorTaker(const fs::path& out, const Sweep& sweep, const SweepBase& base) : out_(out), sweep_(sweep), base_(base), bodies_(moving_bodies(base.session())) {}
+  ErrorTaker(const fs::path& out, const Sweep& sweep, const SweepBase& base)
+      : out_(out), sweep_(sweep), base_(base), bodies_(moving_bodies(base.session())) {}
 
   // fills error and relative_error; returns the cells of sweep_error_columns()
   std::vector<std::string> take(SweepRow& row) {
@@ -36,18 +39,22 @@ class ErrorTaker {
     if (row.outcome.status > SweepOutcome::failed) return cells;
     if (!is_analytic && !has_ended(out_, row.reference)) {
       const SweepOutcome outcome = read_sweep_outcome(job_folder(out_, row.reference));
-      cells[6] = fmt::format("no error: the reference {} is {}{}", row.reference.substr(0, 8), status_name(outcome.status), outcome.reason.empty() ? "" : ": " + outcome.reason);
+      cells[6] = fmt::format("no error: the reference {} is {}{}", row.reference.substr(0, 8),
+                             status_name(outcome.status), outcome.reason.empty() ? "" : ": " + outcome.reason);
       return cells;
     }
     const fs::path run = job_folder(out_, row.hash) / "run";
     ErrorWindow window = is_analytic ? given_window() : window_of(row);
-    const SweepErrors errors = is_analytic ? against_formula(row, run, window) : sweep_errors(run, job_folder(out_, row.reference) / "run", bodies_, window.seconds);
+    const SweepErrors errors =
+        is_analytic ? against_formula(row, run, window)
+                    : sweep_errors(run, job_folder(out_, row.reference) / "run", bodies_, window.seconds);
     if (!errors.exist() && window.reason.rfind("all", 0) == 0) window.reason = "no two frames to compare";
     row.error = errors.rms;
     row.relative_error = errors.relative;
     if (errors.exist() && !is_analytic) {
       const auto known = [](double value) { return value < 0.0 ? std::string() : shortest(value); };
-      cells = {known(errors.force), known(errors.force_relative), shortest(errors.penetration), known(errors.energy), known(errors.momentum)};
+      cells = {known(errors.force), known(errors.force_relative), shortest(errors.penetration), known(errors.energy),
+               known(errors.momentum)};
       cells.resize(sweep_error_columns().size());
     }
     cells[5] = errors.exist() ? shortest(errors.seconds) : "0";
@@ -64,8 +71,11 @@ class ErrorTaker {
     if (row.perturbed.empty()) return given_window();
     const auto it = windows_.find(row.reference);
     if (it != windows_.end()) return it->second;
-    ErrorWindow window{std::numeric_limits<double>::infinity(), "all: the run that starts 1e-9 scene sizes aside did not end well"};
-    if (has_ended(out_, row.perturbed)) window = automatic_window(job_folder(out_, row.reference) / "run", job_folder(out_, row.perturbed) / "run", bodies_);
+    ErrorWindow window{std::numeric_limits<double>::infinity(),
+                       "all: the run that starts 1e-9 scene sizes aside did not end well"};
+    if (has_ended(out_, row.perturbed))
+      window =
+          automatic_window(job_folder(out_, row.reference) / "run", job_folder(out_, row.perturbed) / "run", bodies_);
     windows_[row.reference] = window;
     return window;
   }
@@ -73,7 +83,8 @@ class ErrorTaker {
     const SweepJob job = read_sweep_job(job_folder(out_, row.hash));
     std::vector<std::string> overrides = job.options.overrides;
     overrides.insert(overrides.end(), job.changes.begin(), job.changes.end());
-    const Session session(job.options.scene, overrides, job.options.script, {job.options.width, job.options.height, false});
+    const Session session(job.options.scene, overrides, job.options.script,
+                          {job.options.width, job.options.height, false});
     try {
       return analytic_errors(run, analytic_motion(sweep_.analytic_case, session), bodies_, window);
     } catch (const InputError& error) {
@@ -89,7 +100,9 @@ class ErrorTaker {
   std::map<std::string, ErrorWindow> windows_;
 };
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
 
 }  // namespace
 
@@ -106,7 +119,8 @@ SweepTable collect_sweep(const fs::path& out, Sweep& sweep, const SweepOptions& 
       // a time is the median over the repeats; anything else is the same in all of them
       std::vector<double> values;
       const bool is_time = sweep.columns.names()[c].ends_with("_ms");
-      for (std::size_t r = 0; r < (is_time ? measure.runs.size() : 1); ++r) values.push_back(sweep.columns.evaluate(row.values, measure.runs[r])[c]);
+      for (std::size_t r = 0; r < (is_time ? measure.runs.size() : 1); ++r)
+        values.push_back(sweep.columns.evaluate(row.values, measure.runs[r])[c]);
       const double value = median(values);
       row.more.push_back(std::isfinite(value) ? shortest(value) : "");
     }
@@ -117,16 +131,27 @@ SweepTable collect_sweep(const fs::path& out, Sweep& sweep, const SweepOptions& 
 
 std::string describe_errors(const Sweep& sweep, const SweepTable& table) {
   if (!table.has_reference) return "";
-  std::string out = sweep.reference == SweepReferenceKind::analytic ? fmt::format("errors: against the formula of {}\n", sweep.analytic_case)
-                    : sweep.reference == SweepReferenceKind::finest ? std::string("errors: against the job of the same other settings with the smallest time step\n")
-                                                                    : fmt::format("errors: against the same job with {}\n", fmt::join(sweep.reference_words, ", "));
+  std::string out =
+      sweep.reference == SweepReferenceKind::analytic
+          ? fmt::format("errors: against the formula of {}\n", sweep.analytic_case)
+      : sweep.reference == SweepReferenceKind::finest
+          ? std::string("errors: against the job of the same other settings with the smallest time step\n")
+          : fmt::format("errors: against the same job with {}\n", fmt::join(sweep.reference_words, ", "));
   // rows that share a window share a line
   std::map<std::string, std::vector<std::string>> windows;
   for (const SweepRow& row : sweep.rows)
-    if (row.more.size() > 6 && !row.more[6].empty()) windows[fmt::format("{:.6g} s ({})", std::strtod(row.more[5].c_str(), nullptr), row.more[6])].push_back(row.hash.substr(0, 8));
+    if (row.more.size() > 6 && !row.more[6].empty())
+      windows[fmt::format("{:.6g} s ({})", std::strtod(row.more[5].c_str(), nullptr), row.more[6])].push_back(
+          row.hash.substr(0, 8));
   for (const auto& [text, hashes] : windows)
-    out += fmt::format("window: {}{}\n", text, windows.size() == 1 ? "" : fmt::format(": {}{}", fmt::join(hashes.begin(), hashes.begin() + static_cast<long>(std::min<std::size_t>(hashes.size(), 8)), " "),
-                                                                                  hashes.size() > 8 ? fmt::format(" and {} more", hashes.size() - 8) : ""));
+    out += fmt::format(
+        "window: {}{}\n", text,
+        windows.size() == 1
+            ? ""
+            : fmt::format(": {}{}",
+                          fmt::join(hashes.begin(),
+                                    hashes.begin() + static_cast<long>(std::min<std::size_t>(hashes.size(), 8)), " "),
+                          hashes.size() > 8 ? fmt::format(" and {} more", hashes.size() - 8) : ""));
   return out;
 }
 

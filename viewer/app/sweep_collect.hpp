@@ -6,7 +6,8 @@
 namespace impinge {
 
 /// Fills the rows' outcomes, figures, errors and own columns; returns the table's shape. Deterministic but for times.
-SweepTable collect_sweep(const std::filesystem::path& out, Sweep& sweep, const SweepOptions& options, const SweepBase& base);
+SweepTable collect_sweep(const std::filesystem::path& out, Sweep& sweep, const SweepOptions& options,
+                         const SweepBase& base);
 
 /// How the errors were taken, a line each: for the summary. "" without a reference.
 std::string describe_errors(const Sweep& sweep, const SweepTable& table);

@@ -50,21 +50,25 @@ ExpressionWords column_words(const SweepWords& paths) {
   ExpressionWords words = paths.expression_words();
   words.takes_number = true;
   for (const Function& function : kFunctions)
-    for (const std::string& figure : figure_names(false)) words.names.push_back(fmt::format("{}({})", function.name, figure));
+    for (const std::string& figure : figure_names(false))
+      words.names.push_back(fmt::format("{}({})", function.name, figure));
   std::vector<std::string> functions;
   for (const Function& function : kFunctions) functions.push_back(function.name);
-  words.allowed = fmt::format("{} of a column of stats.csv, as in max(contacts), or a varied path ({}) is wanted", fmt::join(functions, ", "), fmt::join(paths.expression_words().names, ", "));
+  words.allowed = fmt::format("{} of a column of stats.csv, as in max(contacts), or a varied path ({}) is wanted",
+                              fmt::join(functions, ", "), fmt::join(paths.expression_words().names, ", "));
   return words;
 }
 
 bool is_name(const std::string& text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
-         std::all_of(text.begin(), text.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
+         std::all_of(text.begin(), text.end(),
+                     [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
 }
 
 }  // namespace
 
-PlacedSetting::PlacedSetting(const SweepSetting& setting, const char* option, std::size_t begin) : text_(setting.text.substr(begin)), file_(option), column_(1 + static_cast<int>(begin)) {
+PlacedSetting::PlacedSetting(const SweepSetting& setting, const char* option, std::size_t begin)
+    : text_(setting.text.substr(begin)), file_(option), column_(1 + static_cast<int>(begin)) {
   if (setting.place.empty()) return;
   const std::size_t column = setting.place.rfind(':'), line = setting.place.rfind(':', column - 1);
   file_ = setting.place.substr(0, line);
@@ -78,7 +82,8 @@ SweepWords::SweepWords(const std::vector<SweepAxis>& axes) {
     words_.is_text.push_back(!is_numeric(axis));
     if (!words_.is_text.back()) continue;
     for (const std::string& value : axis.values)
-      if (std::find(words_.texts.begin(), words_.texts.end(), value) == words_.texts.end()) words_.texts.push_back(value);
+      if (std::find(words_.texts.begin(), words_.texts.end(), value) == words_.texts.end())
+        words_.texts.push_back(value);
   }
   words_.allowed = fmt::format("the varied paths are allowed: {}", fmt::join(words_.names, ", "));
 }
@@ -86,33 +91,45 @@ SweepWords::SweepWords(const std::vector<SweepAxis>& axes) {
 std::vector<double> SweepWords::values(const std::vector<std::string>& job_values) const {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < words_.names.size(); ++i)
-    numbers.push_back(words_.is_text[i] ? static_cast<double>(std::find(words_.texts.begin(), words_.texts.end(), job_values[i]) - words_.texts.begin()) : std::strtod(job_values[i].c_str(), nullptr));
+    numbers.push_back(words_.is_text[i]
+                          ? static_cast<double>(std::find(words_.texts.begin(), words_.texts.end(), job_values[i]) -
+                                                words_.texts.begin())
+                          : std::strtod(job_values[i].c_str(), nullptr));
   return numbers;
 }
 
-SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes) : paths_(axes) {
+SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes)
+    : paths_(axes) {
   const ExpressionWords words = column_words(paths_);
   for (const SweepSetting& setting : settings) {
     const std::string where = setting.where("--column");
     const std::size_t equals = setting.text.find('=');
-    if (equals == std::string::npos) refuse(where, "no NAME=EXPR", "a name, = and an expression are wanted", "write --column 'worst=max(residual)'");
+    if (equals == std::string::npos)
+      refuse(where, "no NAME=EXPR", "a name, = and an expression are wanted", "write --column 'worst=max(residual)'");
     const std::string name = setting.text.substr(0, equals);
-    if (!is_name(name)) refuse(where, fmt::format("'{}' as a name", name), "letters, digits and _ are wanted, and no digit first", "rename it");
-    const bool is_taken = std::any_of(axes.begin(), axes.end(), [&](const SweepAxis& axis) { return axis.path == name; }) || is_sweep_column(name) ||
-                          std::find(names_.begin(), names_.end(), name) != names_.end();
+    if (!is_name(name))
+      refuse(where, fmt::format("'{}' as a name", name), "letters, digits and _ are wanted, and no digit first",
+             "rename it");
+    const bool is_taken =
+        std::any_of(axes.begin(), axes.end(), [&](const SweepAxis& axis) { return axis.path == name; }) ||
+        is_sweep_column(name) || std::find(names_.begin(), names_.end(), name) != names_.end();
     if (is_taken) refuse(where, fmt::format("a second column '{}'", name), "names must differ", "rename it");
     const PlacedSetting placed(setting, "--column", equals + 1);
     expressions_.emplace_back(placed.text(), words);
     names_.push_back(name);
     bool is_time = false;
-    for (std::size_t i = 0; i < words.names.size(); ++i) is_time |= words.names[i].ends_with("_ms)") && expressions_.back().uses(i);
+    for (std::size_t i = 0; i < words.names.size(); ++i)
+      is_time |= words.names[i].ends_with("_ms)") && expressions_.back().uses(i);
     if (is_time != name.ends_with("_ms"))
-      refuse(where, is_time ? fmt::format("'{}' holds a time", name) : fmt::format("'{}' holds no time", name), "columns of times, and only they, end in _ms", "rename it");
+      refuse(where, is_time ? fmt::format("'{}' holds a time", name) : fmt::format("'{}' holds no time", name),
+             "columns of times, and only they, end in _ms", "rename it");
   }
 }
 
-std::vector<double> SweepColumns::evaluate(const std::vector<std::string>& job_values, const std::vector<StatsLine>& frames) const {
-  if (names_.empty() || frames.empty()) return std::vector<double>(names_.size(), std::numeric_limits<double>::quiet_NaN());
+std::vector<double> SweepColumns::evaluate(const std::vector<std::string>& job_values,
+                                           const std::vector<StatsLine>& frames) const {
+  if (names_.empty() || frames.empty())
+    return std::vector<double>(names_.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<double> values = paths_.values(job_values), results;
   for (const Function& function : kFunctions)
     for (std::size_t c = 0; c < figure_names(false).size(); ++c) values.push_back(function.over(frames, c));

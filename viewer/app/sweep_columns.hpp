@@ -31,13 +31,13 @@ class SweepWords {
   ExpressionWords words_;
 };
 
-/// Columns NAME=EXPR over f(COLUMN), f one of last, max, min, mean, sum over the frames and COLUMN one of stats.csv, and over
-/// the varied paths.
+/// Columns NAME=EXPR over f(COLUMN), f one of last, max, min, mean, sum over the frames and COLUMN one of stats.csv,
+/// and over the varied paths.
 class SweepColumns {
  public:
   SweepColumns() = default;
-  /// Throws InputError for a name that is taken or has odd letters, an expression that is wrong, and a name that ends in
-  /// _ms where no time is in it, or the other way round.
+  /// Throws InputError for a name that is taken or has odd letters, an expression that is wrong, and a name that ends
+  /// in _ms where no time is in it, or the other way round.
   SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes);
   const std::vector<std::string>& names() const { return names_; }
   /// A number a column; not finite where there are no frames or the expression says so.

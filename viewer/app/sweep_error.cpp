@@ -26,7 +26,8 @@ std::size_t figure(const char* name) {
 double time_of(const StatsLine& line) { return line.figures[figure("time_s")]; }
 
 // frames of two runs that show the same time, up to the window's end; times are sums of steps, rounded
-std::vector<std::pair<std::size_t, std::size_t>> common_frames(const std::vector<StatsLine>& a, const std::vector<StatsLine>& b, double window) {
+std::vector<std::pair<std::size_t, std::size_t>> common_frames(const std::vector<StatsLine>& a,
+                                                               const std::vector<StatsLine>& b, double window) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t i = 0, k = 0; i < a.size(); ++i) {
     const double time = time_of(a[i]), tolerance = 1e-9 * (1.0 + time);
@@ -67,23 +68,30 @@ std::map<std::size_t, PairImpulses> impulses_in(const fs::path& run) {
   std::map<std::size_t, PairImpulses> frames;
   if (!fs::is_regular_file(run / "contacts.csv")) return frames;
   const std::string text = read_file(run / "contacts.csv", std::uint64_t{1} << 34);
-  for (std::size_t begin = text.find('\n') + 1, end = 0; begin != 0 && (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+  for (std::size_t begin = text.find('\n') + 1, end = 0;
+       begin != 0 && (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
     std::vector<std::string> words(1);
     for (std::size_t i = begin; i < end; ++i)
-      if (text[i] == ',') words.emplace_back();
-      else words.back() += text[i];
+      if (text[i] == ',')
+        words.emplace_back();
+      else
+        words.back() += text[i];
     if (words.size() < 19) continue;
     const auto number = [&](std::size_t i) { return std::strtod(words[i].c_str(), nullptr); };
     const Vec3 n(number(11), number(12), number(13)), t1 = tangent1(n), t2 = n.cross(t1);
-    Vec3& sum = frames[static_cast<std::size_t>(number(0))].emplace(words[1] + "," + words[2], Vec3::Zero()).first->second;
+    Vec3& sum =
+        frames[static_cast<std::size_t>(number(0))].emplace(words[1] + "," + words[2], Vec3::Zero()).first->second;
     sum += number(16) * n + number(17) * t1 + number(18) * t2;
   }
   return frames;
 }
 
-double sub_step(const std::vector<StatsLine>& lines, std::size_t i) { return i == 0 ? 0.0 : (time_of(lines[i]) - time_of(lines[i - 1])) / lines[i].figures[figure("substeps")]; }
+double sub_step(const std::vector<StatsLine>& lines, std::size_t i) {
+  return i == 0 ? 0.0 : (time_of(lines[i]) - time_of(lines[i - 1])) / lines[i].figures[figure("substeps")];
+}
 
-void compare_forces(const fs::path& run, const fs::path& reference, const std::vector<StatsLine>& a, const std::vector<StatsLine>& b, const std::vector<std::pair<std::size_t, std::size_t>>& frames,
+void compare_forces(const fs::path& run, const fs::path& reference, const std::vector<StatsLine>& a,
+                    const std::vector<StatsLine>& b, const std::vector<std::pair<std::size_t, std::size_t>>& frames,
                     SweepErrors& errors) {
   auto own = impulses_in(run), other = impulses_in(reference);
   double difference = 0.0, size = 0.0;
@@ -95,7 +103,8 @@ void compare_forces(const fs::path& run, const fs::path& reference, const std::v
     for (const auto& [pair, impulse] : theirs) mine.emplace(pair, Vec3::Zero());
     for (const auto& [pair, impulse] : mine) {
       const auto it = theirs.find(pair);
-      const Vec3 force = impulse / sub_step(a, i), wanted = it == theirs.end() ? Vec3(Vec3::Zero()) : Vec3(it->second / sub_step(b, k));
+      const Vec3 force = impulse / sub_step(a, i),
+                 wanted = it == theirs.end() ? Vec3(Vec3::Zero()) : Vec3(it->second / sub_step(b, k));
       difference += (force - wanted).squaredNorm();
       size += wanted.squaredNorm();
     }
@@ -108,7 +117,8 @@ void compare_forces(const fs::path& run, const fs::path& reference, const std::v
 
 }  // namespace
 
-ErrorWindow automatic_window(const fs::path& reference, const fs::path& perturbed, const std::vector<std::string>& bodies) {
+ErrorWindow automatic_window(const fs::path& reference, const fs::path& perturbed,
+                             const std::vector<std::string>& bodies) {
   const std::vector<StatsLine> a = sweep_stats(reference), b = sweep_stats(perturbed);
   const double size = start_size(reference, bodies);
   ErrorWindow window;
@@ -121,7 +131,9 @@ ErrorWindow automatic_window(const fs::path& reference, const fs::path& perturbe
     if (first < 0.0 && apart > 0.0) first = apart;
     if (apart > kApart * size) {
       window.seconds = before;
-      window.reason = fmt::format("a start 1e-9 scene sizes aside is {:.1e} scene sizes away at {:.3g} s (e-fold in {:.2g} s)", apart / size, time, time / std::log(apart / first));
+      window.reason =
+          fmt::format("a start 1e-9 scene sizes aside is {:.1e} scene sizes away at {:.3g} s (e-fold in {:.2g} s)",
+                      apart / size, time, time / std::log(apart / first));
       return window;
     }
     before = time;
@@ -131,15 +143,21 @@ ErrorWindow automatic_window(const fs::path& reference, const fs::path& perturbe
   return window;
 }
 
-SweepErrors sweep_errors(const fs::path& run, const fs::path& reference, const std::vector<std::string>& bodies, double window) {
+SweepErrors sweep_errors(const fs::path& run, const fs::path& reference, const std::vector<std::string>& bodies,
+                         double window) {
   const std::vector<StatsLine> a = sweep_stats(run), b = sweep_stats(reference);
   const auto frames = common_frames(a, b, window);
   SweepErrors errors;
   if (frames.size() < 2) return errors;
   Squares squares;
   double own_depth = 0.0, depth = 0.0;
-  const auto energy = [](const StatsLine& line) { return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")]; };
-  const auto momentum = [](const StatsLine& line) { return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")], line.figures[figure("momentum_z")]); };
+  const auto energy = [](const StatsLine& line) {
+    return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")];
+  };
+  const auto momentum = [](const StatsLine& line) {
+    return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")],
+                line.figures[figure("momentum_z")]);
+  };
   for (const auto& [i, k] : frames) {
     for (const std::string& body : bodies) squares.add(surface(run, i, body), surface(reference, k, body));
     own_depth = std::max(own_depth, a[i].figures[figure("max_penetration_m")]);
@@ -156,7 +174,8 @@ SweepErrors sweep_errors(const fs::path& run, const fs::path& reference, const s
   return errors;
 }
 
-SweepErrors analytic_errors(const fs::path& run, const AnalyticMotion& motion, const std::vector<std::string>& bodies, ErrorWindow& window) {
+SweepErrors analytic_errors(const fs::path& run, const AnalyticMotion& motion, const std::vector<std::string>& bodies,
+                            ErrorWindow& window) {
   const std::vector<StatsLine> lines = sweep_stats(run);
   std::map<std::string, std::vector<Vec3>> start;
   for (const std::string& body : bodies) start[body] = surface(run, 0, body);

@@ -13,7 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kKeys = {"version", "scene", "script", "set", "vary", "zip", "filter", "reference", "frames", "size", "images", "jobs", "repeat", "coarse_first", "columns", "window"};
+const std::vector<std::string> kKeys = {"version", "scene",        "script",  "set",   "vary",   "zip",
+                                        "filter",  "reference",    "frames",  "size",  "images", "jobs",
+                                        "repeat",  "coarse_first", "columns", "window"};
 
 const TomlNode* value_of(const TomlNode& table, const char* key) {
   const TomlEntry* entry = table.find(key);
@@ -22,7 +24,8 @@ const TomlNode* value_of(const TomlNode& table, const char* key) {
 
 int whole(const TomlNode& node, const char* what, int low, int high) {
   if (node.kind != TomlNode::integer || node.whole < low || node.whole > high)
-    refuse(node.place, fmt::format("sweep.{} is {}", what, format_toml(node)), fmt::format("a whole number from {} to {} is wanted", low, high), "change it");
+    refuse(node.place, fmt::format("sweep.{} is {}", what, format_toml(node)),
+           fmt::format("a whole number from {} to {} is wanted", low, high), "change it");
   return static_cast<int>(node.whole);
 }
 
@@ -30,7 +33,9 @@ int whole(const TomlNode& node, const char* what, int low, int high) {
 std::vector<SweepSetting> texts(const TomlNode& node, const char* what) {
   std::vector<SweepSetting> list;
   if (node.kind == TomlNode::text) return {{node.string, node.place}};
-  if (node.kind != TomlNode::array) refuse(node.place, fmt::format("sweep.{} is {}", what, toml_kind_name(node)), "a text or a list of texts is wanted", "change it");
+  if (node.kind != TomlNode::array)
+    refuse(node.place, fmt::format("sweep.{} is {}", what, toml_kind_name(node)), "a text or a list of texts is wanted",
+           "change it");
   for (const TomlNode& item : node.items) list.push_back({scene_text(item, fmt::format("sweep.{}", what)), item.place});
   return list;
 }
@@ -48,8 +53,11 @@ void add_axes(const TomlNode& table, const std::string& prefix, std::vector<Swee
     }
     SweepSetting axis{path + "=", node.place};
     if (node.kind == TomlNode::array) {
-      if (node.items.empty()) refuse(node.place, path + " has no values", "a list of values, or \"lo:hi:n\" or \"log(lo,hi,n)\" is wanted", "name some");
-      for (const TomlNode& item : node.items) axis.text += (axis.values.empty() ? "" : ",") + as_value(item), axis.values.push_back(as_value(item));
+      if (node.items.empty())
+        refuse(node.place, path + " has no values", "a list of values, or \"lo:hi:n\" or \"log(lo,hi,n)\" is wanted",
+               "name some");
+      for (const TomlNode& item : node.items)
+        axis.text += (axis.values.empty() ? "" : ",") + as_value(item), axis.values.push_back(as_value(item));
     } else {
       axis.text += as_value(node);
     }
@@ -71,7 +79,8 @@ std::vector<SweepSetting> columns(const TomlNode& node) {
     // the place that makes an offset into "NAME=EXPR" one into the file's text
     const std::string& place = entry.value.place;
     const long column = position(place).second - static_cast<long>(entry.key.size()) - 1;
-    list.push_back({entry.key + "=" + scene_text(entry.value, "sweep.columns." + entry.key), fmt::format("{}:{}", place.substr(0, place.rfind(':')), column)});
+    list.push_back({entry.key + "=" + scene_text(entry.value, "sweep.columns." + entry.key),
+                    fmt::format("{}:{}", place.substr(0, place.rfind(':')), column)});
   }
   return list;
 }
@@ -103,11 +112,17 @@ void read_sweep_file(Arguments& arguments) {
   const auto beside = [&](const std::string& name) { return (file.parent_path() / name).lexically_normal(); };
   if (const TomlNode* node = value_of(table, "scene")) {
     for (const TomlEntry& other : root.entries)
-      if (other.key != "sweep") refuse(other.place, fmt::format("'{}' beside a [sweep] that names its scene", other.key), "either the sweep of this scene or a file with [sweep] alone is wanted", "take out one of them");
+      if (other.key != "sweep")
+        refuse(other.place, fmt::format("'{}' beside a [sweep] that names its scene", other.key),
+               "either the sweep of this scene or a file with [sweep] alone is wanted", "take out one of them");
     run.scene = beside(scene_text(*node, "sweep.scene"));
-    if (!fs::is_regular_file(run.scene)) refuse(node->place, fmt::format("there is no scene {}", run.scene.string()), "a scene file, relative to this one, is wanted", "check the path");
+    if (!fs::is_regular_file(run.scene))
+      refuse(node->place, fmt::format("there is no scene {}", run.scene.string()),
+             "a scene file, relative to this one, is wanted", "check the path");
   }
-  if (const TomlNode* node = value_of(table, "script"); node != nullptr && run.script.empty() && !scene_text(*node, "sweep.script").empty()) run.script = beside(node->string);
+  if (const TomlNode* node = value_of(table, "script");
+      node != nullptr && run.script.empty() && !scene_text(*node, "sweep.script").empty())
+    run.script = beside(node->string);
   if (const TomlNode* node = value_of(table, "set")) {
     const std::vector<SweepSetting> list = texts(*node, "set");
     std::vector<std::string> first = plain(list);
@@ -117,33 +132,49 @@ void read_sweep_file(Arguments& arguments) {
   if (const TomlNode* node = value_of(table, "vary"); node != nullptr && sweep.vary.empty()) {
     if (node->kind == TomlNode::table) {
       add_axes(*node, "", sweep.vary);
-      std::stable_sort(sweep.vary.begin(), sweep.vary.end(), [](const SweepSetting& l, const SweepSetting& r) { return position(l.place) < position(r.place); });
+      std::stable_sort(sweep.vary.begin(), sweep.vary.end(), [](const SweepSetting& l, const SweepSetting& r) {
+        return position(l.place) < position(r.place);
+      });
     } else {
       sweep.vary = texts(*node, "vary");
     }
   }
   if (const TomlNode* node = value_of(table, "zip")) sweep.zip = scene_flag(*node, "sweep.zip") || sweep.zip;
-  if (const TomlNode* node = value_of(table, "coarse_first")) sweep.coarse_first = scene_flag(*node, "sweep.coarse_first") || sweep.coarse_first;
-  if (const TomlNode* node = value_of(table, "filter"); node != nullptr && sweep.filter.text.empty()) sweep.filter = {scene_text(*node, "sweep.filter"), node->place};
-  if (const TomlNode* node = value_of(table, "reference"); node != nullptr && sweep.reference.empty()) sweep.reference = texts(*node, "reference");
-  if (const TomlNode* node = value_of(table, "columns"); node != nullptr && sweep.columns.empty()) sweep.columns = columns(*node);
-  if (const TomlNode* node = value_of(table, "window"); node != nullptr && sweep.window.text.empty()) sweep.window = {as_value(*node), node->place};
-  if (const TomlNode* node = value_of(table, "jobs"); node != nullptr && sweep.jobs == 0) sweep.jobs = whole(*node, "jobs", 1, 4096);
-  if (const TomlNode* node = value_of(table, "repeat"); node != nullptr && sweep.repeat == 0) sweep.repeat = whole(*node, "repeat", 1, 1000);
-  if (const TomlNode* node = value_of(table, "frames"); node != nullptr && !run.frames) run.frames = whole(*node, "frames", 0, 100'000'000);
+  if (const TomlNode* node = value_of(table, "coarse_first"))
+    sweep.coarse_first = scene_flag(*node, "sweep.coarse_first") || sweep.coarse_first;
+  if (const TomlNode* node = value_of(table, "filter"); node != nullptr && sweep.filter.text.empty())
+    sweep.filter = {scene_text(*node, "sweep.filter"), node->place};
+  if (const TomlNode* node = value_of(table, "reference"); node != nullptr && sweep.reference.empty())
+    sweep.reference = texts(*node, "reference");
+  if (const TomlNode* node = value_of(table, "columns"); node != nullptr && sweep.columns.empty())
+    sweep.columns = columns(*node);
+  if (const TomlNode* node = value_of(table, "window"); node != nullptr && sweep.window.text.empty())
+    sweep.window = {as_value(*node), node->place};
+  if (const TomlNode* node = value_of(table, "jobs"); node != nullptr && sweep.jobs == 0)
+    sweep.jobs = whole(*node, "jobs", 1, 4096);
+  if (const TomlNode* node = value_of(table, "repeat"); node != nullptr && sweep.repeat == 0)
+    sweep.repeat = whole(*node, "repeat", 1, 1000);
+  if (const TomlNode* node = value_of(table, "frames"); node != nullptr && !run.frames)
+    run.frames = whole(*node, "frames", 0, 100'000'000);
   if (const TomlNode* node = value_of(table, "images")) run.images = scene_flag(*node, "sweep.images") && run.images;
   if (const TomlNode* node = value_of(table, "size"); node != nullptr && !sweep.size_given) {
-    if (node->kind != TomlNode::array || node->items.size() != 2) refuse(node->place, fmt::format("sweep.size is {}", format_toml(*node)), "[width, height] is wanted", "change it");
+    if (node->kind != TomlNode::array || node->items.size() != 2)
+      refuse(node->place, fmt::format("sweep.size is {}", format_toml(*node)), "[width, height] is wanted",
+             "change it");
     run.width = whole(node->items[0], "size", 16, 8192);
     run.height = whole(node->items[1], "size", 16, 8192);
   }
 }
 
 std::string format_sweep_file(const SweepOptions& sweep, const RunOptions& o) {
-  std::string out = "# a sweep; the same impinge sweep goes on with it, and this file as its scene repeats it\n[sweep]\n";
-  out += fmt::format("version = \"{}\"\nscene = {}\nscript = {}\nset = {}\nvary = {}\nzip = {}\n", IMPINGE_VERSION, toml_string(o.scene.string()), toml_string(o.script.string()), quoted(o.overrides),
+  std::string out =
+      "# a sweep; the same impinge sweep goes on with it, and this file as its scene repeats it\n[sweep]\n";
+  out += fmt::format("version = \"{}\"\nscene = {}\nscript = {}\nset = {}\nvary = {}\nzip = {}\n", IMPINGE_VERSION,
+                     toml_string(o.scene.string()), toml_string(o.script.string()), quoted(o.overrides),
                      quoted(plain(sweep.vary)), sweep.zip);
-  out += fmt::format("filter = {}\nreference = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\n", toml_string(sweep.filter.text), quoted(plain(sweep.reference)), o.frames.value_or(0), o.width, o.height, o.images);
+  out += fmt::format("filter = {}\nreference = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\n",
+                     toml_string(sweep.filter.text), quoted(plain(sweep.reference)), o.frames.value_or(0), o.width,
+                     o.height, o.images);
   return out;
 }
 

@@ -5,8 +5,9 @@
 
 namespace impinge {
 
-/// Takes what the [sweep] table of `arguments.run_options.scene` says and the command line doesn't, key by key; the scene
-/// becomes the one it names. A file without the table changes nothing. Throws InputError at the place of what is wrong.
+/// Takes what the [sweep] table of `arguments.run_options.scene` says and the command line doesn't, key by key; the
+/// scene becomes the one it names. A file without the table changes nothing. Throws InputError at the place of what is
+/// wrong.
 void read_sweep_file(Arguments& arguments);
 
 /// The whole as such a file: what tells a sweep from another in the same folder.

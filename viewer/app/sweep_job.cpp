@@ -23,7 +23,9 @@ std::string text_list(const std::vector<std::string>& texts) {
 
 const TomlNode& need(const TomlNode& table, const char* key) {
   const TomlEntry* entry = table.find(key);
-  if (entry == nullptr) refuse(table.place, fmt::format("no '{}'", key), "the file as a sweep wrote it is wanted", "remove the job's folder and run the sweep again");
+  if (entry == nullptr)
+    refuse(table.place, fmt::format("no '{}'", key), "the file as a sweep wrote it is wanted",
+           "remove the job's folder and run the sweep again");
   return entry->value;
 }
 
@@ -38,7 +40,9 @@ int whole_of(const TomlNode& node, const char* what) { return static_cast<int>(s
 }  // namespace
 
 SweepBase::SweepBase(const RunOptions& options)
-    : options_(options), session_(options.scene, options.overrides, options.script, {options.width, options.height, options.judge}), last_frame_(options.frames.value_or(session_.default_last_frame())) {}
+    : options_(options),
+      session_(options.scene, options.overrides, options.script, {options.width, options.height, options.judge}),
+      last_frame_(options.frames.value_or(session_.default_last_frame())) {}
 
 std::string SweepBase::hash(const std::vector<std::string>& changes) const {
   RunRecord record = session_.run_record();
@@ -61,8 +65,10 @@ std::string SweepBase::hash(const std::vector<std::string>& changes) const {
     const Parameter* row = session_.rows().find(change.substr(0, equals));
     if (row == nullptr) {
       apply_override(root, change);
-    } else if (change.rfind("body.", 0) == 0) {  // bodies are recorded as given: a real number has a point, as in most scenes
-      apply_override(root, change.substr(0, equals + 1) + format_toml(toml_node(parse_value(*row, change.substr(equals + 1)))));
+      // bodies are recorded as given: a real number has a point, as in most scenes
+    } else if (change.rfind("body.", 0) == 0) {
+      apply_override(
+          root, change.substr(0, equals + 1) + format_toml(toml_node(parse_value(*row, change.substr(equals + 1)))));
     } else {
       before.emplace_back(row, row->get());
       row->set(parse_value(*row, change.substr(equals + 1)));
@@ -77,8 +83,10 @@ std::string SweepBase::hash(const std::vector<std::string>& changes) const {
 void write_sweep_job(const fs::path& folder, const SweepJob& job) {
   const RunOptions& o = job.options;
   std::string text = "# one job of a sweep; impinge sweep --job runs it alone\n";
-  text += fmt::format("hash = \"{}\"\nreference = \"{}\"\nscene = {}\nscript = {}\n", job.hash, job.reference, toml_string(o.scene.string()), toml_string(o.script.string()));
-  text += fmt::format("set = {}\nvary = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\nsurfaces = {}\ncontacts = {}\n", text_list(o.overrides), text_list(job.changes), o.frames.value_or(0), o.width, o.height, o.images,
+  text += fmt::format("hash = \"{}\"\nreference = \"{}\"\nscene = {}\nscript = {}\n", job.hash, job.reference,
+                      toml_string(o.scene.string()), toml_string(o.script.string()));
+  text += fmt::format("set = {}\nvary = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\nsurfaces = {}\ncontacts = {}\n",
+                      text_list(o.overrides), text_list(job.changes), o.frames.value_or(0), o.width, o.height, o.images,
                       o.export_ply, o.contacts);
   write_file(folder / "job.toml", text);
 }
@@ -95,7 +103,9 @@ SweepJob read_sweep_job(const fs::path& folder) {
   job.changes = texts_of(need(table, "vary"));
   job.options.frames = whole_of(need(table, "frames"), "frames");
   const TomlNode& size = need(table, "size");
-  if (size.items.size() != 2) refuse(size.place, "size is no pair", "[width, height] is wanted", "remove the job's folder and run the sweep again");
+  if (size.items.size() != 2)
+    refuse(size.place, "size is no pair", "[width, height] is wanted",
+           "remove the job's folder and run the sweep again");
   job.options.width = whole_of(size.items[0], "size");
   job.options.height = whole_of(size.items[1], "size");
   job.options.images = scene_flag(need(table, "images"), "images");
@@ -105,7 +115,8 @@ SweepJob read_sweep_job(const fs::path& folder) {
 }
 
 const char* status_name(SweepOutcome::Status status) {
-  constexpr const char* kNames[] = {"done", "failed", "diverged", "refused", "crashed", "interrupted", "unequal", "open"};
+  constexpr const char* kNames[] = {"done",    "failed",      "diverged", "refused",
+                                    "crashed", "interrupted", "unequal",  "open"};
   return kNames[status];
 }
 
@@ -117,7 +128,8 @@ SweepOutcome read_sweep_outcome(const fs::path& folder) {
     const TomlNode table = parse_toml(file.string(), read_file(file, kMostBytes));
     const std::string status = scene_text(need(table, "status"), "status");
     for (int s = 0; s <= SweepOutcome::open; ++s)
-      if (status == status_name(static_cast<SweepOutcome::Status>(s))) outcome.status = static_cast<SweepOutcome::Status>(s);
+      if (status == status_name(static_cast<SweepOutcome::Status>(s)))
+        outcome.status = static_cast<SweepOutcome::Status>(s);
     outcome.reason = scene_text(need(table, "reason"), "reason");
     outcome.wall_ms = scene_real(need(table, "wall_ms"), "wall_ms", {0, 1e15});
     return outcome;
@@ -132,7 +144,10 @@ fs::path repeat_folder(const fs::path& job, int k) { return k <= 1 ? job : job /
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error.message()));
+  if (error)
+    throw InputError(
+        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
+                    folder.string(), error.message()));
 }
 
 }  // namespace impinge

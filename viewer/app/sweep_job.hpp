@@ -5,7 +5,8 @@
 //   run/        the run's own folder
 //   output.txt  what the run said
 //   done        how it ended, written last; a job that a crash ended has `failed` instead and is tried again
-//   repeats/2   the second run of --repeat, with lock, run/, output.txt and done of its own, without pictures, surfaces and contacts
+//   repeats/2 the second run of --repeat, with lock, run/, output.txt and done of its own, without pictures, surfaces
+//   and contacts
 #pragma once
 
 #include <sys/types.h>
@@ -67,7 +68,8 @@ void make_folder(const std::filesystem::path& folder);
 class SweepWorker {
  public:
   enum Start { started, already_done, busy };
-  /// Takes the job's lock and starts its run, which goes on where an earlier one stopped. `busy`: another process has it.
+  /// Takes the job's lock and starts its run, which goes on where an earlier one stopped. `busy`: another process has
+  /// it.
   Start start(const std::filesystem::path& folder, const SweepJob& job);
   /// Whether it has ended; if so its outcome is written.
   bool poll();

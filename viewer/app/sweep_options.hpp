@@ -10,7 +10,8 @@ namespace impinge {
 struct SweepSetting {
   std::string text;
   std::string place = {};
-  std::vector<std::string> values = {};  ///< of an array in a file: the values themselves; `text` then is PATH=all of them
+  /// of an array in a file: the values themselves; `text` then is PATH=all of them
+  std::vector<std::string> values = {};
 
   /// For messages: the place, or the option with its text.
   std::string where(const char* option) const { return place.empty() ? std::string(option) + " " + text : place; }
@@ -27,7 +28,7 @@ struct SweepOptions {
   int jobs = 0;                         ///< at once; 0: as many as there are cores, or as Slurm gives
   int repeat = 0;                       ///< runs of each job; 0: not said, one
   bool zip = false, coarse_first = false, yes = false;
-  bool size_given = false;              ///< on the command line
+  bool size_given = false;  ///< on the command line
   int repeats() const { return repeat > 0 ? repeat : 1; }
 };
 

@@ -33,17 +33,21 @@ double window_of(const SweepSetting& setting) {
   char* end = nullptr;
   const double seconds = std::strtod(text.c_str(), &end);
   if (*end != 0 || !std::isfinite(seconds) || seconds <= 0.0)
-    refuse(setting.where("--window"), fmt::format("'{}'", text), "seconds greater than 0, 'all' or 'automatic' are wanted", "change it");
+    refuse(setting.where("--window"), fmt::format("'{}'", text),
+           "seconds greater than 0, 'all' or 'automatic' are wanted", "change it");
   return seconds;
 }
 
 // sets the kind of reference; for settings, returns PATH=VALUE of each
-std::vector<std::string> read_reference(const SweepOptions& options, const SweepBase& base, const Load& load, Sweep& sweep) {
+std::vector<std::string> read_reference(const SweepOptions& options, const SweepBase& base, const Load& load,
+                                        Sweep& sweep) {
   std::vector<std::string> settings;
   for (const SweepSetting& setting : options.reference) {
     const std::string where = setting.where("--reference");
     if (setting.text == "finest" || setting.text.rfind("case:", 0) == 0) {
-      if (options.reference.size() > 1) refuse(where, fmt::format("'{}' beside another reference", setting.text), "one reference is wanted", "leave out the others");
+      if (options.reference.size() > 1)
+        refuse(where, fmt::format("'{}' beside another reference", setting.text), "one reference is wanted",
+               "leave out the others");
       sweep.reference = setting.text == "finest" ? SweepReferenceKind::finest : SweepReferenceKind::analytic;
       if (sweep.reference == SweepReferenceKind::analytic) {
         sweep.analytic_case = setting.text.substr(5);
@@ -56,9 +60,11 @@ std::vector<std::string> read_reference(const SweepOptions& options, const Sweep
       continue;
     }
     if (setting.text.find('=') == std::string::npos)
-      refuse(where, setting.place.empty() ? "no PATH=VALUE" : fmt::format("'{}' is no PATH=VALUE", setting.text), fmt::format("PATH=VALUE, finest or case:NAME ({}) is wanted", analytic_case_names()), "change it");
+      refuse(where, setting.place.empty() ? "no PATH=VALUE" : fmt::format("'{}' is no PATH=VALUE", setting.text),
+             fmt::format("PATH=VALUE, finest or case:NAME ({}) is wanted", analytic_case_names()), "change it");
     const SweepAxis axis = read_sweep_axis("--reference", setting, base.session(), load);
-    if (axis.values.size() != 1) refuse(where, fmt::format("{} values", axis.values.size()), "one is wanted", "leave the others out");
+    if (axis.values.size() != 1)
+      refuse(where, fmt::format("{} values", axis.values.size()), "one is wanted", "leave the others out");
     settings.push_back(axis.path + "=" + axis.values.front());
     sweep.reference = SweepReferenceKind::settings;
   }
@@ -79,8 +85,11 @@ std::vector<std::size_t> filtered(const SweepOptions& options, const Sweep& swee
   for (std::size_t i = 0; i < count; ++i)
     if (filter.holds(words.values(sweep_job_values(sweep.axes, options.zip, i)))) kept.push_back(i);
   const std::string where = options.filter.where("--filter");
-  if (kept.empty()) refuse(where, fmt::format("none of {} combinations is left", count), "at least one is wanted", "widen the filter");
-  if (kept.size() > kMostUnasked && !options.yes) refuse(where, fmt::format("{} jobs are left", kept.size()), fmt::format("at most {} are taken", kMostUnasked), "filter more, or say --yes");
+  if (kept.empty())
+    refuse(where, fmt::format("none of {} combinations is left", count), "at least one is wanted", "widen the filter");
+  if (kept.size() > kMostUnasked && !options.yes)
+    refuse(where, fmt::format("{} jobs are left", kept.size()), fmt::format("at most {} are taken", kMostUnasked),
+           "filter more, or say --yes");
   return kept;
 }
 
@@ -97,14 +106,17 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
     sweep.axes.push_back(read_sweep_axis("--vary", setting, base.session(), load));
     sweep.paths.push_back(sweep.axes.back().path);
     for (const std::string& set : run.overrides)
-      if (set.rfind(sweep.paths.back() + "=", 0) == 0) refuse(setting.where("--vary"), fmt::format("{}, a path that --set gives too", sweep.paths.back()), "one of them is wanted", "leave one out");
+      if (set.rfind(sweep.paths.back() + "=", 0) == 0)
+        refuse(setting.where("--vary"), fmt::format("{}, a path that --set gives too", sweep.paths.back()),
+               "one of them is wanted", "leave one out");
   }
   const bool asks = !options.yes && options.filter.text.empty();
   const std::size_t count = count_sweep_jobs(sweep.axes, options.vary, options.zip, asks ? kMostUnasked : kMost);
   const std::vector<std::string> settings = read_reference(options, base, load, sweep);
   sweep.window = window_of(options.window);
   if (!options.window.text.empty() && sweep.reference == SweepReferenceKind::none)
-    refuse(options.window.where("--window"), "a window without a reference", "errors to take over it are wanted", "add --reference, or leave it out");
+    refuse(options.window.where("--window"), "a window without a reference", "errors to take over it are wanted",
+           "add --reference, or leave it out");
   sweep.columns = SweepColumns(options.columns, sweep.axes);
 
   std::vector<std::size_t> order = filtered(options, sweep, count);
@@ -144,7 +156,8 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
   const auto add_reference = [&](std::size_t i) {
     if (planned[i].reference.empty()) return;
     sweep.rows[i].reference = add(planned[i].reference, "");
-    if (sweep.window < 0.0) sweep.rows[i].perturbed = add(perturbed_settings(planned[i].reference, base.session()), sweep.rows[i].reference);
+    if (sweep.window < 0.0)
+      sweep.rows[i].perturbed = add(perturbed_settings(planned[i].reference, base.session()), sweep.rows[i].reference);
   };
   if (!options.coarse_first)
     for (const std::size_t i : by_run) add_reference(i);

@@ -12,9 +12,10 @@ enum class SweepReferenceKind { none, settings, finest, analytic };
 
 struct Sweep {
   std::vector<SweepAxis> axes;
-  std::vector<std::string> paths;            ///< of the axes
-  std::vector<SweepRow> rows;                ///< without figures; in the order of the values, whatever runs first
-  std::vector<SweepJob> jobs;                ///< what to run, in that order: references before the jobs they serve, each hash once
+  std::vector<std::string> paths;  ///< of the axes
+  std::vector<SweepRow> rows;      ///< without figures; in the order of the values, whatever runs first
+  /// what to run, in that order: references before the jobs they serve, each hash once
+  std::vector<SweepJob> jobs;
   SweepReferenceKind reference = SweepReferenceKind::none;
   std::vector<std::string> reference_words;  ///< PATH=VALUE, or PATH=finest, or case:NAME
   std::string analytic_case;                 ///< NAME

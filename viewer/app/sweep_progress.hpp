@@ -21,7 +21,10 @@ class SweepProgress {
     last_ = now;
     const double seconds = std::chrono::duration<double>(now - begin_).count();
     const std::size_t done = run_ + skipped_;
-    fmt::print(stderr, "\rjobs {}/{}  running {}{}\x1b[K", done, jobs_, running, run_ > 0 ? fmt::format("  {:.0f} s left", seconds / static_cast<double>(run_) * static_cast<double>(jobs_ - done)) : "");
+    fmt::print(stderr, "\rjobs {}/{}  running {}{}\x1b[K", done, jobs_, running,
+               run_ > 0 ? fmt::format("  {:.0f} s left",
+                                      seconds / static_cast<double>(run_) * static_cast<double>(jobs_ - done))
+                        : "");
     std::fflush(stderr);
   }
   void clear() const {

@@ -25,12 +25,14 @@ struct Task {
 // of a repeat only the figures count
 void drop_pictures(const fs::path& run) {
   std::error_code error;
-  for (const char* name : {"frames", "surfaces", "snapshots", "contacts.csv", "contact_sheet.png"}) fs::remove_all(run / name, error);
+  for (const char* name : {"frames", "surfaces", "snapshots", "contacts.csv", "contact_sheet.png"})
+    fs::remove_all(run / name, error);
 }
 
 }  // namespace
 
-void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int repeats, int at_once, bool shows_progress) {
+void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int repeats, int at_once,
+                    bool shows_progress) {
   watch_for_interrupt();
   setenv("LP_NUM_THREADS", "0", 1);  // the renderer paints in the run's own thread: a job has one
   SweepProgress progress(jobs.size() * static_cast<std::size_t>(repeats), shows_progress);
@@ -52,20 +54,28 @@ void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int 
       if (task.repeat > 1) make_folder(folder);
       SweepWorker worker;
       switch (worker.start(folder, *task.job)) {
-        case SweepWorker::started: running.push_back({worker, task}); break;
-        case SweepWorker::busy: waiting.push_back(task); break;
-        case SweepWorker::already_done: progress.ended(false);
+        case SweepWorker::started:
+          running.push_back({worker, task});
+          break;
+        case SweepWorker::busy:
+          waiting.push_back(task);
+          break;
+        case SweepWorker::already_done:
+          progress.ended(false);
       }
     }
     if (interrupted() && !told)
       for (const Running& run : running) run.worker.interrupt();
     told = interrupted();
-    if (running.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    else SweepWorker::wait_for_any(std::chrono::milliseconds(50));
+    if (running.empty())
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    else
+      SweepWorker::wait_for_any(std::chrono::milliseconds(50));
     std::erase_if(running, [&](Running& run) {
       const bool ended = run.worker.poll();
       if (ended) progress.ended(true);
-      if (ended && run.task.repeat > 1 && run.worker.outcome().is_final()) drop_pictures(repeat_folder(job_folder(out, run.task.job->hash), run.task.repeat) / "run");
+      if (ended && run.task.repeat > 1 && run.worker.outcome().is_final())
+        drop_pictures(repeat_folder(job_folder(out, run.task.job->hash), run.task.repeat) / "run");
       return ended;
     });
     progress.show(running.size());

@@ -25,7 +25,9 @@ std::string cell(const std::string& text) {
 }
 
 std::string number(double value) { return shortest(value); }
-std::string three_digits(const std::string& text) { return text.empty() ? "-" : impinge::three_digits(std::strtod(text.c_str(), nullptr)); }
+std::string three_digits(const std::string& text) {
+  return text.empty() ? "-" : impinge::three_digits(std::strtod(text.c_str(), nullptr));
+}
 
 std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
@@ -34,7 +36,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::string out;
   for (const auto& line : lines) {
     std::string text;
-    for (std::size_t i = 0; i < line.size(); ++i) text += fmt::format("{:<{}}", line[i], i + 1 < line.size() ? widths[i] + 2 : 0);
+    for (std::size_t i = 0; i < line.size(); ++i)
+      text += fmt::format("{:<{}}", line[i], i + 1 < line.size() ? widths[i] + 2 : 0);
     out += text + "\n";
   }
   return out;
@@ -60,13 +63,27 @@ std::string spread(const std::vector<double>& values) {
 }  // namespace
 
 const std::vector<std::string>& sweep_figure_columns() {
-  static const std::vector<std::string> kColumns = {"frames", "penetration_last_m", "penetration_max_m", "residual_last", "residual_max", "contacts_last", "contacts_max",
-                                                    "unconverged", "energy_drift_last_J", "energy_drift_max_J", "momentum_drift_max_Ns", "state_hash", "step_ms", "render_ms"};
+  static const std::vector<std::string> kColumns = {"frames",
+                                                    "penetration_last_m",
+                                                    "penetration_max_m",
+                                                    "residual_last",
+                                                    "residual_max",
+                                                    "contacts_last",
+                                                    "contacts_max",
+                                                    "unconverged",
+                                                    "energy_drift_last_J",
+                                                    "energy_drift_max_J",
+                                                    "momentum_drift_max_Ns",
+                                                    "state_hash",
+                                                    "step_ms",
+                                                    "render_ms"};
   return kColumns;
 }
 
 const std::vector<std::string>& sweep_error_columns() {
-  static const std::vector<std::string> kColumns = {"error_force_N", "error_force_relative", "error_penetration_m", "error_energy_J", "error_momentum_Ns", "window_s", "window_reason"};
+  static const std::vector<std::string> kColumns = {"error_force_N",  "error_force_relative", "error_penetration_m",
+                                                    "error_energy_J", "error_momentum_Ns",    "window_s",
+                                                    "window_reason"};
   return kColumns;
 }
 
@@ -76,8 +93,10 @@ const std::vector<std::string>& sweep_spread_columns() {
 }
 
 bool is_sweep_column(const std::string& name) {
-  static const std::vector<std::string> kOthers = {"hash", "status", "reason", "reference", "error_rms_m", "error_relative", "wall_ms"};
-  for (const std::vector<std::string>* list : {&sweep_figure_columns(), &sweep_error_columns(), &sweep_spread_columns(), &kOthers})
+  static const std::vector<std::string> kOthers = {"hash",        "status",         "reason", "reference",
+                                                   "error_rms_m", "error_relative", "wall_ms"};
+  for (const std::vector<std::string>* list :
+       {&sweep_figure_columns(), &sweep_error_columns(), &sweep_spread_columns(), &kOthers})
     if (std::find(list->begin(), list->end(), name) != list->end()) return true;
   return false;
 }
@@ -124,16 +143,20 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
     std::vector<StatsLine> again = sweep_stats(repeat_folder(folder, k) / "run");
     std::size_t frame = 0;
     while (frame < again.size() && frame < lines.size() && again[frame].state_hash == lines[frame].state_hash) ++frame;
-    if (row.outcome.is_final() && (again.size() != lines.size() || frame < lines.size()) && row.outcome.status != SweepOutcome::unequal) {
+    if (row.outcome.is_final() && (again.size() != lines.size() || frame < lines.size()) &&
+        row.outcome.status != SweepOutcome::unequal) {
       row.outcome.status = SweepOutcome::unequal;
-      row.outcome.reason = frame < lines.size() && frame < again.size() ? fmt::format("repeat {} has another state in frame {} than the first run", k, frame)
-                                                                        : fmt::format("repeat {} has {} frames and the first run {}", k, again.size(), lines.size());
+      row.outcome.reason =
+          frame < lines.size() && frame < again.size()
+              ? fmt::format("repeat {} has another state in frame {} than the first run", k, frame)
+              : fmt::format("repeat {} has {} frames and the first run {}", k, again.size(), lines.size());
     }
     walls.push_back(outcome.wall_ms);
     measure.runs.push_back(std::move(again));
   }
   std::vector<double> steps, renders;
-  for (const std::vector<StatsLine>& run : measure.runs) steps.push_back(sum(run, "step_ms")), renders.push_back(sum(run, "render_ms"));
+  for (const std::vector<StatsLine>& run : measure.runs)
+    steps.push_back(sum(run, "step_ms")), renders.push_back(sum(run, "render_ms"));
   if (repeats > 1) measure.spreads = {spread(steps), spread(renders), spread(walls)};
   if (!walls.empty()) row.outcome.wall_ms = median(walls);
 
@@ -142,8 +165,13 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
     for (const StatsLine& line : lines) most = std::max(most, line.figures[figure(name)]);
     return most;
   };
-  const auto energy = [&](const StatsLine& line) { return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")]; };
-  const auto momentum = [&](const StatsLine& line) { return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")], line.figures[figure("momentum_z")]); };
+  const auto energy = [&](const StatsLine& line) {
+    return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")];
+  };
+  const auto momentum = [&](const StatsLine& line) {
+    return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")],
+                line.figures[figure("momentum_z")]);
+  };
   const auto last = [&](const char* name) { return lines.back().figures[figure(name)]; };
   double drift = 0.0, push = 0.0;
   for (const StatsLine& line : lines) {
@@ -151,9 +179,20 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
     push = std::max(push, (momentum(line) - momentum(lines.front())).norm());
   }
   row.work_ms = median(steps);
-  row.cells = {number(last("frame")), number(last("max_penetration_m")), number(largest("max_penetration_m")), number(last("residual")), number(largest("residual")),
-               number(last("contacts")), number(largest("contacts")), number(sum(lines, "unconverged")), number(energy(lines.back()) - energy(lines.front())), number(drift),
-               number(push), lines.back().state_hash, number(row.work_ms), number(median(renders))};
+  row.cells = {number(last("frame")),
+               number(last("max_penetration_m")),
+               number(largest("max_penetration_m")),
+               number(last("residual")),
+               number(largest("residual")),
+               number(last("contacts")),
+               number(largest("contacts")),
+               number(sum(lines, "unconverged")),
+               number(energy(lines.back()) - energy(lines.front())),
+               number(drift),
+               number(push),
+               lines.back().state_hash,
+               number(row.work_ms),
+               number(median(renders))};
   return measure;
 }
 
@@ -170,7 +209,9 @@ std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows
     for (const std::string& value : row.values) out += "," + cell(value);
     out += fmt::format(",{},{}", status_name(row.outcome.status), cell(row.outcome.reason));
     for (const std::string& figure : row.cells) out += "," + figure;
-    if (table.has_reference) out += fmt::format(",{},{},{}", row.reference, row.error < 0 ? "" : number(row.error), row.relative_error < 0 ? "" : number(row.relative_error));
+    if (table.has_reference)
+      out += fmt::format(",{},{},{}", row.reference, row.error < 0 ? "" : number(row.error),
+                         row.relative_error < 0 ? "" : number(row.relative_error));
     for (const std::string& value : row.more) out += "," + cell(value);
     out += fmt::format(",{}\n", row.outcome.wall_ms > 0 ? fmt::format("{:.3f}", row.outcome.wall_ms) : "");
   }
@@ -190,10 +231,14 @@ std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& 
   std::vector<std::vector<std::string>> lines(1);
   lines[0] = {"job"};
   lines[0].insert(lines[0].end(), paths.begin(), paths.end());
-  for (const char* name : {"status", "frames", "penetration max (m)", "residual max", "contacts max", "energy drift (J)", "step (ms)"}) lines[0].push_back(name);
+  for (const char* name :
+       {"status", "frames", "penetration max (m)", "residual max", "contacts max", "energy drift (J)", "step (ms)"})
+    lines[0].push_back(name);
   if (table.has_reference) lines[0].push_back("error (m)");
   const std::vector<std::string>& names = sweep_figure_columns();
-  const auto figure = [&](const SweepRow& row, const char* name) { return row.cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]; };
+  const auto figure = [&](const SweepRow& row, const char* name) {
+    return row.cells[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+  };
   std::string reasons;
   for (const SweepRow& row : rows) {
     std::vector<std::string>& line = lines.emplace_back();
@@ -201,9 +246,13 @@ std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& 
     line.insert(line.end(), row.values.begin(), row.values.end());
     line.push_back(status_name(row.outcome.status));
     line.push_back(figure(row, "frames").empty() ? "-" : figure(row, "frames"));
-    for (const char* name : {"penetration_max_m", "residual_max", "contacts_max", "energy_drift_last_J", "step_ms"}) line.push_back(three_digits(figure(row, name)));
-    if (table.has_reference) line.push_back(row.error < 0 ? "-" : row.reference == row.hash ? "reference" : impinge::three_digits(row.error));
-    if (!row.outcome.reason.empty()) reasons += fmt::format("{}: {}: {}\n", row.hash.substr(0, 8), status_name(row.outcome.status), row.outcome.reason);
+    for (const char* name : {"penetration_max_m", "residual_max", "contacts_max", "energy_drift_last_J", "step_ms"})
+      line.push_back(three_digits(figure(row, name)));
+    if (table.has_reference)
+      line.push_back(row.error < 0 ? "-" : row.reference == row.hash ? "reference" : impinge::three_digits(row.error));
+    if (!row.outcome.reason.empty())
+      reasons +=
+          fmt::format("{}: {}: {}\n", row.hash.substr(0, 8), status_name(row.outcome.status), row.outcome.reason);
   }
   return aligned(lines) + reasons;
 }

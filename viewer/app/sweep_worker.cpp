@@ -26,13 +26,18 @@ namespace fs = std::filesystem;
 int open_lock(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (descriptor < 0)
-    throw InputError(fmt::format("{}: can't be written ({}); a folder that may be written to is wanted; choose another --out", file.string(), std::strerror(errno)));
+    throw InputError(
+        fmt::format("{}: can't be written ({}); a folder that may be written to is wanted; choose another --out",
+                    file.string(), std::strerror(errno)));
   return descriptor;
 }
 
 std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   const RunOptions& o = job.options;
-  std::vector<std::string> words = {"impinge", "run", o.scene.string(), "--out", (folder / "run").string(), "--threads", "1", "--snapshots", "8", "--resume", "--quiet"};  // there may be thousands
+  // there may be thousands
+  std::vector<std::string> words = {"impinge",   "run", o.scene.string(), "--out", (folder / "run").string(),
+                                    "--threads", "1",   "--snapshots",    "8",     "--resume",
+                                    "--quiet"};
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (!o.script.empty()) add({"--script", o.script.string()});
   if (o.frames) add({"--frames", std::to_string(*o.frames)});
@@ -40,8 +45,10 @@ std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   for (const std::string& text : job.changes) add({"--set", text});
   if (o.contacts) add({"--contacts"});
   if (o.export_ply) add({"--export", "ply"});
-  if (o.images) add({"--size", fmt::format("{}x{}", o.width, o.height)});
-  else add({"--no-images"});
+  if (o.images)
+    add({"--size", fmt::format("{}x{}", o.width, o.height)});
+  else
+    add({"--no-images"});
   return words;
 }
 
@@ -50,7 +57,8 @@ std::string reason_in(const fs::path& output) {
   const std::string text = fs::is_regular_file(output) ? read_file(output, std::uint64_t{1} << 30) : "";
   const std::size_t diverged = text.rfind("diverged: ");
   std::size_t begin = diverged == std::string::npos ? 0 : diverged + 10;
-  while (text.compare(begin, 6, "note: ") == 0 && text.find('\n', begin) != std::string::npos) begin = text.find('\n', begin) + 1;
+  while (text.compare(begin, 6, "note: ") == 0 && text.find('\n', begin) != std::string::npos)
+    begin = text.find('\n', begin) + 1;
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
@@ -67,12 +75,23 @@ SweepOutcome outcome_of(int status, const fs::path& output) {
     return outcome;
   }
   switch (WEXITSTATUS(status)) {
-    case 0: outcome.status = SweepOutcome::done; return outcome;
-    case 1: outcome.status = SweepOutcome::failed; break;
-    case 2: outcome.status = SweepOutcome::refused; break;
-    case 3: outcome.status = SweepOutcome::diverged; break;
-    case 130: outcome.status = SweepOutcome::interrupted; return outcome;
-    default: outcome.status = SweepOutcome::crashed;
+    case 0:
+      outcome.status = SweepOutcome::done;
+      return outcome;
+    case 1:
+      outcome.status = SweepOutcome::failed;
+      break;
+    case 2:
+      outcome.status = SweepOutcome::refused;
+      break;
+    case 3:
+      outcome.status = SweepOutcome::diverged;
+      break;
+    case 130:
+      outcome.status = SweepOutcome::interrupted;
+      return outcome;
+    default:
+      outcome.status = SweepOutcome::crashed;
   }
   outcome.reason = reason_in(output);
   if (outcome.reason.empty()) outcome.reason = fmt::format("exit code {}", WEXITSTATUS(status));
@@ -81,10 +100,10 @@ SweepOutcome outcome_of(int status, const fs::path& output) {
 
 // only what is safe between fork and exec
 [[noreturn]] void become_run(char* const* words, int lock, int output, pid_t parent) {
-  setpgid(0, 0);                      // a Ctrl-C reaches the sweep, which passes it on once
-  prctl(PR_SET_PDEATHSIG, SIGKILL);   // no run outlives its sweep
+  setpgid(0, 0);                     // a Ctrl-C reaches the sweep, which passes it on once
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // no run outlives its sweep
   if (getppid() != parent) _exit(130);
-  fcntl(lock, F_SETFD, 0);            // the run holds the lock too: nobody else starts on the folder before it is gone
+  fcntl(lock, F_SETFD, 0);  // the run holds the lock too: nobody else starts on the folder before it is gone
   std::signal(SIGINT, SIG_DFL), std::signal(SIGTERM, SIG_DFL);
   if (dup2(output, STDOUT_FILENO) < 0 || dup2(output, STDERR_FILENO) < 0) _exit(127);
   execv("/proc/self/exe", words);
@@ -112,7 +131,8 @@ SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& jo
   if (output < 0) {
     const int code = errno;
     close(lock_);
-    throw InputError(fmt::format("{}: can't be written ({}); free space or choose another --out", file.string(), std::strerror(code)));
+    throw InputError(fmt::format("{}: can't be written ({}); free space or choose another --out", file.string(),
+                                 std::strerror(code)));
   }
   std::vector<std::string> words = words_of(folder, job);
   std::vector<char*> pointers;
@@ -126,7 +146,8 @@ SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& jo
   if (child_ > 0) return started;
   const int code = errno;
   close(lock_);
-  throw InputError(fmt::format("command line: no process can be started ({}); fewer are wanted; lower --jobs", std::strerror(code)));
+  throw InputError(
+      fmt::format("command line: no process can be started ({}); fewer are wanted; lower --jobs", std::strerror(code)));
 }
 
 bool SweepWorker::poll() {
@@ -136,7 +157,8 @@ bool SweepWorker::poll() {
   outcome_.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
   if (outcome_.status != SweepOutcome::interrupted)
     write_file(folder_ / (outcome_.is_final() ? "done" : "failed"),
-               fmt::format("status = \"{}\"\nreason = {}\nwall_ms = {:.3f}\n", status_name(outcome_.status), toml_string(outcome_.reason), outcome_.wall_ms));
+               fmt::format("status = \"{}\"\nreason = {}\nwall_ms = {:.3f}\n", status_name(outcome_.status),
+                           toml_string(outcome_.reason), outcome_.wall_ms));
   close(lock_);
   return true;
 }

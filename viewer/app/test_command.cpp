@@ -20,7 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string plural(std::size_t count, const char* word) { return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s"); }
+std::string plural(std::size_t count, const char* word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
 
 struct Size {
   int width = 0, height = 0;
@@ -34,8 +36,9 @@ std::optional<Size> size_of(const std::vector<Script::ImageExpectation>& picture
     if (!fs::is_regular_file(picture.file)) continue;
     const Image image = read_png(picture.file);
     if (size && (size->width != image.width || size->height != image.height))
-      throw InputError(fmt::format("{}: {} has {}x{} pixels; {}x{} as in {} are wanted; remove one of them and write it anew with --update", picture.place, picture.file.string(), image.width,
-                                   image.height, size->width, size->height, first.string()));
+      throw InputError(fmt::format(
+          "{}: {} has {}x{} pixels; {}x{} as in {} are wanted; remove one of them and write it anew with --update",
+          picture.place, picture.file.string(), image.width, image.height, size->width, size->height, first.string()));
     if (!size) size = Size{image.width, image.height}, first = picture.file;
   }
   return size;
@@ -44,16 +47,23 @@ std::optional<Size> size_of(const std::vector<Script::ImageExpectation>& picture
 class Suite {
  public:
   explicit Suite(const Arguments& arguments) : arguments_(arguments), folder_(arguments.a) {
-    if (!fs::is_directory(folder_)) throw InputError(folder_.string() + ": there is no such folder; a folder of NAME.toml and NAME.script is wanted; check the path");
+    if (!fs::is_directory(folder_))
+      throw InputError(folder_.string() +
+                       ": there is no such folder; a folder of NAME.toml and NAME.script is wanted; check the path");
     const fs::path named = fs::absolute(folder_).lexically_normal();
     suite_ = (named.has_filename() ? named : named.parent_path()).filename().string();
     out_ = arguments.out.empty() ? fs::path("out") / (suite_ + "-test") : fs::path(arguments.out);
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
       if (entry.is_regular_file() && entry.path().extension() == ".script") names_.insert(entry.path().stem().string());
-    if (names_.empty()) throw InputError(folder_.string() + ": holds no script; NAME.toml with NAME.script beside it is wanted; see impinge test --help");
+    if (names_.empty())
+      throw InputError(folder_.string() +
+                       ": holds no script; NAME.toml with NAME.script beside it is wanted; see impinge test --help");
     std::error_code error;
     fs::create_directories(out_, error);
-    if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", out_.string(), error.message()));
+    if (error)
+      throw InputError(
+          fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
+                      out_.string(), error.message()));
     // the outcome of a long suite must not be lost for want of a place
     if (!arguments.junit.empty()) write_file(arguments.junit, junit_xml(suite_, {}));
   }
@@ -70,8 +80,10 @@ class Suite {
       print(outcomes.back());
     }
     if (!arguments_.junit.empty()) write_file(arguments_.junit, junit_xml(suite_, outcomes));
-    const auto bad = std::count_if(outcomes.begin(), outcomes.end(), [](const TestOutcome& o) { return o.kind != TestOutcome::ok; });
-    fmt::print("{}: {} ok, {} failed\n", plural(outcomes.size(), "test"), static_cast<std::ptrdiff_t>(outcomes.size()) - bad, bad);
+    const auto bad =
+        std::count_if(outcomes.begin(), outcomes.end(), [](const TestOutcome& o) { return o.kind != TestOutcome::ok; });
+    fmt::print("{}: {} ok, {} failed\n", plural(outcomes.size(), "test"),
+               static_cast<std::ptrdiff_t>(outcomes.size()) - bad, bad);
     return bad == 0 ? 0 : 1;
   }
 
@@ -111,7 +123,10 @@ class Suite {
 
   void test(TestOutcome& outcome) {
     const fs::path scene = folder_ / (outcome.name + ".toml"), script = folder_ / (outcome.name + ".script");
-    if (!fs::is_regular_file(scene)) throw InputError(fmt::format("{}: has no scene {} beside it; every script of a suite has one; add it, or move the script", script.string(), scene.filename().string()));
+    if (!fs::is_regular_file(scene))
+      throw InputError(
+          fmt::format("{}: has no scene {} beside it; every script of a suite has one; add it, or move the script",
+                      script.string(), scene.filename().string()));
     RunOptions options;
     options.scene = scene;
     options.script = script;
@@ -124,13 +139,16 @@ class Suite {
       options.frames = session.script().last_frame();
     }
     outcome.pictures = static_cast<int>(pictures.size());
-    if (outcome.expectations + outcome.pictures == 0) throw InputError(script.string() + ": expects nothing; at least one `expect` line is wanted; write expect contacts > 0 at 20");
+    if (outcome.expectations + outcome.pictures == 0)
+      throw InputError(script.string() +
+                       ": expects nothing; at least one `expect` line is wanted; write expect contacts > 0 at 20");
     const Size size = size_of(pictures).value_or(Size{arguments_.run_options.width, arguments_.run_options.height});
     options.width = size.width, options.height = size.height;
     options.images = options.ids = !pictures.empty();
     options.out = out_ / outcome.name / "run";
     for (const char* last : {"run", "again"})
-      if (const fs::path folder = out_ / outcome.name / last; fs::is_regular_file(folder / "run.toml")) fs::remove_all(folder);
+      if (const fs::path folder = out_ / outcome.name / last; fs::is_regular_file(folder / "run.toml"))
+        fs::remove_all(folder);
 
     RunWatcher watcher;
     watcher.message = [&](const std::string& line) { outcome.messages.push_back(line); };
@@ -139,11 +157,13 @@ class Suite {
     if (result.exit_code() != 0) outcome.kind = TestOutcome::failed;
     check_pictures(outcome, pictures, options, result.last_frame);
     if (outcome.kind != TestOutcome::ok)
-      outcome.messages.push_back(fmt::format("again: impinge run {} --script {} --frames {} --size {}x{} --out {}", scene.string(), script.string(), *options.frames, size.width, size.height,
+      outcome.messages.push_back(fmt::format("again: impinge run {} --script {} --frames {} --size {}x{} --out {}",
+                                             scene.string(), script.string(), *options.frames, size.width, size.height,
                                              (out_ / outcome.name / "again").string()));
   }
 
-  void check_pictures(TestOutcome& outcome, const std::vector<Script::ImageExpectation>& pictures, const RunOptions& options, int last_frame) {
+  void check_pictures(TestOutcome& outcome, const std::vector<Script::ImageExpectation>& pictures,
+                      const RunOptions& options, int last_frame) {
     const fs::path shown = out_ / outcome.name;
     std::error_code error;
     fs::remove(shown / "report.html", error);  // of the last time
@@ -154,7 +174,8 @@ class Suite {
         outcome.messages.push_back(fmt::format("{}: frame {} was not reached", picture.place, picture.frame));
         continue;
       }
-      const fs::path made = options.out / "frames" / PngSequence::file_name(picture.frame), baseline = baseline_for(picture.file, made);
+      const fs::path made = options.out / "frames" / PngSequence::file_name(picture.frame),
+                     baseline = baseline_for(picture.file, made);
       PictureRules rules;
       rules.settings.tolerance = picture.tolerance;
       PictureComparison c;
@@ -164,17 +185,24 @@ class Suite {
         c.name = picture.file.filename().string();
         c.b = made;
         c.verdict = PictureComparison::missing_in_a;
-        c.headline = fmt::format("there is no {}; impinge test {} --update writes it", picture.file.string(), folder_.string());
+        c.headline =
+            fmt::format("there is no {}; impinge test {} --update writes it", picture.file.string(), folder_.string());
       }
       if (c.verdict == PictureComparison::same) {
         if (!arguments_.update) continue;
-        if (const fs::path ids = update_ids(c); !ids.empty()) outcome.messages.push_back(fmt::format("wrote the ids {}; the picture is the same within the limits, and kept", ids.string()));
+        if (const fs::path ids = update_ids(c); !ids.empty())
+          outcome.messages.push_back(
+              fmt::format("wrote the ids {}; the picture is the same within the limits, and kept", ids.string()));
         continue;
       }
       if (arguments_.update) {
         const bool is_new = c.a.empty();
         const fs::path target = is_new ? picture.file : c.a, written = update_baseline(c, target, made);
-        outcome.messages.push_back(fmt::format("{} {}{}", is_new ? "new:" : written == target ? "rewrote" : "wrote the alternate", written.string(), is_new ? "" : ": " + c.headline));
+        outcome.messages.push_back(fmt::format("{} {}{}",
+                                               is_new              ? "new:"
+                                               : written == target ? "rewrote"
+                                                                   : "wrote the alternate",
+                                               written.string(), is_new ? "" : ": " + c.headline));
         continue;
       }
       outcome.kind = TestOutcome::failed;
@@ -189,7 +217,9 @@ class Suite {
 
   static void print(const TestOutcome& o) {
     const char* word = o.kind == TestOutcome::ok ? "ok    " : o.kind == TestOutcome::failed ? "FAILED" : "ERROR ";
-    fmt::print("{}  {}: {}, {} ({:.1f} s)\n", word, o.name, plural(static_cast<std::size_t>(o.expectations), "expectation"), plural(static_cast<std::size_t>(o.pictures), "picture"), o.seconds);
+    fmt::print("{}  {}: {}, {} ({:.1f} s)\n", word, o.name,
+               plural(static_cast<std::size_t>(o.expectations), "expectation"),
+               plural(static_cast<std::size_t>(o.pictures), "picture"), o.seconds);
     for (const std::string& line : o.messages) fmt::print("        {}\n", line);
     std::fflush(stdout);
   }

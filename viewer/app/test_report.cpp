@@ -21,11 +21,15 @@ std::string xml(std::string text) {
 }  // namespace
 
 std::string junit_xml(const std::string& suite, const std::vector<TestOutcome>& outcomes) {
-  const auto count = [&](TestOutcome::Kind kind) { return std::count_if(outcomes.begin(), outcomes.end(), [&](const TestOutcome& o) { return o.kind == kind; }); };
+  const auto count = [&](TestOutcome::Kind kind) {
+    return std::count_if(outcomes.begin(), outcomes.end(), [&](const TestOutcome& o) { return o.kind == kind; });
+  };
   double seconds = 0.0;
   for (const TestOutcome& o : outcomes) seconds += o.seconds;
-  std::string out = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n", xml(suite), outcomes.size(),
-                                count(TestOutcome::failed), count(TestOutcome::error), seconds);
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
+      "errors=\"{}\" time=\"{:.3f}\">\n",
+      xml(suite), outcomes.size(), count(TestOutcome::failed), count(TestOutcome::error), seconds);
   for (const TestOutcome& o : outcomes) {
     out += fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", xml(suite), xml(o.name), o.seconds);
     if (o.kind == TestOutcome::ok) {
@@ -33,7 +37,9 @@ std::string junit_xml(const std::string& suite, const std::vector<TestOutcome>& 
       continue;
     }
     const char* tag = o.kind == TestOutcome::failed ? "failure" : "error";
-    out += fmt::format(">\n<{0} message=\"{1}\">{2}</{0}>\n</testcase>\n", tag, xml(o.messages.empty() ? "" : o.messages.front()), xml(fmt::format("{}", fmt::join(o.messages, "\n"))));
+    out += fmt::format(">\n<{0} message=\"{1}\">{2}</{0}>\n</testcase>\n", tag,
+                       xml(o.messages.empty() ? "" : o.messages.front()),
+                       xml(fmt::format("{}", fmt::join(o.messages, "\n"))));
   }
   return out + "</testsuite>\n</testsuites>\n";
 }

@@ -18,36 +18,48 @@ struct VerbRow {
   const char* usage;
 };
 constexpr VerbRow kVerbs[] = {
-    {"eye", 3, -1e9, 1e9, "camera eye X Y Z"},           {"target", 3, -1e9, 1e9, "camera target X Y Z"}, {"orbit", 2, -36000, 36000, "camera orbit YAW PITCH (degrees)"},
-    {"pan", 2, -1e6, 1e6, "camera pan X Y"},             {"zoom", 1, 1e-3, 1e3, "camera zoom FACTOR"},    {"fov", 1, 1, 170, "camera fov DEGREES"},
+    {"eye", 3, -1e9, 1e9, "camera eye X Y Z"},
+    {"target", 3, -1e9, 1e9, "camera target X Y Z"},
+    {"orbit", 2, -36000, 36000, "camera orbit YAW PITCH (degrees)"},
+    {"pan", 2, -1e6, 1e6, "camera pan X Y"},
+    {"zoom", 1, 1e-3, 1e3, "camera zoom FACTOR"},
+    {"fov", 1, 1, 170, "camera fov DEGREES"},
     {"fit", 0, 0, 0, "camera fit"},
 };
 
-std::string remedy(const std::string& near, const char* otherwise) { return near.empty() ? otherwise : fmt::format("did you mean '{}'?", near); }
+std::string remedy(const std::string& near, const char* otherwise) {
+  return near.empty() ? otherwise : fmt::format("did you mean '{}'?", near);
+}
 
 Command parse_set(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
-  if (words.size() < 3) words[0].refuse("'set' without a path and a value", "set PATH VALUE is wanted", "write set contact.friction 0.5");
+  if (words.size() < 3)
+    words[0].refuse("'set' without a path and a value", "set PATH VALUE is wanted", "write set contact.friction 0.5");
   const Parameter& row = find_row(words[1], rows, first_frame);
   const PlacedText& first = words[2];
   const char* end = words.back().text.data() + words.back().text.size();
   try {
-    return SetCommand{row.path, parse_value(row, {first.text.data(), static_cast<std::size_t>(end - first.text.data())})};
+    return SetCommand{row.path,
+                      parse_value(row, {first.text.data(), static_cast<std::size_t>(end - first.text.data())})};
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}; change the value", first.place(), error.what()));
   }
 }
 
 Command parse_layer(std::span<const PlacedText> words, const ParameterSet& rows) {
-  if (words.size() < 2) words[0].refuse("'layer' without a name", "layer +NAME -NAME ... is wanted", "write layer +contacts");
+  if (words.size() < 2)
+    words[0].refuse("'layer' without a name", "layer +NAME -NAME ... is wanted", "write layer +contacts");
   const Parameter* row = rows.find("view.layers");
   if (row == nullptr) words[0].refuse("'layer' where nothing is drawn", "the other commands are allowed", "remove it");
   LayerCommand command;
   for (const PlacedText& word : words.subspan(1)) {
     const char sign = word.text[0];
-    if (sign != '+' && sign != '-') word.refuse(fmt::format("'{}'", word.text), "+NAME or -NAME is wanted", "put + or - before the name");
+    if (sign != '+' && sign != '-')
+      word.refuse(fmt::format("'{}'", word.text), "+NAME or -NAME is wanted", "put + or - before the name");
     const std::string name(word.text.substr(1));
     if (std::find(row->names.begin(), row->names.end(), name) == row->names.end())
-      word.part(1).refuse(fmt::format("unknown layer '{}'", name), fmt::format("allowed: {}", fmt::join(row->names, ", ")), remedy(nearest_word(name, row->names), "use one of them"));
+      word.part(1).refuse(fmt::format("unknown layer '{}'", name),
+                          fmt::format("allowed: {}", fmt::join(row->names, ", ")),
+                          remedy(nearest_word(name, row->names), "use one of them"));
     command.changes.emplace_back(name, sign == '+');
   }
   return command;
@@ -56,10 +68,14 @@ Command parse_layer(std::span<const PlacedText> words, const ParameterSet& rows)
 Command parse_camera(std::span<const PlacedText> words) {
   std::vector<std::string> names;
   for (const VerbRow& row : kVerbs) names.emplace_back(row.name);
-  if (words.size() < 2) words[0].refuse("'camera' without a verb", fmt::format("allowed: {}", fmt::join(names, ", ")), "write camera orbit 30 0");
+  if (words.size() < 2)
+    words[0].refuse("'camera' without a verb", fmt::format("allowed: {}", fmt::join(names, ", ")),
+                    "write camera orbit 30 0");
   const auto it = std::find(names.begin(), names.end(), words[1].text);
   if (it == names.end())
-    words[1].refuse(fmt::format("unknown camera verb '{}'", words[1].text), fmt::format("allowed: {}", fmt::join(names, ", ")), remedy(nearest_word(words[1].text, names), "use one of them"));
+    words[1].refuse(fmt::format("unknown camera verb '{}'", words[1].text),
+                    fmt::format("allowed: {}", fmt::join(names, ", ")),
+                    remedy(nearest_word(words[1].text, names), "use one of them"));
   const VerbRow& verb = kVerbs[it - names.begin()];
   CameraCommand command{static_cast<CameraCommand::Verb>(it - names.begin())};
   // numbers may also stand as one bracketed list
@@ -76,7 +92,8 @@ Command parse_camera(std::span<const PlacedText> words) {
     numbers = std::move(parts);
   }
   if (numbers.size() != static_cast<std::size_t>(verb.numbers))
-    words[1].refuse(fmt::format("'camera {}' with {} numbers", verb.name, numbers.size()), fmt::format("{} is wanted", verb.usage), "mend the line");
+    words[1].refuse(fmt::format("'camera {}' with {} numbers", verb.name, numbers.size()),
+                    fmt::format("{} is wanted", verb.usage), "mend the line");
   Parameter row;
   row.path = fmt::format("camera {}", verb.name);
   row.range = {verb.low, verb.high};
@@ -109,8 +126,12 @@ struct Formatter {
 
 const Parameter& find_row(const PlacedText& word, const ParameterSet& rows, bool first_frame) {
   const Parameter* row = rows.find(word.text);
-  if (row == nullptr) word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is", remedy(rows.nearest(word.text), "use one of them"));
-  if (!row->live && !first_frame) word.refuse(fmt::format("'{}' can't change while running", word.text), "it may be set at frame 0", "write at 0, or set it in the scene");
+  if (row == nullptr)
+    word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is",
+                remedy(rows.nearest(word.text), "use one of them"));
+  if (!row->live && !first_frame)
+    word.refuse(fmt::format("'{}' can't change while running", word.text), "it may be set at frame 0",
+                "write at 0, or set it in the scene");
   return *row;
 }
 
@@ -119,7 +140,8 @@ Command parse_command(std::span<const PlacedText> words, const ParameterSet& row
   if (verb.text == "set") return parse_set(words, rows, first_frame);
   if (verb.text == "layer") return parse_layer(words, rows);
   if (verb.text == "camera") return parse_camera(words);
-  verb.refuse(fmt::format("unknown command '{}'", verb.text), "set, layer or camera is wanted", remedy(nearest_word(verb.text, {"set", "layer", "camera"}), "use one of them"));
+  verb.refuse(fmt::format("unknown command '{}'", verb.text), "set, layer or camera is wanted",
+              remedy(nearest_word(verb.text, {"set", "layer", "camera"}), "use one of them"));
 }
 
 std::string format_command(const Command& command) { return std::visit(Formatter{}, command); }

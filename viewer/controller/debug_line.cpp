@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <fmt/ranges.h>
+#include <cctype>
 
 #include <algorithm>
 
@@ -21,13 +21,17 @@ std::string remedy(std::string_view word, const std::vector<std::string>& names)
 
 std::size_t find(const PlacedText& word, const char* what, const std::vector<std::string>& names) {
   const auto it = std::find(names.begin(), names.end(), word.text);
-  if (it == names.end()) word.refuse(fmt::format("unknown {} '{}'", what, word.text), fmt::format("allowed: {}", fmt::join(names, ", ")), remedy(word.text, names));
+  if (it == names.end())
+    word.refuse(fmt::format("unknown {} '{}'", what, word.text), fmt::format("allowed: {}", fmt::join(names, ", ")),
+                remedy(word.text, names));
   return static_cast<std::size_t>(it - names.begin());
 }
 
 void want(Words words, std::size_t least, std::size_t most, const char* usage) {
   if (words.size() >= least && words.size() <= most) return;
-  words[0].refuse(fmt::format("'{}' with {} word{} after it", words[0].text, words.size() - 1, words.size() == 2 ? "" : "s"), fmt::format("{} is wanted", usage), "mend the line");
+  words[0].refuse(
+      fmt::format("'{}' with {} word{} after it", words[0].text, words.size() - 1, words.size() == 2 ? "" : "s"),
+      fmt::format("{} is wanted", usage), "mend the line");
 }
 
 double number(const PlacedText& word, double low, double high, bool whole = false) {
@@ -46,7 +50,8 @@ double number(const PlacedText& word, double low, double high, bool whole = fals
 /// Everything after the first `skip` words, as it was written.
 std::string rest(const PlacedText& line, Words words, std::size_t skip) {
   if (words.size() <= skip) return "";
-  return std::string(words[skip].text.data(), static_cast<std::size_t>(line.text.data() + line.text.size() - words[skip].text.data()));
+  return std::string(words[skip].text.data(),
+                     static_cast<std::size_t>(line.text.data() + line.text.size() - words[skip].text.data()));
 }
 
 DebugLine parse_transport(Words words) {
@@ -60,7 +65,8 @@ DebugLine parse_transport(Words words) {
     return TransportLine{TransportLine::seek, static_cast<int>(number(words[1], 0, 1e7, true))};
   }
   want(words, 1, 2, verb == "step" ? "step [N]" : "back [N]");
-  return TransportLine{verb == "step" ? TransportLine::step : TransportLine::back, words.size() == 2 ? static_cast<int>(number(words[1], 1, 1e7, true)) : 1};
+  return TransportLine{verb == "step" ? TransportLine::step : TransportLine::back,
+                       words.size() == 2 ? static_cast<int>(number(words[1], 1, 1e7, true)) : 1};
 }
 
 DebugLine parse_select(Words words, const DebugNames& names) {
@@ -68,7 +74,9 @@ DebugLine parse_select(Words words, const DebugNames& names) {
   want(words, 2, 4, usage);
   Selection s;
   switch (find(words[1], "kind", {"none", "body", "contact"})) {
-    case 0: want(words, 2, 2, usage); break;
+    case 0:
+      want(words, 2, 2, usage);
+      break;
     case 1: {
       want(words, 3, 4, usage);
       std::vector<std::string> bodies;
@@ -83,7 +91,10 @@ DebugLine parse_select(Words words, const DebugNames& names) {
       s.kind = Selection::contact;
       s.index = static_cast<int>(number(words[2], 0, 1e9, true));
       if (s.index >= static_cast<int>(names.record.contacts.size()))
-        words[2].refuse(fmt::format("contact {}", s.index), fmt::format("frame {} has {} contacts, counted from 0", names.record.stats.frame, names.record.contacts.size()), "choose another");
+        words[2].refuse(fmt::format("contact {}", s.index),
+                        fmt::format("frame {} has {} contacts, counted from 0", names.record.stats.frame,
+                                    names.record.contacts.size()),
+                        "choose another");
   }
   return SelectLine{s};
 }
@@ -91,7 +102,8 @@ DebugLine parse_select(Words words, const DebugNames& names) {
 DebugLine parse_panel(const PlacedText& line, Words words, const DebugNames& names) {
   want(words, 2, 64, "panel sort|fold|unfold|plot|filter|scroll|help ...");
   PanelLine p;
-  p.verb = static_cast<PanelLine::Verb>(find(words[1], "panel command", {"sort", "fold", "unfold", "plot", "filter", "scroll", "help"}));
+  p.verb = static_cast<PanelLine::Verb>(
+      find(words[1], "panel command", {"sort", "fold", "unfold", "plot", "filter", "scroll", "help"}));
   switch (p.verb) {
     case PanelLine::sort:
       want(words, 3, 4, "panel sort COLUMN [down]");
@@ -103,17 +115,22 @@ DebugLine parse_panel(const PlacedText& line, Words words, const DebugNames& nam
       want(words, 3, 3, "panel fold GROUP");
       std::vector<std::string> groups;
       for (const Parameter& row : names.rows.all())
-        if (std::string group = row.path.substr(0, row.path.rfind('.')); std::find(groups.begin(), groups.end(), group) == groups.end()) groups.push_back(std::move(group));
+        if (std::string group = row.path.substr(0, row.path.rfind('.'));
+            std::find(groups.begin(), groups.end(), group) == groups.end())
+          groups.push_back(std::move(group));
       p.name = groups[find(words[2], "group", groups)];
       break;
     }
     case PanelLine::plot:
       for (const PlacedText& word : words.subspan(2)) {
-        if (word.text[0] != '+' && word.text[0] != '-') word.refuse(fmt::format("'{}'", word.text), "+COLUMN or -COLUMN is wanted", "put + or - before the name");
+        if (word.text[0] != '+' && word.text[0] != '-')
+          word.refuse(fmt::format("'{}'", word.text), "+COLUMN or -COLUMN is wanted", "put + or - before the name");
         p.columns.emplace_back(names.figures[find(word.part(1), "column", names.figures)], word.text[0] == '+');
       }
       break;
-    case PanelLine::filter: p.name = rest(line, words, 2); break;
+    case PanelLine::filter:
+      p.name = rest(line, words, 2);
+      break;
     case PanelLine::scroll:
       want(words, 4, 4, "panel scroll PANEL PIXELS");
       p.name = std::string(words[2].text);
@@ -130,7 +147,8 @@ DebugLine parse_panel(const PlacedText& line, Words words, const DebugNames& nam
 DebugLine parse_input(const PlacedText& line, Words words) {
   want(words, 2, 64, "ui click|drag|move|press|release|wheel|key|text|wait ...");
   InputLine i;
-  i.verb = static_cast<InputLine::Verb>(find(words[1], "input", {"click", "drag", "move", "press", "release", "wheel", "key", "text", "wait"}));
+  i.verb = static_cast<InputLine::Verb>(
+      find(words[1], "input", {"click", "drag", "move", "press", "release", "wheel", "key", "text", "wait"}));
   switch (i.verb) {
     case InputLine::click:
       want(words, 3, 3, "ui click NAME");
@@ -158,7 +176,8 @@ DebugLine parse_input(const PlacedText& line, Words words) {
     case InputLine::key: {
       want(words, 3, 3, "ui key NAME");
       std::string low(words[2].text);
-      std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      std::transform(low.begin(), low.end(), low.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       const bool known = std::find(key_names().begin(), key_names().end(), low) != key_names().end();
       i.name = known ? low : key_names()[find(words[2], "key", key_names())];
       break;
@@ -180,7 +199,8 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const Words words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> verbs = {"set", "layer", "camera", "step", "back", "seek", "play", "pause", "select", "panel", "ui", "shot", "quit"};
+  const std::vector<std::string> verbs = {"set",   "layer",  "camera", "step", "back", "seek", "play",
+                                          "pause", "select", "panel",  "ui",   "shot", "quit"};
   const std::size_t verb = find(words[0], "command", verbs);
   if (verb < 3) return parse_command(words, names.rows, false);
   if (verb < 8) return parse_transport(words);
@@ -189,7 +209,8 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   if (verb == 10) return parse_input(line, words);
   if (verb == 12) return want(words, 1, 1, "quit"), QuitLine{};
   want(words, 2, 2, "shot FILE");
-  if (!words[1].text.ends_with(".png")) words[1].refuse(fmt::format("'{}'", words[1].text), "a file name that ends in .png is wanted", "add .png");
+  if (!words[1].text.ends_with(".png"))
+    words[1].refuse(fmt::format("'{}'", words[1].text), "a file name that ends in .png is wanted", "add .png");
   return ShotLine{std::string(words[1].text)};
 }
 

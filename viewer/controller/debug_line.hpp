@@ -3,8 +3,9 @@
 //   set | layer | camera ...            as in a script, from the next frame on
 //   step [N] | back [N] | seek FRAME | play | pause
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
-//   panel sort COLUMN [down] | fold GROUP | unfold GROUP | plot +COLUMN -COLUMN | filter [TEXT] | scroll PANEL PIXELS | help on|off
-//   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME | text WORDS | wait FRAMES
+//   panel sort COLUMN [down] | fold GROUP | unfold GROUP | plot +COLUMN -COLUMN | filter [TEXT] | scroll PANEL PIXELS |
+//   help on|off ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
+//   text WORDS | wait FRAMES
 //   shot FILE                           the window as a PNG
 //   quit
 #pragma once
@@ -33,7 +34,7 @@ struct PanelLine {
 struct InputLine {
   enum Verb { click, drag, move, press, release, wheel, key, type, wait };
   Verb verb = click;
-  std::string name;  ///< widget, button, key or text
+  std::string name;         ///< widget, button, key or text
   double x = 0.0, y = 0.0;  ///< move; wheel: y; drag: value in x; wait: in x
 };
 struct ShotLine {

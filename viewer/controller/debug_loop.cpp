@@ -6,19 +6,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/error.hpp"
 #include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
 #include "viewer/image/png.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr int kLooks = 6;  // frames in which a widget may unfold and scroll into sight
-int code_of(const std::vector<std::string>& names, const std::string& name) { return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()); }
+int code_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 
 }  // namespace
 
-DebugLoop::DebugLoop(Debugger& debugger, DebugWindow& window, std::filesystem::path out) : debugger_(debugger), window_(window), out_(std::move(out)) {}
+DebugLoop::DebugLoop(Debugger& debugger, DebugWindow& window, std::filesystem::path out)
+    : debugger_(debugger), window_(window), out_(std::move(out)) {}
 
 void DebugLoop::draw(bool quick) {
   fresh_ = false;
@@ -74,8 +77,11 @@ const UiWidget& DebugLoop::find(const std::string& name, const PlacedText& place
   if (widget != nullptr) return *widget;
   const std::vector<std::string> names = ui.widget_names();
   const std::string near = nearest_word(name, names);
-  place.refuse(fmt::format("no widget '{}'", name), fmt::format("there are {}, such as {}", names.size(), fmt::join(names.begin(), names.begin() + std::min<std::ptrdiff_t>(6, std::ssize(names)), ", ")),
-               near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+  place.refuse(
+      fmt::format("no widget '{}'", name),
+      fmt::format("there are {}, such as {}", names.size(),
+                  fmt::join(names.begin(), names.begin() + std::min<std::ptrdiff_t>(6, std::ssize(names)), ", ")),
+      near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
 }
 
 void DebugLoop::input(const InputLine& line, const PlacedText& place) {
@@ -93,22 +99,36 @@ void DebugLoop::input(const InputLine& line, const PlacedText& place) {
     }
     case InputLine::drag: {
       const UiWidget widget = find(line.name, place);
-      if (!widget.is_slider) place.refuse(fmt::format("'{}' is no slider", line.name), "a slider is wanted", "use ui click");
-      const double low = widget.logarithmic ? std::pow(10.0, widget.low) : widget.low, high = widget.logarithmic ? std::pow(10.0, widget.high) : widget.high;
+      if (!widget.is_slider)
+        place.refuse(fmt::format("'{}' is no slider", line.name), "a slider is wanted", "use ui click");
+      const double low = widget.logarithmic ? std::pow(10.0, widget.low) : widget.low,
+                   high = widget.logarithmic ? std::pow(10.0, widget.high) : widget.high;
       if (line.x < low * (low > 0.0 ? 1.0 - 1e-9 : 1.0) || line.x > high * (1.0 + 1e-9))
-        place.refuse(fmt::format("{:.6g} on the slider '{}'", line.x, line.name), fmt::format("it goes from {:.6g} to {:.6g}", low, high), "choose a value in between, or write set");
+        place.refuse(fmt::format("{:.6g} on the slider '{}'", line.x, line.name),
+                     fmt::format("it goes from {:.6g} to {:.6g}", low, high),
+                     "choose a value in between, or write set");
       click(std::round(ui.slider_x(widget, line.x)), std::round(widget.area.y + 0.5f * widget.area.height));
       break;
     }
-    case InputLine::move: ui.add({UiEvent::move, static_cast<float>(line.x), static_cast<float>(line.y)}); break;
-    case InputLine::press: ui.add({UiEvent::press, 0, 0, code_of(button_names(), line.name)}); break;
-    case InputLine::release: ui.add({UiEvent::release, 0, 0, code_of(button_names(), line.name)}); break;
-    case InputLine::wheel: ui.add({UiEvent::wheel, 0, static_cast<float>(line.y)}); break;
+    case InputLine::move:
+      ui.add({UiEvent::move, static_cast<float>(line.x), static_cast<float>(line.y)});
+      break;
+    case InputLine::press:
+      ui.add({UiEvent::press, 0, 0, code_of(button_names(), line.name)});
+      break;
+    case InputLine::release:
+      ui.add({UiEvent::release, 0, 0, code_of(button_names(), line.name)});
+      break;
+    case InputLine::wheel:
+      ui.add({UiEvent::wheel, 0, static_cast<float>(line.y)});
+      break;
     case InputLine::key:
       ui.add({UiEvent::key_down, 0, 0, code_of(key_names(), line.name)});
       ui.add({UiEvent::key_up, 0, 0, code_of(key_names(), line.name)});
       break;
-    case InputLine::type: ui.add({UiEvent::type, 0, 0, 0, line.name}); break;
+    case InputLine::type:
+      ui.add({UiEvent::type, 0, 0, 0, line.name});
+      break;
     case InputLine::wait:
       for (int k = 0; k < static_cast<int>(line.x) && !debugger_.is_interrupted(); ++k) tick();
       return;
@@ -124,9 +144,13 @@ void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
   try {
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
     write_png(path, image,
-              {{"impinge:scene", model.scene}, {"impinge:frame", std::to_string(model.frame)}, {"impinge:state_hash", hex64(debugger_.state_hash())}, {"impinge:renderer", window_.renderer_name()}});
+              {{"impinge:scene", model.scene},
+               {"impinge:frame", std::to_string(model.frame)},
+               {"impinge:state_hash", hex64(debugger_.state_hash())},
+               {"impinge:renderer", window_.renderer_name()}});
   } catch (const std::exception&) {
-    place.refuse(fmt::format("{} can't be written", path.string()), "a folder that may be written to is wanted", "change --out or the name");
+    place.refuse(fmt::format("{} can't be written", path.string()), "a folder that may be written to is wanted",
+                 "change --out or the name");
   }
   debugger_.record_shot(file, pointer());  // now: a picture doesn't show itself in the console
 }

@@ -1,4 +1,5 @@
-// The debugger at work: lines of a script and frames of the window meet the controller here. With a screen or without one, the same.
+// The debugger at work: lines of a script and frames of the window meet the controller here. With a screen or without
+// one, the same.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +20,11 @@ class DebugLoop {
   void tick();
   /// Whether the next tick may show something new.
   bool is_busy() const { return fresh_ || window_.is_rough() || window_.ui().has_events(); }
-  /// How long the frame that was made in the last tick is to be seen: while playing as long as it lasts in the scene, else 0.
-  double seconds_to_show() const { return std::min(debugger_.model().playing ? debugger_.model().record->frame_time : 0.0, 0.1); }
+  /// How long the frame that was made in the last tick is to be seen: while playing as long as it lasts in the scene,
+  /// else 0.
+  double seconds_to_show() const {
+    return std::min(debugger_.model().playing ? debugger_.model().record->frame_time : 0.0, 0.1);
+  }
   bool has_quit() const { return quit_; }
   Vec2 pointer() const { return {window_.ui().mouse_x(), window_.ui().mouse_y()}; }
   /// The window as it is once everything that was asked for shows.

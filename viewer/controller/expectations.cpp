@@ -7,19 +7,22 @@
 
 namespace impinge {
 
-void Expectations::check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture) {
+void Expectations::check(int frame, std::span<const double> figures,
+                         const std::function<std::filesystem::path()>& picture) {
   const auto fail = [&](const std::string& line) {
     ++failures_;
     if (report_) report_(line);
   };
   for (const Script::Expectation& expectation : script_.expectations()) {
     if (expectation.frame != frame || expectation.condition.holds(figures)) continue;
-    fail(fmt::format("{}: frame {}: expected {}; found {}", expectation.place, frame, expectation.condition.text(), expectation.condition.describe(figures, figure_names(judged_))));
+    fail(fmt::format("{}: frame {}: expected {}; found {}", expectation.place, frame, expectation.condition.text(),
+                     expectation.condition.describe(figures, figure_names(judged_))));
   }
   for (const Script::ImageExpectation& image : script_.images()) {
     if (!pictures_ || image.frame != frame) continue;
     if (const std::string difference = picture_difference(picture(), image.file, image.tolerance); !difference.empty())
-      fail(fmt::format("{}: frame {}: expected the picture {}; {}", image.place, frame, image.file.string(), difference));
+      fail(fmt::format("{}: frame {}: expected the picture {}; {}", image.place, frame, image.file.string(),
+                       difference));
   }
 }
 
@@ -32,7 +35,9 @@ bool Expectations::needs_picture(int frame) const {
 bool Expectations::breaks(int frame, std::span<const double> figures) const {
   for (const Script::Break& point : script_.breaks()) {
     if (!point.condition.holds(figures)) continue;
-    if (report_) report_(fmt::format("{}: frame {}: stopped by break when {}; {}", point.place, frame, point.condition.text(), point.condition.describe(figures, figure_names(judged_))));
+    if (report_)
+      report_(fmt::format("{}: frame {}: stopped by break when {}; {}", point.place, frame, point.condition.text(),
+                          point.condition.describe(figures, figure_names(judged_))));
     return true;
   }
   return false;
@@ -42,7 +47,9 @@ void Expectations::note_unchecked(int last_frame) const {
   int count = 0;
   for (const Script::Expectation& expectation : script_.expectations()) count += expectation.frame > last_frame;
   for (const Script::ImageExpectation& image : script_.images()) count += image.frame > last_frame;
-  if (count > 0 && report_) report_(fmt::format("note: {} expect {} after the last frame {} and {} not checked", count, count == 1 ? "line lies" : "lines lie", last_frame, count == 1 ? "was" : "were"));
+  if (count > 0 && report_)
+    report_(fmt::format("note: {} expect {} after the last frame {} and {} not checked", count,
+                        count == 1 ? "line lies" : "lines lie", last_frame, count == 1 ? "was" : "were"));
 }
 
 }  // namespace impinge

@@ -11,9 +11,11 @@ class Expectations {
  public:
   /// `report` gets one line for each failure. The script must outlive this.
   /// `judged`: the figures have those of --judge. `pictures`: `expect image` lines are judged too.
-  Expectations(const Script& script, bool judged, bool pictures, std::function<void(const std::string&)> report) : script_(script), judged_(judged), pictures_(pictures), report_(std::move(report)) {}
+  Expectations(const Script& script, bool judged, bool pictures, std::function<void(const std::string&)> report)
+      : script_(script), judged_(judged), pictures_(pictures), report_(std::move(report)) {}
 
-  /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is compared.
+  /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is
+  /// compared.
   void check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture);
   bool needs_picture(int frame) const;
   /// Whether a `break` holds; says which.

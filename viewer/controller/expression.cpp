@@ -24,14 +24,17 @@ bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c =
 // descends the grammar of the header; each function says what it read
 class Parser {
  public:
-  Parser(const PlacedText& text, const ExpressionWords& words, std::vector<Step>& steps) : text_(text), words_(words), names_(words.names), steps_(steps) {}
+  Parser(const PlacedText& text, const ExpressionWords& words, std::vector<Step>& steps)
+      : text_(text), words_(words), names_(words.names), steps_(steps) {}
 
   void parse() {
     const Type type = read_or();
     skip_blanks();
-    if (at_ < text_.text.size()) here().refuse(found(), "an operator or the end of the condition should stand here", "mend the condition");
+    if (at_ < text_.text.size())
+      here().refuse(found(), "an operator or the end of the condition should stand here", "mend the condition");
     if (type == Type::condition || (type == Type::number && words_.takes_number)) return;
-    text_.refuse(fmt::format("'{}' is {}", text_.text, kTypeNames[static_cast<int>(type)]), words_.takes_number ? "a number is wanted" : "a condition is wanted",
+    text_.refuse(fmt::format("'{}' is {}", text_.text, kTypeNames[static_cast<int>(type)]),
+                 words_.takes_number ? "a number is wanted" : "a condition is wanted",
                  type == Type::text ? "compare it: == !=" : "compare it: < <= > >= == !=");
   }
 
@@ -40,7 +43,9 @@ class Parser {
     while (at_ < text_.text.size() && (text_.text[at_] == ' ' || text_.text[at_] == '\t')) ++at_;
   }
   PlacedText here() const { return text_.part(std::min(at_, text_.text.size())); }
-  std::string found() const { return at_ < text_.text.size() ? fmt::format("'{}'", text_.text.substr(at_, 12)) : "the end of the condition"; }
+  std::string found() const {
+    return at_ < text_.text.size() ? fmt::format("'{}'", text_.text.substr(at_, 12)) : "the end of the condition";
+  }
   bool take(std::string_view symbol) {
     skip_blanks();
     if (text_.text.substr(std::min(at_, text_.text.size()), symbol.size()) != symbol) return false;
@@ -49,7 +54,10 @@ class Parser {
   }
   void emit(Operation operation) { steps_.push_back({operation}); }
   void want(Type is, Type wanted, const PlacedText& where) const {
-    if (is != wanted) where.refuse(kTypeNames[static_cast<int>(is)], fmt::format("{} should stand here", kTypeNames[static_cast<int>(wanted)]), "use parentheses or a comparison");
+    if (is != wanted)
+      where.refuse(kTypeNames[static_cast<int>(is)],
+                   fmt::format("{} should stand here", kTypeNames[static_cast<int>(wanted)]),
+                   "use parentheses or a comparison");
   }
 
   Type read_or() {
@@ -87,8 +95,9 @@ class Parser {
   Type read_compare() {
     const PlacedText start = here();
     const Type type = read_sum();
-    constexpr std::pair<std::string_view, Operation> kOperators[] = {{"<=", Operation::less_equal}, {">=", Operation::greater_equal}, {"==", Operation::equal},
-                                                                     {"!=", Operation::unequal},    {"<", Operation::less},           {">", Operation::greater}};
+    constexpr std::pair<std::string_view, Operation> kOperators[] = {
+        {"<=", Operation::less_equal}, {">=", Operation::greater_equal}, {"==", Operation::equal},
+        {"!=", Operation::unequal},    {"<", Operation::less},           {">", Operation::greater}};
     for (const auto& [symbol, operation] : kOperators) {
       if (!take(symbol)) continue;
       const bool is_text = type == Type::text && (operation == Operation::equal || operation == Operation::unequal);
@@ -159,16 +168,20 @@ class Parser {
   std::size_t longest_name() const {
     std::size_t longest = 0;
     for (const std::string& name : names_)
-      if (name.size() > longest && text_.text.substr(at_, name.size()) == name && (at_ + name.size() == text_.text.size() || !is_word(text_.text[at_ + name.size()]))) longest = name.size();
+      if (name.size() > longest && text_.text.substr(at_, name.size()) == name &&
+          (at_ + name.size() == text_.text.size() || !is_word(text_.text[at_ + name.size()])))
+        longest = name.size();
     return longest;
   }
   Type read_name() {
     const std::size_t begin = at_;
-    if (const std::size_t longest = longest_name(); longest > 0) at_ += longest;
+    if (const std::size_t longest = longest_name(); longest > 0)
+      at_ += longest;
     else
       while (at_ < text_.text.size() && is_word(text_.text[at_])) ++at_;
     std::string name(text_.text.substr(begin, at_ - begin));
-    if (std::any_of(names_.begin(), names_.end(), [&](const std::string& n) { return n.rfind(name + "(", 0) == 0; }) && take("(")) {
+    if (std::any_of(names_.begin(), names_.end(), [&](const std::string& n) { return n.rfind(name + "(", 0) == 0; }) &&
+        take("(")) {
       skip_blanks();
       const std::size_t inner = at_;
       while (at_ < text_.text.size() && is_word(text_.text[at_])) ++at_;
@@ -181,23 +194,28 @@ class Parser {
       std::vector<std::string> all = names_;
       all.insert(all.end(), words_.texts.begin(), words_.texts.end());
       const std::string near = nearest_word(name, all);
-      text_.part(begin, at_ - begin).refuse(fmt::format("unknown figure '{}'", name), words_.allowed.empty() ? fmt::format("allowed: {}", fmt::join(names_, ", ")) : words_.allowed,
-                                            near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+      text_.part(begin, at_ - begin)
+          .refuse(fmt::format("unknown figure '{}'", name),
+                  words_.allowed.empty() ? fmt::format("allowed: {}", fmt::join(names_, ", ")) : words_.allowed,
+                  near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
     }
     Step step{Operation::name};
     step.name = static_cast<int>(it - names_.begin());
     steps_.push_back(step);
-    return static_cast<std::size_t>(step.name) < words_.is_text.size() && words_.is_text[step.name] ? Type::text : Type::number;
+    return static_cast<std::size_t>(step.name) < words_.is_text.size() && words_.is_text[step.name] ? Type::text
+                                                                                                    : Type::number;
   }
   Type read_quoted(char quote) {
     const std::size_t begin = at_++;
     const std::size_t end = text_.text.find(quote, at_);
-    if (end == std::string_view::npos) text_.part(begin).refuse("a text without end", "a quote should close it", "close it");
+    if (end == std::string_view::npos)
+      text_.part(begin).refuse("a text without end", "a quote should close it", "close it");
     const std::string text(text_.text.substr(at_, end - at_));
     at_ = end + 1;
     if (std::find(words_.texts.begin(), words_.texts.end(), text) == words_.texts.end()) {
       const std::string near = nearest_word(text, words_.texts);
-      text_.part(begin).refuse(fmt::format("'{}', which nothing here is", text), fmt::format("allowed: {}", fmt::join(words_.texts, ", ")),
+      text_.part(begin).refuse(fmt::format("'{}', which nothing here is", text),
+                               fmt::format("allowed: {}", fmt::join(words_.texts, ", ")),
                                near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
     }
     return emit_text(text);
@@ -222,30 +240,48 @@ class Parser {
 
 double apply(Operation operation, double l, double r) {
   switch (operation) {
-    case Operation::add: return l + r;
-    case Operation::subtract: return l - r;
-    case Operation::multiply: return l * r;
-    case Operation::divide: return l / r;
-    case Operation::less: return l < r;
-    case Operation::less_equal: return l <= r;
-    case Operation::greater: return l > r;
-    case Operation::greater_equal: return l >= r;
-    case Operation::equal: return l == r;
-    case Operation::unequal: return l < r || l > r;  // false for NaN, like the others
-    case Operation::logical_and: return l != 0.0 && r != 0.0;
-    case Operation::logical_or: return l != 0.0 || r != 0.0;
-    default: return 0.0;
+    case Operation::add:
+      return l + r;
+    case Operation::subtract:
+      return l - r;
+    case Operation::multiply:
+      return l * r;
+    case Operation::divide:
+      return l / r;
+    case Operation::less:
+      return l < r;
+    case Operation::less_equal:
+      return l <= r;
+    case Operation::greater:
+      return l > r;
+    case Operation::greater_equal:
+      return l >= r;
+    case Operation::equal:
+      return l == r;
+    case Operation::unequal:
+      return l < r || l > r;  // false for NaN, like the others
+    case Operation::logical_and:
+      return l != 0.0 && r != 0.0;
+    case Operation::logical_or:
+      return l != 0.0 || r != 0.0;
+    default:
+      return 0.0;
   }
 }
 
 }  // namespace
 
-Expression::Expression(const PlacedText& text, const ExpressionWords& words) : text_(text.text) { Parser(text, words, steps_).parse(); }
+Expression::Expression(const PlacedText& text, const ExpressionWords& words) : text_(text.text) {
+  Parser(text, words, steps_).parse();
+}
 
-Expression::Expression(const PlacedText& text, const std::vector<std::string>& names) : Expression(text, ExpressionWords{names, {}, {}, "", false}) {}
+Expression::Expression(const PlacedText& text, const std::vector<std::string>& names)
+    : Expression(text, ExpressionWords{names, {}, {}, "", false}) {}
 
 bool Expression::uses(std::size_t name) const {
-  return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) { return step.operation == Operation::name && step.name == static_cast<int>(name); });
+  return std::any_of(steps_.begin(), steps_.end(), [&](const Step& step) {
+    return step.operation == Operation::name && step.name == static_cast<int>(name);
+  });
 }
 
 double Expression::evaluate(std::span<const double> values) const {

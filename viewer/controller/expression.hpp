@@ -5,7 +5,8 @@
 //   not     = "!" not | compare         product = unary { ( * / ) unary }
 //                                       unary   = "-" unary | number | name | text | "(" or ")"
 //
-// A name may hold dots and be a function of one word, `max(contacts)`; a text, bare or in quotes, is compared by == and !=.
+// A name may hold dots and be a function of one word, `max(contacts)`; a text, bare or in quotes, is compared by == and
+// !=.
 #pragma once
 
 #include <span>
@@ -16,17 +17,18 @@ namespace impinge {
 
 /// What an expression may speak of, when that is more than figures.
 struct ExpressionWords {
-  std::vector<std::string> names;   ///< by position in `values`; "f(x)" is written as a call
-  std::vector<bool> is_text;        ///< by name: its value is a position in `texts`; may be shorter than `names`
-  std::vector<std::string> texts;   ///< all that such names may be
-  std::string allowed;              ///< for messages, instead of all names
-  bool takes_number = false;        ///< whether the whole may be a number too
+  std::vector<std::string> names;  ///< by position in `values`; "f(x)" is written as a call
+  std::vector<bool> is_text;       ///< by name: its value is a position in `texts`; may be shorter than `names`
+  std::vector<std::string> texts;  ///< all that such names may be
+  std::string allowed;             ///< for messages, instead of all names
+  bool takes_number = false;       ///< whether the whole may be a number too
 };
 
 class Expression {
  public:
   Expression(const PlacedText& text, const ExpressionWords& words);
-  /// `names` are the figures there are, by position in `values` below. Throws InputError at the first word that is wrong.
+  /// `names` are the figures there are, by position in `values` below. Throws InputError at the first word that is
+  /// wrong.
   Expression(const PlacedText& text, const std::vector<std::string>& names);
 
   /// Truth is 1, falsehood 0. Comparisons with NaN are false.
@@ -37,7 +39,24 @@ class Expression {
   /// The named figures with their values, "contacts = 12, groups = 3": for messages.
   std::string describe(std::span<const double> values, const std::vector<std::string>& names) const;
 
-  enum class Operation { number, name, negate, logical_not, add, subtract, multiply, divide, less, less_equal, greater, greater_equal, equal, unequal, logical_and, logical_or };
+  enum class Operation {
+    number,
+    name,
+    negate,
+    logical_not,
+    add,
+    subtract,
+    multiply,
+    divide,
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    equal,
+    unequal,
+    logical_and,
+    logical_or
+  };
   struct Step {
     Operation operation;
     double number = 0.0;  ///< of a number

@@ -36,13 +36,27 @@ void FrameView::settle(const StepRecord& record, int width, int height) {
 void FrameView::move_camera(const CameraCommand& command, const StepRecord& record) {
   Camera& camera = settings_.camera;
   switch (command.verb) {
-    case CameraCommand::eye: camera.eye = command.value; break;
-    case CameraCommand::target: camera.target = command.value; break;
-    case CameraCommand::orbit: camera.orbit(command.value.x(), command.value.y()); break;
-    case CameraCommand::pan: camera.pan(command.value.x(), command.value.y()); break;
-    case CameraCommand::zoom: camera.zoom(command.value.x()); break;
-    case CameraCommand::fov: camera.fov_deg = command.value.x(); break;
-    case CameraCommand::fit: camera.fit(bounds_of(record), static_cast<double>(width_) / height_); break;
+    case CameraCommand::eye:
+      camera.eye = command.value;
+      break;
+    case CameraCommand::target:
+      camera.target = command.value;
+      break;
+    case CameraCommand::orbit:
+      camera.orbit(command.value.x(), command.value.y());
+      break;
+    case CameraCommand::pan:
+      camera.pan(command.value.x(), command.value.y());
+      break;
+    case CameraCommand::zoom:
+      camera.zoom(command.value.x());
+      break;
+    case CameraCommand::fov:
+      camera.fov_deg = command.value.x();
+      break;
+    case CameraCommand::fit:
+      camera.fit(bounds_of(record), static_cast<double>(width_) / height_);
+      break;
   }
   settings_.camera_given = true;
 }
@@ -53,19 +67,25 @@ void FrameView::open(const std::string& scene_name, bool ids) {
   try {
     painter_ = std::make_unique<FramePainter>(width_, height_);
   } catch (const InternalError& error) {
-    throw InputError(fmt::format("pictures of {}x{}: {}; smaller ones are wanted; change --size", width_, height_, error.what()));
+    throw InputError(
+        fmt::format("pictures of {}x{}: {}; smaller ones are wanted; change --size", width_, height_, error.what()));
   } catch (const std::runtime_error& error) {
-    throw InputError(fmt::format("pictures: {}; OpenGL through OSMesa is wanted; install libosmesa6, or add --no-images", error.what()));
+    throw InputError(fmt::format(
+        "pictures: {}; OpenGL through OSMesa is wanted; install libosmesa6, or add --no-images", error.what()));
   }
 }
 
-double FrameView::draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder) {
+double FrameView::draw(const StepRecord& record, std::span<const Command> commands,
+                       const std::filesystem::path& folder) {
   const auto start = std::chrono::steady_clock::now();
   Image image;
   IdImage ids;
-  if (with_ids_) painter_->paint(record, settings_, image, ids);
-  else painter_->paint(record, settings_, image);
-  const double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  if (with_ids_)
+    painter_->paint(record, settings_, image, ids);
+  else
+    painter_->paint(record, settings_, image);
+  const double milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
   std::vector<std::string> lines;
   for (const Command& command : commands) lines.push_back(format_command(command));
@@ -92,7 +112,8 @@ void FrameView::finish() {
   }
 }
 
-std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance) {
+std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline,
+                               int tolerance) {
   DifferenceSettings settings;
   settings.tolerance = tolerance;
   const Difference difference = compare(read_png(baseline), read_png(picture), settings);

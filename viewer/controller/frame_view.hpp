@@ -41,6 +41,7 @@ class FrameView {
 };
 
 /// What sets two pictures apart beyond the tolerance (of 255), in words; "" if nothing does.
-std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline, int tolerance);
+std::string picture_difference(const std::filesystem::path& picture, const std::filesystem::path& baseline,
+                               int tolerance);
 
 }  // namespace impinge

@@ -34,17 +34,24 @@ int RunResult::exit_code() const {
 }
 
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
-  Session session(options.scene, options.overrides, options.script, {options.width, options.height, options.judge, !options.compares_pictures});
+  Session session(options.scene, options.overrides, options.script,
+                  {options.width, options.height, options.judge, !options.compares_pictures});
   const int last_frame = options.frames.value_or(session.default_last_frame());
   if (!options.images && !session.script().images().empty())
-    throw InputError(session.script().images().front().place + ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
-  if (!options.images && options.ids) throw InputError("command line: --ids in a run without pictures; pictures are wanted; leave out --no-images");
+    throw InputError(session.script().images().front().place +
+                     ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
+  if (!options.images && options.ids)
+    throw InputError("command line: --ids in a run without pictures; pictures are wanted; leave out --no-images");
   if (options.freeze && (*options.freeze < 1 || *options.freeze > last_frame))
-    throw InputError(fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; change it, or --frames", *options.freeze, last_frame));
+    throw InputError(
+        fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; "
+                    "change it, or --frames",
+                    *options.freeze, last_frame));
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene().path.filename().string(), options.ids);
-  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume, options.snapshot_megabytes << 20);
+  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume,
+                   options.snapshot_megabytes << 20);
 
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
@@ -58,13 +65,17 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   };
 
   bool stop = false;
-  if (options.freeze && *options.freeze <= folder.resume_frame() && !std::filesystem::exists(folder.frozen_step(*options.freeze)))
-    throw InputError(fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose one, or another --out", *options.freeze,
-                                 folder.resume_frame()));
+  if (options.freeze && *options.freeze <= folder.resume_frame() &&
+      !std::filesystem::exists(folder.frozen_step(*options.freeze)))
+    throw InputError(
+        fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose "
+                    "one, or another --out",
+                    *options.freeze, folder.resume_frame()));
   if (folder.resume_frame() >= 0) {
     result.resumed_from = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
-    for (int frame = 0; frame <= result.resumed_from && !stop; ++frame) stop = judge(frame, folder.kept()[frame].figures);
+    for (int frame = 0; frame <= result.resumed_from && !stop; ++frame)
+      stop = judge(frame, folder.kept()[frame].figures);
   }
   const auto interrupted = [&] { return watcher.interrupted != nullptr && watcher.interrupted->load(); };
   while (!stop && session.frame() < last_frame && !interrupted()) {

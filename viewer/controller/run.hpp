@@ -10,34 +10,35 @@
 namespace impinge {
 
 struct RunOptions {
-  std::filesystem::path scene, script;   ///< script may be empty
+  std::filesystem::path scene, script;  ///< script may be empty
   std::filesystem::path out;
-  std::optional<int> frames;             ///< the last frame's number
-  std::optional<int> freeze;             ///< the frame whose last sub-step is written as a frozen step
-  std::vector<std::string> overrides;    ///< PATH=VALUE
-  std::uint64_t snapshot_megabytes = 256; ///< room for the states of the frames
-  int width = 1280, height = 720;        ///< pixels
+  std::optional<int> frames;               ///< the last frame's number
+  std::optional<int> freeze;               ///< the frame whose last sub-step is written as a frozen step
+  std::vector<std::string> overrides;      ///< PATH=VALUE
+  std::uint64_t snapshot_megabytes = 256;  ///< room for the states of the frames
+  int width = 1280, height = 720;          ///< pixels
   bool images = true, ids = false, contacts = false, export_ply = false, judge = false, resume = false;
-  bool compares_pictures = true;         ///< false: `expect image` lines are left to the caller, and their files may be missing
+  /// false: `expect image` lines are left to the caller, and their files may be missing
+  bool compares_pictures = true;
 };
 
 /// Whoever watches a run. Called in the thread of run().
 struct RunWatcher {
   std::function<void(const FrameStats& stats, int last_frame)> frame;
-  std::function<void(const std::string& line)> message;   ///< a failed expectation, a break, a note
-  const std::atomic<bool>* interrupted = nullptr;         ///< asks to stop after the frame in work
+  std::function<void(const std::string& line)> message;  ///< a failed expectation, a break, a note
+  const std::atomic<bool>* interrupted = nullptr;        ///< asks to stop after the frame in work
 };
 
 struct RunResult {
-  int last_frame = -1;       ///< made
-  int resumed_from = -1;     ///< the frame of the snapshot that was continued, -1: none
-  int failures = 0;          ///< expectations not met
+  int last_frame = -1;    ///< made
+  int resumed_from = -1;  ///< the frame of the snapshot that was continued, -1: none
+  int failures = 0;       ///< expectations not met
   bool stopped_by_break = false;
   bool interrupted = false;
   std::filesystem::path frozen_step;  ///< written, "" if none
   std::size_t frozen_contacts = 0, frozen_groups = 0;
   double frames_per_second = 0;  ///< of simulated time
-  std::string diverged;      ///< why, if the simulation left the finite numbers
+  std::string diverged;          ///< why, if the simulation left the finite numbers
   int exit_code() const;
 };
 

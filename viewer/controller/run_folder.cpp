@@ -6,8 +6,8 @@
 #include <charconv>
 
 #include "engine/core/error.hpp"
-#include "engine/io/frozen_step_file.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/frozen_step_file.hpp"
 #include "engine/io/mesh_file.hpp"
 #include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/snapshot_file.hpp"
@@ -41,7 +41,8 @@ std::uint64_t bytes_up_to(const std::string& text, int frame, bool header, Numbe
   bool first = header;
   while (begin < text.size()) {
     const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos || (!first && number(std::string_view(text).substr(begin, end - begin)) > frame)) break;
+    if (end == std::string::npos || (!first && number(std::string_view(text).substr(begin, end - begin)) > frame))
+      break;
     first = false;
     begin = end + 1;
   }
@@ -54,7 +55,9 @@ int leading_number(std::string_view text) {
   return value;
 }
 
-int frame_of_command(std::string_view line) { return line.substr(0, 3) == "at " ? leading_number(line.substr(3)) : std::numeric_limits<int>::max(); }
+int frame_of_command(std::string_view line) {
+  return line.substr(0, 3) == "at " ? leading_number(line.substr(3)) : std::numeric_limits<int>::max();
+}
 
 AppendFile open_table(const fs::path& path, int frame, const std::string& header) {
   const std::string text = read_if_there(path);
@@ -67,7 +70,10 @@ AppendFile open_table(const fs::path& path, int frame, const std::string& header
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out", folder.string(), error.message()));
+  if (error)
+    throw InputError(
+        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
+                    folder.string(), error.message()));
 }
 
 bool is_our_number(const fs::path& path, const char* ending) {
@@ -86,7 +92,9 @@ std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
     if (end == std::string::npos) break;
     try {
       const StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
-      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 || row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos) break;
+      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 ||
+          row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos)
+        break;
       rows.push_back(row);
     } catch (const InputError&) {
       break;
@@ -96,7 +104,9 @@ std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
   return rows;
 }
 
-RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume, std::uint64_t snapshot_bytes) : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes) {
+RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
+                     std::uint64_t snapshot_bytes)
+    : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes) {
   check_new(resume, run_toml);
   if (resume) {
     kept_ = whole_rows(read_if_there(folder_ / "stats.csv"), run_.judge);
@@ -110,7 +120,8 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   if (run_.ids) make_folder(folder_ / "ids");
   if (run_.export_ply) make_folder(folder_ / "surfaces");
   const std::string log = read_if_there(folder_ / "commands.log");
-  commands_ = AppendFile(folder_ / "commands.log", resume_frame() < 0 ? 0 : bytes_up_to(log, resume_frame(), false, frame_of_command));
+  commands_ = AppendFile(folder_ / "commands.log",
+                         resume_frame() < 0 ? 0 : bytes_up_to(log, resume_frame(), false, frame_of_command));
   if (run_.contacts) contacts_ = open_table(folder_ / "contacts.csv", resume_frame(), contacts_header());
   stats_ = open_table(folder_ / "stats.csv", resume_frame(), stats_header(run_.judge));
 }
@@ -125,17 +136,25 @@ void RunFolder::check_new(bool resume, const std::string& run_toml) const {
   if (!fs::exists(recorded)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
       if (entry.path().filename() != "run.toml.tmp")
-        throw InputError(fmt::format("{}: holds {} and is no run's folder; a new or empty folder is wanted; choose another --out", name, entry.path().filename().string()));
+        throw InputError(
+            fmt::format("{}: holds {} and is no run's folder; a new or empty folder is wanted; choose another --out",
+                        name, entry.path().filename().string()));
     if (error) throw InputError(fmt::format("{}: can't be read ({}); choose another --out", name, error.message()));
     return;
   }
   const auto [before, frames_before] = split_frames(read_file(recorded, kMostBytes));
   const auto [now, frames_now] = split_frames(run_toml);
-  if (before != now) throw InputError(name + ": holds another run (its run.toml differs); a new folder or the same scene, script and settings are wanted; choose another --out");
+  if (before != now)
+    throw InputError(name +
+                     ": holds another run (its run.toml differs); a new folder or the same scene, script and settings "
+                     "are wanted; choose another --out");
   if (resume && frames_now < frames_before)
-    throw InputError(fmt::format("{}: holds a run of {} frames; it can't be resumed with {}; choose another --out", name, frames_before, frames_now));
+    throw InputError(fmt::format("{}: holds a run of {} frames; it can't be resumed with {}; choose another --out",
+                                 name, frames_before, frames_now));
   if (!resume && frames_now != frames_before)
-    throw InputError(fmt::format("{}: holds this run with --frames {}; it can be continued to more frames; add --resume or choose another --out", name, frames_before));
+    throw InputError(fmt::format(
+        "{}: holds this run with --frames {}; it can be continued to more frames; add --resume or choose another --out",
+        name, frames_before));
 }
 
 int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
@@ -157,8 +176,10 @@ void RunFolder::clear_markers() {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "snapshots", error)) {
     if (!is_our_number(entry.path(), ".bin")) continue;
     const int frame = leading_number(entry.path().stem().string());
-    if (frame > resume_frame()) fs::remove(entry.path(), error);
-    else snapshot_bytes_ += snapshots_[frame] = entry.file_size(error);
+    if (frame > resume_frame())
+      fs::remove(entry.path(), error);
+    else
+      snapshot_bytes_ += snapshots_[frame] = entry.file_size(error);
   }
 }
 

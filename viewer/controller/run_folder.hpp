@@ -1,7 +1,8 @@
 // The folder of a run, DESIGN §5: what is in it, when it may be written to, and where an interrupted run goes on.
 //
-// A folder may be new or empty, or hold a run with the same run.toml, which is then made again in place. Any other folder
-// is refused. With `resume` a run that differs at most in a larger number of frames is continued. Foreign files stay.
+// A folder may be new or empty, or hold a run with the same run.toml, which is then made again in place. Any other
+// folder is refused. With `resume` a run that differs at most in a larger number of frames is continued. Foreign files
+// stay.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +18,10 @@ namespace impinge {
 
 class RunFolder {
  public:
-  /// Throws InputError, with nothing written, if the folder can't be taken; otherwise it holds run.toml and the files that
-  /// grow, cut back to the last frame from which the run can go on.
-  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume, std::uint64_t snapshot_bytes);
+  /// Throws InputError, with nothing written, if the folder can't be taken; otherwise it holds run.toml and the files
+  /// that grow, cut back to the last frame from which the run can go on.
+  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
+            std::uint64_t snapshot_bytes);
 
   /// Rows of the frames that are kept, 0 to resume_frame(); empty for a new run.
   const std::vector<StatsLine>& kept() const { return kept_; }
@@ -32,7 +34,8 @@ class RunFolder {
 
   /// Everything of a frame but its picture; the row of stats.csv comes last.
   void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras);
-  /// Of every frame, until they fill their room: then every second one is given up, and so on. The last one always stays.
+  /// Of every frame, until they fill their room: then every second one is given up, and so on. The last one always
+  /// stays.
   void add_snapshot(const Session& session);
   void add_frozen_step(const FrozenStep& step);
   void finish();
@@ -47,8 +50,8 @@ class RunFolder {
   RunRecord run_;
   std::vector<StatsLine> kept_;
   std::uint64_t most_snapshot_bytes_, snapshot_bytes_ = 0;  // room for them, and taken
-  std::map<int, std::uint64_t> snapshots_;        // bytes by frame
-  int spacing_ = 1;                               // frames from one that stays to the next
+  std::map<int, std::uint64_t> snapshots_;                  // bytes by frame
+  int spacing_ = 1;                                         // frames from one that stays to the next
   AppendFile stats_, contacts_, commands_;
 };
 

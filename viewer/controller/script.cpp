@@ -23,7 +23,8 @@ ParameterValue mix(const ParameterValue& from, const ParameterValue& to, double 
     const Vec3& b = std::get<Vec3>(to);
     return Vec3(between(a->x(), b.x()), between(a->y(), b.y()), between(a->z(), b.z()));
   }
-  if (const auto* a = std::get_if<std::int64_t>(&from)) return static_cast<std::int64_t>(std::llround(between(double(*a), double(std::get<std::int64_t>(to)))));
+  if (const auto* a = std::get_if<std::int64_t>(&from))
+    return static_cast<std::int64_t>(std::llround(between(double(*a), double(std::get<std::int64_t>(to)))));
   return between(std::get<double>(from), std::get<double>(to));
 }
 
@@ -31,9 +32,12 @@ std::string_view without_comment(std::string_view line) {
   char quote = '\0';
   for (std::size_t i = 0; i < line.size(); ++i) {
     const char c = line[i];
-    if (quote != '\0') quote = c == quote ? '\0' : quote;
-    else if (c == '"' || c == '\'') quote = c;
-    else if (c == '#') return line.substr(0, i);
+    if (quote != '\0')
+      quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '#')
+      return line.substr(0, i);
   }
   return line;
 }
@@ -46,7 +50,8 @@ PlacedText spanning(std::span<const PlacedText> words, const PlacedText& line) {
 }
 
 std::string unquoted(std::string_view word) {
-  if (word.size() >= 2 && (word.front() == '"' || word.front() == '\'') && word.back() == word.front()) word = word.substr(1, word.size() - 2);
+  if (word.size() >= 2 && (word.front() == '"' || word.front() == '\'') && word.back() == word.front())
+    word = word.substr(1, word.size() - 2);
   return std::string(word);
 }
 
@@ -60,17 +65,19 @@ std::vector<std::string> read_lines(const std::filesystem::path& path) {
     std::string line = text.substr(begin, end - begin);
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.size() > 8192)
-      throw InputError(fmt::format("{}:{}:1: a line of {} bytes; at most 8192 are taken; shorten it", path.string(), lines.size() + 1, line.size()));
+      throw InputError(fmt::format("{}:{}:1: a line of {} bytes; at most 8192 are taken; shorten it", path.string(),
+                                   lines.size() + 1, line.size()));
     if (const std::size_t bad = line.find('\0'); bad != std::string::npos)
-      throw InputError(fmt::format("{}:{}:{}: a zero byte; a text file is wanted; check the path", path.string(), lines.size() + 1, bad + 1));
+      throw InputError(fmt::format("{}:{}:{}: a zero byte; a text file is wanted; check the path", path.string(),
+                                   lines.size() + 1, bad + 1));
     lines.push_back(std::move(line));
     begin = end + 1;
   }
   return lines;
 }
 
-Script::Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines, const ParameterSet& rows, const std::vector<std::string>& figures,
-               bool pictures_may_be_missing)
+Script::Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines,
+               const ParameterSet& rows, const std::vector<std::string>& figures, bool pictures_may_be_missing)
     : pictures_may_be_missing_(pictures_may_be_missing) {
   int number = 0;
   for (const std::string& line : lines) read_line({without_comment(line), &name, ++number, 1}, folder, rows, figures);
@@ -80,17 +87,21 @@ int Script::read_frame(const PlacedText& word) {
   int frame = 0;
   const auto [end, error] = std::from_chars(word.text.data(), word.text.data() + word.text.size(), frame);
   if (error != std::errc() || end != word.text.data() + word.text.size() || frame < 0 || frame > kMostFrames)
-    word.refuse(fmt::format("'{}'", word.text), fmt::format("a frame number from 0 to {} is wanted", kMostFrames), "mend it");
+    word.refuse(fmt::format("'{}'", word.text), fmt::format("a frame number from 0 to {} is wanted", kMostFrames),
+                "mend it");
   last_frame_ = std::max(last_frame_, frame);
   return frame;
 }
 
-void Script::read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows, const std::vector<std::string>& figures) {
+void Script::read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows,
+                       const std::vector<std::string>& figures) {
   const std::vector<PlacedText> words = split_words(line);
   if (words.empty()) return;
   const PlacedText& first = words[0];
   if (first.text == "at") {
-    if (words.size() < 3) first.refuse("'at' without a frame and a command", "at K COMMAND is wanted", "write at 40 set contact.friction 0.5");
+    if (words.size() < 3)
+      first.refuse("'at' without a frame and a command", "at K COMMAND is wanted",
+                   "write at 40 set contact.friction 0.5");
     const int frame = read_frame(words[1]);
     timed_.push_back({frame, frame, parse_command(std::span(words).subspan(2), rows, frame == 0), false, {}, {}});
   } else if (first.text == "from") {
@@ -98,13 +109,17 @@ void Script::read_line(const PlacedText& line, const std::filesystem::path& fold
   } else if (first.text == "expect") {
     read_expect(line, words, folder, figures);
   } else if (first.text == "break") {
-    if (words.size() < 3 || words[1].text != "when") first.refuse("'break' without 'when' and a condition", "break when CONDITION is wanted", "write break when contacts > 100");
+    if (words.size() < 3 || words[1].text != "when")
+      first.refuse("'break' without 'when' and a condition", "break when CONDITION is wanted",
+                   "write break when contacts > 100");
     breaks_.push_back({Expression(spanning(std::span(words).subspan(2), line), figures), first.place()});
   } else {
     const std::string near = nearest_word(first.text, {"at", "from", "expect", "break"});
     const bool command = first.text == "set" || first.text == "layer" || first.text == "camera";
     first.refuse(fmt::format("'{}'", first.text), "a line starts with at, from, expect or break",
-                 command ? "put 'at K' before it" : near.empty() ? "mend the line" : fmt::format("did you mean '{}'?", near));
+                 command        ? "put 'at K' before it"
+                 : near.empty() ? "mend the line"
+                                : fmt::format("did you mean '{}'?", near));
   }
 }
 
@@ -114,14 +129,17 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
   if (words[2].text != "to") words[2].refuse(fmt::format("'{}'", words[2].text), usage, "write 'to' here");
   if (words[4].text != "ramp") words[4].refuse(fmt::format("'{}'", words[4].text), usage, "write 'ramp' here");
   const int first = read_frame(words[1]), last = read_frame(words[3]);
-  if (last < first) words[3].refuse(fmt::format("frame {} after frame {}", last, first), "a ramp ends at or after its start", "swap the frames");
+  if (last < first)
+    words[3].refuse(fmt::format("frame {} after frame {}", last, first), "a ramp ends at or after its start",
+                    "swap the frames");
   const Parameter& row = find_row(words[5], rows, first == 0 && last == 0);
   if (row.kind != ParameterKind::real && row.kind != ParameterKind::integer && row.kind != ParameterKind::vector3)
     words[5].refuse(fmt::format("'{}' is no number", row.path), "numbers and vectors can be ramped", "use set");
   // two values, or the six numbers of two vectors
   const std::span<const PlacedText> rest = words.subspan(6);
   const std::size_t each = row.kind == ParameterKind::vector3 && rest.size() == 6 ? 3 : 1;
-  if (rest.size() != 2 * each) rest.back().refuse(fmt::format("{} values", rest.size()), "a ramp has two, vectors in brackets", "mend the line");
+  if (rest.size() != 2 * each)
+    rest.back().refuse(fmt::format("{} values", rest.size()), "a ramp has two, vectors in brackets", "mend the line");
   const auto value = [&](std::size_t begin) {
     const char* end = rest[begin + each - 1].text.data() + rest[begin + each - 1].text.size();
     try {
@@ -134,9 +152,12 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
   timed_.push_back(std::move(ramp));
 }
 
-void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder, const std::vector<std::string>& figures) {
+void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
+                         const std::vector<std::string>& figures) {
   const std::size_t n = words.size();
-  if (n < 4 || words[n - 2].text != "at") words[0].refuse("'expect' without 'at K' at its end", "expect CONDITION at K is wanted", "write expect contacts > 0 at 120");
+  if (n < 4 || words[n - 2].text != "at")
+    words[0].refuse("'expect' without 'at K' at its end", "expect CONDITION at K is wanted",
+                    "write expect contacts > 0 at 120");
   const int frame = read_frame(words[n - 1]);
   const std::span<const PlacedText> inner = words.subspan(1, n - 3);
   if (inner[0].text != "image") {
@@ -153,7 +174,8 @@ void Script::read_expect(const PlacedText& line, std::span<const PlacedText> wor
       inner[3].refuse(fmt::format("'{}'", word), "a tolerance from 0 to 255 is wanted", "write tolerance 3");
   }
   if (!pictures_may_be_missing_ && !std::filesystem::is_regular_file(image.file))
-    inner[1].refuse(fmt::format("there is no file {}", image.file.string()), "a PNG file relative to the script is wanted", "make the baseline, or check the path");
+    inner[1].refuse(fmt::format("there is no file {}", image.file.string()),
+                    "a PNG file relative to the script is wanted", "make the baseline, or check the path");
   images_.push_back(std::move(image));
 }
 

@@ -1,5 +1,5 @@
-// A script: commands with the frames at which they take effect, and what is expected. Everything in it, names and values
-// included, is checked when it is read, before frame 0.
+// A script: commands with the frames at which they take effect, and what is expected. Everything in it, names and
+// values included, is checked when it is read, before frame 0.
 //
 //   at K COMMAND
 //   from A to B ramp PATH VALUE VALUE            linear, A and B inclusive
@@ -26,7 +26,7 @@ class Script {
   struct ImageExpectation {
     int frame = 0;
     std::filesystem::path file;
-    int tolerance = 3;     ///< of 255, largest difference of a channel that counts as equal
+    int tolerance = 3;  ///< of 255, largest difference of a channel that counts as equal
     std::string place;
   };
   struct Break {
@@ -36,8 +36,8 @@ class Script {
 
   Script() = default;
   /// `name` is the file's in messages, `folder` what image paths are relative to. Throws InputError `file:line:column`.
-  Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines, const ParameterSet& rows, const std::vector<std::string>& figures,
-         bool pictures_may_be_missing = false);
+  Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines,
+         const ParameterSet& rows, const std::vector<std::string>& figures, bool pictures_may_be_missing = false);
 
   /// What takes effect with the frame, in the order of the lines; ramps as `set`.
   std::vector<Command> commands_at(int frame) const;
@@ -50,13 +50,15 @@ class Script {
  private:
   struct Timed {
     int first = 0, last = 0;
-    Command command;                  // of `at`; the ramp's end otherwise
+    Command command;  // of `at`; the ramp's end otherwise
     bool ramp = false;
     ParameterValue from, to;
   };
-  void read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows, const std::vector<std::string>& figures);
+  void read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows,
+                 const std::vector<std::string>& figures);
   void read_ramp(std::span<const PlacedText> words, const ParameterSet& rows);
-  void read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder, const std::vector<std::string>& figures);
+  void read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
+                   const std::vector<std::string>& figures);
   int read_frame(const PlacedText& word);
 
   std::vector<Timed> timed_;

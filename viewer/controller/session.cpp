@@ -16,7 +16,9 @@ namespace fs = std::filesystem;
 constexpr int kDefaultLastFrame = 240;
 
 // for run.toml, which may be read from anywhere
-std::string absolute_path(const fs::path& path) { return (path.empty() ? fs::current_path() : fs::absolute(path).lexically_normal()).string(); }
+std::string absolute_path(const fs::path& path) {
+  return (path.empty() ? fs::current_path() : fs::absolute(path).lexically_normal()).string();
+}
 
 void put_text(ByteWriter& out, const std::string& text) {
   out.put<std::uint64_t>(text.size());
@@ -65,7 +67,8 @@ ParameterValue get_value(ByteReader& in, const ParameterValue& like) {
 
 }  // namespace
 
-Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file, const SessionOptions& options) {
+Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file,
+                 const SessionOptions& options) {
   world_.parameters.bind(rows_);
   view_.bind(rows_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
@@ -132,7 +135,9 @@ void Session::apply(const Command& command) {
   }
 }
 
-int Session::default_last_frame() const { return scene_.run ? scene_.run->frames : std::max(kDefaultLastFrame, script_.last_frame()); }
+int Session::default_last_frame() const {
+  return scene_.run ? scene_.run->frames : std::max(kDefaultLastFrame, script_.last_frame());
+}
 
 RunRecord Session::run_record() const {
   RunRecord run;
@@ -158,9 +163,11 @@ void Session::save(ByteWriter& out) const {
 
 void Session::restore(ByteReader& in) {
   const int frame = in.get<int>();
-  if (in.get<std::uint64_t>() != rows_.all().size()) throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
+  if (in.get<std::uint64_t>() != rows_.all().size())
+    throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
   for (const Parameter& row : rows_.all()) {
-    if (get_text(in) != row.path) throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
+    if (get_text(in) != row.path)
+      throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
     row.set(get_value(in, row.initial));
   }
   world_.parameters_changed();

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "engine/io/scene.hpp"
-#include "viewer/controller/script.hpp"
 #include "viewer/controller/frame_view.hpp"
+#include "viewer/controller/script.hpp"
 
 namespace impinge {
 
@@ -16,15 +16,16 @@ class ByteWriter;
 struct SessionOptions {
   int width = 1280, height = 720;  ///< of pictures, pixels: a camera that the scene doesn't give is fitted to them
   bool judge = false;              ///< whether the judged figures exist, for scripts to name
-  bool pictures_may_be_missing = false;  ///< those that the script's `expect image` lines name
+  bool pictures_may_be_missing = false;                       ///< those that the script's `expect image` lines name
   std::optional<std::vector<std::string>> script_lines = {};  ///< instead of what the script file holds
 };
 
 class Session {
  public:
-  /// Loads and checks everything. `script_file` may be empty: then a run.toml's own script is used, if the scene is one.
-  /// Throws InputError.
-  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides, const std::filesystem::path& script_file, const SessionOptions& options = {});
+  /// Loads and checks everything. `script_file` may be empty: then a run.toml's own script is used, if the scene is
+  /// one. Throws InputError.
+  Session(const std::filesystem::path& scene_file, const std::vector<std::string>& overrides,
+          const std::filesystem::path& script_file, const SessionOptions& options = {});
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 

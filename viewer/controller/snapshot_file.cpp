@@ -38,10 +38,12 @@ bool is_valid_snapshot(const std::filesystem::path& path) {
 void restore_snapshot(const std::filesystem::path& path, Session& session) {
   const std::string bytes = read_file(path, kMostBytes);
   const std::string_view body = body_of(bytes);
-  if (body.empty()) throw InputError(path.string() + ": is damaged; a whole snapshot is wanted; remove it and run again with --resume");
+  if (body.empty())
+    throw InputError(path.string() + ": is damaged; a whole snapshot is wanted; remove it and run again with --resume");
   ByteReader in(body);
   session.restore(in);
-  if (!in.at_end()) throw InputError(path.string() + ": belongs to another scene; remove it and run again with --resume");
+  if (!in.at_end())
+    throw InputError(path.string() + ": belongs to another scene; remove it and run again with --resume");
 }
 
 }  // namespace impinge

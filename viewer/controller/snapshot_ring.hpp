@@ -1,5 +1,6 @@
-// States of a session by frame, in bounded memory. Where they would take more, one goes: that which is missed least, since its
-// neighbours are near it and the present is far. So states lie close together near the present and ever farther apart before it.
+// States of a session by frame, in bounded memory. Where they would take more, one goes: that which is missed least,
+// since its neighbours are near it and the present is far. So states lie close together near the present and ever
+// farther apart before it.
 #pragma once
 
 #include <cstddef>

@@ -53,10 +53,13 @@ constexpr Column kColumns[] = {
     {"unconverged", [](const FrameStats& s, const FrameExtras&) { return double(s.unconverged); }, true},
     {"asleep", [](const FrameStats& s, const FrameExtras&) { return double(s.asleep); }, true},
     {"judged_penetration_m", [](const FrameStats&, const FrameExtras& e) { return e.judged_penetration; }, false},
-    {"judged_intersections", [](const FrameStats&, const FrameExtras& e) { return double(e.judged_intersections); }, true},
+    {"judged_intersections", [](const FrameStats&, const FrameExtras& e) { return double(e.judged_intersections); },
+     true},
 };
 
-std::span<const Column> columns(bool judged) { return std::span(kColumns).first(std::size(kColumns) - (judged ? 0 : 2)); }
+std::span<const Column> columns(bool judged) {
+  return std::span(kColumns).first(std::size(kColumns) - (judged ? 0 : 2));
+}
 
 }  // namespace
 
@@ -70,9 +73,12 @@ std::string stats_row(const FrameStats& stats, const FrameExtras& extras, bool j
   std::string line;
   for (const Column& column : columns(judged)) {
     if (&column != kColumns) line += ',';
-    if (column.value == nullptr) line += hex64(stats.state_hash);
-    else if (column.whole) line += std::to_string(static_cast<std::int64_t>(column.value(stats, extras)));
-    else line += shortest(column.value(stats, extras));
+    if (column.value == nullptr)
+      line += hex64(stats.state_hash);
+    else if (column.whole)
+      line += std::to_string(static_cast<std::int64_t>(column.value(stats, extras)));
+    else
+      line += shortest(column.value(stats, extras));
   }
   return line;
 }
@@ -106,7 +112,8 @@ StatsLine parse_stats_row(std::string_view line, bool judged) {
       double value = 0.0;
       const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc() || stop != word.data() + word.size())
-        throw InputError(fmt::format("stats.csv: '{}' in column {}; a number is wanted; run the scene again", word, column.name));
+        throw InputError(
+            fmt::format("stats.csv: '{}' in column {}; a number is wanted; run the scene again", word, column.name));
       row.figures.push_back(value);
     }
     line.remove_prefix(std::min(end + 1, line.size()));

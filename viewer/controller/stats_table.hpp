@@ -12,7 +12,7 @@ namespace impinge {
 /// What a frame's row says beside the model's own figures.
 struct FrameExtras {
   double render_ms = 0.0;
-  double judged_penetration = 0.0;        ///< metres; with --judge, as is the next
+  double judged_penetration = 0.0;  ///< metres; with --judge, as is the next
   std::int64_t judged_intersections = 0;
 };
 

@@ -7,8 +7,8 @@
 
 namespace impinge {
 
-/// NAME.ply for each body but planes: meshes in source vertex order, sphere, box and capsule tessellated as drawn; world
-/// coordinates at the end of the frame. Throws InputError where a file can't be written.
+/// NAME.ply for each body but planes: meshes in source vertex order, sphere, box and capsule tessellated as drawn;
+/// world coordinates at the end of the frame. Throws InputError where a file can't be written.
 void export_surfaces(const std::filesystem::path& folder, const StepRecord& record);
 
 }  // namespace impinge

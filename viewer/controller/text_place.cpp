@@ -29,7 +29,9 @@ std::vector<PlacedText> split_words(const PlacedText& line) {
     const char first = text[i];
     if (first == '[' || first == '"' || first == '\'') {
       const std::size_t close = text.find(first == '[' ? ']' : first, i + 1);
-      if (close == std::string_view::npos) line.part(i, 1).refuse(fmt::format("'{}' is not closed", first), "its partner should follow on the line", "close it");
+      if (close == std::string_view::npos)
+        line.part(i, 1).refuse(fmt::format("'{}' is not closed", first), "its partner should follow on the line",
+                               "close it");
       end = close + 1;
     } else {
       while (end < text.size() && !is_blank(text[end])) ++end;

@@ -15,7 +15,8 @@ void DrawList::clear() {
 }
 
 void DrawList::end_layer(std::string_view name) {
-  layers.push_back({name, points.size(), lines.size(), arrows.size(), surfaces.size(), triangles.size(), planes.size()});
+  layers.push_back(
+      {name, points.size(), lines.size(), arrows.size(), surfaces.size(), triangles.size(), planes.size()});
 }
 
 void DrawList::add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth,

@@ -90,7 +90,7 @@ struct DrawLabel {
 /// What the colours of heated surfaces mean: from 0 to `high`, beyond which the last colour stays.
 struct ColorBar {
   std::string title, unit;
-  double high = 1.0;     ///< in `unit`
+  double high = 1.0;      ///< in `unit`
   bool exceeded = false;  ///< whether something in the picture lies beyond
 };
 

@@ -29,8 +29,8 @@ struct ViewSettings {
   ClipPlane clip;
   std::string backfaces = "shown";
   std::string tetrahedra_style = "wire";
-  double tetrahedra_shrink = 0.75;                 ///< of a tetrahedron drawn solid, about its centre
-  double stress_max = 0.0, strain_max = 0.0;       ///< Pa and 1: upper ends of the colour bars; 0: by the frame
+  double tetrahedra_shrink = 0.75;            ///< of a tetrahedron drawn solid, about its centre
+  double stress_max = 0.0, strain_max = 0.0;  ///< Pa and 1: upper ends of the colour bars; 0: by the frame
 
   bool is_on(std::string_view layer) const;
   /// Throws InputError with the nearest name for a layer that is not there.

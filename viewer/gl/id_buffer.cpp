@@ -22,7 +22,8 @@ IdBuffer::IdBuffer(int width, int height) : width_(width), height_(height) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, ids_);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) throw InternalError("the id buffer is not complete");
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw InternalError("the id buffer is not complete");
 }
 
 IdBuffer::~IdBuffer() {
@@ -70,7 +71,8 @@ class Objects {
   explicit Objects(const StepRecord& record) : record_(record) {}
 
   Color code(std::string_view layer, const char* mark, PickId pick) {
-    const auto [place, is_new] = index_.try_emplace({layer, mark, pick}, static_cast<std::uint32_t>(objects_.size() + 1));
+    const auto [place, is_new] =
+        index_.try_emplace({layer, mark, pick}, static_cast<std::uint32_t>(objects_.size() + 1));
     if (is_new) objects_.push_back(object(layer, mark, pick));
     const std::uint32_t i = place->second;
     const auto channel = [i](int shift) { return static_cast<float>(i >> shift & 0xffu) / 255.0f; };
@@ -83,7 +85,9 @@ class Objects {
     IdObject o;
     o.layer = layer;
     o.mark = mark;
-    const auto name = [&](int body) { return body < 0 ? std::string("world") : std::string(record_.bodies[static_cast<std::size_t>(body)].name); };
+    const auto name = [&](int body) {
+      return body < 0 ? std::string("world") : std::string(record_.bodies[static_cast<std::size_t>(body)].name);
+    };
     if (pick >= contact_pick(0)) {
       const std::size_t contact = pick - contact_pick(0);
       if (contact >= record_.contacts.size()) return o;
@@ -108,7 +112,7 @@ class Objects {
 
 std::vector<IdObject> code_colors(DrawList& list, const StepRecord& record) {
   Objects objects(record);
-  const auto code = [&](auto& items, const char* mark, std::size_t DrawnLayer::* count) {
+  const auto code = [&](auto& items, const char* mark, std::size_t DrawnLayer::*count) {
     std::size_t layer = 0;
     for (std::size_t i = 0; i < items.size(); ++i) {
       while (layer < list.layers.size() && i >= list.layers[layer].*count) ++layer;

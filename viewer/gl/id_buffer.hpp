@@ -1,6 +1,7 @@
 // The pass that says for each pixel what it shows: layer, body or contact, and of a surface the triangle. Drawn by the
-// shaders of the picture itself (built with IDS defined), so both have the same shapes; only edges are not smooth, and a soft
-// rim belongs to its mark where it is at least a third there. Integers in an own framebuffer; the picture stays as it is.
+// shaders of the picture itself (built with IDS defined), so both have the same shapes; only edges are not smooth, and
+// a soft rim belongs to its mark where it is at least a third there. Integers in an own framebuffer; the picture stays
+// as it is.
 #pragma once
 
 #include "engine/world/step_record.hpp"
@@ -30,8 +31,8 @@ class IdBuffer {
   std::vector<std::uint32_t> rows_;  // as OpenGL gives them: object and part, bottom row first
 };
 
-/// Names what is in the list, one object for each layer, kind of mark and body or contact, and gives each item the object's
-/// index as its colour, a byte a channel, red the lowest.
+/// Names what is in the list, one object for each layer, kind of mark and body or contact, and gives each item the
+/// object's index as its colour, a byte a channel, red the lowest.
 std::vector<IdObject> code_colors(DrawList& list, const StepRecord& record);
 
 }  // namespace impinge

@@ -15,8 +15,8 @@ const std::map<std::string, std::string>& shader_sources();
 /// Must be made, used and destroyed while its context is current.
 class Program {
  public:
-  /// Compiles shaders/NAME.vert and shaders/NAME.frag, with `define` (if not "") defined in both. Throws InternalError with
-  /// the compiler's words.
+  /// Compiles shaders/NAME.vert and shaders/NAME.frag, with `define` (if not "") defined in both. Throws InternalError
+  /// with the compiler's words.
   explicit Program(const std::string& name, const std::string& define = "");
   ~Program();
   Program(const Program&) = delete;

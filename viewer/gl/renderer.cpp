@@ -91,7 +91,8 @@ void Renderer::draw_backdrop(const Backdrop& backdrop) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::draw_surface(Program& program, const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip) {
+void Renderer::draw_surface(Program& program, const DrawSurface& item, const ViewTransform& view,
+                            const ClipPlane& clip) {
   SurfaceBuffers& buffers = buffers_of(item);
   program.use();
   program.set("model_view", view.model_view(item.placement()));
@@ -107,7 +108,8 @@ void Renderer::draw_surface(Program& program, const DrawSurface& item, const Vie
   glDrawElements(GL_TRIANGLES, buffers.indices, GL_UNSIGNED_INT, nullptr);
 }
 
-void Renderer::draw_see_through(Program& program, const DrawList& list, const ViewTransform& view, const ClipPlane& clip) {
+void Renderer::draw_see_through(Program& program, const DrawList& list, const ViewTransform& view,
+                                const ClipPlane& clip) {
   std::vector<const DrawSurface*> order;
   for (const DrawSurface& item : list.surfaces)
     if (item.see_through && left_of(item, clip) != Left::none) order.push_back(&item);

@@ -10,9 +10,9 @@ namespace impinge {
 
 namespace {
 
-constexpr int kReach = 4;         // pixels: shifts that are tried
-constexpr int kSharp = 12;        // levels from one pixel to the next that make an edge
-constexpr double kMostly = 0.9;   // of the pixels that differ
+constexpr int kReach = 4;        // pixels: shifts that are tried
+constexpr int kSharp = 12;       // levels from one pixel to the next that make an edge
+constexpr double kMostly = 0.9;  // of the pixels that differ
 constexpr double kSameEdges = 0.75, kNoEdges = 0.35;
 
 struct Place {
@@ -28,7 +28,8 @@ std::vector<Place> differing(const Image& a, const Image& b, const Difference& d
 }
 
 /// Share of the places at which `to` shows what `from` shows at (-dx, -dy) from there; 0 where they leave the picture.
-double share_found(const std::vector<Place>& places, const Image& from, const Image& to, int dx, int dy, int tolerance) {
+double share_found(const std::vector<Place>& places, const Image& from, const Image& to, int dx, int dy,
+                   int tolerance) {
   std::size_t found = 0, there = 0;
   for (const auto& [x, y] : places) {
     const int u = x - dx, v = y - dy;
@@ -40,12 +41,18 @@ double share_found(const std::vector<Place>& places, const Image& from, const Im
 }
 
 bool is_edge(const Image& image, int x, int y) {
-  const auto sharp = [&](int u, int v) { return u < image.width && v < image.height && channel_difference(image.pixel(x, y), image.pixel(u, v)) > kSharp; };
+  const auto sharp = [&](int u, int v) {
+    return u < image.width && v < image.height && channel_difference(image.pixel(x, y), image.pixel(u, v)) > kSharp;
+  };
   return sharp(x + 1, y) || sharp(x, y + 1);
 }
 
 std::string shift_text(int dx, int dy) {
-  const auto part = [](int by, const char* positive, const char* negative) { return by == 0 ? std::string() : fmt::format("{} pixel{} {}", std::abs(by), std::abs(by) == 1 ? "" : "s", by > 0 ? positive : negative); };
+  const auto part = [](int by, const char* positive, const char* negative) {
+    return by == 0
+               ? std::string()
+               : fmt::format("{} pixel{} {}", std::abs(by), std::abs(by) == 1 ? "" : "s", by > 0 ? positive : negative);
+  };
   const std::string across = part(dx, "to the right", "to the left"), down = part(dy, "down", "up");
   return "moved by " + across + (!across.empty() && !down.empty() ? " and " : "") + down;
 }
@@ -62,7 +69,8 @@ ChangeKind change_kind(const Image& a, const Image& b, const Difference& differe
     for (int dx = -kReach; dx <= kReach; ++dx) {
       if (dx == 0 && dy == 0) continue;
       const int tolerance = difference.settings.tolerance;
-      const double share = std::min(share_found(places, a, b, dx, dy, tolerance), share_found(places, b, a, -dx, -dy, tolerance));
+      const double share =
+          std::min(share_found(places, a, b, dx, dy, tolerance), share_found(places, b, a, -dx, -dy, tolerance));
       const bool nearer = share == best && std::abs(dx) + std::abs(dy) < std::abs(kind.dx) + std::abs(kind.dy);
       if (share > best || nearer) best = share, kind.dx = dx, kind.dy = dy;
     }
@@ -85,7 +93,9 @@ ChangeKind change_kind(const Image& a, const Image& b, const Difference& differe
       const bool edge_a = is_edge(a, x, y), edge_b = is_edge(b, x, y);
       in_a += edge_a, in_b += edge_b, in_both += edge_a && edge_b, in_either += edge_a || edge_b;
     }
-  const auto share = [](std::int64_t part, std::int64_t whole) { return static_cast<double>(part) / static_cast<double>(std::max<std::int64_t>(whole, 1)); };
+  const auto share = [](std::int64_t part, std::int64_t whole) {
+    return static_cast<double>(part) / static_cast<double>(std::max<std::int64_t>(whole, 1));
+  };
   if (in_either > 0 && share(in_both, in_either) >= kSameEdges) {
     kind.kind = ChangeKind::recolored;
     kind.text = "other colours, the shapes stand where they stood";

@@ -14,8 +14,8 @@ struct ChangeKind {
   std::string text;    ///< "moved by 1 pixel to the right"; "" for none
 };
 
-/// From the pixels that differ by more than the tolerance and what stands round them. A guess that helps to look in the right
-/// place; no verdict depends on it. None where the pictures are of two sizes or don't differ.
+/// From the pixels that differ by more than the tolerance and what stands round them. A guess that helps to look in the
+/// right place; no verdict depends on it. None where the pictures are of two sizes or don't differ.
 ChangeKind change_kind(const Image& a, const Image& b, const Difference& difference);
 
 }  // namespace impinge

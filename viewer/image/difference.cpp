@@ -88,8 +88,10 @@ std::string describe(const Difference& d) {
     text += fmt::format("; {} in the {} x {} window at ({}, {}) (at most {} may)", d.worst_window, s.window, s.window,
                         d.worst_at[0], d.worst_at[1], s.allowed_in_window);
     text += fmt::format("; all within {} x {} at ({}, {})", d.box[2], d.box[3], d.box[0], d.box[1]);
-    if (d.too_many && d.too_dense) text += "; breaks the limit on the whole picture and that on a window";
-    else if (!d.same) text += d.too_many ? "; breaks the limit on the whole picture" : "; breaks the limit on a window";
+    if (d.too_many && d.too_dense)
+      text += "; breaks the limit on the whole picture and that on a window";
+    else if (!d.same)
+      text += d.too_many ? "; breaks the limit on the whole picture" : "; breaks the limit on a window";
   }
   return (d.same ? "same: " : "different: ") + text;
 }

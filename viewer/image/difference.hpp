@@ -48,7 +48,8 @@ Difference compare(const Image& a, const Image& b, const DifferenceSettings& set
 /// side by side, with the fullest window framed and `difference.reason` below. Small pictures are enlarged.
 Image difference_panels(const Image& a, const Image& b, const Difference& difference, const Image* mask = nullptr);
 
-/// The third of the panels alone, as large as the pictures; pixels that differ get `surround` dark red ones on every side.
+/// The third of the panels alone, as large as the pictures; pixels that differ get `surround` dark red ones on every
+/// side.
 Image difference_overlay(const Image& a, const Image& b, int tolerance, int surround, const Image* mask = nullptr);
 
 /// Largest difference of a channel between two pixels.

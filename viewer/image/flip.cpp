@@ -12,7 +12,7 @@ namespace impinge {
 
 namespace {
 
-using Plane = std::vector<float>;     // one value a pixel, row by row
+using Plane = std::vector<float>;  // one value a pixel, row by row
 using Triple = std::array<double, 3>;
 
 // constants of [Andersson et al. 2020, §4 and §5]
@@ -107,7 +107,8 @@ Plane filtered(const Plane& in, int width, int height, const Kernel& across, con
   parallel_for(static_cast<std::size_t>(height), 8, [&](std::size_t row) {
     std::vector<double> sum(width, 0.0);
     for (int k = -ry; k <= ry; ++k) {
-      const float* from = half.data() + static_cast<std::size_t>(std::clamp(static_cast<int>(row) + k, 0, height - 1)) * width;
+      const float* from =
+          half.data() + static_cast<std::size_t>(std::clamp(static_cast<int>(row) + k, 0, height - 1)) * width;
       for (int x = 0; x < width; ++x) sum[x] += down[k + ry] * from[x];
     }
     for (int x = 0; x < width; ++x) out[row * width + x] = static_cast<float>(sum[x]);
@@ -214,7 +215,8 @@ Seen look_at(const Image& image, const Observer& observer) {
     for (int k = 0; k < 3; ++k) channels[k][i] = static_cast<float>(c[k]);
     luminance[i] = static_cast<float>((c[0] + 16.0) / 116.0);
   }
-  return {observer.colors(channels, image.width, image.height), observer.features(luminance, image.width, image.height)};
+  return {observer.colors(channels, image.width, image.height),
+          observer.features(luminance, image.width, image.height)};
 }
 
 }  // namespace
@@ -224,14 +226,17 @@ Flip flip(const Image& a, const Image& b, double pixels_per_degree) {
   const Observer observer(pixels_per_degree);
   const Seen seen_a = look_at(a, observer), seen_b = look_at(b, observer);
   // the two most distant colours of the gamut
-  const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), kErrorExponent), knee = kKnee * largest;
+  const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), kErrorExponent),
+               knee = kKnee * largest;
   Flip result;
   result.error.resize(seen_a.colors.size());
   parallel_for(result.error.size(), 4096, [&](std::size_t i) {
     const double distance = std::pow(hyab(seen_a.colors[i], seen_b.colors[i]), kErrorExponent);
-    const double color = distance < knee ? kAtKnee / knee * distance : kAtKnee + (distance - knee) / (largest - knee) * (1.0 - kAtKnee);
+    const double color =
+        distance < knee ? kAtKnee / knee * distance : kAtKnee + (distance - knee) / (largest - knee) * (1.0 - kAtKnee);
     double feature = 0.0;
-    for (int k = 0; k < 2; ++k) feature = std::max(feature, std::abs(double{seen_a.features[k][i]} - seen_b.features[k][i]));
+    for (int k = 0; k < 2; ++k)
+      feature = std::max(feature, std::abs(double{seen_a.features[k][i]} - seen_b.features[k][i]));
     feature = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
     result.error[i] = static_cast<float>(std::pow(color, 1.0 - feature));
   });

@@ -15,8 +15,10 @@ constexpr const char* kKeyword = "impinge:objects";
 std::vector<std::string> split(const std::string& text, char mark) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
-    if (c == mark) parts.emplace_back();
-    else parts.back() += c;
+    if (c == mark)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -27,7 +29,8 @@ bool to_number(const std::string& text, std::uint64_t& value) {
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& found) {
-  throw InputError(fmt::format("{}: {}; a picture that impinge run --ids wrote is wanted; run the scene again", path.string(), found));
+  throw InputError(fmt::format("{}: {}; a picture that impinge run --ids wrote is wanted; run the scene again",
+                               path.string(), found));
 }
 
 }  // namespace
@@ -77,7 +80,8 @@ IdImage read_ids(const std::filesystem::path& path) {
       const std::vector<std::string> cells = split(line, '\t');
       IdObject object;
       std::uint64_t index = 0;
-      if (cells.size() != 6 || !to_number(cells[0], index) || index != ids.objects.size() + 1 || !to_number(cells[5], object.identity))
+      if (cells.size() != 6 || !to_number(cells[0], index) || index != ids.objects.size() + 1 ||
+          !to_number(cells[5], object.identity))
         refuse(path, fmt::format("line {} of its table of objects is damaged", ids.objects.size() + 1));
       object.layer = cells[1], object.mark = cells[2], object.body = cells[3], object.other = cells[4];
       ids.objects.push_back(std::move(object));
@@ -88,7 +92,8 @@ IdImage read_ids(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < ids.object.size(); ++i) {
     const std::uint8_t* p = image.rgb.data() + 3 * i;
     ids.object[i] = static_cast<std::uint32_t>(p[0]) << 16 | static_cast<std::uint32_t>(p[1]) << 8 | p[2];
-    if (ids.object[i] > ids.objects.size()) refuse(path, fmt::format("a pixel names object {} of {}", ids.object[i], ids.objects.size()));
+    if (ids.object[i] > ids.objects.size())
+      refuse(path, fmt::format("a pixel names object {} of {}", ids.object[i], ids.objects.size()));
   }
   return ids;
 }

@@ -15,15 +15,18 @@ namespace impinge {
 
 /// Everything of one kind that a layer draws for a body or for a contact.
 struct IdObject {
-  std::string layer;               ///< "panels" for what is written over the picture
-  std::string mark;                ///< surface, fixed surface (of a static body), plane, point, line, arrow, triangle; figures, legend, bar
-  std::string body, other;         ///< names; `other` of contacts only; "" for none
-  std::uint64_t identity = 0;      ///< of a contact: ContactRecord::pair_id, the same from frame to frame
+  std::string layer;  ///< "panels" for what is written over the picture
+  /// surface, fixed surface (of a static body), plane, point, line, arrow, triangle; figures, legend, bar
+  std::string mark;
+  std::string body, other;     ///< names; `other` of contacts only; "" for none
+  std::uint64_t identity = 0;  ///< of a contact: ContactRecord::pair_id, the same from frame to frame
   // not in files, for pickers
-  int body_index = -1;             ///< in the record
-  int contact_index = -1;          ///< in the record
+  int body_index = -1;     ///< in the record
+  int contact_index = -1;  ///< in the record
   /// In two pictures the same thing, though its index may differ.
-  bool is_same_as(const IdObject& o) const { return layer == o.layer && mark == o.mark && body == o.body && other == o.other && identity == o.identity; }
+  bool is_same_as(const IdObject& o) const {
+    return layer == o.layer && mark == o.mark && body == o.body && other == o.other && identity == o.identity;
+  }
 };
 
 struct IdImage {

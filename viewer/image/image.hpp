@@ -13,7 +13,9 @@ struct Image {
   Image(int w, int h) : width(w), height(h), rgb(static_cast<std::size_t>(w) * h * 3, 0) {}
   std::uint8_t* pixel(int x, int y) { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
   const std::uint8_t* pixel(int x, int y) const { return rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x); }
-  friend bool operator==(const Image& l, const Image& r) { return l.width == r.width && l.height == r.height && l.rgb == r.rgb; }
+  friend bool operator==(const Image& l, const Image& r) {
+    return l.width == r.width && l.height == r.height && l.rgb == r.rgb;
+  }
 };
 
 }  // namespace impinge

@@ -14,7 +14,9 @@ namespace {
 using Key = std::tuple<std::string, std::string, std::string, std::string>;  // layer, mark, body, other
 Key key_of(const IdObject& o) { return {o.layer, o.mark, o.body, o.other}; }
 
-bool is_ground(const IdObject* object) { return object == nullptr || object->mark == "plane" || object->mark == "fixed surface"; }
+bool is_ground(const IdObject* object) {
+  return object == nullptr || object->mark == "plane" || object->mark == "fixed surface";
+}
 bool is_solid(const std::string& mark) { return mark == "surface" || mark == "fixed surface" || mark == "plane"; }
 bool is_mark(const IdObject& object) { return !is_solid(object.mark); }
 
@@ -37,7 +39,9 @@ std::string plural(const std::string& mark, int count) { return count == 1 || ma
 }  // namespace
 
 std::string ObjectChange::text() const {
-  const std::string where = body.empty() ? "" : other.empty() ? " of " + body : fmt::format(" between {} and {}", body, other);
+  const std::string where = body.empty()    ? ""
+                            : other.empty() ? " of " + body
+                                            : fmt::format(" between {} and {}", body, other);
   const std::string size = fmt::format("{} pixel{}", pixels, pixels == 1 ? "" : "s");
   const char* what = missing > 0 ? "missing" : added > 0 ? "new" : "changed";
   if (is_solid(mark)) return fmt::format("{}: {} {} ({})", layer, body, what, size);
@@ -52,7 +56,8 @@ std::string ObjectChange::text() const {
   return fmt::format("{}: {} (of {} in A; {})", layer, fmt::join(parts, ", "), in_a, size);
 }
 
-std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const IdImage& ids_a, const IdImage& ids_b, int tolerance, const Image* mask) {
+std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const IdImage& ids_a, const IdImage& ids_b,
+                                         int tolerance, const Image* mask) {
   const auto fits = [&](int w, int h) { return w == a.width && h == a.height; };
   if (!fits(b.width, b.height) || !fits(ids_a.width, ids_a.height) || !fits(ids_b.width, ids_b.height)) return {};
   struct Touched {
@@ -60,7 +65,9 @@ std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const I
     std::int64_t pixels = 0;
   };
   std::map<Key, Touched> touched;
-  const auto object_of = [](const IdImage& ids, std::size_t i) { return ids.object[i] == 0 ? nullptr : &ids.objects[ids.object[i] - 1]; };
+  const auto object_of = [](const IdImage& ids, std::size_t i) {
+    return ids.object[i] == 0 ? nullptr : &ids.objects[ids.object[i] - 1];
+  };
   const auto same_object = [&](std::size_t i) {
     const IdObject *in_a = object_of(ids_a, i), *in_b = object_of(ids_b, i);
     return in_a == nullptr || in_b == nullptr ? in_a == in_b : in_a->is_same_as(*in_b);
@@ -90,7 +97,8 @@ std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const I
     // a mark explains the change of what lies behind it, and a body that of the ground
     const bool mark = (in_a != nullptr && is_mark(*in_a)) || (in_b != nullptr && is_mark(*in_b));
     for (const IdObject* object : {in_a, in_b})
-      if (object != nullptr && (mark ? is_mark(*object) : !is_ground(object) || (is_ground(in_a) && is_ground(in_b)))) count(*object);
+      if (object != nullptr && (mark ? is_mark(*object) : !is_ground(object) || (is_ground(in_a) && is_ground(in_b))))
+        count(*object);
   }
   const auto seen_a = seen_in(ids_a), seen_b = seen_in(ids_b);
   const auto identities = [](const auto& seen, const Key& key) {
@@ -111,7 +119,8 @@ std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const I
     }
     changes.push_back(std::move(change));
   }
-  std::stable_sort(changes.begin(), changes.end(), [](const ObjectChange& l, const ObjectChange& r) { return l.pixels > r.pixels; });
+  std::stable_sort(changes.begin(), changes.end(),
+                   [](const ObjectChange& l, const ObjectChange& r) { return l.pixels > r.pixels; });
   return changes;
 }
 

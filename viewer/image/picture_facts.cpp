@@ -28,12 +28,18 @@ ChangeCause cause_of(const PictureFacts& a, const PictureFacts& b) {
 
 std::string cause_text(const PictureFacts& a, const PictureFacts& b) {
   switch (cause_of(a, b)) {
-    case ChangeCause::unknown: return "";
-    case ChangeCause::other_scene: return fmt::format("another scene (A shows {}, B {})", a.scene, b.scene);
-    case ChangeCause::other_frame: return fmt::format("another frame (A shows frame {}, B frame {})", a.frame, b.frame);
-    case ChangeCause::state: return fmt::format("the state changed (hash {} in A, {} in B)", a.state_hash, b.state_hash);
-    case ChangeCause::drawing: return "only the drawing changed (or a shape, which the state hash leaves out): state and renderer are the same";
-    case ChangeCause::renderer: return fmt::format("only the renderer changed (A by {}, B by {}): the state is the same", a.renderer, b.renderer);
+    case ChangeCause::unknown:
+      return "";
+    case ChangeCause::other_scene:
+      return fmt::format("another scene (A shows {}, B {})", a.scene, b.scene);
+    case ChangeCause::other_frame:
+      return fmt::format("another frame (A shows frame {}, B frame {})", a.frame, b.frame);
+    case ChangeCause::state:
+      return fmt::format("the state changed (hash {} in A, {} in B)", a.state_hash, b.state_hash);
+    case ChangeCause::drawing:
+      return "only the drawing changed (or a shape, which the state hash leaves out): state and renderer are the same";
+    case ChangeCause::renderer:
+      return fmt::format("only the renderer changed (A by {}, B by {}): the state is the same", a.renderer, b.renderer);
   }
   return "";
 }

@@ -16,12 +16,12 @@ struct PictureFacts {
 PictureFacts facts_of(const PngText& text);
 
 enum class ChangeCause {
-  unknown,        ///< a picture without these chunks
+  unknown,  ///< a picture without these chunks
   other_scene,
   other_frame,
-  state,          ///< the simulation gave another state
-  drawing,        ///< the same state was drawn otherwise
-  renderer,       ///< the same state, by another renderer
+  state,     ///< the simulation gave another state
+  drawing,   ///< the same state was drawn otherwise
+  renderer,  ///< the same state, by another renderer
 };
 
 ChangeCause cause_of(const PictureFacts& a, const PictureFacts& b);

@@ -20,14 +20,17 @@ void draw_console_panel(Ui& ui, const DebugModel& model, const UiArea& area, Com
   ImGui::PushTextWrapPos(0.0f);
   for (std::size_t i = first; i < n; ++i) {
     const ConsoleLine& line = model.console[i];
-    const ImVec4 ink = line.kind == ConsoleLine::problem ? ImVec4(1.0f, 0.55f, 0.45f, 1.0f) : line.kind == ConsoleLine::message ? dim() : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    const ImVec4 ink = line.kind == ConsoleLine::problem   ? ImVec4(1.0f, 0.55f, 0.45f, 1.0f)
+                       : line.kind == ConsoleLine::message ? dim()
+                                                           : ImGui::GetStyleColorVec4(ImGuiCol_Text);
     ImGui::TextColored(ink, "%s", line.text.c_str());
   }
   ImGui::PopTextWrapPos();
   frame.end_content();
   static char text[512];  // what is being typed: one console a program
   ImGui::SetNextItemWidth(-1.0f);
-  const bool entered = ImGui::InputTextWithHint("##line", "a command, e.g. set contact.friction 0.5", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##line", "a command, e.g. set contact.friction 0.5", text, sizeof text,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
   ui.name("console/line");
   if (!entered) return;
   if (*text != 0) lines.push_back(text);

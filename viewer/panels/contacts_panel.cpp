@@ -27,34 +27,47 @@ std::string elided(const std::string& text, float width) {
 
 void draw_arrow(bool down) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  const float half = 0.25f * ImGui::GetFontSize(), x = high.x - 2.5f * half, y = 0.5f * (low.y + high.y), tip = down ? half : -half;
-  ImGui::GetWindowDrawList()->AddTriangleFilled({x - half, y - 0.6f * tip}, {x + half, y - 0.6f * tip}, {x, y + tip}, ImGui::GetColorU32(ImGuiCol_Text));
+  const float half = 0.25f * ImGui::GetFontSize(), x = high.x - 2.5f * half, y = 0.5f * (low.y + high.y),
+              tip = down ? half : -half;
+  ImGui::GetWindowDrawList()->AddTriangleFilled({x - half, y - 0.6f * tip}, {x + half, y - 0.6f * tip}, {x, y + tip},
+                                                ImGui::GetColorU32(ImGuiCol_Text));
 }
 
 double value_of(const ContactRecord& c, std::size_t column) {
   switch (column) {
-    case 1: return c.body_a;
-    case 2: return c.body_b;
-    case 3: return c.gap;
-    case 4: return c.lambda.x();
-    case 5: return std::hypot(c.lambda.y(), c.lambda.z());
-    case 6: return static_cast<double>(c.state);
-    default: return 0.0;
+    case 1:
+      return c.body_a;
+    case 2:
+      return c.body_b;
+    case 3:
+      return c.gap;
+    case 4:
+      return c.lambda.x();
+    case 5:
+      return std::hypot(c.lambda.y(), c.lambda.z());
+    case 6:
+      return static_cast<double>(c.state);
+    default:
+      return 0.0;
   }
 }
 
-Color state_color(ContactState state) { return state == ContactState::stick ? role::kStick : state == ContactState::slip ? role::kSlip : role::kOpen; }
+Color state_color(ContactState state) {
+  return state == ContactState::stick ? role::kStick : state == ContactState::slip ? role::kSlip : role::kOpen;
+}
 
 std::vector<int> sorted(const DebugModel& model) {
   const std::vector<ContactRecord>& contacts = model.record->contacts;
   std::vector<int> order(contacts.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto column = static_cast<std::size_t>(std::find(contact_columns().begin(), contact_columns().end(), model.state.sort) - contact_columns().begin());
+  const auto column = static_cast<std::size_t>(
+      std::find(contact_columns().begin(), contact_columns().end(), model.state.sort) - contact_columns().begin());
   const bool down = model.state.descending;
   if (column == 0 && down) std::reverse(order.begin(), order.end());
   if (column > 0)
     std::stable_sort(order.begin(), order.end(), [&](int l, int r) {
-      const double a = value_of(contacts[static_cast<std::size_t>(l)], column), b = value_of(contacts[static_cast<std::size_t>(r)], column);
+      const double a = value_of(contacts[static_cast<std::size_t>(l)], column),
+                   b = value_of(contacts[static_cast<std::size_t>(r)], column);
       return down ? a > b : a < b;
     });
   return order;
@@ -70,10 +83,16 @@ const std::vector<std::string>& contact_columns() {
 void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
   const std::vector<ContactRecord>& contacts = model.record->contacts;
   const int asleep = model.record->stats.asleep;  // their contacts are not looked for
-  const PanelFrame frame(ui, model, "contacts", fmt::format("contacts: {}{}   mm, N s", contacts.size(), asleep > 0 ? fmt::format(" ({} asleep)", asleep) : "").c_str(), area, lines);
+  const PanelFrame frame(
+      ui, model, "contacts",
+      fmt::format("contacts: {}{}   mm, N s", contacts.size(), asleep > 0 ? fmt::format(" ({} asleep)", asleep) : "")
+          .c_str(),
+      area, lines);
   static constexpr const char* kHeads[] = {"#", "A", "B", "gap", "n", "t", ""};
-  static constexpr const char* kTips[] = {"index in this frame", "the body that stands earlier in the scene", "the other body", "mm, negative: they overlap", "normal impulse of the last sub-step, N s",
-                                          "size of the friction impulse, N s", "open, stick or slip"};
+  static constexpr const char* kTips[] = {
+      "index in this frame",        "the body that stands earlier in the scene", "the other body",
+      "mm, negative: they overlap", "normal impulse of the last sub-step, N s",  "size of the friction impulse, N s",
+      "open, stick or slip"};
   const ImGuiTableFlags flags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg | ImGuiTableFlags_PadOuterX;
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(2.0f * ui.unit(), 1.0f * ui.unit()));
   const bool open = ImGui::BeginTable("rows", 7, flags);
@@ -86,7 +105,9 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
     ImGui::TableNextColumn();
     const bool by = model.state.sort == contact_columns()[k];
     const std::string label = fmt::format("{} ###{}", kHeads[k], k);  // the space: of #### the first would not show
-    if (ImGui::Selectable(label.c_str(), by)) lines.push_back(fmt::format("panel sort {}{}", contact_columns()[k], by && !model.state.descending ? " down" : ""));
+    if (ImGui::Selectable(label.c_str(), by))
+      lines.push_back(
+          fmt::format("panel sort {}{}", contact_columns()[k], by && !model.state.descending ? " down" : ""));
     ui.name("contacts/sort:" + contact_columns()[k]);
     if (by) draw_arrow(model.state.descending);
     tooltip(kTips[k]);
@@ -102,7 +123,8 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       const bool is_selected = model.selection.kind == Selection::contact && model.selection.index == index;
-      if (ImGui::Selectable(fmt::format("{}##{}", index, i).c_str(), is_selected, ImGuiSelectableFlags_SpanAllColumns)) lines.push_back(fmt::format("select contact {}", index));
+      if (ImGui::Selectable(fmt::format("{}##{}", index, i).c_str(), is_selected, ImGuiSelectableFlags_SpanAllColumns))
+        lines.push_back(fmt::format("select contact {}", index));
       ui.name(fmt::format("contacts/row:{}", i));
       tooltip(fmt::format("{} and {}, {}", body(c.body_a), body(c.body_b), state_name(c.state)));
       ImGui::TableNextColumn();
@@ -119,7 +141,8 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
       const Color s = state_color(c.state);
       const ImVec2 at = ImGui::GetCursorScreenPos();
       const float half = 0.5f * ImGui::GetTextLineHeight();
-      ImGui::GetWindowDrawList()->AddCircleFilled({at.x + half, at.y + half}, 0.7f * half, ImGui::ColorConvertFloat4ToU32({s.r, s.g, s.b, 1.0f}));
+      ImGui::GetWindowDrawList()->AddCircleFilled({at.x + half, at.y + half}, 0.7f * half,
+                                                  ImGui::ColorConvertFloat4ToU32({s.r, s.g, s.b, 1.0f}));
     }
   ImGui::EndTable();
 }

@@ -1,4 +1,5 @@
-// What the debugger's panels show, as plain data. They change nothing themselves: what is done in them comes out as command lines.
+// What the debugger's panels show, as plain data. They change nothing themselves: what is done in them comes out as
+// command lines.
 #pragma once
 
 #include <algorithm>
@@ -19,19 +20,20 @@ namespace impinge {
 struct Selection {
   enum Kind { none, body, contact };
   Kind kind = none;
-  int index = -1;              ///< of the body or contact in the record
-  int triangle = -1;           ///< of a body's surface, -1: none
-  std::uint64_t pair_id = 0;   ///< of a contact
+  int index = -1;             ///< of the body or contact in the record
+  int triangle = -1;          ///< of a body's surface, -1: none
+  std::uint64_t pair_id = 0;  ///< of a contact
   bool is_there() const { return kind != none && index >= 0; }
 };
 
 /// The panels' own state. Only commands change it, so a recording holds it.
 struct PanelState {
-  std::string sort = "gap";          ///< column of the contact table
+  std::string sort = "gap";  ///< column of the contact table
   bool descending = false;
-  std::set<std::string> folded;      ///< groups of parameters
-  std::string filter;                ///< of parameters
-  std::vector<std::string> plots = {"contacts", "max_penetration_m", "kinetic_J"};  ///< columns of stats.csv in the timeline
+  std::set<std::string> folded;  ///< groups of parameters
+  std::string filter;            ///< of parameters
+  /// columns of stats.csv in the timeline
+  std::vector<std::string> plots = {"contacts", "max_penetration_m", "kinetic_J"};
   std::map<std::string, float> scroll;  ///< by panel, pixels
   bool help = false;
 };
@@ -61,7 +63,9 @@ struct DebugModel {
   /// Of the frame shown, by its column's name; 0 if there is none.
   double figure(std::string_view column) const {
     const auto it = std::find(figure_names->begin(), figure_names->end(), column);
-    return it == figure_names->end() ? 0.0 : (*history)[static_cast<std::size_t>(frame)][static_cast<std::size_t>(it - figure_names->begin())];
+    return it == figure_names->end()
+               ? 0.0
+               : (*history)[static_cast<std::size_t>(frame)][static_cast<std::size_t>(it - figure_names->begin())];
   }
 };
 

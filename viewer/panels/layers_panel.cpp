@@ -10,7 +10,8 @@ void draw_layers_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
   ImGui::Columns(2, nullptr, false);
   for (const LayerSwitch& layer : model.view->layers) {
     bool on = layer.on;
-    if (ImGui::Checkbox(layer.name.c_str(), &on)) lines.push_back(fmt::format("layer {}{}", on ? '+' : '-', layer.name));
+    if (ImGui::Checkbox(layer.name.c_str(), &on))
+      lines.push_back(fmt::format("layer {}{}", on ? '+' : '-', layer.name));
     ui.name("layers/" + layer.name);
     tooltip(layer.doc);
     ImGui::NextColumn();

@@ -13,10 +13,13 @@ int debug_scale(int height) { return std::max(1, static_cast<int>(std::lround(he
 DebugLayout debug_layout(int width, int height, float unit) {
   const auto whole = [](float v) { return std::round(v); };
   const float w = static_cast<float>(width), h = static_cast<float>(height), gap = std::max(1.0f, unit);
-  const float side = whole(std::clamp(0.225f * w, 200.0f * unit, 330.0f * unit)), below = whole(std::clamp(0.24f * h, 150.0f * unit, 230.0f * unit));
+  const float side = whole(std::clamp(0.225f * w, 200.0f * unit, 330.0f * unit)),
+              below = whole(std::clamp(0.24f * h, 150.0f * unit, 230.0f * unit));
   const float right = whole(std::clamp(0.265f * w, 230.0f * unit, 400.0f * unit));  // the contact table wants it
   const float bar = 34.0f * unit, top = h - below - gap;
-  const float layers = whole(std::min(0.45f * top, 246.0f * unit)), inspector = whole(std::min(0.39f * top, 214.0f * unit)), stages = whole(std::min(0.28f * top, 150.0f * unit));
+  const float layers = whole(std::min(0.45f * top, 246.0f * unit)),
+              inspector = whole(std::min(0.39f * top, 214.0f * unit)),
+              stages = whole(std::min(0.28f * top, 150.0f * unit));
   DebugLayout l;
   l.layers = {0, 0, side, layers};
   l.parameters = {0, layers + gap, side, top - layers - gap};
@@ -38,24 +41,33 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("right")) lines.push_back("step");
   if (ui.key_pressed("left") && model.frame > 0) lines.push_back("back");
   if (ui.key_pressed("page_up")) lines.push_back("step 10");
-  if (ui.key_pressed("page_down") && model.frame > 0) lines.push_back(fmt::format("back {}", std::min(10, model.frame)));
+  if (ui.key_pressed("page_down") && model.frame > 0)
+    lines.push_back(fmt::format("back {}", std::min(10, model.frame)));
   if (ui.key_pressed("home")) lines.push_back("seek 0");
   if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
   if (ui.key_pressed("f")) lines.push_back("camera fit");
   constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-  if (ui.key_pressed("escape") && !ImGui::IsPopupOpen("", kAnyPopup)) lines.push_back(model.state.help ? "panel help off" : "select none");
+  if (ui.key_pressed("escape") && !ImGui::IsPopupOpen("", kAnyPopup))
+    lines.push_back(model.state.help ? "panel help off" : "select none");
 }
 
 void draw_help_panel(Ui&, const DebugModel& model, const UiArea& view) {
   if (!model.state.help) return;
-  static constexpr const char* kRows[][2] = {{"space", "play, pause"},           {"right, left", "a frame on, a frame back"}, {"page up, down", "ten frames"},
-                                             {"home, end", "first, last known frame"}, {"f", "fit the view"},              {"escape", "deselect; close this"},
-                                             {"left button", "orbit; a click picks"}, {"right, middle", "pan"},               {"wheel", "zoom; scroll a panel"},
-                                             {"ctrl + click", "type a slider's value"}, {"f1", "this list"}};
+  static constexpr const char* kRows[][2] = {{"space", "play, pause"},
+                                             {"right, left", "a frame on, a frame back"},
+                                             {"page up, down", "ten frames"},
+                                             {"home, end", "first, last known frame"},
+                                             {"f", "fit the view"},
+                                             {"escape", "deselect; close this"},
+                                             {"left button", "orbit; a click picks"},
+                                             {"right, middle", "pan"},
+                                             {"wheel", "zoom; scroll a panel"},
+                                             {"ctrl + click", "type a slider's value"},
+                                             {"f1", "this list"}};
   ImGui::SetNextWindowPos({view.x + 0.5f * view.width, view.y + 0.5f * view.height}, 0, {0.5f, 0.5f});
   ImGui::Begin("help", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
-                   ImGuiWindowFlags_NoNav);
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav);
   ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "keys and mouse");
   ImGui::Separator();
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {

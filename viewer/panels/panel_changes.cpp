@@ -11,15 +11,19 @@ namespace {
 
 template <class T>
 std::uint64_t hash_of(const ImVector<T>& items, std::uint64_t seed) {
-  return hash_bytes({reinterpret_cast<const char*>(items.Data), static_cast<std::size_t>(items.Size) * sizeof(T)}, seed);
+  return hash_bytes({reinterpret_cast<const char*>(items.Data), static_cast<std::size_t>(items.Size) * sizeof(T)},
+                    seed);
 }
 
-/// Whether all that it draws is: what its clip rectangles leave of its triangles. (A panel's background has the whole window's.)
+/// Whether all that it draws is: what its clip rectangles leave of its triangles. (A panel's background has the whole
+/// window's.)
 bool is_within(const ImDrawList& list, const UiArea& area) {
   for (const ImDrawCmd& c : list.CmdBuffer) {
-    const bool clipped = c.ClipRect.x >= area.x && c.ClipRect.y >= area.y && c.ClipRect.z <= area.x + area.width && c.ClipRect.w <= area.y + area.height;
+    const bool clipped = c.ClipRect.x >= area.x && c.ClipRect.y >= area.y && c.ClipRect.z <= area.x + area.width &&
+                         c.ClipRect.w <= area.y + area.height;
     for (unsigned i = 0; i < c.ElemCount && !clipped; ++i) {
-      const ImVec2& p = list.VtxBuffer[static_cast<int>(c.VtxOffset + list.IdxBuffer[static_cast<int>(c.IdxOffset + i)])].pos;
+      const ImVec2& p =
+          list.VtxBuffer[static_cast<int>(c.VtxOffset + list.IdxBuffer[static_cast<int>(c.IdxOffset + i)])].pos;
       if (p.x < area.x || p.y < area.y || p.x > area.x + area.width || p.y > area.y + area.height) return false;
     }
   }

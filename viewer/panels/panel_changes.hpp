@@ -1,5 +1,5 @@
-// Which panels look otherwise than in the frame before: the others are left as they were drawn, since drawing all of them takes
-// the processor longer than anything else in a frame whose scene stands still.
+// Which panels look otherwise than in the frame before: the others are left as they were drawn, since drawing all of
+// them takes the processor longer than anything else in a frame whose scene stands still.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct PanelDrawing {
 
 class PanelChanges {
  public:
-  /// What has to be drawn, each where nothing else is. Nothing if all of the window has to be: something lies over several panels
-  /// or the view, or did so in the frame before.
+  /// What has to be drawn, each where nothing else is. Nothing if all of the window has to be: something lies over
+  /// several panels or the view, or did so in the frame before.
   std::optional<std::vector<PanelDrawing>> next(const ImDrawData& data, std::span<const UiArea> areas);
   /// The next frame is to be drawn as a whole.
   void forget() { last_.clear(); }

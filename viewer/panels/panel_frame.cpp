@@ -6,13 +6,15 @@
 
 namespace impinge {
 
-PanelFrame::PanelFrame(Ui& ui, const DebugModel& model, const char* name, const char* heading, const UiArea& area, CommandLines& lines, float below) {
+PanelFrame::PanelFrame(Ui& ui, const DebugModel& model, const char* name, const char* heading, const UiArea& area,
+                       CommandLines& lines, float below) {
   ImGui::SetNextWindowPos({area.x, area.y});
   ImGui::SetNextWindowSize({area.width, area.height});
   ImGui::Begin(name, nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoScrollbar |
-                   ImGuiWindowFlags_NoScrollWithMouse);
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   if (*heading != 0) {
     ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "%s", heading);
     ImGui::Separator();
@@ -22,8 +24,10 @@ PanelFrame::PanelFrame(Ui& ui, const DebugModel& model, const char* name, const 
   const float wanted = it == model.state.scroll.end() ? 0.0f : it->second, now = ImGui::GetScrollY();
   if (std::abs(now - wanted) < 1.0f) return;
   const bool by_hand = ui.wheel() != 0.0f || ImGui::IsMouseDown(0) || ui.went_up(0) || !ui.wanted().empty();
-  if (by_hand) lines.push_back(fmt::format("panel scroll {} {}", name, std::round(now)));
-  else ImGui::SetScrollY(std::min(wanted, ImGui::GetScrollMaxY()));
+  if (by_hand)
+    lines.push_back(fmt::format("panel scroll {} {}", name, std::round(now)));
+  else
+    ImGui::SetScrollY(std::min(wanted, ImGui::GetScrollMaxY()));
 }
 
 void PanelFrame::end_content() {
@@ -48,7 +52,9 @@ void close_on_escape(const Ui& ui) {
   if (ui.key_pressed("escape")) ImGui::CloseCurrentPopup();
 }
 
-std::string counted(std::int64_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+std::string counted(std::int64_t n, const std::string& what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
 
 std::string brief(double v, int digits) {
   std::string text = fmt::format("{:.{}g}", v + 0.0, digits);  // no -0

@@ -11,10 +11,12 @@
 
 namespace impinge {
 
-/// Begins on construction, ends on destruction. The scroll position is the model's; scrolled by hand it comes out as a line.
+/// Begins on construction, ends on destruction. The scroll position is the model's; scrolled by hand it comes out as a
+/// line.
 class PanelFrame {
  public:
-  PanelFrame(Ui& ui, const DebugModel& model, const char* name, const char* heading, const UiArea& area, CommandLines& lines, float below = 0.0f);
+  PanelFrame(Ui& ui, const DebugModel& model, const char* name, const char* heading, const UiArea& area,
+             CommandLines& lines, float below = 0.0f);
   ~PanelFrame();
   PanelFrame(const PanelFrame&) = delete;
   PanelFrame& operator=(const PanelFrame&) = delete;

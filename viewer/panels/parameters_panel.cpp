@@ -19,10 +19,12 @@ double rounded(double v) { return std::stod(fmt::format("{:.4g}", v)); }
 /// What a slider goes over: the row's range if one can find one's way in it, else what is near the first value.
 Range slider_range(const Parameter& row, double now) {
   Range r = row.range;
-  const double first = row.kind == ParameterKind::integer ? static_cast<double>(std::get<std::int64_t>(row.initial)) : std::get<double>(row.initial);
+  const double first = row.kind == ParameterKind::integer ? static_cast<double>(std::get<std::int64_t>(row.initial))
+                                                          : std::get<double>(row.initial);
   if (r.logarithmic) {
     const double middle = std::abs(first) > 0.0 ? std::abs(first) : 1.0;
-    return {std::max(r.low, std::min(1e-4 * middle, now > 0.0 ? now : middle)), std::min(r.high, std::max(1e4 * middle, now)), true};
+    return {std::max(r.low, std::min(1e-4 * middle, now > 0.0 ? now : middle)),
+            std::min(r.high, std::max(1e4 * middle, now)), true};
   }
   // not by the present value: the scale would move under the pointer
   double reach = first != 0.0 ? 4.0 * std::abs(first) : 1.0;
@@ -32,7 +34,8 @@ Range slider_range(const Parameter& row, double now) {
 }
 
 std::string about(const Parameter& row) {
-  std::string text = row.path + "\n" + row.doc + "\n" + describe_allowed(row) + "; at first " + format_value(row.initial);
+  std::string text =
+      row.path + "\n" + row.doc + "\n" + describe_allowed(row) + "; at first " + format_value(row.initial);
   if (!row.live) text += "\ncan't change while running";
   return text;
 }
@@ -74,7 +77,8 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       if (!row.unit.empty()) format += " " + row.unit;
       const double before = now;
       double at = range.logarithmic ? std::log10(std::max(now, range.low)) : now;
-      const double low = range.logarithmic ? std::log10(range.low) : range.low, high = range.logarithmic ? std::log10(range.high) : range.high;
+      const double low = range.logarithmic ? std::log10(range.low) : range.low,
+                   high = range.logarithmic ? std::log10(range.high) : range.high;
       // ImGui's own logarithm loses small numbers
       if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
       if (row.range.low == -1.0 && now == -1.0) format = "the scene's";  // what -1 stands for in a body's rows
@@ -84,13 +88,16 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       if (typing == row.path) {
         if (begins) ImGui::SetKeyboardFocusHere();
         double typed = now;
-        if (ImGui::InputDouble("##v", &typed, 0.0, 0.0, "%.6g", ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll)) set(shortest(typed));
+        if (ImGui::InputDouble("##v", &typed, 0.0, 0.0, "%.6g",
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll))
+          set(shortest(typed));
         if (!begins && !ImGui::IsItemActive()) typing.clear();
         begins = false;
         ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
         break;
       }
-      bool changed = ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), ImGuiSliderFlags_NoInput);
+      bool changed =
+          ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), ImGuiSliderFlags_NoInput);
       if (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl) {
         ImGui::ClearActiveID();
         changed = false;
@@ -114,7 +121,9 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       break;
     }
     case ParameterKind::text:
-    case ParameterKind::text_list: ImGui::TextColored(dim(), "%s", format_value(value).c_str()); break;
+    case ParameterKind::text_list:
+      ImGui::TextColored(dim(), "%s", format_value(value).c_str());
+      break;
   }
 }
 
@@ -125,14 +134,16 @@ void draw_parameters_panel(Ui& ui, const DebugModel& model, const UiArea& area, 
   char filter[64] = {};
   std::strncpy(filter, model.state.filter.c_str(), sizeof filter - 1);
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::InputTextWithHint("##filter", "search", filter, sizeof filter)) lines.push_back(fmt::format("panel filter {}", filter));
+  if (ImGui::InputTextWithHint("##filter", "search", filter, sizeof filter))
+    lines.push_back(fmt::format("panel filter {}", filter));
   ui.name("parameters/search");
   const std::string word = filter;
   const float label = 0.53f * ImGui::GetContentRegionAvail().x;
   std::string group;
   bool open = false;
   for (const Parameter& row : model.rows->all()) {
-    if (row.path.starts_with("view.layer") || row.path.starts_with("view.camera")) continue;  // panels and mouse of their own
+    // panels and mouse of their own
+    if (row.path.starts_with("view.layer") || row.path.starts_with("view.camera")) continue;
     if (!word.empty() && row.path.find(word) == std::string::npos) continue;
     if (group_of(row) != group) {
       group = group_of(row);
@@ -149,7 +160,9 @@ void draw_parameters_panel(Ui& ui, const DebugModel& model, const UiArea& area, 
     ImGui::PushID(row.path.c_str());
     const bool changed = row.live && format_value(row.get()) != format_value(row.initial);
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, changed ? ImVec4(1.0f, 0.78f, 0.35f, 1.0f) : row.live ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : dim());
+    ImGui::PushStyleColor(ImGuiCol_Text, changed    ? ImVec4(1.0f, 0.78f, 0.35f, 1.0f)
+                                         : row.live ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
+                                                    : dim());
     ImGui::TextUnformatted(short_name(row).c_str());
     ImGui::PopStyleColor();
     tooltip(about(row));
@@ -161,7 +174,8 @@ void draw_parameters_panel(Ui& ui, const DebugModel& model, const UiArea& area, 
     ImGui::EndDisabled();
     if (changed) {
       ImGui::SameLine(0.0f, 3.0f * ui.unit());
-      if (named_button(ui, "parameters/" + row.path + ":reset", "x")) lines.push_back(fmt::format("set {} {}", row.path, format_value(row.initial)));
+      if (named_button(ui, "parameters/" + row.path + ":reset", "x"))
+        lines.push_back(fmt::format("set {} {}", row.path, format_value(row.initial)));
       tooltip("back to " + format_value(row.initial));
     }
     ImGui::PopID();

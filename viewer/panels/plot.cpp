@@ -12,12 +12,13 @@ namespace impinge {
 namespace {
 
 constexpr Color kInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPaper = hex(0xffffff), kFront = hex(0x8a939c);
-constexpr std::array<Color, 7> kColors = {hex(0x0072b2), hex(0xd55e00), hex(0x009e73), hex(0xcc79a7), hex(0x56b4e9), hex(0xe69f00), hex(0x000000)};
-constexpr int kMarks = 4;             // circle, square, triangle, cross
+constexpr std::array<Color, 7> kColors = {hex(0x0072b2), hex(0xd55e00), hex(0x009e73), hex(0xcc79a7),
+                                          hex(0x56b4e9), hex(0xe69f00), hex(0x000000)};
+constexpr int kMarks = 4;                          // circle, square, triangle, cross
 constexpr double kLowest = 1e-18, kHighest = 1e6;  // y beyond these is drawn at the edge
-constexpr double kZeroShift = 0.3;    // decades left of 1 where a count of 0 stands
-constexpr std::size_t kLegendLetters = 24;  // of a line of its note
-constexpr int kMarkEvery = 26;        // pixels between marks of one line
+constexpr double kZeroShift = 0.3;                 // decades left of 1 where a count of 0 stands
+constexpr std::size_t kLegendLetters = 24;         // of a line of its note
+constexpr int kMarkEvery = 26;                     // pixels between marks of one line
 
 ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
 
@@ -40,7 +41,8 @@ class Painter {
     y_.from = pen_.picture_height - margin - 3.2f * pen_.text_size, y_.to = margin + 3.4f * pen_.text_size;
     pen_.text(margin, margin * 0.8f, kInk, plot_.title);
     pen_.text(margin, margin * 0.8f + 1.5f * pen_.text_size, kInk, plot_.y_label);
-    pen_.text(0.5f * (x_.from + x_.to - pen_.text_width(plot_.x_label)), pen_.picture_height - margin - pen_.text_size, kInk, plot_.x_label);
+    pen_.text(0.5f * (x_.from + x_.to - pen_.text_width(plot_.x_label)), pen_.picture_height - margin - pen_.text_size,
+              kInk, plot_.x_label);
     draw_grid();
     pen_.list.PushClipRect({x_.from - 5.0f * u_, y_.to - 5.0f * u_}, {x_.to + 5.0f * u_, y_.from + 5.0f * u_});
     draw_front();
@@ -52,9 +54,14 @@ class Painter {
 
  private:
   float letter() const { return pen_.text_width("0"); }
-  double decade_x(double x) const { return plot_.x_linear ? x : plot_.x_counts && x == 0.0 ? -kZeroShift : std::log10(x); }
+  double decade_x(double x) const {
+    return plot_.x_linear ? x : plot_.x_counts && x == 0.0 ? -kZeroShift : std::log10(x);
+  }
   static double decade_y(double y) { return std::log10(std::clamp(y, kLowest, kHighest)); }
-  bool is_drawn(const Vec2& p) const { return std::isfinite(p.x()) && !std::isnan(p.y()) && p.y() >= 0.0 && (p.x() > 0.0 || ((plot_.x_counts || plot_.x_linear) && p.x() == 0.0)); }
+  bool is_drawn(const Vec2& p) const {
+    return std::isfinite(p.x()) && !std::isnan(p.y()) && p.y() >= 0.0 &&
+           (p.x() > 0.0 || ((plot_.x_counts || plot_.x_linear) && p.x() == 0.0));
+  }
 
   void find_ranges() {
     double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
@@ -97,7 +104,8 @@ class Painter {
     for (int d = static_cast<int>(std::floor(x_.low)); d <= static_cast<int>(std::ceil(x_.high)); ++d)
       for (const int digit : {1, 2, 5}) {
         const double at = d + std::log10(digit);
-        if ((digit != 1 && !fine) || at < x_.low - 1e-9 || at > x_.high + 1e-9 || (plot_.x_counts && at < 0.0)) continue;
+        if ((digit != 1 && !fine) || at < x_.low - 1e-9 || at > x_.high + 1e-9 || (plot_.x_counts && at < 0.0))
+          continue;
         tick_x(at, fmt::format("{:g}", digit * std::pow(10.0, d)), line);
       }
     if (plot_.x_counts && x_.low < 0.0) tick_x(-kZeroShift, "0", line);
@@ -123,8 +131,10 @@ class Painter {
         pen_.list.AddRectFilled({x - r, y - r}, {x + r, y + r}, fill);
         break;
       case 2:
-        pen_.list.AddTriangleFilled({x, y - 1.6f * r - u_}, {x + 1.5f * r + u_, y + 1.1f * r + u_}, {x - 1.5f * r - u_, y + 1.1f * r + u_}, paper);
-        pen_.list.AddTriangleFilled({x, y - 1.4f * r}, {x + 1.3f * r, y + 0.9f * r}, {x - 1.3f * r, y + 0.9f * r}, fill);
+        pen_.list.AddTriangleFilled({x, y - 1.6f * r - u_}, {x + 1.5f * r + u_, y + 1.1f * r + u_},
+                                    {x - 1.5f * r - u_, y + 1.1f * r + u_}, paper);
+        pen_.list.AddTriangleFilled({x, y - 1.4f * r}, {x + 1.3f * r, y + 0.9f * r}, {x - 1.3f * r, y + 0.9f * r},
+                                    fill);
         break;
       default:
         pen_.list.AddLine({x - r, y - r}, {x + r, y + r}, fill, 2.5f * u_);
@@ -136,7 +146,8 @@ class Painter {
     const PlotSeries& s = plot_.series[i];
     std::vector<ImVec2> line;
     const auto flush = [&] {  // segment by segment: joins of one polyline grow thin where it turns back sharply
-      for (std::size_t k = 1; k < line.size(); ++k) pen_.list.AddLine(line[k - 1], line[k], packed(color(i)), 2.0f * u_);
+      for (std::size_t k = 1; k < line.size(); ++k)
+        pen_.list.AddLine(line[k - 1], line[k], packed(color(i)), 2.0f * u_);
       line.clear();
     };
     std::vector<ImVec2> marks;
@@ -148,7 +159,9 @@ class Painter {
       const ImVec2 at{x_.at(decade_x(p.x())), y_.at(decade_y(p.y()))};
       // several points a pixel become one line anyway
       if (line.empty() || std::hypot(at.x - line.back().x, at.y - line.back().y) > 0.5f) line.push_back(at);
-      if (plot_.marks_all || marks.empty() || std::hypot(at.x - marks.back().x, at.y - marks.back().y) > static_cast<float>(kMarkEvery) * u_ || &p == &s.points.back())
+      if (plot_.marks_all || marks.empty() ||
+          std::hypot(at.x - marks.back().x, at.y - marks.back().y) > static_cast<float>(kMarkEvery) * u_ ||
+          &p == &s.points.back())
         marks.push_back(at);
     }
     flush();
@@ -172,7 +185,8 @@ class Painter {
     const float length = std::hypot(b.x - a.x, b.y - a.y), dash = 6.0f * u_;
     for (float at = 0.0f; at < length; at += 2.0f * dash) {
       const float s = at / length, e = std::min(1.0f, (at + dash) / length);
-      pen_.list.AddLine({a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, {a.x + e * (b.x - a.x), a.y + e * (b.y - a.y)}, packed(kFront), 1.4f * u_);
+      pen_.list.AddLine({a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)}, {a.x + e * (b.x - a.x), a.y + e * (b.y - a.y)},
+                        packed(kFront), 1.4f * u_);
     }
   }
   void draw_rings() const {
@@ -184,8 +198,12 @@ class Painter {
 
   static std::array<std::string, 2> lines_of(const std::string& name) {
     std::size_t at = name.find('-');
-    while (at != std::string::npos && (at + 1 == name.size() || !std::isalpha(static_cast<unsigned char>(name[at + 1])))) at = name.find('-', at + 1);  // 1e-6 is one word
-    return at == std::string::npos ? std::array<std::string, 2>{name, ""} : std::array<std::string, 2>{name.substr(0, at), "  " + name.substr(at + 1)};
+    // 1e-6 is one word
+    while (at != std::string::npos &&
+           (at + 1 == name.size() || !std::isalpha(static_cast<unsigned char>(name[at + 1]))))
+      at = name.find('-', at + 1);
+    return at == std::string::npos ? std::array<std::string, 2>{name, ""}
+                                   : std::array<std::string, 2>{name.substr(0, at), "  " + name.substr(at + 1)};
   }
   float legend_width() const {
     float width = 0.0f;

@@ -15,11 +15,15 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
     double ms;
     std::string work;
   };
-  const Row rows[] = {{"broad", model.figure("broad_ms"), counted(s.broad_pairs, "body pair")},
-                      {"narrow", model.figure("narrow_ms"), counted(s.triangle_pairs, "triangle pair")},
-                      {"assemble", model.figure("assemble_ms"), fmt::format("{}, {}", counted(s.dofs, "unknown"), counted(s.contacts, "contact"))},
-                      {"response", model.figure("response_ms"), s.contacts == 0 ? "nothing to solve" : fmt::format("{}, {}", counted(s.groups, "group"), counted(s.lcp_iterations, "iteration"))},
-                      {"integrate", model.figure("integrate_ms"), counted(s.substeps, "sub-step")}};
+  const Row rows[] = {
+      {"broad", model.figure("broad_ms"), counted(s.broad_pairs, "body pair")},
+      {"narrow", model.figure("narrow_ms"), counted(s.triangle_pairs, "triangle pair")},
+      {"assemble", model.figure("assemble_ms"),
+       fmt::format("{}, {}", counted(s.dofs, "unknown"), counted(s.contacts, "contact"))},
+      {"response", model.figure("response_ms"),
+       s.contacts == 0 ? "nothing to solve"
+                       : fmt::format("{}, {}", counted(s.groups, "group"), counted(s.lcp_iterations, "iteration"))},
+      {"integrate", model.figure("integrate_ms"), counted(s.substeps, "sub-step")}};
   const double step_ms = model.figure("step_ms");
   bool timed = model.view->show_timings;
   if (!ImGui::BeginTable("stages", 2, ImGuiTableFlags_SizingStretchProp)) return;
@@ -35,12 +39,14 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
     }
     const float share = step_ms > 0.0 ? static_cast<float>(row.ms / step_ms) : 0.0f;
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
-    ImGui::ProgressBar(std::clamp(share, 0.0f, 1.0f), {-1.0f, ImGui::GetTextLineHeight()}, fmt::format("{:.2f} ms", row.ms).c_str());
+    ImGui::ProgressBar(std::clamp(share, 0.0f, 1.0f), {-1.0f, ImGui::GetTextLineHeight()},
+                       fmt::format("{:.2f} ms", row.ms).c_str());
     ImGui::PopStyleColor();
     tooltip(row.work);
   }
   ImGui::EndTable();
-  if (ImGui::Checkbox("times", &timed)) lines.push_back(fmt::format("set view.panel.timings {}", timed ? "true" : "false"));
+  if (ImGui::Checkbox("times", &timed))
+    lines.push_back(fmt::format("set view.panel.timings {}", timed ? "true" : "false"));
   ui.name("stages/times");
   tooltip("wall-clock times: pictures with them are not the same twice");
   if (timed) {

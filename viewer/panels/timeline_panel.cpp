@@ -1,4 +1,5 @@
-// Chosen columns of stats.csv over the frames, one strip each: its name at its left, the present value at its right. A click or drag seeks.
+// Chosen columns of stats.csv over the frames, one strip each: its name at its left, the present value at its right. A
+// click or drag seeks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,10 +21,13 @@ struct Axis {
   float left, right;
   int last;
   float x(double frame) const { return left + static_cast<float>(frame) / static_cast<float>(last) * (right - left); }
-  int frame(float at) const { return static_cast<int>(std::lround((at - left) / (right - left) * static_cast<float>(last))); }
+  int frame(float at) const {
+    return static_cast<int>(std::lround((at - left) / (right - left) * static_cast<float>(last)));
+  }
 };
 
-void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, float top, float bottom, std::uint32_t rgb, float text, float unit) {
+void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, float top, float bottom,
+                std::uint32_t rgb, float text, float unit) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto& history = *model.history;
   double high = 0.0, low = 0.0;
@@ -39,7 +43,8 @@ void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, f
     const float x = axis.x(static_cast<double>(k));
     double least = history[k][column], most = least;
     std::size_t end = k + 1;
-    for (; end < history.size() && axis.x(static_cast<double>(end)) < x + 1.0f; ++end) least = std::min(least, history[end][column]), most = std::max(most, history[end][column]);
+    for (; end < history.size() && axis.x(static_cast<double>(end)) < x + 1.0f; ++end)
+      least = std::min(least, history[end][column]), most = std::max(most, history[end][column]);
     if (std::isfinite(least) && std::isfinite(most)) {
       points.push_back({x, y(most)});
       if (end > k + 1) points.push_back({x, y(least)});
@@ -84,12 +89,15 @@ void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
   const Axis axis{left, right, std::max(1, model.known_last)};
   const float each = plots.empty() ? size.y : size.y / static_cast<float>(plots.size());
   for (std::size_t i = 0; i < plots.size(); ++i) {
-    const auto column = std::find(model.figure_names->begin(), model.figure_names->end(), plots[i]) - model.figure_names->begin();
+    const auto column =
+        std::find(model.figure_names->begin(), model.figure_names->end(), plots[i]) - model.figure_names->begin();
     const float top = start.y + static_cast<float>(i) * each;
-    draw_strip(model, static_cast<std::size_t>(column), axis, top, top + each - 2.0f * u, kPlotInks[i % std::size(kPlotInks)], ImGui::GetFontSize(), u);
+    draw_strip(model, static_cast<std::size_t>(column), axis, top, top + each - 2.0f * u,
+               kPlotInks[i % std::size(kPlotInks)], ImGui::GetFontSize(), u);
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  for (const int k : *model.changed_frames) list.AddLine({axis.x(k), start.y}, {axis.x(k), start.y + 5.0f * u}, ink(0xffb84d), 1.5f * u);
+  for (const int k : *model.changed_frames)
+    list.AddLine({axis.x(k), start.y}, {axis.x(k), start.y + 5.0f * u}, ink(0xffb84d), 1.5f * u);
   list.AddLine({axis.x(model.frame), start.y}, {axis.x(model.frame), start.y + size.y}, ink(0xffffff, 0.8f), u);
   if (ImGui::IsItemActive()) {
     const int to = std::clamp(axis.frame(ui.mouse_x()), 0, model.known_last);
@@ -99,8 +107,10 @@ void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
     if (ImGui::IsItemHovered() && at >= 0 && at <= model.known_last) {
       std::string text = fmt::format("frame {}", at);
       for (const std::string& name : plots) {
-        const auto column = std::find(model.figure_names->begin(), model.figure_names->end(), name) - model.figure_names->begin();
-        text += fmt::format("\n{} {:.6g}", name, (*model.history)[static_cast<std::size_t>(at)][static_cast<std::size_t>(column)]);
+        const auto column =
+            std::find(model.figure_names->begin(), model.figure_names->end(), name) - model.figure_names->begin();
+        text += fmt::format("\n{} {:.6g}", name,
+                            (*model.history)[static_cast<std::size_t>(at)][static_cast<std::size_t>(column)]);
       }
       tooltip(text);
     }

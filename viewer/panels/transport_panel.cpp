@@ -16,7 +16,8 @@ void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, C
   if (named_button(ui, "transport/back", "<") && model.frame > 0) lines.push_back("back");
   tooltip("a frame back (left)");
   ImGui::SameLine();
-  if (named_button(ui, "transport/play", model.playing ? "pause" : "play ", model.playing)) lines.push_back(model.playing ? "pause" : "play");
+  if (named_button(ui, "transport/play", model.playing ? "pause" : "play ", model.playing))
+    lines.push_back(model.playing ? "pause" : "play");
   tooltip("space");
   ImGui::SameLine();
   if (named_button(ui, "transport/step", ">")) lines.push_back("step");
@@ -26,14 +27,18 @@ void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, C
   tooltip("last frame that was made (end)");
   ImGui::SameLine();
 
-  const std::string memory = fmt::format("{}, {:.1f} of {:.0f} MB", counted(static_cast<std::int64_t>(model.snapshots), "state"), static_cast<double>(model.snapshot_bytes) / 1048576.0,
-                                         static_cast<double>(model.most_snapshot_bytes) / 1048576.0);
+  const std::string memory =
+      fmt::format("{}, {:.1f} of {:.0f} MB", counted(static_cast<std::int64_t>(model.snapshots), "state"),
+                  static_cast<double>(model.snapshot_bytes) / 1048576.0,
+                  static_cast<double>(model.most_snapshot_bytes) / 1048576.0);
   const std::string time = fmt::format("{:.4f} s", model.record->stats.time);
   const float right = ImGui::CalcTextSize(memory.c_str()).x + ImGui::CalcTextSize(time.c_str()).x + 40.0f * ui.unit();
   ImGui::SetNextItemWidth(std::max(80.0f * ui.unit(), ImGui::GetContentRegionAvail().x - right));
   double at = model.frame;  // of whole numbers the grab is as wide as one
   const double none = 0.0, last = std::max(1, model.known_last);
-  if (ImGui::SliderScalar("##frame", ImGuiDataType_Double, &at, &none, &last, fmt::format("frame {} of {}", model.frame, model.known_last).c_str(), ImGuiSliderFlags_NoInput)) {
+  if (ImGui::SliderScalar("##frame", ImGuiDataType_Double, &at, &none, &last,
+                          fmt::format("frame {} of {}", model.frame, model.known_last).c_str(),
+                          ImGuiSliderFlags_NoInput)) {
     const int to = std::clamp(static_cast<int>(std::lround(at)), 0, model.known_last);
     if (to != model.frame) lines.push_back(fmt::format("seek {}", to));
   }

@@ -15,12 +15,31 @@ struct KeyRow {
   const char* name;
   int imgui;  // ImGuiKey_, or -1
 };
-constexpr KeyRow kKeys[] = {
-    {"tab", ImGuiKey_Tab},       {"left", ImGuiKey_LeftArrow}, {"right", ImGuiKey_RightArrow}, {"up", ImGuiKey_UpArrow},   {"down", ImGuiKey_DownArrow}, {"home", ImGuiKey_Home},
-    {"end", ImGuiKey_End},       {"delete", ImGuiKey_Delete},  {"backspace", ImGuiKey_Backspace}, {"space", ImGuiKey_Space}, {"enter", ImGuiKey_Enter},    {"escape", ImGuiKey_Escape},
-    {"a", ImGuiKey_A},           {"c", ImGuiKey_C},            {"v", ImGuiKey_V},              {"x", ImGuiKey_X},         {"y", ImGuiKey_Y},            {"z", ImGuiKey_Z},
-    {"f", -1},                   {"r", -1},                    {"f1", -1},                     {"page_up", ImGuiKey_PageUp}, {"page_down", ImGuiKey_PageDown}, {"ctrl", -1},
-    {"shift", -1}};
+constexpr KeyRow kKeys[] = {{"tab", ImGuiKey_Tab},
+                            {"left", ImGuiKey_LeftArrow},
+                            {"right", ImGuiKey_RightArrow},
+                            {"up", ImGuiKey_UpArrow},
+                            {"down", ImGuiKey_DownArrow},
+                            {"home", ImGuiKey_Home},
+                            {"end", ImGuiKey_End},
+                            {"delete", ImGuiKey_Delete},
+                            {"backspace", ImGuiKey_Backspace},
+                            {"space", ImGuiKey_Space},
+                            {"enter", ImGuiKey_Enter},
+                            {"escape", ImGuiKey_Escape},
+                            {"a", ImGuiKey_A},
+                            {"c", ImGuiKey_C},
+                            {"v", ImGuiKey_V},
+                            {"x", ImGuiKey_X},
+                            {"y", ImGuiKey_Y},
+                            {"z", ImGuiKey_Z},
+                            {"f", -1},
+                            {"r", -1},
+                            {"f1", -1},
+                            {"page_up", ImGuiKey_PageUp},
+                            {"page_down", ImGuiKey_PageDown},
+                            {"ctrl", -1},
+                            {"shift", -1}};
 constexpr int kCtrl = 23, kShift = 24;
 
 ImVec4 color(std::uint32_t rgb, float alpha = 1.0f) {
@@ -123,20 +142,33 @@ void Ui::begin(int width, int height) {
   bool moved = false;
   while (!queue_.empty()) {
     const UiEvent event = queue_.front();
-    const bool alone = event.kind == UiEvent::press || event.kind == UiEvent::release || event.kind == UiEvent::key_down || event.kind == UiEvent::key_up;
+    const bool alone = event.kind == UiEvent::press || event.kind == UiEvent::release ||
+                       event.kind == UiEvent::key_down || event.kind == UiEvent::key_up;
     if (alone && moved) break;  // what is under the pointer is known a frame later
     queue_.pop_front();
     switch (event.kind) {
-      case UiEvent::move: mouse_x_ = event.x, mouse_y_ = event.y, moved = true; break;
-      case UiEvent::press: down_[event.code] = went_down_[event.code] = true; break;
-      case UiEvent::release: down_[event.code] = false, went_up_[event.code] = true; break;
-      case UiEvent::wheel: wheel_ += event.y; break;
+      case UiEvent::move:
+        mouse_x_ = event.x, mouse_y_ = event.y, moved = true;
+        break;
+      case UiEvent::press:
+        down_[event.code] = went_down_[event.code] = true;
+        break;
+      case UiEvent::release:
+        down_[event.code] = false, went_up_[event.code] = true;
+        break;
+      case UiEvent::wheel:
+        wheel_ += event.y;
+        break;
       case UiEvent::key_down:
         io.KeysDown[event.code] = true;
         keys_now_.push_back(event.code);
         break;
-      case UiEvent::key_up: io.KeysDown[event.code] = false; break;
-      case UiEvent::type: io.AddInputCharactersUTF8(event.text.c_str()); break;
+      case UiEvent::key_up:
+        io.KeysDown[event.code] = false;
+        break;
+      case UiEvent::type:
+        io.AddInputCharactersUTF8(event.text.c_str());
+        break;
     }
     if (alone) break;
   }
@@ -155,7 +187,9 @@ const ImDrawData& Ui::end() {
 }
 
 void Ui::draw() { backend_->draw(*ImGui::GetDrawData()); }
-void Ui::draw(std::span<const ImDrawList* const> lists) { backend_->draw(lists, ImGui::GetDrawData()->DisplaySize.x, ImGui::GetDrawData()->DisplaySize.y); }
+void Ui::draw(std::span<const ImDrawList* const> lists) {
+  backend_->draw(lists, ImGui::GetDrawData()->DisplaySize.x, ImGui::GetDrawData()->DisplaySize.y);
+}
 
 bool Ui::key_pressed(const std::string& name) const {
   const auto it = std::find(key_names().begin(), key_names().end(), name);
@@ -179,11 +213,13 @@ void Ui::name(const std::string& name, const UiWidget& what) {
 
 float Ui::slider_x(const UiWidget& slider, double value) const {
   // as ImGui::SliderBehavior places its grab
-  const double at = slider.logarithmic ? std::log10(value) : value, padding = 2.0, size = slider.area.width - 2.0 * padding, span = slider.high - slider.low;
+  const double at = slider.logarithmic ? std::log10(value) : value, padding = 2.0,
+               size = slider.area.width - 2.0 * padding, span = slider.high - slider.low;
   double grab = ImGui::GetStyle().GrabMinSize;
   if (slider.is_whole) grab = std::max(size / (span + 1.0), grab);
   grab = std::min(grab, size);
-  return static_cast<float>(slider.area.x + padding + 0.5 * grab + std::clamp((at - slider.low) / span, 0.0, 1.0) * (size - grab));
+  return static_cast<float>(slider.area.x + padding + 0.5 * grab +
+                            std::clamp((at - slider.low) / span, 0.0, 1.0) * (size - grab));
 }
 
 const UiWidget* Ui::find(const std::string& name) const {

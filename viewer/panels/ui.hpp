@@ -1,5 +1,6 @@
-// Dear ImGui for the debugger: one context, one queue of input whoever makes it (a mouse, a script), and widgets with names, so
-// that a script finds them. The same input gives the same pixels: time goes by fixed ticks, nothing is kept in files.
+// Dear ImGui for the debugger: one context, one queue of input whoever makes it (a mouse, a script), and widgets with
+// names, so that a script finds them. The same input gives the same pixels: time goes by fixed ticks, nothing is kept
+// in files.
 #pragma once
 
 #include <deque>
@@ -35,7 +36,7 @@ struct UiArea {
 /// A widget as it was drawn last.
 struct UiWidget {
   UiArea area;
-  bool visible = false;   ///< not scrolled away
+  bool visible = false;  ///< not scrolled away
   bool is_slider = false, is_whole = false;
   double low = 0.0, high = 0.0;  ///< of a slider; of a logarithmic one log10
   bool logarithmic = false;
@@ -55,8 +56,8 @@ class Ui {
 
   /// Takes events up to the first that must be seen by itself (1.86 has no queue of its own), and begins a frame.
   void begin(int width, int height);
-  /// What the frame looks like; valid until the next one begins. draw() brings it, or some of its lists, into the framebuffer that is
-  /// bound.
+  /// What the frame looks like; valid until the next one begins. draw() brings it, or some of its lists, into the
+  /// framebuffer that is bound.
   const ImDrawData& end();
   void draw();
   void draw(std::span<const ImDrawList* const> lists);

@@ -25,7 +25,8 @@ DebugWindow::DebugWindow(int width, int height, int scale)
 DebugWindow::~DebugWindow() { context_->make_current(); }
 
 std::string DebugWindow::scene_key(const DebugModel& model) const {
-  std::string key = fmt::format("{} {:016x} {} {} {} {}", model.frame, model.record->stats.state_hash, static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
+  std::string key = fmt::format("{} {:016x} {} {} {} {}", model.frame, model.record->stats.state_hash,
+                                static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
                                 static_cast<const void*>(model.record));
   for (const Parameter& row : model.rows->all())
     if (row.path.starts_with("view.")) key += ' ' + format_value(row.get());
@@ -57,16 +58,20 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   draw_console_panel(ui_, model, layout_.console, lines);
   draw_help_panel(ui_, model, layout_.view);
   use_mouse(model, lines);
-  const UiArea areas[] = {layout_.layers, layout_.parameters, layout_.inspector, layout_.contacts, layout_.stages, layout_.transport, layout_.timeline, layout_.console};
+  const UiArea areas[] = {layout_.layers, layout_.parameters, layout_.inspector, layout_.contacts,
+                          layout_.stages, layout_.transport,  layout_.timeline,  layout_.console};
   const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), areas);
   has_changed_ = is_new || !changed || !changed->empty();
   if (!changed) window_.clear(kBetweenPanels);
-  if (!changed || is_new) scene_.target().copy_to(window_, static_cast<int>(layout_.view.x), static_cast<int>(layout_.view.y));
+  if (!changed || is_new)
+    scene_.target().copy_to(window_, static_cast<int>(layout_.view.x), static_cast<int>(layout_.view.y));
   window_.bind();
-  if (!changed) ui_.draw();
+  if (!changed)
+    ui_.draw();
   else
     for (const PanelDrawing& panel : *changed) {
-      window_.clear(kBetweenPanels, static_cast<int>(panel.area.x), static_cast<int>(panel.area.y), static_cast<int>(panel.area.width), static_cast<int>(panel.area.height));
+      window_.clear(kBetweenPanels, static_cast<int>(panel.area.x), static_cast<int>(panel.area.y),
+                    static_cast<int>(panel.area.width), static_cast<int>(panel.area.height));
       ui_.draw(panel.lists);
     }
   return lines;
@@ -81,8 +86,10 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
   const float x = ui_.mouse_x(), y = ui_.mouse_y();
   const bool over = layout_.view.holds(x, y) && !ui_.takes_mouse();
   for (int button = 0; button < 3; ++button)
-    if (over && ui_.went_down(button) && held_ < 0) held_ = button, pressed_x_ = last_x_ = x, pressed_y_ = last_y_ = y, dragged_ = false;
-  if (over && ui_.wheel() != 0.0f) lines.push_back(fmt::format("camera zoom {}", shortest(std::pow(kZoomPerStep, ui_.wheel()))));
+    if (over && ui_.went_down(button) && held_ < 0)
+      held_ = button, pressed_x_ = last_x_ = x, pressed_y_ = last_y_ = y, dragged_ = false;
+  if (over && ui_.wheel() != 0.0f)
+    lines.push_back(fmt::format("camera zoom {}", shortest(std::pow(kZoomPerStep, ui_.wheel()))));
   if (held_ < 0) return;
   const float dx = x - last_x_, dy = y - last_y_;
   dragged_ |= std::hypot(x - pressed_x_, y - pressed_y_) > kClick * ui_.unit();
@@ -135,11 +142,16 @@ void DebugWindow::mark_selection(const DebugModel& model, DrawList& list) const 
     return;
   }
   const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
-  if (!body.bounds.is_empty() && !std::holds_alternative<Plane>(*body.shape)) list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
+  if (!body.bounds.is_empty() && !std::holds_alternative<Plane>(*body.shape))
+    list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
   const auto* mesh = std::get_if<MeshPointer>(body.shape);
   if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>((*mesh)->mesh.triangles.size())) return;
   const auto& t = (*mesh)->mesh.triangles[static_cast<std::size_t>(s.triangle)];
-  list.triangles.push_back({{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])], body.vertices[static_cast<std::size_t>(t[2])]}, kSelected, Depth::on_top});
+  list.triangles.push_back(
+      {{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])],
+        body.vertices[static_cast<std::size_t>(t[2])]},
+       kSelected,
+       Depth::on_top});
 }
 
 }  // namespace impinge

@@ -1,4 +1,5 @@
-// The debugger's window as pixels: the view of the scene and the panels around it in one framebuffer, with or without a screen.
+// The debugger's window as pixels: the view of the scene and the panels around it in one framebuffer, with or without a
+// screen.
 #pragma once
 
 #include "viewer/gl/context.hpp"
@@ -24,8 +25,8 @@ class DebugWindow {
   Ui& ui() { return ui_; }
   std::string renderer_name() const { return context_->renderer_name(); }
 
-  /// Takes the next input, draws, and says what the input asks for, as command lines. Scene and panels are drawn again only where
-  /// they changed. `quick`: while the view is dragged its edges are left as they are.
+  /// Takes the next input, draws, and says what the input asks for, as command lines. Scene and panels are drawn again
+  /// only where they changed. `quick`: while the view is dragged its edges are left as they are.
   CommandLines paint(const DebugModel& model, bool quick = false);
   /// Whether the view is not as it is to be once it stands still.
   bool is_rough() const { return rough_; }
@@ -47,8 +48,8 @@ class DebugWindow {
   DebugLayout layout_;
   ScenePainter scene_;
   PanelChanges changes_;
-  std::string painted_;          // key of what scene_ shows
-  int held_ = -1;                // button that went down over the view
+  std::string painted_;  // key of what scene_ shows
+  int held_ = -1;        // button that went down over the view
   float pressed_x_ = 0.0f, pressed_y_ = 0.0f, last_x_ = 0.0f, last_y_ = 0.0f;
   bool dragged_ = false, rough_ = false, has_changed_ = true;
 };

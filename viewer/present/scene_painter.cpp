@@ -26,12 +26,14 @@ RenderStyle style_of(const ViewSettings& settings, int height) {
 }
 
 Camera camera_of(const StepRecord& record, const ViewSettings& settings, int width, int height) {
-  return settings.camera_given ? settings.camera : fitted_camera(record, settings.camera, static_cast<double>(width) / height);
+  return settings.camera_given ? settings.camera
+                               : fitted_camera(record, settings.camera, static_cast<double>(width) / height);
 }
 
 /// What is written over the picture hides what is behind it.
 void add_panel(IdImage& ids, const PanelArea& area, const char* mark) {
-  const int left = std::clamp(static_cast<int>(std::floor(area.x)), 0, ids.width), top = std::clamp(static_cast<int>(std::floor(area.y)), 0, ids.height);
+  const int left = std::clamp(static_cast<int>(std::floor(area.x)), 0, ids.width),
+            top = std::clamp(static_cast<int>(std::floor(area.y)), 0, ids.height);
   const int right = std::clamp(static_cast<int>(std::ceil(area.x + area.width)), left, ids.width);
   const int bottom = std::clamp(static_cast<int>(std::ceil(area.y + area.height)), top, ids.height);
   if (area.width <= 0.0f || right == left || bottom == top) return;
@@ -52,7 +54,8 @@ void add_panel(IdImage& ids, const PanelArea& area, const char* mark) {
 
 ScenePainter::ScenePainter(int width, int height) : target_(width, height) {}
 
-const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSettings& settings, const std::function<void(DrawList&)>& more) {
+const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSettings& settings,
+                                       const std::function<void(DrawList&)>& more) {
   const Camera camera = camera_of(record, settings, width(), height());
   list_.clear();
   const LayerContext context{record, settings, camera, surfaces_};

@@ -18,7 +18,8 @@ class ScenePainter {
   int width() const { return target_.width(); }
   int height() const { return target_.height(); }
   /// `more` adds to what the layers draw, such as what is selected.
-  const Framebuffer& paint(const StepRecord& record, const ViewSettings& settings, const std::function<void(DrawList&)>& more = {});
+  const Framebuffer& paint(const StepRecord& record, const ViewSettings& settings,
+                           const std::function<void(DrawList&)>& more = {});
   Framebuffer& target() { return target_; }
   /// What each pixel of what was painted last shows; panels are objects too. Labels belong to what is behind them.
   void read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids);

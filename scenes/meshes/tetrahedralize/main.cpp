@@ -41,7 +41,8 @@ struct Options {
 double number(const char* name, const char* text) {
   char* end = nullptr;
   const double value = std::strtod(text, &end);
-  if (end == text || *end != '\0' || !std::isfinite(value)) throw std::runtime_error(std::string(name) + " is no number");
+  if (end == text || *end != '\0' || !std::isfinite(value))
+    throw std::runtime_error(std::string(name) + " is no number");
   return value;
 }
 
@@ -58,7 +59,8 @@ Options parse(int count, char** words) {
       files.emplace_back(words[i]);
   }
   if (files.size() != 2 || !(options.max_size > 0.0) || options.min_angle < 0.0 || options.min_angle > 20.0)
-    throw std::runtime_error("usage: impinge-tetrahedralize SURFACE.off VOLUME.msh --max-size METRES [--min-angle 0...20]");
+    throw std::runtime_error(
+        "usage: impinge-tetrahedralize SURFACE.off VOLUME.msh --max-size METRES [--min-angle 0...20]");
   options.surface = files[0];
   options.volume = files[1];
   return options;
@@ -75,14 +77,16 @@ Surface read_off(const std::string& path) {
   for (std::size_t i = 0; i < vertices && in >> x >> y >> z; ++i) points.emplace_back(x, y, z);
   for (std::size_t i = 0; i < faces; ++i) {
     std::size_t corners = 0, a = 0, b = 0, c = 0;
-    if (!(in >> corners >> a >> b >> c) || corners != 3 || std::max({a, b, c}) >= points.size()) throw std::runtime_error(path + " ends early or holds more than triangles");
+    if (!(in >> corners >> a >> b >> c) || corners != 3 || std::max({a, b, c}) >= points.size())
+      throw std::runtime_error(path + " ends early or holds more than triangles");
     polygons.push_back({a, b, c});
   }
   // vertices where two sheets touch are taken apart
   CGAL::Polygon_mesh_processing::orient_polygon_soup(points, polygons);
   Surface surface;
   CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, polygons, surface);
-  if (surface.number_of_faces() == 0 || !CGAL::is_closed(surface)) throw std::runtime_error(path + " is not a closed surface");
+  if (surface.number_of_faces() == 0 || !CGAL::is_closed(surface))
+    throw std::runtime_error(path + " is not a closed surface");
   return surface;
 }
 
@@ -108,7 +112,8 @@ void write_msh(const std::string& path, const Complex& complex) {
     std::fprintf(out, "%zu %.17g %.17g %.17g\n", i + 1, p.x(), p.y(), p.z());
   }
   std::fprintf(out, "$EndNodes\n$Elements\n%zu\n", tets.size());
-  for (std::size_t i = 0; i < tets.size(); ++i) std::fprintf(out, "%zu 4 2 1 1 %zu %zu %zu %zu\n", i + 1, tets[i][0], tets[i][1], tets[i][2], tets[i][3]);
+  for (std::size_t i = 0; i < tets.size(); ++i)
+    std::fprintf(out, "%zu 4 2 1 1 %zu %zu %zu %zu\n", i + 1, tets[i][0], tets[i][1], tets[i][2], tets[i][3]);
   std::fprintf(out, "$EndElements\n");
   if (std::ferror(out) != 0 || std::fclose(out) != 0) throw std::runtime_error(path + " can't be written to its end");
   if (tets.empty()) throw std::runtime_error("no tetrahedron fits: --max-size is too large for this surface");
@@ -126,8 +131,9 @@ int main(int count, char** words) {
     const Domain domain(surface, &random);
     // CGAL bounds circumscribed spheres; of a regular tetrahedron that radius is 0.61 edges
     const double radius = 0.61 * options.max_size;
-    const Criteria criteria(params::facet_angle = 25.0, params::facet_size = radius, params::facet_distance = 0.1 * options.max_size,
-                            params::cell_radius_edge_ratio = 2.0, params::cell_size = radius);
+    const Criteria criteria(params::facet_angle = 25.0, params::facet_size = radius,
+                            params::facet_distance = 0.1 * options.max_size, params::cell_radius_edge_ratio = 2.0,
+                            params::cell_size = radius);
     Complex complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude());
     if (options.min_angle > 0.0) {
       CGAL::perturb_mesh_3(complex, domain, params::sliver_bound = options.min_angle);
