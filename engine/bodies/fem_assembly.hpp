@@ -7,8 +7,8 @@
 
 #include <memory>
 
+#include "engine/algebra/block_matrix.hpp"
 #include "engine/bodies/unwinding.hpp"
-#include "engine/core/block_matrix.hpp"
 #include "engine/geometry/tet_mesh.hpp"
 #include "engine/materials/material.hpp"
 

@@ -3,8 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "engine/bodies/shape_mass.hpp"
 #include "engine/core/error.hpp"
+#include "engine/shapes/shape_mass.hpp"
 
 namespace impinge {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "engine/bodies/body_kind.hpp"
 #include "engine/bodies/motion.hpp"
-#include "engine/bodies/shape.hpp"
 #include "engine/bodies/soft_body.hpp"
 #include "engine/geometry/rotation.hpp"
+#include "engine/shapes/shape.hpp"
 
 namespace impinge {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "engine/contact/collision.hpp"
+#include "engine/detection/collision.hpp"
 
 namespace impinge {
 

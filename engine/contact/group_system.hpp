@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "engine/algebra/block_matrix.hpp"
+#include "engine/algebra/linear_solver.hpp"
 #include "engine/contact/row_kind.hpp"
-#include "engine/core/block_matrix.hpp"
-#include "engine/core/linear_solver.hpp"
 
 namespace impinge {
 

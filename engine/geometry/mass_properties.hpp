@@ -1,5 +1,5 @@
 // Mass, centre of mass and inertia of solids: by exact volume integrals for closed triangle surfaces, by formula for
-// exact shapes. For a Shape see engine/bodies/shape_mass.hpp.
+// exact shapes. For a Shape see engine/shapes/shape_mass.hpp.
 #pragma once
 
 #include "engine/geometry/triangle_mesh.hpp"

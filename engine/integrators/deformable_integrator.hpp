@@ -9,8 +9,8 @@
 // Contact adds Jᵀλ to b and reads its gap from x₀ + Δq(v).
 #pragma once
 
+#include "engine/algebra/linear_solver.hpp"
 #include "engine/bodies/deformable_body.hpp"
-#include "engine/core/linear_solver.hpp"
 
 namespace impinge {
 

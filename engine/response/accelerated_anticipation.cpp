@@ -24,7 +24,7 @@
 #include "engine/contact/friction_cone.hpp"
 #include "engine/response/conjugate_columns.hpp"
 #include "engine/response/multiplier_newton.hpp"
-#include "engine/response/split_rows.hpp"
+#include "engine/response/operators/split_rows.hpp"
 
 namespace impinge {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/lcp/lcp_solver.hpp"
-#include "engine/response/group_operator.hpp"
+#include "engine/response/operators/group_operator.hpp"
 
 namespace impinge {
 

@@ -4,8 +4,8 @@
 // is factorized once for all its contacts and W is dense.
 #include <algorithm>
 
-#include "engine/response/assembled_delassus.hpp"
-#include "engine/response/factored_delassus.hpp"
+#include "engine/response/operators/assembled_delassus.hpp"
+#include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {

@@ -2,7 +2,7 @@
 // with a search along the line. What the penalty response and the answer to contradicting contacts share.
 #pragma once
 
-#include "engine/response/group_operator.hpp"
+#include "engine/response/operators/group_operator.hpp"
 
 namespace impinge {
 

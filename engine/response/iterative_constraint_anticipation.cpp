@@ -17,7 +17,7 @@
 
 #include "engine/lcp/residual.hpp"
 #include "engine/response/accelerated_anticipation.hpp"
-#include "engine/response/factored_delassus.hpp"
+#include "engine/response/operators/factored_delassus.hpp"
 
 namespace impinge {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/lcp/cone_problem.hpp"
-#include "engine/response/group_operator.hpp"
+#include "engine/response/operators/group_operator.hpp"
 
 namespace impinge {
 

@@ -6,7 +6,7 @@
 // contacts are pressed together with by forces is left to the sweeps, which bounce nothing.
 #include <algorithm>
 
-#include "engine/response/contact_mobility.hpp"
+#include "engine/response/operators/contact_mobility.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {

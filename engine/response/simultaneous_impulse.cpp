@@ -4,7 +4,7 @@
 // than one after another, but no order of contacts is favoured and all answers are independent.
 #include <algorithm>
 
-#include "engine/response/contact_mobility.hpp"
+#include "engine/response/operators/contact_mobility.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/response/contact_mobility.hpp"
+#include "engine/response/operators/contact_mobility.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/core/parallel.hpp"
-#include "engine/narrowphase/contact_points.hpp"
-#include "engine/narrowphase/primitive.hpp"
+#include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/pairs/primitive.hpp"
 
 namespace impinge {
 namespace {

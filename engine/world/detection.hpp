@@ -2,11 +2,11 @@
 // something that moves touches them.
 #pragma once
 
-#include "engine/bodies/collider.hpp"
 #include "engine/bodies/rigid_body.hpp"
-#include "engine/broadphase/broad_phase.hpp"
 #include "engine/core/profile.hpp"
-#include "engine/narrowphase/narrow_phase.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
+#include "engine/detection/collider.hpp"
+#include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/world/parameters.hpp"
 
 namespace impinge {

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "engine/contact/collision.hpp"
 #include "engine/contact/collision_groups.hpp"
 #include "engine/contact/group_system.hpp"
+#include "engine/detection/collision.hpp"
 #include "engine/world/attachments.hpp"
 #include "engine/world/parameters.hpp"
 #include "engine/world/soft_step.hpp"

@@ -1,9 +1,9 @@
 #include "engine/world/parameters.hpp"
 
-#include "engine/broadphase/broad_phase.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
+#include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
-#include "engine/narrowphase/narrow_phase.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "engine/bodies/rigid_body.hpp"
-#include "engine/contact/collision.hpp"
 #include "engine/contact/collision_groups.hpp"
+#include "engine/detection/collision.hpp"
 
 namespace impinge {
 

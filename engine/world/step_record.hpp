@@ -7,10 +7,10 @@
 
 #include "engine/bodies/body_kind.hpp"
 #include "engine/bodies/deformable_body.hpp"
-#include "engine/bodies/shape.hpp"
-#include "engine/contact/collision.hpp"
 #include "engine/core/profile.hpp"
+#include "engine/detection/collision.hpp"
 #include "engine/geometry/embedding.hpp"
+#include "engine/shapes/shape.hpp"
 
 namespace impinge {
 

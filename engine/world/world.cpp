@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
+#include "engine/detection/pairs/primitive.hpp"
 #include "engine/integrators/rigid_motion.hpp"
-#include "engine/narrowphase/primitive.hpp"
 #include "engine/world/world_stages.hpp"
 
 namespace impinge {

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "engine/contact/contact_cache.hpp"
+#include "engine/frozen/frozen_step.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/response/response.hpp"
 #include "engine/world/detection.hpp"
-#include "engine/world/frozen_step.hpp"
 #include "engine/world/group_assembly.hpp"
 #include "engine/world/sleeping.hpp"
 #include "engine/world/world.hpp"

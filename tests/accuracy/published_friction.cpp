@@ -2,7 +2,7 @@
 // iterations that plain Gauss-Seidel needs. Runs where the shared data folder is.
 #include <catch2/catch.hpp>
 
-#include "engine/io/read_friction_contact.hpp"
+#include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "tests/support/meshes.hpp"
 

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
+#include "engine/frozen/frozen_comparison.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/least_violation.hpp"
-#include "engine/world/frozen_comparison.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/frozen_reference.hpp"
 #include "tests/support/random.hpp"

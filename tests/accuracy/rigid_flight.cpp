@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/integrators/rigid_motion.hpp"
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/worlds.hpp"
 
 using namespace impinge;

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "engine/broadphase/broad_phase.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
 #include "tests/support/moving_boxes.hpp"
 
 #ifdef IMPINGE_HAS_FCL

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "engine/world/frozen_comparison.hpp"
+#include "engine/frozen/frozen_comparison.hpp"
 #include "tests/support/frozen_reference.hpp"
 #include "viewer/controller/session.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "engine/io/read_friction_contact.hpp"
+#include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"

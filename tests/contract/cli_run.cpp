@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "engine/geometry/triangle_mesh.hpp"
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"

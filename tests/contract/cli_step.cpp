@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
-#include "engine/io/read_friction_contact.hpp"
+#include "engine/frozen/read_friction_contact.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
-#include "engine/io/frozen_step_file.hpp"
+#include "engine/frozen/frozen_comparison.hpp"
+#include "engine/frozen/frozen_step_file.hpp"
 #include "engine/io/little_endian.hpp"
-#include "engine/world/frozen_comparison.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/refusal.hpp"

@@ -7,8 +7,8 @@
 
 #include "engine/bodies/soft_body.hpp"
 #include "engine/core/archive.hpp"
-#include "engine/io/tetrahedralize.hpp"
-#include "engine/io/volume_cache.hpp"
+#include "engine/io/tets/tetrahedralize.hpp"
+#include "engine/io/tets/volume_cache.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/soft_bodies.hpp"

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/error.hpp"
-#include "engine/io/mesh_file.hpp"
-#include "engine/io/toml.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
+#include "engine/io/scene/toml.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/random.hpp"
 

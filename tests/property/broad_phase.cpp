@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "engine/broadphase/broad_phase.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
 #include "tests/support/moving_boxes.hpp"
 #include "tests/support/random.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/detection/contacts/contact_points.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
-#include "engine/narrowphase/contact_points.hpp"
 #include "tests/support/meshes.hpp"
 
 using namespace impinge;

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "engine/core/parallel.hpp"
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/worlds.hpp"
 

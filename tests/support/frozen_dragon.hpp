@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/world/frozen_comparison.hpp"
+#include "engine/frozen/frozen_comparison.hpp"
 #include "viewer/controller/session.hpp"
 
 namespace impinge::test {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/response/assembled_delassus.hpp"
+#include "engine/response/operators/assembled_delassus.hpp"
 
 namespace impinge::test {
 namespace {

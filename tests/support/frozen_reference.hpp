@@ -2,7 +2,7 @@
 // by other routes.
 #pragma once
 
-#include "engine/world/frozen_step.hpp"
+#include "engine/frozen/frozen_step.hpp"
 
 namespace impinge::test {
 

@@ -4,8 +4,8 @@
 #include <deque>
 #include <string>
 
-#include "engine/bodies/collider.hpp"
-#include "engine/narrowphase/narrow_phase.hpp"
+#include "engine/detection/collider.hpp"
+#include "engine/detection/triangles/narrow_phase.hpp"
 #include "tests/support/random.hpp"
 
 namespace impinge::test {

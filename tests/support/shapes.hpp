@@ -3,9 +3,9 @@
 
 #include <deque>
 
-#include "engine/bodies/collider.hpp"
-#include "engine/contact/collision.hpp"
-#include "engine/narrowphase/primitive.hpp"
+#include "engine/detection/collider.hpp"
+#include "engine/detection/collision.hpp"
+#include "engine/detection/pairs/primitive.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 

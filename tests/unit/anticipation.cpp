@@ -4,8 +4,8 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
-#include "engine/response/assembled_delassus.hpp"
 #include "engine/response/group_judge.hpp"
+#include "engine/response/operators/assembled_delassus.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/soft_stack.hpp"
 

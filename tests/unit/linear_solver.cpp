@@ -1,4 +1,4 @@
-#include "engine/core/linear_solver.hpp"
+#include "engine/algebra/linear_solver.hpp"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Volume integrals against closed formulas, and their covariance.
 #include <catch2/catch.hpp>
 
-#include "engine/bodies/shape_mass.hpp"
 #include "engine/geometry/mesh_checks.hpp"
+#include "engine/shapes/shape_mass.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 

@@ -1,4 +1,4 @@
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 
 #include <catch2/catch.hpp>
 

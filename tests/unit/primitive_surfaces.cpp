@@ -1,5 +1,5 @@
 // Tessellated exact shapes and the regular lattice of a box, against formulas.
-#include "engine/geometry/primitive_surfaces.hpp"
+#include "engine/shapes/primitive_surfaces.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
-#include "engine/io/scene.hpp"
+#include "engine/io/scene/scene.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "engine/core/error.hpp"
-#include "engine/io/toml.hpp"
+#include "engine/io/scene/toml.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/temp_folder.hpp"
 

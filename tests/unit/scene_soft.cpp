@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/mass_properties.hpp"
-#include "engine/geometry/primitive_surfaces.hpp"
-#include "engine/io/scene.hpp"
+#include "engine/io/scene/scene.hpp"
+#include "engine/shapes/primitive_surfaces.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"

@@ -1,4 +1,4 @@
-#include "engine/io/tet_file.hpp"
+#include "engine/io/tets/tet_file.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,13 +1,13 @@
 // The program that tetrahedralizes is stood in for by scripts: what it does well is tested in
 // contract/cli_soft_input.cpp.
-#include "engine/io/tetrahedralize.hpp"
+#include "engine/io/tets/tetrahedralize.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
 
 #include "engine/core/error.hpp"
-#include "engine/geometry/primitive_surfaces.hpp"
+#include "engine/shapes/primitive_surfaces.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"
 

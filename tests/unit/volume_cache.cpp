@@ -1,11 +1,11 @@
-#include "engine/io/volume_cache.hpp"
+#include "engine/io/tets/volume_cache.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
 
-#include "engine/geometry/primitive_surfaces.hpp"
 #include "engine/geometry/tet_cage.hpp"
+#include "engine/shapes/primitive_surfaces.hpp"
 #include "tests/support/temp_folder.hpp"
 
 using namespace impinge;

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "engine/algebra/linear_solver.hpp"
 #include "engine/bodies/soft_body.hpp"
-#include "engine/broadphase/broad_phase.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/linear_solver.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
+#include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
-#include "engine/narrowphase/narrow_phase.hpp"
 #include "engine/response/response.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/sweep_reference.hpp"

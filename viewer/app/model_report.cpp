@@ -4,7 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
 

@@ -10,7 +10,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/toml.hpp"
+#include "engine/io/scene/toml.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/present/png_sequence.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/core/linear_solver.hpp"
+#include "engine/algebra/linear_solver.hpp"
 #include "engine/geometry/mass_properties.hpp"
 
 namespace impinge {

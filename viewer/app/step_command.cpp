@@ -1,5 +1,5 @@
 // impinge step: one problem, solved by every method, all judged by the same residual.
-#include "engine/io/frozen_step_file.hpp"
+#include "engine/frozen/frozen_step_file.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/step_methods.hpp"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/io/frozen_step_file.hpp"
-#include "engine/world/frozen_comparison.hpp"
+#include "engine/frozen/frozen_comparison.hpp"
+#include "engine/frozen/frozen_step_file.hpp"
 #include "viewer/app/step_methods.hpp"
 #include "viewer/app/step_report.hpp"
 

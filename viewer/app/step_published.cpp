@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/io/read_friction_contact.hpp"
+#include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "viewer/app/step_methods.hpp"
 #include "viewer/app/step_report.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 #include "viewer/app/sweep_table.hpp"
 
 namespace impinge {

@@ -7,7 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/interrupt.hpp"
 #include "viewer/app/sweep_collect.hpp"

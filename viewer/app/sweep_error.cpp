@@ -8,7 +8,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {

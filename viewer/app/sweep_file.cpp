@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/io/file.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
 

@@ -5,8 +5,8 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/scene_overrides.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_overrides.hpp"
+#include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
 

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/core/error.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 #include "viewer/app/sweep_reference.hpp"
 
 namespace impinge {

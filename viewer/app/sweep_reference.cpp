@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/core/error.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/core/error.hpp"
-#include "engine/io/scene_values.hpp"
+#include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
 

@@ -14,7 +14,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/toml.hpp"
+#include "engine/io/scene/toml.hpp"
 #include "viewer/app/sweep_job.hpp"
 
 namespace impinge {

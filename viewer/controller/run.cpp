@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
-#include "engine/world/frozen_step.hpp"
+#include "engine/frozen/frozen_step.hpp"
 #include "engine/world/judge.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/run_folder.hpp"

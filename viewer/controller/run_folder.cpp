@@ -6,9 +6,9 @@
 #include <charconv>
 
 #include "engine/core/error.hpp"
+#include "engine/frozen/frozen_step_file.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/frozen_step_file.hpp"
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/surface_export.hpp"

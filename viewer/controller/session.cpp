@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
-#include "engine/world/frozen_step.hpp"
+#include "engine/frozen/frozen_step.hpp"
 #include "viewer/controller/stats_table.hpp"
 
 namespace impinge {

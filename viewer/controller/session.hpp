@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "engine/io/scene.hpp"
+#include "engine/io/scene/scene.hpp"
 #include "viewer/controller/frame_view.hpp"
 #include "viewer/controller/script.hpp"
 

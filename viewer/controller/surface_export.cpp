@@ -1,6 +1,6 @@
 #include "viewer/controller/surface_export.hpp"
 
-#include "engine/io/mesh_file.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "viewer/draw/tessellation.hpp"
 
 namespace impinge {

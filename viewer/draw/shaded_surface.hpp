@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "engine/bodies/shape.hpp"
+#include "engine/shapes/shape.hpp"
 
 namespace impinge {
 

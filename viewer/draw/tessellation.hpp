@@ -1,7 +1,7 @@
 // Triangles that stand for exact shapes where triangles are wanted: in pictures and in exported surfaces.
 #pragma once
 
-#include "engine/bodies/shape.hpp"
+#include "engine/shapes/shape.hpp"
 
 namespace impinge {
 

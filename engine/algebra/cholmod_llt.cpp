@@ -1,0 +1,73 @@
+// CHOLMOD's supernodal Cholesky factorization: dense kernels on blocks of columns, several times faster than a
+// simplicial one from a few thousand unknowns on. Compiled in only where the library was found (cmake defines
+// IMPINGE_CHOLMOD). Its supernodal part is under GPL-2+, so a program with it is under the GPL too; without it
+// everything works, slower.
+#ifdef IMPINGE_CHOLMOD
+
+#include <Eigen/CholmodSupport>
+#include <optional>
+
+#include "engine/algebra/supernodal_gram.hpp"
+#include "engine/core/error.hpp"
+
+namespace impinge {
+namespace {
+
+class Cholmod : public LinearSolver {
+ public:
+  Cholmod() { llt_.cholmod().print = 0; }
+  void analyze(const BlockPattern& pattern) override {
+    lower_.emplace(pattern);
+    llt_.analyzePattern(lower_->matrix());
+    factored_ = false;
+  }
+  SolveStatus factorize(const BlockMatrix& a) override {
+    IMPINGE_ASSERT(lower_.has_value());
+    // CHOLMOD reports success on NaN and then answers NaN
+    if (!a.all_finite()) {
+      factored_ = false;
+      return status_ = SolveStatus::not_finite;
+    }
+    if (!lower_->refill(a) && factored_) return status_;
+    llt_.factorize(lower_->matrix());
+    factored_ = true;
+    ++factorizations;
+    return status_ = llt_.info() == Eigen::Success ? SolveStatus::ok : SolveStatus::not_positive_definite;
+  }
+  SolveReport solve(const VecX& b, VecX& x) override {
+    if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    x = llt_.solve(b);
+    return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
+  }
+  SolveReport solve_many(const MatX& b, MatX& x) override {
+    if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    x = llt_.solve(b);
+    return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
+  }
+  SolveReport gram(const SparseColumns& b, MatX& w) override {
+    if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    supernodal_gram(llt_.factor(), b, w);
+    return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
+  }
+
+ private:
+  /// Eigen's wrapper, with a look at the factor itself.
+  struct Factorization : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> {
+    const cholmod_factor& factor() const { return *m_cholmodFactor; }
+  };
+
+  std::optional<LowerTriangle> lower_;
+  Factorization llt_;
+  SolveStatus status_ = SolveStatus::ok;
+  bool factored_ = false;
+};
+
+}  // namespace
+
+Entry<LinearSolver> cholmod_solver() {
+  return entry<LinearSolver, Cholmod>("cholmod", "CHOLMOD's supernodal Cholesky factorization");
+}
+
+}  // namespace impinge
+
+#endif

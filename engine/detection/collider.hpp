@@ -1,0 +1,30 @@
+// What collision detection sees of a body at one instant: geometry in world coordinates and velocities, nothing else.
+#pragma once
+
+#include <span>
+
+#include "engine/shapes/shape.hpp"
+
+namespace impinge {
+
+struct Collider {
+  const Shape* shape = nullptr;
+  Pose pose;                                ///< of the body's frame; exact shapes are placed by it
+  std::span<const Vec3> vertices;           ///< world positions of a mesh's vertices (empty for exact shapes)
+  Aabb bounds;                              ///< world bounds, not inflated
+  Vec3 velocity = Vec3::Zero();             ///< of the frame's origin, m/s: the free velocity v* of this sub-step
+  Vec3 angular_velocity = Vec3::Zero();     ///< rad/s
+  std::span<const Vec3> vertex_velocities;  ///< of a deformable body's surface; empty for a rigid one
+  bool self_collision = false;
+  double mean_edge = 0.0;  ///< mean edge length of a mesh, metres
+
+  const SurfaceMesh& mesh() const { return *std::get<MeshPointer>(*shape); }
+  /// Velocity of the material point of a rigid body that is at `point` (world).
+  Vec3 velocity_at(const Vec3& point) const { return velocity + angular_velocity.cross(point - pose.position); }
+  /// Velocity of mesh vertex i.
+  Vec3 vertex_velocity(int i) const {
+    return vertex_velocities.empty() ? velocity_at(vertices[i]) : vertex_velocities[i];
+  }
+};
+
+}  // namespace impinge

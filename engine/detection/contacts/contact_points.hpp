@@ -1,0 +1,21 @@
+// From triangle pairs to contacts between two meshes: the two meanings of `contact.points`.
+#pragma once
+
+#include "engine/detection/collider.hpp"
+#include "engine/detection/collision.hpp"
+
+namespace impinge {
+
+/// Appends the contacts of one mesh-mesh body pair as the seed defines them [Haapaoja16 §3.2.3]: for each intersecting
+/// triangle pair the deepest vertex and the point where a ray against its relative velocity meets the other triangle,
+/// one contact for each vertex and face side. All gaps are <= 0.
+void intersection_contacts(std::span<const Collider> colliders, const BodyPair& pair,
+                           std::span<const TrianglePair> triangles, std::vector<Collision>& contacts);
+
+/// Appends the proximity contacts of one mesh-mesh body pair: vertex-surface and edge-edge features closer than
+/// `activation`, or that would meet within `time_step` at the colliders' velocities; gap > 0 while they are apart.
+void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pair,
+                        std::span<const TrianglePair> triangles, double activation, double time_step,
+                        std::vector<Collision>& contacts);
+
+}  // namespace impinge

@@ -1,0 +1,97 @@
+// Proximity contacts of crossing edges: pairs whose closest points are inside both edges and a local minimum of
+// distance.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/detection/contacts/edge_cone.hpp"
+#include "engine/detection/contacts/proximity_parts.hpp"
+
+namespace impinge {
+namespace {
+
+std::vector<EdgeCone> convex_edges(const SurfaceView& view, std::vector<int> triangles) {
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  std::vector<int> indices;
+  for (int t : triangles)
+    for (int e : view.triangle_edges(t)) indices.push_back(e);
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  std::vector<EdgeCone> edges;
+  for (int e : indices)
+    if (const std::optional<EdgeCone> cone = make_edge_cone(view, e)) edges.push_back(*cone);
+  return edges;
+}
+
+int find_edge(const std::vector<EdgeCone>& edges, int index) {
+  const auto it =
+      std::lower_bound(edges.begin(), edges.end(), index, [](const EdgeCone& l, int r) { return l.index < r; });
+  return it != edges.end() && it->index == index ? static_cast<int>(it - edges.begin()) : -1;
+}
+
+void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone& eb,
+                 std::vector<Collision>& contacts) {
+  const Vec3 da = ea.q - ea.p, db = eb.q - eb.p;
+  // farther apart than their half lengths and the margin together: the cheap way to drop most pairs
+  const double reach = 0.5 * (std::sqrt(da.squaredNorm()) + std::sqrt(db.squaredNorm())) + query.margin;
+  if ((0.5 * (ea.p + ea.q) - 0.5 * (eb.p + eb.q)).squaredNorm() > reach * reach * (1.0 + 1e-9)) return;
+  const std::optional<Vec3> outward = common_normal(ea, eb);
+  if (!outward) return;
+  const Vec3 normal = *outward;
+  const SegmentSegment closest = closest_between_segments(ea.p, ea.q, eb.p, eb.q);
+  if (!closest.interior || !(closest.squared_distance <= query.margin * query.margin)) return;
+  const double gap = normal.dot(closest.point0 - closest.point1);
+
+  const int ta = query.a.edge(ea.index).triangle0, tb = query.b.edge(eb.index).triangle0;
+  const Vec3 path =
+      query.time_step * (query.a.velocity_at(ta, closest.point0) - query.b.velocity_at(tb, closest.point1));
+  const double falls = -normal.dot(path);
+  const bool would_cross = gap > 0.0 && falls > gap;
+  if (gap > query.activation && !would_cross) return;
+  if (would_cross) {
+    // at the moment the edges' lines meet, do the edges?
+    const Vec3 shift = (gap / falls) * path;
+    const double limit = std::min(0.5 * gap, query.activation);
+    if (closest_between_segments(ea.p + shift, ea.q + shift, eb.p, eb.q).squared_distance > limit * limit) return;
+  }
+  Collision c;
+  c.body_a = query.a.body();
+  c.body_b = query.b.body();
+  c.triangle_a = ta;
+  c.triangle_b = tb;
+  c.point_a = closest.point0;
+  c.point_b = closest.point1;
+  c.normal = normal;
+  c.gap = gap;
+  c.normal_owner = -1;
+  c.feature = feature_key(Feature::edge, ea.index, Feature::edge, eb.index);
+  contacts.push_back(c);
+}
+
+}  // namespace
+
+void append_edge_contacts(const ProximityQuery& query, std::vector<Collision>& contacts) {
+  std::vector<int> triangles_a, triangles_b;
+  for (const TrianglePair& pair : query.triangles) {
+    triangles_a.push_back(pair.triangle_a);
+    triangles_b.push_back(pair.triangle_b);
+  }
+  const std::vector<EdgeCone> edges_a = convex_edges(query.a, std::move(triangles_a));
+  const std::vector<EdgeCone> edges_b = convex_edges(query.b, std::move(triangles_b));
+  if (edges_a.empty() || edges_b.empty()) return;
+  std::vector<std::uint64_t> keys;
+  for (const TrianglePair& pair : query.triangles)
+    for (int ea : query.a.triangle_edges(pair.triangle_a)) {
+      const int i = find_edge(edges_a, ea);
+      if (i < 0) continue;
+      for (int eb : query.b.triangle_edges(pair.triangle_b)) {
+        const int j = find_edge(edges_b, eb);
+        if (j >= 0) keys.push_back(static_cast<std::uint64_t>(i) << 32 | static_cast<std::uint32_t>(j));
+      }
+    }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  for (std::uint64_t key : keys) add_contact(query, edges_a[key >> 32], edges_b[key & 0xffffffffu], contacts);
+}
+
+}  // namespace impinge

@@ -1,0 +1,151 @@
+#include "engine/detection/pairs/ball_against_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/geometry/triangle_intersection.hpp"
+
+namespace impinge {
+namespace {
+
+/// Where a triangle is nearest to the centre.
+struct Nearest {
+  SurfaceFeature feature;
+  int triangle = -1;
+  Vec3 point = Vec3::Zero();
+  double distance_sq = std::numeric_limits<double>::infinity();
+};
+
+class BallTest {
+ public:
+  BallTest(ContactSink& sink, const SurfaceView& mesh, const Ball& ball)
+      : sink_(sink), mesh_(mesh), ball_(ball), touch_(1e-9 * (sink.second().mean_edge + ball.radius)) {}
+
+  bool run() {
+    search();
+    if (nearest_.triangle < 0) return false;  // nothing within reach, and the centre is outside the mesh's bounds
+    const double distance = std::sqrt(nearest_.distance_sq);
+    const bool inside = (ball_.center - nearest_.point).dot(mesh_.normal(nearest_.feature)) < 0.0;
+    if (inside) {
+      // all around a point inside are local minima; only the nearest is the way out
+      add(nearest_,
+          distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
+      return true;
+    }
+    // faces before edges before vertices: a centre right above an edge belongs to the face
+    std::stable_sort(close_.begin(), close_.end(),
+                     [](const Nearest& l, const Nearest& r) { return l.feature.kind > r.feature.kind; });
+    for (const Nearest& n : close_) {
+      if (is_known(n) || !is_minimum(n)) continue;
+      known_.push_back(n);
+      add(n, outward(n));
+    }
+    look_ahead();
+    return false;
+  }
+
+ private:
+  static double distance_sq(const Aabb& box, const Vec3& x) {
+    return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
+  }
+
+  /// Collects what lies within reach, and the nearest of all if the centre may be inside.
+  void search() {
+    const double limit = ball_.radius + sink_.reach(), limit_sq = limit * limit;
+    const bool may_be_inside = distance_sq(sink_.second().bounds, ball_.center) == 0.0;
+    const int count = static_cast<int>(sink_.second().mesh().mesh.triangles.size());
+    for (int t = 0; t < count; ++t) {
+      const double lower_sq = distance_sq(triangle_bounds(mesh_, t), ball_.center);
+      if (lower_sq > limit_sq && !(may_be_inside && lower_sq < nearest_.distance_sq)) continue;
+      const PointTriangle p = closest_on_triangle(ball_.center, mesh_.corners(t));
+      const Nearest n{mesh_.feature(t, p.feature), t, p.point, p.squared_distance};
+      if (n.distance_sq < nearest_.distance_sq) nearest_ = n;
+      if (n.distance_sq <= limit_sq) close_.push_back(n);
+    }
+  }
+
+  /// The same feature, or a place that is the same within rounding (the projection falls on an edge).
+  bool is_known(const Nearest& n) const {
+    return std::any_of(known_.begin(), known_.end(), [&](const Nearest& k) {
+      return k.feature == n.feature || (k.point - n.point).norm() <= touch_;
+    });
+  }
+
+  /// Whether no surface beside the feature is nearer, and the centre is in front of it.
+  bool is_minimum(const Nearest& n) {
+    const Vec3 r = ball_.center - n.point;
+    if (r.dot(mesh_.normal(n.feature)) < 0.0) return false;
+    if (n.feature.kind == Feature::face) return true;
+    mesh_.star(n.feature, star_);
+    const double slack = 1e-9 * r.norm();
+    return std::all_of(star_.begin(), star_.end(), [&](const Vec3& e) { return r.dot(e) <= slack; });
+  }
+
+  Vec3 outward(const Nearest& n) const {
+    const double distance = std::sqrt(n.distance_sq);
+    if (n.feature.kind == Feature::face || distance <= touch_) return mesh_.normal(n.feature);
+    return (ball_.center - n.point).normalized();
+  }
+
+  /// A ball that crosses in one step what it isn't near yet: the plane of the triangle that its centre meets.
+  void look_ahead() {
+    const ContactQuery& query = sink_.query();
+    if (!query.proximity || !(query.time_step > 0.0)) return;
+    const Vec3 way =
+        query.time_step * (sink_.first().velocity_at(ball_.center) - sink_.second().velocity_at(ball_.center));
+    if (way.norm() <= query.activation) return;
+    Aabb swept;
+    swept.include(ball_.center);
+    swept.include(ball_.center + way);
+    double first = 1.0;
+    Nearest hit;
+    const int count = static_cast<int>(sink_.second().mesh().mesh.triangles.size());
+    for (int t = 0; t < count; ++t) {
+      if (!overlap(triangle_bounds(mesh_, t), swept) || mesh_.face_normal(t).dot(way) >= 0.0) continue;
+      const std::optional<RayHit> ray = intersect_line(ball_.center, way, mesh_.corners(t), 1e-9);
+      if (!ray || ray->t < 0.0 || ray->t > first || (hit.triangle >= 0 && ray->t == first)) continue;
+      first = ray->t;
+      hit = {{Feature::face, t}, t, ball_.center + ray->t * way, 0.0};
+    }
+    if (hit.triangle >= 0 && !is_known(hit)) add(hit, mesh_.face_normal(hit.triangle));
+  }
+
+  void add(const Nearest& n, const Vec3& normal) {
+    if (normal.isZero(0.0)) return;  // a triangle without area; its neighbours hold the same points
+    Candidate c;
+    c.normal = normal;
+    c.point_first = ball_.center - ball_.radius * normal;
+    c.point_second = n.point;
+    c.owner = n.feature.kind == Feature::face ? NormalOwner::second : NormalOwner::neither;
+    c.kind_first = ball_.kind;
+    c.index_first = ball_.index;
+    c.kind_second = n.feature.kind;
+    c.index_second = n.feature.index;
+    c.triangle_second = n.triangle;
+    sink_.add_new(c);
+  }
+
+  ContactSink& sink_;
+  const SurfaceView& mesh_;
+  const Ball& ball_;
+  const double touch_;  ///< metres: closer, the direction to the surface is rounding
+  Nearest nearest_;
+  std::vector<Nearest> close_, known_;
+  std::vector<Vec3> star_;
+};
+
+}  // namespace
+
+bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball) {
+  return BallTest(sink, mesh, ball).run();
+}
+
+std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box) {
+  std::vector<int> near;
+  for (int t = 0; t < count; ++t)
+    if (overlap(triangle_bounds(mesh, t), box)) near.push_back(t);
+  return near;
+}
+
+}  // namespace impinge

@@ -1,0 +1,31 @@
+// A ball against a mesh: the contacts of a sphere, of a capsule's caps, and the way out of a body that is deep inside.
+#pragma once
+
+#include "engine/detection/contacts/surface_view.hpp"
+#include "engine/detection/pairs/contact_sink.hpp"
+
+namespace impinge {
+
+/// A ball of the sink's first shape and the name its contacts have there.
+struct Ball {
+  Vec3 center = Vec3::Zero();
+  double radius = 0.0;
+  Feature kind = Feature::shape;
+  int index = 0;
+};
+
+/// Adds the contacts of a ball with the mesh that is the sink's second shape. A centre outside gives one contact for
+/// each local minimum of its distance to the surface (a ball on a tessellated plane has one, wherever it rolls); a
+/// centre inside gives one, out through the nearest point. Returns whether the centre is inside.
+bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball);
+
+/// Bounds of triangle t of the mesh.
+inline Aabb triangle_bounds(const SurfaceView& mesh, int t) {
+  const Triangle& c = mesh.triangle(t);
+  return bounds_of(mesh.vertex(c[0]), mesh.vertex(c[1]), mesh.vertex(c[2]));
+}
+
+/// The mesh's triangles whose bounds overlap the box, ascending.
+std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box);
+
+}  // namespace impinge

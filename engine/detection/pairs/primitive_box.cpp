@@ -1,0 +1,214 @@
+// Box against box. Separating axes say how the boxes lie; a pair of faces gives a clipped manifold, a pair of edges its
+// crossing, and separated boxes whose nearest features are corners or edges the exact distance between them.
+#include <array>
+
+#include "engine/detection/pairs/face_manifold.hpp"
+#include "engine/geometry/distance.hpp"
+
+namespace impinge {
+namespace {
+
+/// Normals within about 14 degrees of a face's get that face's manifold too: a box that lands nearly flat is held by
+/// all the points it is about to rest on, not by its lowest one alone.
+constexpr double kNearlyFace = 0.97;
+
+struct FaceAxis {
+  double separation = -1e300;
+  bool of_first = true;
+  int axis = 0;
+  Vec3 normal = Vec3::UnitY();  ///< from the second towards the first box
+};
+
+struct EdgeAxis {
+  double separation = -1e300;
+  int axis_first = -1, axis_second = -1;
+  Vec3 normal = Vec3::UnitY();
+};
+
+/// Edges of a crossing that is a contact by itself are numbered from here on; the manifold's crossings, whose points
+/// lie above a face instead, have the same two edges from 0 on.
+constexpr int kCrossing = 12;
+
+struct Boxes {
+  OrientedBox first, second;
+  double tie;  ///< metres: separations closer than this are equal (rounding of the axes, not geometry)
+};
+
+FaceAxis best_face(const Boxes& boxes) {
+  const Vec3 offset = boxes.first.center - boxes.second.center;
+  FaceAxis best;
+  for (int i = 0; i < 6; ++i) {
+    const OrientedBox& owner = i < 3 ? boxes.first : boxes.second;
+    const OrientedBox& other = i < 3 ? boxes.second : boxes.first;
+    const Vec3 axis = owner.axes.col(i % 3);
+    const double along = axis.dot(offset);
+    const double separation = std::abs(along) - owner.half[i % 3] - other.radius_along(axis);
+    // strictly better by more than rounding: equal faces go to the first box and the first axis, in every step
+    if (i == 0 || separation > best.separation + boxes.tie)
+      best = {separation, i < 3, i % 3, along < 0.0 ? Vec3(-axis) : axis};
+  }
+  return best;
+}
+
+EdgeAxis best_edge(const Boxes& boxes) {
+  const Vec3 offset = boxes.first.center - boxes.second.center;
+  EdgeAxis best;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Vec3 cross = boxes.first.axes.col(i).cross(boxes.second.axes.col(j));
+      const double length = cross.norm();
+      if (length < 1e-5) continue;  // parallel: the faces say it all, and the direction would be rounding
+      const Vec3 axis = cross / length;
+      const double along = axis.dot(offset);
+      const double separation = std::abs(along) - boxes.first.radius_along(axis) - boxes.second.radius_along(axis);
+      if (separation > best.separation + boxes.tie) best = {separation, i, j, along < 0.0 ? Vec3(-axis) : axis};
+    }
+  return best;
+}
+
+/// Corner of the box that lies farthest along `direction`.
+int support(const OrientedBox& box, const Vec3& direction) {
+  const Vec3 local = box.axes.transpose() * direction;
+  return (local.x() > 0.0 ? 1 : 0) | (local.y() > 0.0 ? 2 : 0) | (local.z() > 0.0 ? 4 : 0);
+}
+
+void add_manifold(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, bool overlapping) {
+  if (face.of_first)
+    add_face_manifold(sink, boxes.first, boxes.second, face.axis, -face.normal, true, overlapping);
+  else
+    add_face_manifold(sink, boxes.second, boxes.first, face.axis, face.normal, false, overlapping);
+}
+
+void overlapping(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, const EdgeAxis& edge) {
+  // 2 %: a face holds a box better than a crossing of nearly the same depth; the depth stays continuous at zero
+  if (edge.axis_first < 0 || edge.separation <= face.separation + boxes.tie + 0.02 * std::abs(face.separation)) {
+    add_manifold(sink, boxes, face, true);
+    return;
+  }
+  const int edge_first = OrientedBox::edge_of(edge.axis_first, support(boxes.first, -edge.normal));
+  const int edge_second = OrientedBox::edge_of(edge.axis_second, support(boxes.second, edge.normal));
+  const auto a = OrientedBox::edge_corners(edge_first), b = OrientedBox::edge_corners(edge_second);
+  const SegmentSegment closest = closest_between_segments(boxes.first.corner(a[0]), boxes.first.corner(a[1]),
+                                                          boxes.second.corner(b[0]), boxes.second.corner(b[1]));
+  Candidate c;
+  c.normal = edge.normal;
+  c.point_first = closest.point0;
+  c.point_second = closest.point1;
+  c.kind_first = c.kind_second = Feature::edge;
+  c.index_first = kCrossing + edge_first;
+  c.index_second = kCrossing + edge_second;
+  sink.add(c);
+  // but not where the face lies much deeper than the crossing: that would push farther than the way out
+  if (edge.normal.dot(face.normal) > kNearlyFace && face.separation > 1.05 * edge.separation - sink.reach())
+    add_manifold(sink, boxes, face, true);
+}
+
+/// A corner of one box and where the other is nearest to it.
+struct CornerDistance {
+  NearestOnBox nearest;
+  Vec3 corner;
+  int index = 0;
+  bool of_first = true;
+  Vec3 normal() const { return of_first ? nearest.normal : Vec3(-nearest.normal); }
+};
+
+Candidate corner_candidate(const CornerDistance& d) {
+  Candidate c;
+  c.normal = d.normal();
+  c.point_first = d.of_first ? d.corner : d.nearest.point;
+  c.point_second = d.of_first ? d.nearest.point : d.corner;
+  if (d.nearest.beyond == 1) c.owner = d.of_first ? NormalOwner::second : NormalOwner::first;
+  Feature kind = Feature::face;
+  int index = 0, corner = 0;
+  for (int k = 0; k < 3; ++k)
+    if (d.nearest.side[k] > 0) corner |= 1 << k;
+  for (int k = 0; k < 3; ++k) {
+    if (d.nearest.beyond == 1 && d.nearest.side[k] != 0) index = 2 * k + (d.nearest.side[k] > 0 ? 1 : 0);
+    if (d.nearest.beyond == 2 && d.nearest.side[k] == 0) {
+      kind = Feature::edge;
+      index = OrientedBox::edge_of(k, corner);
+    }
+  }
+  if (d.nearest.beyond == 3) {
+    kind = Feature::vertex;
+    index = corner;
+  }
+  c.kind_first = d.of_first ? Feature::vertex : kind;
+  c.index_first = d.of_first ? d.index : index;
+  c.kind_second = d.of_first ? kind : Feature::vertex;
+  c.index_second = d.of_first ? index : d.index;
+  return c;
+}
+
+void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
+  std::array<CornerDistance, 16> corners;
+  int nearest = 0;
+  for (int i = 0; i < 16; ++i) {
+    CornerDistance& d = corners[i];
+    d.of_first = i < 8;
+    d.index = i % 8;
+    d.corner = (d.of_first ? boxes.first : boxes.second).corner(d.index);
+    d.nearest = nearest_on_box(d.of_first ? boxes.second : boxes.first, d.corner);
+    if (d.nearest.distance < corners[nearest].nearest.distance) nearest = i;
+  }
+  double distance = corners[nearest].nearest.distance;
+  // a separation is a lower bound of the distance: if a corner reaches that of a face, nothing is nearer
+  if (distance <= face.separation + boxes.tie) {
+    add_manifold(sink, boxes, face, false);
+    return;
+  }
+
+  Vec3 normal = corners[nearest].normal();
+  Candidate crossing;
+  bool edges_nearest = false;
+  for (int i = 0; i < 12; ++i) {
+    const auto a = OrientedBox::edge_corners(i);
+    const Vec3 p0 = boxes.first.corner(a[0]), p1 = boxes.first.corner(a[1]);
+    for (int j = 0; j < 12; ++j) {
+      const auto b = OrientedBox::edge_corners(j);
+      const SegmentSegment closest =
+          closest_between_segments(p0, p1, boxes.second.corner(b[0]), boxes.second.corner(b[1]));
+      const Vec3 offset = closest.point0 - closest.point1;
+      const double length = offset.norm();
+      if (!(length < distance - boxes.tie)) continue;
+      distance = length;
+      normal = offset / length;
+      edges_nearest = true;
+      crossing.normal = normal;
+      crossing.point_first = closest.point0;
+      crossing.point_second = closest.point1;
+      crossing.kind_first = crossing.kind_second = Feature::edge;
+      crossing.index_first = kCrossing + i;
+      crossing.index_second = kCrossing + j;
+    }
+  }
+
+  if (normal.dot(face.normal) > kNearlyFace) add_manifold(sink, boxes, face, false);
+  // corners seen from both boxes, or held by the manifold already, count once
+  const double same_place = 1e-4 * std::min(boxes.first.half.minCoeff(), boxes.second.half.minCoeff());
+  const auto add = [&](const Candidate& c) {
+    if (!sink.covers(c, same_place, 100.0 * boxes.tie)) sink.add_new(c);
+  };
+  add(edges_nearest ? crossing : corner_candidate(corners[nearest]));
+  // further corners that face the same way: the other end of two parallel edges
+  for (const CornerDistance& d : corners)
+    if (d.normal().dot(normal) > kNearlyFace) add(corner_candidate(d));
+}
+
+}  // namespace
+
+void box_box(ContactSink& sink) {
+  Boxes boxes{world_box(sink.first()), world_box(sink.second()), 0.0};
+  boxes.tie = 1e-10 * (boxes.first.half.sum() + boxes.second.half.sum());
+  const FaceAxis face = best_face(boxes);
+  if (face.separation > sink.reach()) return;
+  const EdgeAxis edge = best_edge(boxes);
+  if (edge.separation > sink.reach()) return;
+  // within rounding of touching the crossing's own axis is a direction, and the points' difference is none
+  if (std::max(face.separation, edge.separation) > boxes.tie)
+    separated(sink, boxes, face);
+  else
+    overlapping(sink, boxes, face, edge);
+}
+
+}  // namespace impinge

@@ -1,0 +1,196 @@
+#include "engine/frozen/frozen_comparison.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "engine/response/group_judge.hpp"
+#include "engine/response/operators/assembled_delassus.hpp"
+#include "engine/response/operators/factored_delassus.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kExact = 1e-12;
+constexpr int kMostExactIterations = 2000;
+
+/// Hands everything on, and remembers whether it was asked and what came of it.
+class WatchedSolver : public LcpSolver {
+ public:
+  explicit WatchedSolver(const LcpSolver& solver) : solver_(solver) {}
+  LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
+    ++calls;
+    last = solver_.solve(problem, settings, lambda);
+    return last;
+  }
+  std::string applies(const ConeProblem& problem) const override { return solver_.applies(problem); }
+  mutable int calls = 0;
+  mutable LcpResult last;
+
+ private:
+  const LcpSolver& solver_;
+};
+
+/// The frozen system with an answer in it, for those who look at it only.
+GroupSystem with_answer(const FrozenGroup& group, const GroupAnswer& answer) {
+  GroupSystem system = group.system;
+  for (std::size_t s = 0; s < group.matrices.size(); ++s) system.soft[s].a = &group.matrices[s];
+  system.lambda = answer.lambda;
+  system.delta_velocity = answer.delta_velocity;
+  system.delta_angular_velocity = answer.delta_angular_velocity;
+  system.soft_delta = answer.soft_delta;
+  return system;
+}
+
+std::vector<Mat3> w_diagonal(ThawedGroup& thawed) {
+  std::vector<Mat3> diagonal;
+  const auto take = [&](const Delassus& w) {
+    for (std::size_t i = 0; i < w.contacts(); ++i) diagonal.push_back(w.diagonal(i));
+  };
+  GroupSystem& system = thawed.system;
+  if (std::all_of(system.soft.begin(), system.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; })) {
+    const auto inverse = inverse_node_blocks(system);
+    take(FactoredDelassus(system, &inverse));
+  } else {
+    take(AssembledDelassus(system));
+  }
+  return diagonal;
+}
+
+double ratio(double value, double scale) { return scale > 0.0 ? value / scale : value; }
+
+std::string stop_of(const WatchedSolver& solver, const ResponseResult& result, const ResponseSettings& settings) {
+  if (solver.calls == 1 && result.outer_iterations <= 1) return std::string(name_of(solver.last.reason));
+  if (result.converged) return std::string(name_of(StopReason::converged));
+  const bool has_loop = result.outer_iterations > 1;  // whose steps are capped then, not the sum of what it does inside
+  const bool at_cap = has_loop ? result.outer_iterations >= settings.max_outer_iterations
+                               : result.iterations >= settings.lcp.max_iterations;
+  return std::string(name_of(at_cap ? StopReason::iteration_cap : StopReason::stagnated));
+}
+
+/// The larger of two histories, iteration by iteration; what has ended keeps its last value.
+void merge_history(std::vector<double>& into, const std::vector<double>& from) {
+  if (from.empty()) return;
+  if (into.empty()) {
+    into = from;
+    return;
+  }
+  const std::size_t n = std::max(into.size(), from.size());
+  into.resize(n, into.back());
+  for (std::size_t k = 0; k < n; ++k) into[k] = std::max(into[k], k < from.size() ? from[k] : from.back());
+}
+
+}  // namespace
+
+FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
+  const auto response = find_entry(responses(), "constraint_anticipation")->make();
+  for (std::size_t g = 0; g < step.groups.size(); ++g) {
+    const FrozenGroup& group = step.groups[g];
+    ThawedGroup thawed = thaw(group, step.linear_solver);
+    w_diagonal_.push_back(w_diagonal(thawed));
+    const ConeProblem problem = make_cone_problem(thawed.system);
+    scale_.push_back(velocity_scale(problem));
+    // the nearest of what there is; the first is near enough unless the problem is ill-posed or too large for it
+    double best = std::numeric_limits<double>::infinity();
+    std::string method;
+    exact_.emplace_back();
+    for (const bool warm : {true, false})
+      for (const char* name :
+           {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
+        const auto solver = find_entry(lcp_solvers(), name)->make();
+        if (!solver->applies(problem).empty() || best <= kExact) continue;
+        if (warm)
+          thawed.system.lambda = group.system.lambda;
+        else
+          thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
+        ResponseSettings settings;
+        settings.lcp = {0.1 * kExact, kMostExactIterations};
+        response->solve(thawed.system, *solver, settings);
+        const double reached = residual(g, thawed.system);
+        if (!(reached < best)) continue;
+        best = reached;
+        method = name;
+        exact_[g] = {thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
+                     thawed.system.soft_delta};
+      }
+    if (exact_method_.find(method) == std::string::npos) exact_method_ += (exact_method_.empty() ? "" : ", ") + method;
+    exact_norm_ += energy_product(group, exact_[g], exact_[g]);
+  }
+  exact_norm_ = std::sqrt(exact_norm_);
+}
+
+double FrozenRuler::residual(std::size_t group, const GroupSystem& solved) const {
+  return ratio(judge_group(solved, &w_diagonal_[group]).residual(), scale_[group]);
+}
+
+FrozenVerdict FrozenRuler::judge(const std::vector<GroupAnswer>& answers) const {
+  FrozenVerdict all;
+  int first = 0;
+  double squared = 0.0;
+  for (std::size_t g = 0; g < answers.size(); ++g) {
+    const GroupSystem system = with_answer(step_.groups[g], answers[g]);
+    const GroupVerdict verdict = judge_group(system, &w_diagonal_[g]);
+    if (!(verdict.natural_map <= all.natural_map)) {
+      all.natural_map = verdict.natural_map;
+      all.worst = verdict.worst < 0 ? -1 : first + verdict.worst;
+    }
+    const auto raise = [](double& to, double value) {
+      if (!(value <= to)) to = value;
+    };
+    raise(all.natural_map_relative, ratio(verdict.natural_map, scale_[g]));
+    raise(all.momentum, verdict.momentum);
+    raise(all.residual, ratio(verdict.residual(), scale_[g]));
+    const ConeProblem problem = make_cone_problem(system);
+    for (std::size_t i = 0; i < problem.q.size(); ++i) {
+      if (problem.kind[i] != RowKind::contact) continue;
+      Vec3 u = system.contact_velocity(i, true);
+      u.x() -= system.contacts[i].bound;
+      raise(all.complementarity, std::abs(system.lambda[i].dot(problem.dual(i, u))));
+      raise(all.cone_violation, problem.violation(i, system.lambda[i]));
+    }
+    const double d = energy_distance(step_.groups[g], answers[g], exact_[g]);
+    squared += d * d;
+    first += static_cast<int>(problem.q.size());
+  }
+  all.distance = ratio(std::sqrt(squared), exact_norm_);
+  return all;
+}
+
+std::string FrozenRuler::applies(const LcpSolver& solver) const {
+  for (const FrozenGroup& group : step_.groups)
+    if (std::string why = solver.applies(make_cone_problem(with_answer(group, group.answer))); !why.empty()) return why;
+  return "";
+}
+
+FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver,
+                           const ResponseSettings& settings, const FrozenRuler* ruler) {
+  FrozenOutcome outcome;
+  for (std::size_t g = 0; g < step.groups.size(); ++g) {
+    ThawedGroup thawed = thaw(step.groups[g], step.linear_solver);
+    WatchedSolver watched(solver);
+    ResponseSettings own = settings;
+    std::vector<double> of_solver, of_loop;
+    if (ruler != nullptr) {
+      own.lcp.history = &of_solver;
+      own.observe = [&](const GroupSystem& now) { of_loop.push_back(ruler->residual(g, now)); };
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const ResponseResult result = response.solve(thawed.system, watched, own);
+    outcome.ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    outcome.iterations += result.iterations;
+    outcome.outer_iterations += result.outer_iterations;
+    outcome.used_solver |= watched.calls > 0;
+    if (outcome.converged) {
+      outcome.converged = result.converged;
+      outcome.stop = stop_of(watched, result, settings);
+    }
+    merge_history(outcome.history, !of_loop.empty() ? of_loop : watched.calls == 1 ? of_solver : std::vector<double>());
+    GroupSystem& s = thawed.system;
+    outcome.answers.push_back({std::move(s.lambda), std::move(s.delta_velocity), std::move(s.delta_angular_velocity),
+                               std::move(s.soft_delta)});
+  }
+  return outcome;
+}
+
+}  // namespace impinge

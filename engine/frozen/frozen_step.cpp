@@ -1,0 +1,60 @@
+#include "engine/frozen/frozen_step.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace impinge {
+std::size_t FrozenStep::contacts() const {
+  std::size_t sum = 0;
+  for (const FrozenGroup& group : groups) sum += group.system.contacts.size();
+  return sum;
+}
+
+FrozenGroup freeze(const GroupSystem& system) {
+  FrozenGroup frozen;
+  frozen.system = system;
+  frozen.system.assembled.reset();
+  for (SoftBlock& block : frozen.system.soft) {
+    frozen.matrices.push_back(*block.a);
+    block.a = nullptr;
+    block.solver = nullptr;
+  }
+  return frozen;
+}
+
+ThawedGroup thaw(const FrozenGroup& group, const std::string& linear_solver) {
+  ThawedGroup thawed;
+  thawed.system = group.system;
+  for (std::size_t s = 0; s < group.matrices.size(); ++s) {
+    const BlockMatrix& a = group.matrices[s];
+    thawed.solvers.push_back(make_linear_solver(linear_solver, a.rows(), kContactRightHandSides));
+    thawed.solvers.back()->analyze(*a.pattern);
+    thawed.system.soft[s].a = &a;
+    thawed.system.soft[s].solver = thawed.solvers.back().get();
+  }
+  return thawed;
+}
+
+double energy_product(const FrozenGroup& group, const GroupAnswer& x, const GroupAnswer& y) {
+  double sum = 0.0;
+  for (std::size_t b = 0; b < group.system.bodies.size(); ++b) {
+    const BodyBlock& block = group.system.bodies[b];
+    sum += x.delta_velocity[b].dot(y.delta_velocity[b]) / block.inverse_mass;
+    sum += x.delta_angular_velocity[b].dot(Mat3(block.inverse_inertia.inverse()) * y.delta_angular_velocity[b]);
+  }
+  for (std::size_t s = 0; s < group.matrices.size(); ++s)
+    sum += dot(x.soft_delta[s], group.matrices[s] * y.soft_delta[s]);
+  return sum;
+}
+
+double energy_distance(const FrozenGroup& group, const GroupAnswer& x, const GroupAnswer& y) {
+  GroupAnswer difference = x;
+  for (std::size_t b = 0; b < x.delta_velocity.size(); ++b) {
+    difference.delta_velocity[b] -= y.delta_velocity[b];
+    difference.delta_angular_velocity[b] -= y.delta_angular_velocity[b];
+  }
+  for (std::size_t s = 0; s < x.soft_delta.size(); ++s) difference.soft_delta[s] -= y.soft_delta[s];
+  return std::sqrt(std::max(0.0, energy_product(group, difference, difference)));
+}
+
+}  // namespace impinge

@@ -1,0 +1,81 @@
+#include "engine/io/meshes/mesh_file.hpp"
+
+#include <bit>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/meshes/mesh_readers.hpp"
+
+namespace impinge {
+
+namespace {
+
+constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
+
+std::string ending(const std::string& name) {
+  std::string text = std::filesystem::path(name).extension().string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+bool has_own_reader(const std::string& end) { return end == ".ply" || end == ".off" || end == ".obj" || end == ".stl"; }
+
+void check_faces(const std::string& name, const TriangleMesh& mesh) {
+  if (mesh.triangles.empty())
+    throw InputError(name + ": has no faces; a closed surface of triangles is wanted; export the mesh with its faces");
+}
+
+}  // namespace
+
+TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
+  const std::string end = ending(name);
+  TriangleMesh mesh;
+  if (end == ".ply")
+    mesh = read_ply(name, bytes);
+  else if (end == ".off")
+    mesh = read_off(name, bytes);
+  else if (end == ".obj")
+    mesh = read_obj(name, bytes);
+  else if (end == ".stl")
+    mesh = read_stl(name, bytes);
+  else
+    throw InputError(name + ": this ending is not read from memory; ply, off, obj and stl are; convert it to PLY");
+  check_faces(name, mesh);
+  return mesh;
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path, kMostBytes);
+  if (has_own_reader(ending(path.string()))) return parse_mesh(path.string(), bytes);
+  TriangleMesh mesh = read_with_assimp(path);
+  check_faces(path.string(), mesh);
+  return mesh;
+}
+
+void write_ply(const std::filesystem::path& path, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+  static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+  std::string out = fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
+      "z\n"
+      "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      vertices.size(), triangles.size());
+  const std::size_t head = out.size();
+  out.resize(head + vertices.size() * 24 + triangles.size() * 13);
+  char* at = out.data() + head;
+  for (const Vec3& v : vertices) {
+    std::memcpy(at, v.data(), 24);
+    at += 24;
+  }
+  for (const Triangle& t : triangles) {
+    *at++ = 3;
+    std::memcpy(at, t.data(), 12);
+    at += 12;
+  }
+  write_file(path, out);
+}
+
+}  // namespace impinge

@@ -1,0 +1,140 @@
+// Other formats through assimp, in a child process: assimp aborts or crashes on some damaged files, and nothing of that
+// may reach the caller. It only validates; polygons are fanned here and vertices welded by the caller, because its own
+// steps for that crash on bad indices. Its coordinates are single precision.
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+#include <cmath>
+
+#include "engine/core/archive.hpp"
+#include "engine/io/meshes/mesh_readers.hpp"
+
+namespace impinge {
+
+namespace {
+
+void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, TriangleMesh& mesh, int depth) {
+  if (depth > 200) throw InputError("its nodes are nested deeper than 200");
+  const aiMatrix4x4 transform = parent * node.mTransformation;
+  std::vector<int> corners;
+  for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D x = transform * part.mVertices[v];
+      if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
+        throw InputError(fmt::format("vertex {} is not finite", v));
+      mesh.vertices.emplace_back(x.x, x.y, x.z);
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices < 3) continue;  // points and lines bound no solid
+      corners.clear();
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] >= part.mNumVertices)
+          throw InputError(fmt::format("face {} names vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
+        corners.push_back(first + static_cast<int>(face.mIndices[k]));
+      }
+      append_fan(corners, mesh.triangles);
+    }
+  }
+  for (unsigned c = 0; c < node.mNumChildren; ++c) append_node(scene, *node.mChildren[c], transform, mesh, depth + 1);
+}
+
+// what the child sends: 'M' and the mesh, or 'E' and why not
+std::string import_in_child(const std::string& path) {
+  try {
+    Assimp::Importer importer;
+    const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure);
+    if (scene == nullptr || scene->mRootNode == nullptr) return std::string("E") + importer.GetErrorString();
+    TriangleMesh mesh;
+    append_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, 0);
+    ByteWriter out;
+    out.put('M');
+    out.put<std::uint64_t>(mesh.vertices.size());
+    out.put<std::uint64_t>(mesh.triangles.size());
+    for (const Vec3& x : mesh.vertices) out.put(x);
+    for (const Triangle& t : mesh.triangles)
+      for (const int v : t) out.put(v);
+    return out.bytes();
+  } catch (const std::exception& error) {
+    return std::string("E") + error.what();
+  }
+}
+
+void limit_resources() {
+  const rlimit no_core{0, 0}, seconds{120, 120};
+  setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_CPU, &seconds);
+#ifndef __SANITIZE_ADDRESS__
+  const rlimit memory{rlim_t{8} << 30, rlim_t{8} << 30};
+  setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
+[[noreturn]] void child(const std::string& path, int out) {
+  limit_resources();
+  if (std::freopen("/dev/null", "w", stderr) == nullptr || std::freopen("/dev/null", "w", stdout) == nullptr) _exit(1);
+  const std::string bytes = import_in_child(path);
+  std::string_view rest = bytes;
+  while (!rest.empty()) {
+    const ssize_t n = write(out, rest.data(), rest.size());
+    if (n <= 0) _exit(1);
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+  _exit(0);
+}
+
+}  // namespace
+
+TriangleMesh read_with_assimp(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  {
+    const Assimp::Importer importer;
+    if (!importer.IsExtensionSupported(path.extension().string()))
+      throw InputError(
+          fmt::format("{}: the ending '{}' is no known mesh format; ply, off, obj, stl and what assimp reads are; "
+                      "convert it to PLY",
+                      name, path.extension().string()));
+  }
+  int ends[2];
+  if (pipe(ends) != 0)
+    throw InputError(name + ": no pipe to the importer; the system is out of file handles; close some programs");
+  const pid_t pid = fork();
+  if (pid < 0)
+    throw InputError(name + ": no process for the importer; the system is out of processes; close some programs");
+  if (pid == 0) {
+    close(ends[0]);
+    child(name, ends[1]);
+  }
+  close(ends[1]);
+  std::string bytes;
+  char buffer[65536];
+  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;) bytes.append(buffer, static_cast<std::size_t>(n));
+  close(ends[0]);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty())
+    throw InputError(name + ": the importer failed on it; a sound file is wanted; convert it to PLY");
+  if (bytes[0] == 'E')
+    throw InputError(
+        fmt::format("{}: can't be read ({}); a sound file is wanted; convert it to PLY", name, bytes.substr(1)));
+
+  ByteReader in(bytes);
+  in.get<char>();
+  TriangleMesh mesh;
+  const auto vertices = in.get<std::uint64_t>(), triangles = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < vertices; ++i) mesh.vertices.push_back(in.get_vec3());
+  for (std::uint64_t i = 0; i < triangles; ++i) {
+    const int a = in.get<int>(), b = in.get<int>(), c = in.get<int>();
+    mesh.triangles.push_back({a, b, c});
+  }
+  return mesh;
+}
+
+}  // namespace impinge

@@ -1,0 +1,109 @@
+#include "engine/io/scene/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+#include "engine/io/scene/scene_values.hpp"
+
+namespace impinge {
+
+namespace {
+
+const std::vector<std::string> kKeys = {"version", "scene",    "folder", "script_file", "script", "frames",  "images",
+                                        "ids",     "contacts", "judge",  "export",      "size",   "surfaces"};
+
+std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
+
+// long lists on lines of their own: the length of a line is limited
+std::string format_lines(const TomlNode& node) {
+  if (node.kind != TomlNode::array || node.items.size() <= 4) return format_toml(node);
+  std::string out = "[\n";
+  for (const TomlNode& item : node.items) out += fmt::format("  {},\n", format_toml(item));
+  return out + "]";
+}
+
+}  // namespace
+
+RunRecord read_run_record(const TomlNode& table) {
+  check_keys(scene_table(table, "run"), "run", kKeys);
+  const auto need = [&](const char* key) -> const TomlNode& {
+    const TomlEntry* entry = table.find(key);
+    if (entry == nullptr)
+      refuse(table.place, fmt::format("[run] has no {}", key), "run.toml as a run wrote it is wanted",
+             "run the scene again");
+    return entry->value;
+  };
+  RunRecord run;
+  run.version = scene_text(need("version"), "run.version");
+  run.scene = scene_text(need("scene"), "run.scene");
+  run.folder = scene_text(need("folder"), "run.folder");
+  run.script_file = scene_text(need("script_file"), "run.script_file");
+  for (const TomlNode& line : need("script").items) run.script.push_back(scene_text(line, "run.script"));
+  run.frames = static_cast<int>(scene_real(need("frames"), "run.frames", {0, 1e9}));
+  run.images = scene_flag(need("images"), "run.images");
+  if (const TomlEntry* ids = table.find("ids")) run.ids = scene_flag(ids->value, "run.ids");
+  run.contacts = scene_flag(need("contacts"), "run.contacts");
+  run.judge = scene_flag(need("judge"), "run.judge");
+  run.export_ply = scene_text(need("export"), "run.export") == "ply";
+  const TomlNode& size = need("size");
+  if (size.items.size() != 2)
+    refuse(size.place, "run.size is no pair", "[width, height] is wanted", "run the scene again");
+  run.width = static_cast<int>(scene_real(size.items[0], "run.size", {1, 16384}));
+  run.height = static_cast<int>(scene_real(size.items[1], "run.size", {1, 16384}));
+  return run;
+}
+
+void check_surface_hashes(const TomlNode& table, const std::vector<SurfaceFile>& surfaces) {
+  const TomlEntry* list = table.find("surfaces");
+  if (list == nullptr) return;
+  for (const TomlNode& node : list->value.items) {
+    const TomlEntry *name = node.find("file"), *hash = node.find("hash");
+    if (name == nullptr || hash == nullptr)
+      refuse(node.place, "a surface without file or hash", "both are wanted", "run the scene again");
+    for (const SurfaceFile& file : surfaces)
+      if (file.name == name->value.string && hex64(file.hash) != hash->value.string)
+        refuse(hash->value.place, fmt::format("surface {} has changed since the run", toml_string(file.name)),
+               "the same bytes are wanted", "restore the file, or run the scene again");
+  }
+}
+
+std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRecord& run) {
+  std::string out = "# the resolved scene of a run: `impinge run` and `impinge replay` take it\n\n[run]\n";
+  out += fmt::format("version = {}\nscene = {}\nfolder = {}\nscript_file = {}\n", toml_string(run.version),
+                     toml_string(run.scene), toml_string(run.folder), toml_string(run.script_file));
+  out += "script = [\n";
+  for (const std::string& line : run.script) out += fmt::format("  {},\n", toml_string(line));
+  out += fmt::format(
+      "]\nframes = {}\nimages = {}\n{}contacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n",
+      run.frames, run.images, run.ids ? "ids = true\n" : "", run.contacts, run.judge, run.export_ply ? "ply" : "",
+      run.width, run.height);
+  for (const SurfaceFile& file : scene.surfaces)
+    out += fmt::format("  {{ file = {}, hash = \"{}\" }},\n", toml_string(file.name), hex64(file.hash));
+  out += "]\n";
+  if (scene.allow_outside_files) out += "\n[scene]\nallow_outside_files = true\n";
+
+  // TOML opens a table once, so the rows of one stand together
+  std::vector<std::pair<std::string, std::string>> tables;
+  for (const Parameter& row : rows.all()) {
+    if (row.path.rfind("body.", 0) == 0) continue;  // in the bodies below
+    const std::string name = table_of(row.path);
+    auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == name; });
+    if (table == tables.end()) table = tables.insert(tables.end(), {name, ""});
+    table->second += fmt::format("{} = {}\n", row.path.substr(name.size() + 1), format_lines(toml_node(row.get())));
+  }
+  for (const auto& [name, lines] : tables) out += fmt::format("\n[{}]\n{}", name, lines);
+  for (const TomlNode& body : scene.bodies) {
+    out += "\n[[body]]\n";
+    for (const TomlEntry& entry : body.entries) out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
+  }
+  for (const TomlNode& attachment : scene.attachments) {
+    out += "\n[[attachment]]\n";
+    for (const TomlEntry& entry : attachment.entries)
+      out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
+  }
+  return out;
+}
+
+}  // namespace impinge

@@ -1,0 +1,203 @@
+#include "engine/io/scene/scene_body.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/core/error.hpp"
+#include "engine/io/scene/scene_motion.hpp"
+#include "engine/io/scene/scene_soft.hpp"
+#include "engine/io/scene/scene_values.hpp"
+
+namespace impinge {
+
+namespace {
+
+// beyond these a number is a slip, not a quantity
+constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6}, kSpeed{-1e6, 1e6}, kTime{0.0, 1e9};
+constexpr double kMostLength = 1e6, kMostScale = 1e6, kMostDensity = 1e9, kMostMass = 1e15;
+
+const std::vector<std::string> kKeys = {
+    "name",           "kind",     "shape",    "surface",          "scale",  "material", "mass",
+    "position",       "rotation", "velocity", "angular_velocity", "motion", "friction", "restitution",
+    "self_collision", "volume",   "fixed"};
+
+BodyKind read_kind(const TomlNode& table, const std::string& what) {
+  const TomlEntry* entry = table.find("kind");
+  if (entry == nullptr)
+    refuse(table.place, what + " has no kind", "static, scripted, dynamic or deformable is wanted",
+           "add kind = \"dynamic\"");
+  const std::string& word = scene_text(entry->value, what + ".kind");
+  for (const BodyKind kind : {BodyKind::fixed, BodyKind::scripted, BodyKind::dynamic, BodyKind::deformable})
+    if (word == kind_name(kind)) return kind;
+  const std::string near = nearest_word(word, {"static", "scripted", "dynamic", "deformable"});
+  refuse(entry->value.place, fmt::format("{}.kind is {}", what, toml_string(word)),
+         "static, scripted, dynamic or deformable is allowed",
+         near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+}
+
+Plane read_plane(const TomlNode& table, const std::string& what, double scale) {
+  check_keys(table, what, {"normal", "offset"});
+  const TomlEntry *normal = table.find("normal"), *offset = table.find("offset");
+  if (normal == nullptr)
+    refuse(table.place, what + " has no normal", "plane = { normal = [x, y, z], offset = d } is wanted", "add it");
+  const Vec3 n = scene_vector(normal->value, what + ".normal", kLength);
+  if (!(n.norm() > 1e-9))
+    refuse(normal->value.place, what + ".normal has no length", "a direction is wanted", "use [0, 1, 0] for a floor");
+  // n·x = offset is taken with n as written, so that normal and offset scale together; a unit normal keeps its bits
+  const double d = offset == nullptr ? 0.0 : scene_real(offset->value, what + ".offset", kLength), length = n.norm();
+  if (length == 1.0) return {n, scale * d};
+  return {n / length, scale * d / length};
+}
+
+double read_size(const TomlNode& table, const char* key, const std::string& what) {
+  const TomlEntry* entry = table.find(key);
+  if (entry == nullptr)
+    refuse(table.place, fmt::format("{} has no {}", what, key), fmt::format("{} = a length in metres is wanted", key),
+           "add it");
+  return scene_positive(entry->value, what + "." + key, kMostLength);
+}
+
+void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
+  scene_table(node, what);
+  if (body.kind == BodyKind::deformable) return;  // scene_soft.cpp
+  for (const char* key :
+       {"model", "young", "poisson", "damping", "damping_alpha", "damping_beta", "mass", "extension_threshold"})
+    if (const TomlEntry* entry = node.find(key))
+      refuse(entry->place,
+             fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
+             "allowed: density", "make it deformable, or remove it");
+  check_keys(node, what, {"density"});
+  if (const TomlEntry* density = node.find("density"))
+    body.density = scene_positive(density->value, what + ".density", kMostDensity);
+}
+
+// what has no meaning for the body's kind is refused: taken and ignored it would mislead
+void check_kind(const TomlNode& table, const std::string& what, const BodyDescription& body) {
+  const TomlEntry* motion = table.find("motion");
+  if (body.kind == BodyKind::scripted && motion == nullptr)
+    refuse(table.place, what + " is scripted and has no motion", "key frames are wanted",
+           "add motion = [ ... ], or make it static");
+  if (body.kind != BodyKind::scripted && motion != nullptr)
+    refuse(motion->place, fmt::format("{} is {} and has a motion", what, kind_name(body.kind)),
+           "scripted bodies have one", "make it scripted, or remove motion");
+  if (body.kind != BodyKind::dynamic && body.kind != BodyKind::deformable) {
+    for (const char* key : {"velocity", "angular_velocity"}) {
+      const TomlEntry* entry = table.find(key);
+      if (entry != nullptr && !(key[0] == 'v' ? body.velocity : body.angular_velocity).isZero(0.0))
+        refuse(entry->place, fmt::format("{} is {} and has a {}", what, kind_name(body.kind), key),
+               "dynamic and deformable bodies have one", "make it dynamic, or remove it");
+    }
+  }
+  if (body.kind == BodyKind::dynamic && std::holds_alternative<Plane>(body.shape))
+    refuse(table.find("shape")->value.place, what + " is dynamic and a plane, which has no mass",
+           "a plane is static or scripted", "use a box");
+}
+
+}  // namespace
+
+Shape read_shape(const TomlNode& node, const std::string& what, double scale) {
+  scene_table(node, what);
+  const std::vector<std::string> words = {"sphere", "box", "capsule", "plane"};
+  check_keys(node, what, words);
+  if (node.entries.size() != 1)
+    refuse(node.place, fmt::format("{} names {} shapes", what, node.entries.size()),
+           "one of sphere, box, capsule, plane is wanted", "keep one");
+  const std::string& word = node.entries[0].key;
+  const std::string name = what + "." + word;
+  const TomlNode& table = scene_table(node.entries[0].value, name);
+  if (word == "plane") return read_plane(table, name, scale);
+  if (word == "sphere") {
+    check_keys(table, name, {"radius"});
+    return Sphere{scale * read_size(table, "radius", name)};
+  }
+  if (word == "capsule") {
+    check_keys(table, name, {"radius", "length"});
+    return Capsule{scale * read_size(table, "radius", name), scale * 0.5 * read_size(table, "length", name)};
+  }
+  check_keys(table, name, {"size"});
+  const TomlEntry* size = table.find("size");
+  if (size == nullptr) refuse(table.place, name + " has no size", "size = [x, y, z] in metres is wanted", "add it");
+  const Vec3 lengths = scene_vector(size->value, name + ".size", kLength);
+  for (int i = 0; i < 3; ++i) scene_positive(size->value.items[i], name + ".size", kMostLength);
+  return Box{scale * 0.5 * lengths};
+}
+
+bool is_body_name(std::string_view name) {
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
+  if (name.empty() || !is_letter(name[0])) return false;
+  for (const char c : name)
+    if (!is_letter(c) && !(c >= '0' && c <= '9') && c != '-') return false;
+  return true;
+}
+
+BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
+  scene_table(table, "body");
+  const TomlEntry* name = table.find("name");
+  if (name == nullptr) refuse(table.place, "a body without a name", "name = \"...\" is wanted", "add it");
+  BodyDescription body;
+  body.name = scene_text(name->value, "body.name");
+  if (!is_body_name(body.name))
+    refuse(name->value.place, fmt::format("{} as a body's name", toml_string(body.name)),
+           "letters, digits, _ and - are allowed, a letter or _ first", "rename it");
+  const std::string what = "body." + body.name;
+  body.kind = read_kind(table, what);
+  check_keys(table, what, kKeys);
+  if (body.kind != BodyKind::deformable)
+    for (const char* key : {"volume", "fixed"})
+      if (const TomlEntry* entry = table.find(key))
+        refuse(entry->place,
+               fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
+               "kind = \"deformable\" has it", "make it deformable, or remove it");
+
+  const auto with = [&](const char* key, auto&& read) {
+    if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
+  };
+  double scale = 1.0;
+  with("scale", [&](const TomlNode& node, const std::string& key) { scale = scene_positive(node, key, kMostScale); });
+  with("position",
+       [&](const TomlNode& node, const std::string& key) { body.position = scene_vector(node, key, kLength); });
+  with("rotation",
+       [&](const TomlNode& node, const std::string& key) { body.rotation = scene_vector(node, key, kAngle); });
+  with("velocity",
+       [&](const TomlNode& node, const std::string& key) { body.velocity = scene_vector(node, key, kSpeed); });
+  with("angular_velocity",
+       [&](const TomlNode& node, const std::string& key) { body.angular_velocity = scene_vector(node, key, kSpeed); });
+  with("friction", [&](const TomlNode& node, const std::string& key) {
+    body.friction = scene_real(node, key, {0.0, 100.0});
+  });
+  with("restitution", [&](const TomlNode& node, const std::string& key) {
+    body.restitution = scene_real(node, key, {0.0, 1.0});
+  });
+  with("self_collision",
+       [&](const TomlNode& node, const std::string& key) { body.self_collision = scene_flag(node, key); });
+  with("material", [&](const TomlNode& node, const std::string& key) { read_material(node, key, body); });
+  with("mass", [&](const TomlNode& node, const std::string& key) { body.mass = scene_positive(node, key, kMostMass); });
+  if (const TomlEntry* material = table.find("material");
+      body.mass && material != nullptr && material->value.find("density") != nullptr)
+    refuse(table.find("mass")->place, what + " has a mass and a density", "one of them is wanted", "remove one");
+
+  if (body.kind == BodyKind::deformable) {
+    check_kind(table, what, body);
+    read_soft_body(table, what, scale, surfaces, body);
+    return body;
+  }
+  const TomlEntry *shape = table.find("shape"), *surface = table.find("surface");
+  if (shape == nullptr && surface == nullptr)
+    refuse(table.place, what + " has no shape", "shape = { ... } or surface = \"file\" is wanted", "add one");
+  if (shape != nullptr && surface != nullptr)
+    refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
+  if (shape != nullptr) body.shape = read_shape(shape->value, what + ".shape", scale);
+  with("motion", [&](const TomlNode& node, const std::string& key) {
+    body.motion = read_motion(node, key, body.position, body.rotation);
+  });
+  if (surface == nullptr) {
+    check_kind(table, what, body);
+    return body;
+  }
+  body.shape = MeshPointer();
+  check_kind(table, what, body);
+  body.shape = surfaces.load(surface->value, what + ".surface", scale);
+  body.surface_file = surface->value.string;
+  return body;
+}
+
+}  // namespace impinge

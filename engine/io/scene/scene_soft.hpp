@@ -1,0 +1,14 @@
+// What a deformable [[body]] has beside a rigid one: material.model and its numbers, volume, fixed.
+#pragma once
+
+#include "engine/bodies/rigid_body.hpp"
+#include "engine/io/scene/scene_surface.hpp"
+
+namespace impinge {
+
+/// Fills body.soft and body.shape. The keys that all bodies share have been read; `scale` is the body's. Throws
+/// InputError, located, at the first key or value that can't be taken.
+void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
+                    BodyDescription& body);
+
+}  // namespace impinge

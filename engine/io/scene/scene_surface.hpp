@@ -1,0 +1,54 @@
+// The surface files of a scene: found, kept inside the scene's folder, checked, read once for each scale.
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "engine/io/scene/toml.hpp"
+#include "engine/io/tets/tet_file.hpp"
+#include "engine/io/tets/volume_cache.hpp"
+#include "engine/shapes/shape.hpp"
+
+namespace impinge {
+
+/// One surface file as the scene names it.
+struct SurfaceFile {
+  std::string name;        ///< relative to the scene's folder
+  std::uint64_t hash = 0;  ///< of the file's bytes
+  std::size_t vertices = 0, triangles = 0;
+  std::size_t welded = 0;          ///< vertices that coincided with an earlier one and were made one with it
+  std::size_t tets = 0;            ///< of a volume mesh, which has no triangles here
+  std::vector<std::string> notes;  ///< of a volume mesh's reader, one sentence each
+};
+
+class SurfaceFiles {
+ public:
+  SurfaceFiles(std::filesystem::path folder, bool allow_outside)
+      : folder_(std::move(folder)), allow_outside_(allow_outside) {}
+
+  /// The closed, outward surface of the file that `node` names, its vertices times `scale`. Throws InputError located
+  /// at the node, or in the file where its text is at fault.
+  MeshPointer load(const TomlNode& node, const std::string& what, double scale);
+
+  /// The volume mesh of the file that `node` names, unscaled.
+  std::shared_ptr<const TetFile> load_volume(const TomlNode& node, const std::string& what);
+
+  /// Volumes that are made from surfaces.
+  VolumeCache& volumes() { return made_; }
+
+  const std::vector<SurfaceFile>& files() const { return files_; }  ///< in order of first use
+
+ private:
+  std::filesystem::path find(const TomlNode& node, const std::string& what) const;
+  MeshPointer read(const std::filesystem::path& path, const TomlNode& node);
+
+  std::filesystem::path folder_;
+  bool allow_outside_ = false;
+  std::vector<SurfaceFile> files_;
+  VolumeCache made_;
+  std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
+  std::map<std::string, MeshPointer> unscaled_;                   // by name
+  std::map<std::pair<std::string, double>, MeshPointer> scaled_;  // by name and scale
+};
+
+}  // namespace impinge

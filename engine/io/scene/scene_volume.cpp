@@ -1,0 +1,290 @@
+#include "engine/io/scene/scene_volume.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/aabb.hpp"
+#include "engine/geometry/distance.hpp"
+#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/tet_cage.hpp"
+#include "engine/io/scene/scene_body.hpp"
+#include "engine/io/scene/scene_values.hpp"
+#include "engine/io/tets/tetrahedralize.hpp"
+#include "engine/shapes/primitive_surfaces.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr int kFewestCells = 2, kMostCells = 200;
+constexpr double kMostOutside = 0.1;  // of the volume's longest side: a vertex farther out belongs to another mesh
+
+int read_cells(const TomlNode& table, const std::string& what) {
+  check_keys(table, what, {"cells"});
+  const TomlEntry* cells = table.find("cells");
+  if (cells == nullptr)
+    refuse(table.place, what + " has no cells", "cells = how many along the longest side", "add cells = 12");
+  const double n = scene_real(cells->value, what + ".cells", {kFewestCells, kMostCells});
+  if (n != std::floor(n))
+    refuse(cells->value.place, fmt::format("{}.cells is {}", what, shortest(n)), "a whole number is wanted",
+           "round it");
+  return static_cast<int>(n);
+}
+
+Aabb bounds_of(const std::vector<Vec3>& points) {
+  Aabb box;
+  for (const Vec3& x : points) box.include(x);
+  return box;
+}
+
+MeshPointer checked_surface(TriangleMesh mesh, const TomlNode& node, const std::string& name) {
+  auto surface = std::make_shared<SurfaceMesh>();
+  surface->mesh = std::move(mesh);
+  surface->topology = make_topology(surface->mesh);
+  if (const auto problem = check_mesh(surface->mesh, surface->topology))
+    throw InputError(
+        fmt::format("{}: the boundary of {} {}; give the body a surface of its own", node.place, name, *problem));
+  return surface;
+}
+
+/// The faces that belong to one tetrahedron, with the vertices they use.
+TriangleMesh boundary_of(const TetMesh& volume) {
+  TriangleMesh mesh;
+  mesh.triangles = boundary_triangles(volume);
+  std::vector<int> index(volume.vertices.size(), -1);
+  for (Triangle& t : mesh.triangles)
+    for (int& v : t) {
+      if (index[v] < 0) {
+        index[v] = static_cast<int>(mesh.vertices.size());
+        mesh.vertices.push_back(volume.vertices[v]);
+      }
+      v = index[v];
+    }
+  return mesh;
+}
+
+Eigen::Vector3i cells_of_box(const Vec3& half, double cells) {
+  return (half / half.maxCoeff() * cells).array().round().max(1.0).matrix().cast<int>();
+}
+
+/// An exact shape as triangles whose edges are about `edge` metres long.
+MeshPointer shape_surface(const TomlNode& node, const std::string& what, const Shape& shape, double edge) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    int k = 1;  // an icosphere's edges are about 1.1 r / 2^k long
+    while (k < 5 && 1.1 * sphere->radius / (1 << k) > edge) ++k;
+    return checked_surface(sphere_surface(sphere->radius, k), node, what);
+  }
+  if (const auto* box = std::get_if<Box>(&shape))
+    return checked_surface(box_surface(box->half, cells_of_box(box->half, 2.0 * box->half.maxCoeff() / edge)), node,
+                           what);
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+    // half as long: ten to a ring would cut off 8 % of it
+    const double around = std::ceil(2.0 * 6.2832 * capsule->radius / edge);
+    return checked_surface(
+        capsule_surface(capsule->radius, capsule->half_length, std::clamp(static_cast<int>(around), 8, 256)), node,
+        what);
+  }
+  refuse(node.place, what + " is a plane and the body deformable",
+         "sphere, box, capsule and any closed surface file can be deformable", "use another shape");
+}
+
+double longest_side(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return 2.0 * sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return 2.0 * box->half.maxCoeff();
+  if (const auto* capsule = std::get_if<Capsule>(&shape)) return 2.0 * (capsule->radius + capsule->half_length);
+  return 1.0;
+}
+
+/// The surface that collides and is drawn: a file's, or an exact shape's with edges of `edge` metres, or of its longest
+/// side / `cells` where cells > 0.
+MeshPointer outer_surface(const TomlNode& table, const std::string& what, double scale, double edge, int cells,
+                          SurfaceFiles& files, BodyDescription& body) {
+  if (const TomlEntry* surface = table.find("surface")) {
+    body.surface_file = surface->value.string;
+    return files.load(surface->value, what + ".surface", scale);
+  }
+  const TomlEntry* entry = table.find("shape");
+  const Shape shape = read_shape(entry->value, what + ".shape", scale);
+  // an edge too short is refused by the caller, once the surface is there: no finer than is ever taken
+  const double longest = longest_side(shape);
+  return shape_surface(entry->value, what + ".shape", shape,
+                       cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
+}
+
+void take(const CarriedVolume& volume, const MeshPointer& surface, SoftDescription& soft, BodyDescription& body) {
+  soft.mesh = volume.mesh;
+  soft.fraction = volume.fraction;
+  soft.embedding = volume.embedding;
+  body.shape = surface;
+}
+
+// only what the scene leaves open is taken from the file
+void use_file_material(const TomlNode& table, const TomlNode& node, const std::string& what, const TetFile& file,
+                       SoftDescription& soft) {
+  if (file.materials.empty()) return;
+  const TomlEntry* material = table.find("material");
+  const auto gives = [&](const char* key) { return material != nullptr && material->value.find(key) != nullptr; };
+  const bool elastic = gives("young") && gives("poisson"), density = gives("density") || table.find("mass") != nullptr;
+  if (elastic && density) return;
+  const std::vector<int>& of = file.element_material;
+  const bool one = std::all_of(of.begin(), of.end(), [&](int m) { return m == of[0]; });
+  const TetFileMaterial& m = file.materials[of.empty() ? 0 : of[0]];
+  if (!one || (!m.isotropic && !elastic))
+    refuse(node.place,
+           fmt::format("{} = {} has {}", what, toml_string(node.string),
+                       one ? "a material that is not isotropic" : "more than one material"),
+           "a body has one isotropic material",
+           "give young, poisson and density in the scene: they then hold for all of it");
+  if (!gives("young")) soft.material.young = m.young;
+  if (!gives("poisson")) soft.material.poisson = m.poisson;
+  if (!density) soft.density = m.density;
+}
+
+double distance_to_triangles(const Vec3& x, const TetMesh& volume, std::span<const Triangle> triangles) {
+  double least_sq = std::numeric_limits<double>::infinity();
+  for (const Triangle& t : triangles) {
+    const TriangleCorners corners = {volume.vertices[t[0]], volume.vertices[t[1]], volume.vertices[t[2]]};
+    least_sq = std::min(least_sq, closest_on_triangle(x, corners).squared_distance);
+  }
+  return std::sqrt(least_sq);
+}
+
+// a surface and a volume that don't belong together would be carried by nonsense
+void check_outside(const TomlNode& node, const std::string& what, const TriangleMesh& surface,
+                   const SoftDescription& soft) {
+  if (soft.embedding.outside == 0) return;
+  const double size = bounds_of(soft.mesh.vertices).extent().maxCoeff(), allowed = kMostOutside * size;
+  std::vector<Triangle> boundary;
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    if (soft.embedding.weight[v].minCoeff() >= 0.0) continue;
+    // the carrying tetrahedron bounds the distance from above; only where that is too far, the whole boundary is asked
+    const Vec3& x = surface.vertices[v];
+    const Tet& tet = soft.mesh.tets[soft.embedding.tet[v]];
+    std::array<Triangle, 4> faces;
+    for (int k = 0; k < 4; ++k) faces[k] = {tet[kTetFaces[k][0]], tet[kTetFaces[k][1]], tet[kTetFaces[k][2]]};
+    if (distance_to_triangles(x, soft.mesh, faces) <= allowed) continue;
+    if (boundary.empty()) boundary = boundary_triangles(soft.mesh);
+    const double distance = distance_to_triangles(x, soft.mesh, boundary);
+    if (distance > allowed)
+      refuse(node.place,
+             fmt::format("{}: vertex {} of the surface lies {:.3g} m outside of the volume", what, v, distance),
+             fmt::format("at most {:.3g} m (a tenth of its {:.3g} m) is taken: both must be of one frame and scale",
+                         allowed, size),
+             "check that they belong together");
+  }
+}
+
+void read_volume_file(const TomlNode& table, const TomlNode& node, const std::string& what, double scale,
+                      SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+  const std::string name = what + ".volume";
+  if (const TomlEntry* shape = table.find("shape"))
+    refuse(shape->place, what + " has a shape and a volume file",
+           "the volume's own boundary or a surface file is its surface", "remove shape");
+  const std::shared_ptr<const TetFile> file = files.load_volume(node, name);
+  soft.mesh = file->mesh;
+  for (Vec3& x : soft.mesh.vertices) x *= scale;
+  use_file_material(table, node, name, *file, soft);
+  const MeshPointer surface = table.find("surface") != nullptr
+                                  ? outer_surface(table, what, scale, 1.0, 0, files, body)
+                                  : checked_surface(boundary_of(soft.mesh), node, toml_string(node.string));
+  soft.embedding = embed(soft.mesh, surface->mesh.vertices);
+  check_outside(node, name, surface->mesh, soft);
+  body.shape = surface;
+}
+
+void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files,
+               SoftDescription& soft, BodyDescription& body) {
+  const int cells = read_cells(way.value, what + ".volume.cage");
+  const MeshPointer outer = outer_surface(table, what, scale, 0.0, cells, files, body);
+  const auto make = [&]() -> CarriedVolume {
+    TetCageSettings settings;
+    settings.cells = cells;
+    TetCage cage = make_tet_cage(outer->mesh, settings);
+    return {std::move(cage.mesh), std::move(cage.fraction), std::move(cage.embedding)};
+  };
+  take(*files.volumes().get(outer->mesh, fmt::format("cage {}", cells), make), outer, soft, body);
+}
+
+void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
+                  SoftDescription& soft, BodyDescription& body) {
+  const std::string name = what + ".volume.lattice";
+  const int cells = read_cells(way.value, name);
+  const TomlEntry* shape = table.find("shape");
+  if (shape == nullptr || shape->value.find("box") == nullptr)
+    refuse(way.place, name + " is of a body that is not a box", "shape = { box = { size } } can be one", "use a cage");
+  const Vec3 half = std::get<Box>(read_shape(shape->value, what + ".shape", scale)).half;
+  const Eigen::Vector3i n = cells_of_box(half, cells);
+  soft.mesh = make_alternating_box(2.0 * half, n.x(), n.y(), n.z());
+  for (Vec3& x : soft.mesh.vertices) x -= half;
+  const MeshPointer boundary = checked_surface(boundary_of(soft.mesh), way.value, name);
+  soft.embedding = embed(soft.mesh, boundary->mesh.vertices);
+  body.shape = boundary;
+}
+
+void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
+                         SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+  const std::string name = what + ".volume.tetrahedralize";
+  const TomlNode& node = way.value;
+  check_keys(node, name, {"max_size", "min_angle"});
+  const TomlEntry *size = node.find("max_size"), *angle = node.find("min_angle");
+  if (size == nullptr)
+    refuse(node.place, name + " has no max_size", "max_size = the longest edge in metres is wanted", "add it");
+  TetrahedralizeSettings settings;
+  settings.max_size = scene_positive(size->value, name + ".max_size", 1e6);
+  if (angle != nullptr) settings.min_angle = scene_real(angle->value, name + ".min_angle", {0.0, 20.0});
+  const MeshPointer outer = outer_surface(table, what, scale, settings.max_size, 0, files, body);
+  const double longest = bounds_of(outer->mesh.vertices).extent().maxCoeff();
+  if (settings.max_size < longest / kMostCells)
+    refuse(size->value.place, fmt::format("{}.max_size is {}", name, shortest(settings.max_size)),
+           fmt::format("at least {:.3g} m, a {}th of the surface's longest side, is allowed", longest / kMostCells,
+                       kMostCells),
+           "make it larger");
+  const auto make = [&]() -> CarriedVolume {
+    try {
+      CarriedVolume volume;
+      volume.mesh = tetrahedralize(outer->mesh, settings);
+      volume.embedding = embed(volume.mesh, outer->mesh.vertices);
+      return volume;
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}: {}", node.place, name, error.what()));
+    }
+  };
+  const std::string options =
+      fmt::format("tetrahedralize {} {}", shortest(settings.max_size), shortest(settings.min_angle));
+  take(*files.volumes().get(outer->mesh, options, make), outer, soft, body);
+  check_outside(node, name, outer->mesh, soft);
+}
+
+}  // namespace
+
+void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
+                 SoftDescription& soft, BodyDescription& body) {
+  const TomlEntry *entry = table.find("volume"), *shape = table.find("shape"), *surface = table.find("surface");
+  const std::string name = what + ".volume";
+  if (shape != nullptr && surface != nullptr)
+    refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
+  if (entry == nullptr)
+    refuse(table.place, what + " is deformable and has no volume",
+           "a cage round its surface or a file of tetrahedra is wanted", "add volume = { cage = { cells = 12 } }");
+  if (entry->value.kind == TomlNode::text) return read_volume_file(table, entry->value, what, scale, files, soft, body);
+  if (entry->value.kind != TomlNode::table)
+    refuse(entry->value.place, fmt::format("{} is {}", name, toml_kind_name(entry->value)),
+           "a file name, or a table naming one way to make it, is wanted", "write volume = { cage = { cells = 12 } }");
+  const TomlNode& volume = entry->value;
+  check_keys(volume, name, {"cage", "lattice", "tetrahedralize"});
+  if (volume.entries.size() != 1)
+    refuse(volume.place, fmt::format("{} names {} ways", name, volume.entries.size()),
+           "a file's name, or one of cage, lattice, tetrahedralize, is wanted",
+           "write volume = { cage = { cells = 12 } }");
+  const TomlEntry& way = volume.entries[0];
+  scene_table(way.value, name + "." + way.key);
+  if (shape == nullptr && surface == nullptr)
+    refuse(table.place, what + " has no surface",
+           "surface = \"file\", or shape = { sphere, box or capsule }, is wanted", "add one");
+  if (way.key == "cage") return read_cage(table, way, what, scale, files, soft, body);
+  if (way.key == "lattice") return read_lattice(table, way, what, scale, soft, body);
+  read_tetrahedralize(table, way, what, scale, files, soft, body);
+}
+
+}  // namespace impinge

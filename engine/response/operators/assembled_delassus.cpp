@@ -1,0 +1,149 @@
+#include "engine/response/operators/assembled_delassus.hpp"
+
+#include <algorithm>
+
+#include "engine/core/error.hpp"
+
+namespace impinge {
+namespace {
+
+/// Which contacts a body takes part in, and on which side.
+struct Part {
+  int contact;
+  const ContactSide* side;
+  double sign;
+};
+
+template <class Wanted>
+std::vector<Part> parts_of(const GroupSystem& group, Wanted wanted) {
+  std::vector<Part> parts;
+  for (int i = 0; i < static_cast<int>(group.contacts.size()); ++i) {
+    if (wanted(group.contacts[i].a)) parts.push_back({i, &group.contacts[i].a, 1.0});
+    if (wanted(group.contacts[i].b)) parts.push_back({i, &group.contacts[i].b, -1.0});
+  }
+  return parts;
+}
+
+void add_rigid(const GroupSystem& group, MatX& w) {
+  for (int b = 0; b < static_cast<int>(group.bodies.size()); ++b) {
+    const BodyBlock& block = group.bodies[b];
+    const std::vector<Part> parts = parts_of(group, [&](const ContactSide& s) { return s.rigid == b; });
+    std::vector<Mat3> arms;
+    for (const Part& p : parts) {
+      Mat3 arm;
+      for (int k = 0; k < 3; ++k)
+        arm.row(k) = p.sign * p.side->arm.cross(group.contacts[p.contact].directions.row(k).transpose()).transpose();
+      arms.push_back(arm);
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (std::size_t j = 0; j < parts.size(); ++j)
+        w.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) +=
+            parts[i].sign * parts[j].sign * block.inverse_mass * group.contacts[parts[i].contact].directions *
+                group.contacts[parts[j].contact].directions.transpose() +
+            arms[i] * block.inverse_inertia * arms[j].transpose();
+  }
+}
+
+MatX gram(const SoftBlock& block, const SparseColumns& columns) {
+  MatX w;
+  const SolveStatus status = block.solver->gram(columns, w).status;
+  if (status == SolveStatus::not_finite || status == SolveStatus::not_positive_definite)
+    throw DivergenceError("the system matrix of a deformable body is not positive definite");
+  return w;
+}
+
+/// W by columns of J^T: three a contact.
+void add_by_contact(const GroupSystem& group, const SoftBlock& block, const std::vector<Part>& parts, MatX& w) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < parts.size(); ++j)
+    for (const NodeWeight& n : parts[j].side->nodes)
+      for (int d = 0; d < 3; ++d)
+        for (int k = 0; k < 3; ++k)
+          entries.emplace_back(3 * n.node + k, static_cast<int>(3 * j) + d,
+                               parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(d, k));
+  SparseColumns columns(block.velocity.size(), static_cast<Eigen::Index>(3 * parts.size()));
+  columns.setFromTriplets(entries.begin(), entries.end());
+  const MatX part = gram(block, columns);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      w.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) +=
+          part.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
+}
+
+/// W by columns of unit impulses: three a touched node, and then J on both sides.
+void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::vector<Part>& parts,
+                 const std::vector<int>& nodes, MatX& w) {
+  std::vector<int> row(block.velocity.size() / 3, -1);
+  const auto m = static_cast<Eigen::Index>(3 * nodes.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    row[nodes[k]] = static_cast<int>(3 * k);
+    for (int d = 0; d < 3; ++d) entries.emplace_back(3 * nodes[k] + d, static_cast<int>(3 * k) + d, 1.0);
+  }
+  SparseColumns columns(block.velocity.size(), m);
+  columns.setFromTriplets(entries.begin(), entries.end());
+  const MatX inverse = gram(block, columns);  // A⁻¹ between touched nodes
+  MatX sum(m, 3), column(m, 3);
+  for (const Part& p : parts) {
+    sum.setZero();
+    for (const NodeWeight& n : p.side->nodes) sum += (p.sign * n.weight) * inverse.middleCols<3>(row[n.node]);
+    column.noalias() = sum * group.contacts[p.contact].directions.transpose();
+    for (const Part& to : parts) {
+      Mat3 at = Mat3::Zero();
+      for (const NodeWeight& n : to.side->nodes) at += n.weight * column.middleRows<3>(row[n.node]);
+      w.block<3, 3>(3 * to.contact, 3 * p.contact) += to.sign * group.contacts[to.contact].directions * at;
+    }
+  }
+}
+
+void add_soft(const GroupSystem& group, int body, MatX& w) {
+  const SoftBlock& block = group.soft[body];
+  const std::vector<Part> parts =
+      parts_of(group, [&](const ContactSide& s) { return s.soft == body && !s.nodes.empty(); });
+  if (parts.empty()) return;
+  if (block.solver->factorize(*block.a) != SolveStatus::ok)
+    throw DivergenceError("the system matrix of a deformable body is not positive definite");
+  std::vector<int> nodes;
+  for (const Part& p : parts)
+    for (const NodeWeight& n : p.side->nodes) nodes.push_back(n.node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  if (nodes.size() < parts.size())
+    add_by_node(group, block, parts, nodes, w);
+  else
+    add_by_contact(group, block, parts, w);
+}
+
+std::shared_ptr<const MatX> assemble(const GroupSystem& group) {
+  const auto n = static_cast<Eigen::Index>(3 * group.contacts.size());
+  MatX w = MatX::Zero(n, n);
+  add_rigid(group, w);
+  for (int s = 0; s < static_cast<int>(group.soft.size()); ++s) add_soft(group, s, w);
+  return std::make_shared<const MatX>(0.5 * (w + MatX(w.transpose())));
+}
+
+}  // namespace
+
+AssembledDelassus::AssembledDelassus(GroupSystem& group) {
+  if (!group.assembled) group.assembled = assemble(group);
+  w_ = group.assembled;
+  lambda_ = VecX::Zero(w_->rows());
+  IMPINGE_ASSERT(w_->rows() == static_cast<Eigen::Index>(3 * group.contacts.size()));
+  for (Eigen::Index i = 0; i < w_->rows(); i += 3) diagonal_.push_back(w_->block<3, 3>(i, i));
+}
+
+void AssembledDelassus::begin(const std::vector<Vec3>& lambda) {
+  for (std::size_t i = 0; i < lambda.size(); ++i) lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) = lambda[i];
+}
+
+Vec3 AssembledDelassus::row(std::size_t i, bool normal_only) const {
+  const auto at = static_cast<Eigen::Index>(3 * i);  // W is symmetric: columns lie together in memory, rows do not
+  if (normal_only) return {w_->col(at).dot(lambda_), 0.0, 0.0};
+  return w_->middleCols<3>(at).transpose() * lambda_;
+}
+
+void AssembledDelassus::change(std::size_t i, const Vec3& delta, bool) {
+  lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) += delta;
+}
+
+}  // namespace impinge
