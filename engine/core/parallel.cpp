@@ -1,22 +1,18 @@
 #include "engine/core/parallel.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <memory>
 #include <thread>
+
+#include "engine/core/parallel_backend.hpp"
 
 namespace impinge {
 namespace {
 int g_threads = 0;
-std::unique_ptr<tbb::task_arena> g_arena;
-}  // namespace
+}
 
 void set_thread_count(int count) {
   g_threads = std::max(0, count);
-  g_arena.reset();
+  backend::reset();
 }
 
 int thread_count() {
@@ -24,17 +20,12 @@ int thread_count() {
 }
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
-  if (thread_count() == 1 || count <= std::max<std::size_t>(grain, 1)) {
+  grain = std::max<std::size_t>(grain, 1);
+  if (thread_count() == 1 || count <= grain) {
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  if (!g_arena) g_arena = std::make_unique<tbb::task_arena>(thread_count());
-  g_arena->execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(grain, 1)),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-                      });
-  });
+  backend::run(count, grain, thread_count(), body);
 }
 
 }  // namespace impinge
