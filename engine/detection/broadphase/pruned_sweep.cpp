@@ -75,9 +75,10 @@ void PrunedSweep::sweep(std::span<const Entry> entries) {
     for (std::size_t j = i + 1; j < entries.size() && entries[j].min[0] <= a.max[0]; ++j) {
       const Entry& b = entries[j];
       // of the columns that two boxes share, the one where the later of them starts, in y and z, reports the pair
-      const bool hit = (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) &
-                       (b.min[2] <= a.max[2]) & ((a.starts | b.starts) == 3u);
-      if (hit) found_.push_back(static_cast<std::uint64_t>(std::min(a.id, b.id)) << 32 | std::max(a.id, b.id));
+      // (whole numbers, not conditions: branches that no one can predict would cost more than the comparisons)
+      const int hit = int{a.min[1] <= b.max[1]} & int{b.min[1] <= a.max[1]} & int{a.min[2] <= b.max[2]} &
+                      int{b.min[2] <= a.max[2]} & int{(a.starts | b.starts) == 3u};
+      if (hit != 0) found_.push_back(static_cast<std::uint64_t>(std::min(a.id, b.id)) << 32 | std::max(a.id, b.id));
     }
   }
 }
