@@ -15,18 +15,16 @@ namespace {
 constexpr double kExact = 1e-12;
 constexpr int kMostExactIterations = 2000;
 
-/// Hands everything on, and remembers whether it was asked and what came of it.
+/// Hands everything on, and counts how often it was asked.
 class WatchedSolver : public LcpSolver {
  public:
   explicit WatchedSolver(const LcpSolver& solver) : solver_(solver) {}
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     ++calls;
-    last = solver_.solve(problem, settings, lambda);
-    return last;
+    return solver_.solve(problem, settings, lambda);
   }
   std::string applies(const ConeProblem& problem) const override { return solver_.applies(problem); }
   mutable int calls = 0;
-  mutable LcpResult last;
 
  private:
   const LcpSolver& solver_;
@@ -59,15 +57,6 @@ std::vector<Mat3> w_diagonal(ThawedGroup& thawed) {
 }
 
 double ratio(double value, double scale) { return scale > 0.0 ? value / scale : value; }
-
-std::string stop_of(const WatchedSolver& solver, const ResponseResult& result, const ResponseSettings& settings) {
-  if (solver.calls == 1 && result.outer_iterations <= 1) return std::string(name_of(solver.last.reason));
-  if (result.converged) return std::string(name_of(StopReason::converged));
-  const bool has_loop = result.outer_iterations > 1;  // whose steps are capped then, not the sum of what it does inside
-  const bool at_cap = has_loop ? result.outer_iterations >= settings.max_outer_iterations
-                               : result.iterations >= settings.lcp.max_iterations;
-  return std::string(name_of(at_cap ? StopReason::iteration_cap : StopReason::stagnated));
-}
 
 /// The larger of two histories, iteration by iteration; what has ended keeps its last value.
 void merge_history(std::vector<double>& into, const std::vector<double>& from) {
@@ -182,8 +171,8 @@ FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, con
     outcome.outer_iterations += result.outer_iterations;
     outcome.used_solver |= watched.calls > 0;
     if (outcome.converged) {
-      outcome.converged = result.converged;
-      outcome.stop = stop_of(watched, result, settings);
+      outcome.converged = result.converged();
+      outcome.stop = std::string(name_of(result.ended));
     }
     merge_history(outcome.history, !of_loop.empty() ? of_loop : watched.calls == 1 ? of_solver : std::vector<double>());
     GroupSystem& s = thawed.system;

@@ -69,8 +69,8 @@ class Solver {
     for (const Vec3& lambda : group_.lambda) acts_.push_back(!lambda.isZero(0.0));
     double before = -1.0, momentum = momentum_residual();
     show();
-    result.converged = momentum <= tolerance && rows_->natural_residual(group_.lambda, x_) <= tolerance;
-    while (!result.converged && result.outer_iterations < settings_.max_outer_iterations) {
+    bool converged = momentum <= tolerance && rows_->natural_residual(group_.lambda, x_) <= tolerance;
+    while (!converged && result.outer_iterations < settings_.max_outer_iterations) {
       for (std::size_t s = 0; s < x_.size(); ++s) {
         std::swap(last_[s], x_[s]);
         std::swap(a_last_[s], a_x_[s]);
@@ -95,18 +95,21 @@ class Solver {
       show();
       if (settings_.stop == "change") {
         const double size = momentum_norm();
-        result.converged = size == 0.0 || (before >= 0.0 && std::abs(size - before) < kSeedChange * before);
+        converged = size == 0.0 || (before >= 0.0 && std::abs(size - before) < kSeedChange * before);
         before = size;
       } else {
-        result.converged = contacts_hold && momentum <= tolerance;
+        converged = contacts_hold && momentum <= tolerance;
       }
-      if (result.converged) break;
-      if (is_stalled(std::max(momentum, change), result.outer_iterations))
+      if (converged) break;
+      if (is_stalled(std::max(momentum, change), result.outer_iterations)) {
+        result.ended = StopReason::stagnated;
         return settings_.stop == "change" ? finish(result) : finish_otherwise(result, tolerance);
+      }
       drifting_ = momentum <= std::max(tolerance, 0.1 * change) ? drifting_ + 1 : 0;
       if (drifting_ == kDrift) follow_drift();
       choose_next(result.outer_iterations);
     }
+    if (!converged) result.ended = StopReason::iteration_cap, result.limit = kOuterLimit;
     return finish(result);
   }
 
@@ -125,13 +128,15 @@ class Solver {
       const ColumnsResult columns = solve_by_columns(a, base_, solver_, tolerance, group_, x);
       result.iterations += columns.iterations;
       result.outer_iterations += columns.solves;
-      result.converged = columns.converged;
-      if (columns.converged) return store(result, a, x);
+      if (columns.converged) {
+        result.ended = StopReason::converged;
+        return store(result, a, x);
+      }
     }
     const MultipliersResult rest = solve_by_multipliers(a, base_, tolerance, group_, x);
     result.iterations += rest.newton_steps;
     result.outer_iterations += rest.multiplier_steps;
-    result.converged = rest.converged;
+    result.ended = rest.converged ? StopReason::converged : StopReason::stagnated;
     return store(result, a, x);
   }
 

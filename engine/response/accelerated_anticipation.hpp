@@ -10,6 +10,9 @@ namespace impinge {
 ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver,
                                  const ResponseSettings& settings);
 
+/// The parameter that bounds the outer iterations of either form.
+constexpr std::string_view kOuterLimit = "response.max_iterations";
+
 /// The seed's outer stop rule: ‖A Δv - J^T λ‖ changes by less than this between iterations.
 constexpr double kSeedChange = 0.05;
 

@@ -2,6 +2,11 @@
 
 namespace impinge {
 
+ResponseResult result_of(const LcpResult& solve, int outer_iterations) {
+  const bool at_cap = solve.reason == StopReason::iteration_cap;
+  return {solve.iterations, outer_iterations, solve.reason, at_cap ? "lcp.max_iterations" : std::string_view()};
+}
+
 ConeProblem make_cone_problem(const GroupSystem& group) {
   ConeProblem problem;
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {

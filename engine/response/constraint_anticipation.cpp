@@ -23,13 +23,13 @@ class ConstraintAnticipation : public Response {
       problem.w = &w;
       const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
       w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps
-      return {result.iterations, 0, result.solved()};
+      return result_of(result);
     }
     AssembledDelassus w(group);
     problem.w = &w;
     const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
     apply_impulses(group);
-    return {result.iterations, 0, result.solved()};
+    return result_of(result);
   }
 
  private:

@@ -53,7 +53,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   for (const SoftBlock& block : group.soft) x.push_back(VecX::Zero(block.velocity.size()));
   a_x = drift = x;
   ResponseResult result;
-  result.converged = false;
+  bool converged = false;
   double before = -1.0;
   const auto show = [&] {
     if (!settings.observe) return;
@@ -62,7 +62,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
     settings.observe(group);
   };
   show();
-  while (!result.converged && result.outer_iterations < settings.max_outer_iterations) {
+  while (!converged && result.outer_iterations < settings.max_outer_iterations) {
     for (std::size_t s = 0; s < x.size(); ++s)
       for (std::size_t i = 0; i < inverse[s].size(); ++i) {
         const auto at = static_cast<Eigen::Index>(3 * i);
@@ -85,7 +85,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
     show();
     norm = std::sqrt(norm);
     if (settings.stop == "change") {
-      result.converged = norm == 0.0 || (before >= 0.0 && std::abs(norm - before) < kSeedChange * before);
+      converged = norm == 0.0 || (before >= 0.0 && std::abs(norm - before) < kSeedChange * before);
       before = norm;
     } else if (momentum <= tolerance) {
       w.begin(group.lambda);  // rigid Δv; the deformable bodies' is x
@@ -94,11 +94,12 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
       for (std::size_t i = 0; i < base.q.size(); ++i)
         worst = std::max(
             worst, natural_map(base.kind[i], w.diagonal(i), w.row(i, false) + base.q[i], group.lambda[i], base.mu[i]));
-      result.converged = worst <= tolerance;
+      converged = worst <= tolerance;
     }
   }
   w.begin(group.lambda);
   group.soft_delta = x;
+  if (!converged) result.ended = StopReason::iteration_cap, result.limit = kOuterLimit;
   return result;
 }
 
@@ -116,7 +117,7 @@ class IterativeConstraintAnticipation : public Response {
     problem.w = &w;
     const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
     w.begin(group.lambda);
-    return {result.iterations, 1, result.solved()};
+    return result_of(result, 1);
   }
 };
 

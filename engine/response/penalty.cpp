@@ -70,11 +70,11 @@ class Penalty : public Response {
       }
       const SpringsResult springs = solve_springs(a, law, std::max(1e-12, settings.lcp.tolerance), group);
       result.iterations = springs.iterations;
-      result.converged = springs.converged;
+      if (!springs.converged) result.ended = StopReason::iteration_cap, result.limit = "the Newton steps of penalty";
     } else {
       take_explicit(group, a, settings);
     }
-    result.converged = apply_springs(a, group) && result.converged;
+    if (!apply_springs(a, group)) result.ended = StopReason::stagnated;
     return result;
   }
 

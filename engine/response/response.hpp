@@ -35,8 +35,15 @@ struct ResponseSettings {
 struct ResponseResult {
   int iterations = 0;        ///< of the LCP solver
   int outer_iterations = 0;  ///< of an outer loop, where the method has one
-  bool converged = true;
+  StopReason ended = StopReason::converged;
+  /// of StopReason::iteration_cap: the limit that was met, by the path of the parameter that sets it, or in words where
+  /// none does
+  std::string_view limit = {};
+  bool converged() const { return ended == StopReason::converged || ended == StopReason::trivial; }
 };
+
+/// Of a response that leaves everything to one solve of the cone problem.
+ResponseResult result_of(const LcpResult& solve, int outer_iterations = 0);
 
 class Response {
  public:

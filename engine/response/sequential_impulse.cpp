@@ -23,12 +23,12 @@ class SequentialImpulse : public Response {
     const double scale = velocity_scale(make_cone_problem(group));
 
     ResponseResult result;
-    result.converged = false;
+    bool converged = false;
     std::vector<double> impact(m, 0.0), bound(m);
     for (std::size_t i = 0; i < m; ++i) bound[i] = group.contacts[i].bound;
     if (impacts) collide(group, mobility, settings, result, impact, bound);
     mobility.show(settings.observe);
-    while (!result.converged && result.iterations < settings.impulse_iterations) {
+    while (!converged && result.iterations < settings.impulse_iterations) {
       double largest = 0.0;
       for (std::size_t i = 0; i < m; ++i) {
         Vec3 u = mobility.velocity(i);
@@ -43,10 +43,10 @@ class SequentialImpulse : public Response {
       }
       ++result.iterations;
       mobility.show(settings.observe);
-      result.converged = largest <= settings.lcp.tolerance * scale;
+      converged = largest <= settings.lcp.tolerance * scale;
     }
-    const bool solved = mobility.finish();
-    result.converged = result.converged && solved;
+    if (!converged) result.ended = StopReason::iteration_cap, result.limit = "response.impulse_iterations";
+    if (!mobility.finish()) result.ended = StopReason::stagnated;
     return result;
   }
 

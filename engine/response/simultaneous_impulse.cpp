@@ -16,10 +16,10 @@ class SimultaneousImpulse : public Response {
     ContactMobility mobility(group);
     const double scale = velocity_scale(make_cone_problem(group));
     ResponseResult result;
-    result.converged = false;
+    bool converged = false;
     std::vector<Vec3> change(group.contacts.size());
     mobility.show(settings.observe);
-    while (!result.converged && result.iterations < settings.impulse_iterations) {
+    while (!converged && result.iterations < settings.impulse_iterations) {
       double largest = 0.0;
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         Vec3 u = mobility.velocity(i);
@@ -32,10 +32,10 @@ class SimultaneousImpulse : public Response {
         if (!change[i].isZero(0.0)) mobility.change(i, change[i]);
       ++result.iterations;
       mobility.show(settings.observe);
-      result.converged = largest <= settings.lcp.tolerance * scale;
+      converged = largest <= settings.lcp.tolerance * scale;
     }
-    const bool solved = mobility.finish();
-    result.converged = result.converged && solved;
+    if (!converged) result.ended = StopReason::iteration_cap, result.limit = "response.impulse_iterations";
+    if (!mobility.finish()) result.ended = StopReason::stagnated;
     return result;
   }
 };

@@ -39,7 +39,7 @@ class SoftConstraint : public Response {
       sweep(group, mobility, [&](std::size_t i, const Vec3& u) {
         return soft_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i], soft, settings);
       });
-    result.converged = mobility.finish();
+    if (!mobility.finish()) result.ended = StopReason::stagnated;
     // a deformable body's elastic forces count on positions that move by its velocities
     if (settings.soft_relax_iterations == 0 || !group.soft.empty()) return result;
     group.position_velocity = group.delta_velocity;
@@ -59,7 +59,7 @@ class SoftConstraint : public Response {
         u.x() -= bound[i];
         return relaxed_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i]);
       });
-    result.converged = mobility.finish() && result.converged;
+    if (!mobility.finish()) result.ended = StopReason::stagnated;
     for (std::size_t b = 0; b < group.bodies.size(); ++b) {
       group.position_velocity[b] -= group.delta_velocity[b];
       group.position_angular_velocity[b] -= group.delta_angular_velocity[b];

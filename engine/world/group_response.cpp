@@ -21,6 +21,14 @@ ContactState state_of(const Vec3& lambda, double friction) {
                                                                                     : ContactState::stick;
 }
 
+/// Of a group that is left without an answer. A response that has one was asked by Newton iterations that have none.
+UnsolvedGroups cause_of(const ResponseResult& result, bool contradicts) {
+  if (contradicts) return {UnsolvedGroups::contradiction, "", 1};
+  if (result.converged()) return {UnsolvedGroups::limit_met, "the Newton iterations of simulation.integrator", 1};
+  if (result.ended == StopReason::iteration_cap) return {UnsolvedGroups::limit_met, std::string(result.limit), 1};
+  return {result.ended == StopReason::refused ? UnsolvedGroups::refused : UnsolvedGroups::stalled, "", 1};
+}
+
 }  // namespace
 
 ContactCache::Item World::Stages::cache_key(std::span<const Attachment> attachments, int contact) const {
@@ -104,7 +112,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
     }
     if (s.freezing) frozen = freeze(system);  // before a later Newton iteration takes A anew
     const StageTimer timer(times.response_ms);
-    const ResponseResult result = [&] {
+    const ResponseResult solved = [&] {
       try {
         return s.response->solve(system, *s.lcp, settings);
       } catch (const DivergenceError& error) {  // a response knows neither frame nor names
@@ -115,11 +123,11 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
                                           frame_, &group - s.groups.data(), names, error.what()));
       }
     }();
-    s.frame_stats.lcp_iterations += result.iterations;
-    s.frame_stats.outer_iterations += result.outer_iterations;
-    return result.converged;
+    s.frame_stats.lcp_iterations += solved.iterations;
+    s.frame_stats.outer_iterations += solved.outer_iterations;
+    return solved;
   };
-  bool converged = solve();
+  ResponseResult result = solve();
 
   // Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows
   const NewtonSettings& newton = s.integrator->newton;
@@ -142,10 +150,13 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
         if (bodies_[b].soft) s.soft[b]->resolve(bodies_[b], frame_);
     }
     start = system.lambda;
-    converged = solve();
+    result = solve();
   }
-  if (!converged && !s.response->lives_on_overlap()) settle_contradiction(system);
-  if (!converged || !at_root) ++s.frame_stats.unconverged;
+  const bool contradicts = !result.converged() && !s.response->lives_on_overlap() && settle_contradiction(system);
+  if (!result.converged() || !at_root) {
+    ++s.frame_stats.unconverged;
+    count_unsolved(s.frame_stats.unsolved, cause_of(result, contradicts));
+  }
   if (frozen) {
     frozen->answer = {system.lambda, system.delta_velocity, system.delta_angular_velocity, system.soft_delta};
     s.freeze_geometry(bodies_, attachments_, group, *frozen);
@@ -185,7 +196,7 @@ void World::push_out(const GroupSystem& solved, const CollisionGroup& group, dou
   const ResponseResult result = s.response->solve(recovery, *s.lcp, loose);
   s.frame_stats.lcp_iterations += result.iterations;
   s.frame_stats.outer_iterations += result.outer_iterations;
-  if (!result.converged) settle_contradiction(recovery);
+  if (!result.converged()) settle_contradiction(recovery);
   move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.soft_delta);
 }
 

@@ -14,6 +14,15 @@ const char* state_name(ContactState state) {
   return "";
 }
 
+void count_unsolved(std::vector<UnsolvedGroups>& all, const UnsolvedGroups& more) {
+  for (UnsolvedGroups& known : all)
+    if (known.reason == more.reason && known.limit == more.limit) {
+      known.solves += more.solves;
+      return;
+    }
+  all.push_back(more);
+}
+
 Vec3 tangent1(const Vec3& normal) {
   int axis = 0;  // the first of the world axes along which the normal is smallest
   for (int k = 1; k < 3; ++k)

@@ -57,6 +57,16 @@ struct AttachmentRecord {
   Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
 };
 
+/// Group solves that ended without an answer, by what ended them.
+struct UnsolvedGroups {
+  enum Reason : std::uint8_t { limit_met, stalled, contradiction, refused };
+  Reason reason = limit_met;
+  std::string limit;  ///< of limit_met: the path of the parameter that sets it, or in words where none does
+  std::int64_t solves = 0;
+};
+/// Adds to the entry of the same reason and limit, or a new one at the end.
+void count_unsolved(std::vector<UnsolvedGroups>& all, const UnsolvedGroups& more);
+
 struct FrameStats {
   int frame = 0;
   double time = 0.0;
@@ -65,7 +75,8 @@ struct FrameStats {
   double max_penetration = 0.0;  ///< metres, over contacts at the end of the frame
   double residual = 0.0;         ///< m/s, maximum over sub-steps and groups, by the judge
   std::int64_t lcp_iterations = 0, outer_iterations = 0;
-  std::int64_t unconverged = 0;                          ///< group solves of the frame that ended at the iteration cap
+  std::int64_t unconverged = 0;                          ///< group solves of the frame that ended without an answer
+  std::vector<UnsolvedGroups> unsolved;                  ///< the same by cause; of frames that this process made
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
   StageTimes times;

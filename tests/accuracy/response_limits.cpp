@@ -141,7 +141,7 @@ TEST_CASE("sweeps of sequential impulses shrink a tower's error by r/(1+r), a di
       ResponseSettings settings;
       settings.lcp.tolerance = 1e-12;
       const ResponseResult result = solve("constraint_anticipation", group, settings, lcp);
-      CHECK(result.converged);
+      CHECK(result.converged());
       if (lcp == std::string_view("pivoting")) CHECK(result.iterations <= 5);
       CHECK(group.lambda[1].x() == Approx(ratio * speed).epsilon(1e-9));
     }
@@ -247,7 +247,7 @@ TEST_CASE("rows that depend on each other have an answer still: twelve contacts 
       ResponseSettings settings;
       settings.lcp = {1e-10, 100000};
       settings.impulse_iterations = 100000;
-      CHECK(solve(e.name, group, settings).converged);
+      CHECK(solve(e.name, group, settings).converged());
       CHECK(judge_group(group).residual() < 1e-9);
     }
   }
@@ -267,7 +267,7 @@ TEST_CASE("two walls that close on a body: the velocity that violates both least
       group.contacts[1].surface.x() = -0.5;
       for (ContactRows& rows : group.contacts) rows.friction = mu;
       begin(group);
-      CHECK_FALSE(solve(e.name, group, ResponseSettings{}).converged);
+      CHECK_FALSE(solve(e.name, group, ResponseSettings{}).converged());
       CHECK(settle_contradiction(group));
       CHECK(group.delta_velocity[0].allFinite());
       CHECK(0.2 + group.delta_velocity[0].y() == Approx(0.25).margin(1e-4));

@@ -115,7 +115,7 @@ TEST_CASE("three legs hold a torque up to µ m g R, and slip beyond it (AT-08)")
       ResponseSettings settings;
       settings.lcp = {1e-13, 100000};
       settings.impulse_iterations = 100000;
-      CHECK(find_entry(responses(), e.name)->make()->solve(group, *lcp_solvers().front().make(), settings).converged);
+      CHECK(find_entry(responses(), e.name)->make()->solve(group, *lcp_solvers().front().make(), settings).converged());
       const double spin = torque * h / inertia + group.delta_angular_velocity[0].z();
       if (torque < 30.0)
         CHECK(std::abs(spin) < 1e-10);

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
                                    : 15.0 * static_cast<double>(unknowns);
         std::printf("%.0e,%d,%zu,%s,%.2f,%.3f,%d,%d,%d,%.1e,%.1e,%.2f\n", young, static_cast<int>(unknowns / 3),
                     group.contacts.size(), method.label, ms, ms / exact_ms, result.outer_iterations, result.iterations,
-                    result.converged, judge_group(group).residual(), relative_error(group, truth), 8e-6 * numbers);
+                    result.converged(), judge_group(group).residual(), relative_error(group, truth), 8e-6 * numbers);
         std::fflush(stdout);
       }
     }

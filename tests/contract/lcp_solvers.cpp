@@ -307,7 +307,7 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
     ResponseSettings settings;
     settings.lcp = {1e-12, 100000};
     settings.impulse_iterations = 100000;
-    CHECK(response->solve(copy, *lcp_solvers().front().make(), settings).converged);
+    CHECK(response->solve(copy, *lcp_solvers().front().make(), settings).converged());
     const GroupVerdict verdict = judge_group(copy);
     if (!response->lives_on_overlap()) CHECK(verdict.natural_map < 1e-10);
     CHECK(verdict.momentum < 1e-13);

@@ -129,7 +129,7 @@ TEST_CASE("every response: Δv belongs to λ, no contact pulls, friction stays i
           settings.penalty_damping = implicit ? 10.0 : 0.1;
           const auto response = e.make();
           const ResponseResult result = response->solve(group.system, *lcp_solvers().front().make(), settings);
-          CHECK(result.converged);
+          CHECK(result.converged());
           const GroupVerdict verdict = judge_group(group.system);
           CHECK(verdict.momentum < 1e-9);
           if (!response->lives_on_overlap()) CHECK(verdict.natural_map < 1e-8);
@@ -189,7 +189,7 @@ TEST_CASE("the implicit penalty obeys its own law: λ of the velocities that it 
     settings.penalty_damping = 20.0;
     const ResponseResult result =
         find_entry(responses(), "penalty")->make()->solve(group.system, *lcp_solvers().front().make(), settings);
-    REQUIRE(result.converged);
+    REQUIRE(result.converged());
     const double h = settings.time_step, slope = h * (h * settings.penalty_stiffness + settings.penalty_damping);
     for (std::size_t i = 0; i < group.system.contacts.size(); ++i) {
       const ContactRows& rows = group.system.contacts[i];

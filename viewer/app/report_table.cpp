@@ -26,8 +26,10 @@ constexpr std::array kKnown = {
     Known{"residual_max", "residual, largest", "the same of the worst frame", true},
     Known{"contacts_last", "contacts, last frame", "contacts handed to the solver in the last frame", false},
     Known{"contacts_max", "contacts, most", "contacts handed to the solver in the frame that had most", true},
-    Known{"unconverged", "unconverged solves",
-          "solves of a collision group that ended at the limit of iterations, in all frames", true},
+    Known{
+        "unconverged", "unconverged solves",
+        "solves of a collision group that ended without an answer, at a limit of iterations or stalled, in all frames",
+        true},
     Known{"energy_drift_last_J", "energy drift, last frame",
           "kinetic, potential and elastic energy of the last frame less that of frame 0; contact and damping take "
           "energy away",

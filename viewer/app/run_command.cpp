@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "viewer/app/commands.hpp"
+#include "viewer/app/convergence_note.hpp"
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/interrupt.hpp"
 #include "viewer/image/contact_sheet.hpp"
@@ -17,25 +18,6 @@
 namespace impinge {
 
 namespace {
-
-/// What a run must not keep to its table: solves that ended at the iteration cap.
-struct Convergence {
-  std::int64_t solves = 0;
-  int frames = 0, worst_frame = 0;
-  double worst = 0.0;  // m/s
-  void add(const FrameStats& stats) {
-    solves += stats.unconverged;
-    frames += stats.unconverged > 0;
-    if (stats.unconverged > 0 && stats.residual > worst) worst = stats.residual, worst_frame = stats.frame;
-  }
-  void report() const {
-    if (solves == 0) return;
-    fmt::print(
-        "note:     {} group solve{} in {} frame{} stopped at lcp.max_iterations; the largest residual was {:.2g} m/s "
-        "in frame {}\n",
-        solves, solves == 1 ? "" : "s", frames, frames == 1 ? "" : "s", worst, worst_frame);
-  }
-};
 
 /// Before anything is simulated: a film that could not be written at the end.
 void check_video_path(const std::filesystem::path& video, const std::filesystem::path& out) {
@@ -76,7 +58,7 @@ int run_command(const Arguments& arguments) {
   watcher.interrupted = &interrupted();
   if (!arguments.video.empty()) check_video_path(arguments.video, options.out);
   const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
-  Convergence convergence;
+  ConvergenceNote convergence;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
@@ -95,7 +77,7 @@ int run_command(const Arguments& arguments) {
   const bool filmed = !sheet.empty() && !arguments.video.empty() && write_video(arguments, result.frames_per_second);
   if (arguments.quiet) return result.exit_code();
 
-  convergence.report();
+  fmt::print("{}", convergence.text());
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);

@@ -1,0 +1,48 @@
+#include "viewer/app/convergence_note.hpp"
+
+#include <fmt/format.h>
+
+namespace impinge {
+namespace {
+
+std::string count(std::int64_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+std::string what_ended(const UnsolvedGroups& cause) {
+  switch (cause.reason) {
+    case UnsolvedGroups::limit_met:
+      return "stopped at " + cause.limit;
+    case UnsolvedGroups::stalled:
+      return "stalled where more iterations are no use";
+    case UnsolvedGroups::contradiction:
+      return "had contacts that contradict each other";
+    case UnsolvedGroups::refused:
+      return "were refused by lcp.method";
+  }
+  return "";
+}
+
+}  // namespace
+
+void ConvergenceNote::add(const FrameStats& stats) {
+  if (stats.unconverged == 0) return;
+  for (const UnsolvedGroups& cause : stats.unsolved) count_unsolved(causes_, cause);
+  solves_ += stats.unconverged;
+  ++frames_;
+  if (stats.residual > worst_) worst_ = stats.residual, worst_frame_ = stats.frame;
+}
+
+std::string ConvergenceNote::text() const {
+  if (solves_ == 0) return "";
+  std::string causes;
+  if (causes_.size() == 1) {
+    causes = what_ended(causes_.front());
+  } else {
+    causes = "did not converge: ";
+    for (const UnsolvedGroups& cause : causes_)
+      causes += fmt::format("{}{} {}", &cause == causes_.data() ? "" : ", ", cause.solves, what_ended(cause));
+  }
+  return fmt::format("note:     {} in {} {}; the largest residual was {:.2g} m/s in frame {}\n",
+                     count(solves_, "group solve"), count(frames_, "frame"), causes, worst_, worst_frame_);
+}
+
+}  // namespace impinge

@@ -1,0 +1,21 @@
+// What a run must not keep to its table: group solves that ended without an answer, and what ended them.
+#pragma once
+
+#include "engine/world/step_record.hpp"
+
+namespace impinge {
+
+class ConvergenceNote {
+ public:
+  void add(const FrameStats& stats);
+  /// One line with its end, "" if every solve had an answer.
+  std::string text() const;
+
+ private:
+  std::vector<UnsolvedGroups> causes_;  // in the order in which they came
+  std::int64_t solves_ = 0;
+  int frames_ = 0, worst_frame_ = 0;
+  double worst_ = 0.0;  // m/s
+};
+
+}  // namespace impinge
