@@ -1,6 +1,6 @@
 // One declaration a parameter. A row says where it is (dotted path), what it may be (kind, unit, range, names), what it
-// starts as and what it means, and can read and write it. Scene file, --set, script, GUI, sweep and reference use rows
-// only.
+// starts as and what it means, and can read and write it. Scene file, --set, script, GUI, sweep and reference go by
+// rows, but for the keys of bodies in a scene file, most of which have none: io/scene reads them.
 #pragma once
 
 #include <functional>
@@ -34,6 +34,9 @@ struct Parameter {
   std::function<ParameterValue()> get;
   std::function<void(const ParameterValue&)> set;
   bool live = true;  ///< may change between frames; else only before the first
+  /// Of a real number that may be left to what stands above it: the word that says so, beside numbers; the value then
+  /// is that word, as a text. "" where a number is a must.
+  std::string inherit = {};
 };
 
 class ParameterSet {

@@ -4,7 +4,9 @@
 namespace impinge {
 namespace {
 constexpr double kFar = 1e9;
-}
+constexpr double kInherited = -1.0;  // of a body's coefficient
+constexpr const char* kInherit = "scene";
+}  // namespace
 
 void World::bind_bodies(ParameterSet& set) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -16,19 +18,25 @@ void World::bind_bodies(ParameterSet& set) {
       body().update_world_vertices();
     };
     const std::string path = "body." + bodies_[i].name + ".";
-    const auto real = [&](const char* name, Range range, const char* unit, const char* doc, double RigidBody::*member) {
-      set.add({path + name,
-               ParameterKind::real,
-               unit,
-               range,
-               {},
-               doc,
-               body().*member,
-               [body, member] { return ParameterValue(body().*member); },
-               [body, member](const ParameterValue& v) { body().*member = std::get<double>(v); }});
+    const auto coefficient = [&](const char* name, double high, const char* doc, double RigidBody::*member) {
+      const auto get = [body, member] {
+        return body().*member == kInherited ? ParameterValue(kInherit) : ParameterValue(body().*member);
+      };
+      Parameter row;
+      row.path = path + name;
+      row.range = {0.0, high};
+      row.inherit = kInherit;
+      row.doc = doc;
+      row.initial = get();
+      row.get = get;
+      row.set = [body, member](const ParameterValue& v) {
+        const double* own = std::get_if<double>(&v);
+        body().*member = own == nullptr ? kInherited : *own;
+      };
+      set.add(row);
     };
-    real("friction", {-1.0, 100.0}, "", "Coulomb coefficient; -1: the scene's contact.friction.", &RigidBody::friction);
-    real("restitution", {-1.0, 1.0}, "", "Restitution; -1: the scene's contact.restitution.", &RigidBody::restitution);
+    coefficient("friction", 100.0, "Coulomb coefficient; scene: contact.friction.", &RigidBody::friction);
+    coefficient("restitution", 1.0, "Restitution; scene: contact.restitution.", &RigidBody::restitution);
     if (bodies_[i].soft) bind_soft_body(set, static_cast<int>(i), path);
     if (!bodies_[i].is_dynamic()) continue;
     const auto vector = [&](const char* name, const char* unit, double limit, const char* doc, auto get, auto put) {

@@ -53,7 +53,9 @@ void print_registry(const Registry<Interface>& registry) {
 std::string range_of(const Parameter& row) {
   const bool number =
       row.kind == ParameterKind::integer || row.kind == ParameterKind::real || row.kind == ParameterKind::vector3;
-  if (number) return fmt::format("[{}, {}]", shortest(row.range.low), shortest(row.range.high));
+  if (number)
+    return fmt::format("[{}, {}]{}", shortest(row.range.low), shortest(row.range.high),
+                       row.inherit.empty() ? "" : " | " + row.inherit);
   return row.names.empty() ? "" : fmt::format("{}", fmt::join(row.names, " | "));
 }
 

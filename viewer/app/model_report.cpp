@@ -91,14 +91,16 @@ bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& para
     for (const Parameter& row : rows.all())
       if (const TomlNode* node = at_path(root, row.path)) row.set(scene_value(row, *node));
     int meshes = 0;
+    const auto own = [](const TomlNode* node, double of_scene) {
+      return node != nullptr && node->is_number() ? node->as_number() : of_scene;
+    };
     if (const TomlEntry* bodies = root.find("body"))
       for (const TomlNode& body : bodies->value.items) {
         const TomlNode *kind = at_path(body, "kind"), *friction = at_path(body, "friction"),
                        *restitution = at_path(body, "restitution"), *self = at_path(body, "self_collision");
         const BodyKind is = kind_of(kind == nullptr ? "" : kind->string);
         count_body(is, is == BodyKind::deformable || body.find("surface") != nullptr,
-                   friction == nullptr ? parameters.contact.friction : friction->as_number(),
-                   restitution == nullptr ? parameters.contact.restitution : restitution->as_number(),
+                   own(friction, parameters.contact.friction), own(restitution, parameters.contact.restitution),
                    self != nullptr && self->flag, meshes, facts);
       }
     facts.mesh_pairs = meshes > 1 || facts.self_collision;

@@ -47,6 +47,14 @@ void put_value(ByteWriter& out, const ParameterValue& value) {
   std::visit(Writer{out}, value);
 }
 
+// what a snapshot holds of a number that is left to the scene
+constexpr double kInherited = -1.0;
+
+ParameterValue written(const Parameter& row) {
+  const ParameterValue value = row.get();
+  return !row.inherit.empty() && value == ParameterValue(row.inherit) ? ParameterValue(kInherited) : value;
+}
+
 // of the kind that `like` has
 ParameterValue get_value(ByteReader& in, const ParameterValue& like) {
   struct Reader {
@@ -156,7 +164,7 @@ void Session::save(ByteWriter& out) const {
   out.put<std::uint64_t>(rows_.all().size());
   for (const Parameter& row : rows_.all()) {
     put_text(out, row.path);
-    put_value(out, row.get());
+    put_value(out, written(row));
   }
   world_.save(out);
 }
@@ -168,7 +176,12 @@ void Session::restore(ByteReader& in) {
   for (const Parameter& row : rows_.all()) {
     if (get_text(in) != row.path)
       throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
-    row.set(get_value(in, row.initial));
+    if (row.inherit.empty()) {
+      row.set(get_value(in, row.initial));
+    } else {
+      const double number = in.get<double>();
+      row.set(number == kInherited ? ParameterValue(row.inherit) : ParameterValue(number));
+    }
   }
   world_.parameters_changed();
   // after the rows: setting a body's row derives state from it, and the snapshot's bits must stand

@@ -16,11 +16,17 @@ namespace {
 /// A number that a person would write.
 double rounded(double v) { return std::stod(fmt::format("{:.4g}", v)); }
 
+/// 0 of a number that is left to what stands above it.
+double number_in(const ParameterValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  const auto* real = std::get_if<double>(&value);
+  return real == nullptr ? 0.0 : *real;
+}
+
 /// What a slider goes over: the row's range if one can find one's way in it, else what is near the first value.
 Range slider_range(const Parameter& row, double now) {
   Range r = row.range;
-  const double first = row.kind == ParameterKind::integer ? static_cast<double>(std::get<std::int64_t>(row.initial))
-                                                          : std::get<double>(row.initial);
+  const double first = number_in(row.initial);
   if (r.logarithmic) {
     const double middle = std::abs(first) > 0.0 ? std::abs(first) : 1.0;
     return {std::max(r.low, std::min(1e-4 * middle, now > 0.0 ? now : middle)),
@@ -71,7 +77,8 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
     case ParameterKind::integer:
     case ParameterKind::real: {
       const bool whole = row.kind == ParameterKind::integer;
-      double now = whole ? static_cast<double>(std::get<std::int64_t>(value)) : std::get<double>(value);
+      const bool inherits = std::holds_alternative<std::string>(value);
+      double now = number_in(value);
       const Range range = slider_range(row, now);
       std::string format = whole ? "%.0f" : "%.4g";
       if (!row.unit.empty()) format += " " + row.unit;
@@ -81,7 +88,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
                    high = range.logarithmic ? std::log10(range.high) : range.high;
       // ImGui's own logarithm loses small numbers
       if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
-      if (row.range.low == -1.0 && now == -1.0) format = "the scene's";  // what -1 stands for in a body's rows
+      if (inherits) format = "the " + row.inherit + "'s";
       // a value that is being typed counts when it is entered, not letter by letter
       static std::string typing;  // path of the row whose value is
       static bool begins = false;
@@ -108,7 +115,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
         now = range.logarithmic ? std::pow(10.0, at) : at;
         now = whole ? std::round(now) : rounded(now);
         now = std::clamp(now, row.range.low, row.range.high);
-        if (now != before) set(whole ? fmt::format("{}", static_cast<std::int64_t>(now)) : shortest(now));
+        if (now != before || inherits) set(whole ? fmt::format("{}", static_cast<std::int64_t>(now)) : shortest(now));
       }
       ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
       break;

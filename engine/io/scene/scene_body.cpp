@@ -121,6 +121,12 @@ Shape read_shape(const TomlNode& node, const std::string& what, double scale) {
   return Box{scale * 0.5 * lengths};
 }
 
+// a body's own, or nothing by the word that `set` and --set give it back to the scene with
+std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, double high) {
+  if (node.kind == TomlNode::text && node.string == "scene") return std::nullopt;
+  return scene_real(node, what, {0.0, high});
+}
+
 bool is_body_name(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
   if (name.empty() || !is_letter(name[0])) return false;
@@ -161,12 +167,10 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
        [&](const TomlNode& node, const std::string& key) { body.velocity = scene_vector(node, key, kSpeed); });
   with("angular_velocity",
        [&](const TomlNode& node, const std::string& key) { body.angular_velocity = scene_vector(node, key, kSpeed); });
-  with("friction", [&](const TomlNode& node, const std::string& key) {
-    body.friction = scene_real(node, key, {0.0, 100.0});
-  });
-  with("restitution", [&](const TomlNode& node, const std::string& key) {
-    body.restitution = scene_real(node, key, {0.0, 1.0});
-  });
+  with("friction",
+       [&](const TomlNode& node, const std::string& key) { body.friction = read_coefficient(node, key, 100.0); });
+  with("restitution",
+       [&](const TomlNode& node, const std::string& key) { body.restitution = read_coefficient(node, key, 1.0); });
   with("self_collision",
        [&](const TomlNode& node, const std::string& key) { body.self_collision = scene_flag(node, key); });
   with("material", [&](const TomlNode& node, const std::string& key) { read_material(node, key, body); });
