@@ -10,6 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
+#include "viewer/app/repeated_options.hpp"
 
 namespace impinge {
 
@@ -175,7 +176,7 @@ void check_sweep(Raw& raw, Arguments& arguments) {
 }  // namespace
 
 Arguments parse_arguments(int count, const char* const* words) {
-  const std::vector<std::string> list(words + std::min(count, 1), words + count);
+  const std::vector<std::string> list = repeat_options({words + std::min(count, 1), words + count});
   refuse_reserved(list);
   Arguments arguments;
   Raw raw;
@@ -187,7 +188,7 @@ Arguments parse_arguments(int count, const char* const* words) {
     command->add_option("SCENE", raw.scene, "scene file (TOML), or the run.toml of a run")->required();
     command
         ->add_option("--set", arguments.run_options.overrides,
-                     "PATH=VALUE: a parameter or a body's key, instead of the scene's")
+                     "PATH=VALUE: a parameter or a body's key, instead of the scene's; one or more")
         ->take_all()
         ->allow_extra_args(false);
   };
@@ -317,7 +318,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   debug->add_option("--memory", raw.memory, "megabytes of states kept for going back (default: 256)");
   debug
       ->add_option("--set", arguments.run_options.overrides,
-                   "PATH=VALUE: override a parameter of the scene (repeatable)")
+                   "PATH=VALUE: override a parameter of the scene; one or more")
       ->take_all()
       ->allow_extra_args(false);
   debug->add_flag("--quiet", arguments.quiet, "say nothing but problems");
@@ -329,23 +330,25 @@ Arguments parse_arguments(int count, const char* const* words) {
   };
   sweep->add_option("SCENE", raw.scene,
                     "scene file (TOML), or the run.toml of a run, or a file with a [sweep] table that says the rest");
-  words_of("--set", arguments.run_options.overrides, "PATH=VALUE: the same in every job");
+  words_of("--set", arguments.run_options.overrides, "PATH=VALUE: the same in every job; one or more");
   words_of("--vary", raw.vary,
-           "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n): a job for each value, and for each combination of several "
-           "--vary");
+           "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n), one or more: a job for each value, and for each "
+           "combination of the values of several");
   sweep->add_flag("--zip", arguments.sweep_options.zip,
                   "the first values of all --vary together, then the second ones, ..., instead of all combinations");
   sweep->add_option("--filter", raw.filter,
                     "EXPR: only combinations for which it holds, such as 'simulation.substeps <= 8 || response.method "
                     "== \"penalty\"'");
   words_of("--reference", raw.reference,
-           "PATH=VALUE: each job's errors are against the same job with these settings; or 'finest': with the sweep's "
-           "smallest time step; or 'case:NAME': against a formula (see impinge list cases)");
+           "PATH=VALUE, one or more: each job's errors are against the same job with these settings, and with the "
+           "scene's methods where they name none; or 'finest': against the job with the sweep's smallest time step; or "
+           "'case:NAME': against a formula (see impinge list cases)");
   sweep->add_option("--window", raw.window,
                     "seconds that errors are taken over; 'all'; or 'automatic' (default): as long as a reference run "
                     "started 1e-9 scene sizes aside stays within 1e-3 of it");
   words_of("--column", raw.columns,
-           "NAME=EXPR: one more column, over last(), max(), min(), mean(), sum() of a column of stats.csv and over "
+           "NAME=EXPR, one or more: a further column each, over last(), max(), min(), mean(), sum() of a column of "
+           "stats.csv and over "
            "varied paths");
   sweep->add_option(
       "--repeat", raw.repeat,
@@ -372,7 +375,9 @@ Arguments parse_arguments(int count, const char* const* words) {
   sweep->add_flag("--quiet", arguments.quiet, "say nothing but errors");
 
   try {
-    app.parse(count, words);
+    std::vector<const char*> all(words, words + std::min(count, 1));
+    for (const std::string& word : list) all.push_back(word.c_str());
+    app.parse(static_cast<int>(all.size()), all.data());
   } catch (const CLI::CallForHelp&) {
     const CLI::App* command = &app;
     for (const CLI::App* sub : app.get_subcommands()) command = sub;

@@ -129,6 +129,18 @@ SweepTable collect_sweep(const fs::path& out, Sweep& sweep, const SweepOptions& 
   return table;
 }
 
+std::string reference_caution(const Sweep& sweep) {
+  const std::size_t count = sweep.reference_methods.size();
+  if (count < 2) return "";
+  const auto begin = sweep.reference_methods.begin();
+  return fmt::format(
+      "the jobs were held against {} different methods ({}{}): an error says how far a job is from its own method at a "
+      "small time step, and errors of different methods don't compare. --reference PATH=VALUE holds all jobs against "
+      "one method",
+      count, fmt::join(begin, begin + static_cast<long>(std::min<std::size_t>(count, 8)), "; "),
+      count > 8 ? "; ..." : "");
+}
+
 std::string describe_errors(const Sweep& sweep, const SweepTable& table) {
   if (!table.has_reference) return "";
   std::string out =

@@ -9,6 +9,9 @@ namespace impinge {
 SweepTable collect_sweep(const std::filesystem::path& out, Sweep& sweep, const SweepOptions& options,
                          const SweepBase& base);
 
+/// What a reader of the errors has to know first: that the jobs were held against different methods. "" otherwise.
+std::string reference_caution(const Sweep& sweep);
+
 /// How the errors were taken, a line each: for the summary. "" without a reference.
 std::string describe_errors(const Sweep& sweep, const SweepTable& table);
 

@@ -126,7 +126,9 @@ int sweep_command(const Arguments& given) {
     run_sweep_jobs(out, sweep.jobs, sweep_options.repeats(), local_jobs(sweep_options), shows_progress);
 
   const SweepTable table = collect_sweep(out, sweep, sweep_options, base);
-  const std::string errors = describe_errors(sweep, table), summary = sweep_summary(table, sweep.rows) + errors;
+  const std::string errors = describe_errors(sweep, table), caution = reference_caution(sweep),
+                    summary = (caution.empty() ? "" : "caution: " + caution + "\n\n") +
+                              sweep_summary(table, sweep.rows) + errors;
   std::size_t done = 0;
   for (const SweepRow& row : sweep.rows) done += row.outcome.status == SweepOutcome::done ? 1 : 0;
   {
@@ -136,7 +138,7 @@ int sweep_command(const Arguments& given) {
                                                 sweep.rows.size(), summary));
     write_sweep_report(out,
                        {options.scene.filename().string(), sweep_options.zip, sweep.paths, sweep.reference_words,
-                        errors, base.session().world().parameters.simulation.frame_time * base.last_frame()},
+                        errors, caution, base.session().world().parameters.simulation.frame_time * base.last_frame()},
                        base.session());
   }
   if (!arguments.quiet)

@@ -68,7 +68,18 @@ std::vector<std::string> read_reference(const SweepOptions& options, const Sweep
     settings.push_back(axis.path + "=" + axis.values.front());
     sweep.reference = SweepReferenceKind::settings;
   }
+  if (sweep.reference == SweepReferenceKind::settings)
+    for (const std::string& method : scene_methods(sweep.axes, settings, base.session())) settings.push_back(method);
   return settings;
+}
+
+// the methods that a job was varied to, in words; "" if none was varied
+std::string methods_of(const Sweep& sweep, const SweepRow& row, const Session& session) {
+  std::vector<std::string> methods;
+  for (std::size_t k = 0; k < sweep.axes.size(); ++k)
+    if (const Parameter* of = session.rows().find(sweep.paths[k]); of != nullptr && chooses_method(*of))
+      methods.push_back(sweep.paths[k] + "=" + row.values[k]);
+  return fmt::format("{}", fmt::join(methods, " "));
 }
 
 // indices of the combinations that the filter lets through
@@ -133,7 +144,13 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
   if (sweep.reference == SweepReferenceKind::finest) {
     const std::string where = options.reference.front().where("--reference");
     const std::vector<std::size_t> finest = finest_rows(where, sweep.axes, sweep.rows, options.zip, base.session());
-    for (std::size_t i = 0; i < planned.size(); ++i) planned[i].reference = planned[finest[i]].changes;
+    for (std::size_t i = 0; i < planned.size(); ++i) {
+      planned[i].reference = planned[finest[i]].changes;
+      const std::string methods = methods_of(sweep, sweep.rows[finest[i]], base.session());
+      if (std::find(sweep.reference_methods.begin(), sweep.reference_methods.end(), methods) ==
+          sweep.reference_methods.end())
+        sweep.reference_methods.push_back(methods);
+    }
     for (const std::string& path : sweep.paths)
       if (is_time_step_path(path)) sweep.reference_words.push_back(path + "=finest");
   }

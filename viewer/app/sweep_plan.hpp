@@ -19,8 +19,10 @@ struct Sweep {
   SweepReferenceKind reference = SweepReferenceKind::none;
   std::vector<std::string> reference_words;  ///< PATH=VALUE, or PATH=finest, or case:NAME
   std::string analytic_case;                 ///< NAME
-  double window = -1.0;                      ///< seconds; -1: automatic; infinite: all
-  SweepColumns columns;                      ///< the user's
+  /// the varied methods that references have, PATH=VALUE, each once; fewer than two: all jobs have one truth
+  std::vector<std::string> reference_methods;
+  double window = -1.0;  ///< seconds; -1: automatic; infinite: all
+  SweepColumns columns;  ///< the user's
 };
 
 /// `options` are the run's, complete. Throws InputError.

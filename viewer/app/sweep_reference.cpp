@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -43,6 +44,27 @@ std::vector<std::string> with_settings(std::vector<std::string> changes, const s
     changes.push_back(text);
   }
   return changes;
+}
+
+bool chooses_method(const Parameter& row) {
+  for (const char* table : {"response.", "lcp.", "broad_phase.", "narrow_phase."})
+    if (row.path.rfind(table, 0) == 0) return true;
+  return row.kind == ParameterKind::choice &&
+         (row.path.rfind("simulation.", 0) == 0 || row.path.rfind("contact.", 0) == 0);
+}
+
+std::vector<std::string> scene_methods(const std::vector<SweepAxis>& axes, const std::vector<std::string>& settings,
+                                       const Session& session) {
+  std::vector<std::string> methods;
+  for (const SweepAxis& axis : axes) {
+    const Parameter* row = session.rows().find(axis.path);
+    if (row == nullptr || !chooses_method(*row)) continue;
+    const bool is_named = std::any_of(settings.begin(), settings.end(), [&](const std::string& setting) {
+      return setting.rfind(axis.path + "=", 0) == 0;
+    });
+    if (!is_named) methods.push_back(axis.path + "=" + format_value(row->get()));
+  }
+  return methods;
 }
 
 bool is_time_step_path(const std::string& path) { return path == kTimeStepPaths[0] || path == kTimeStepPaths[1]; }

@@ -10,6 +10,14 @@ namespace impinge {
 /// The changes with each of `settings` (PATH=VALUE) in place of the one of that path.
 std::vector<std::string> with_settings(std::vector<std::string> changes, const std::vector<std::string>& settings);
 
+/// Whether a row says by what method something is computed, not what: response, cone solver, detection, integrator. A
+/// reference has one method for all jobs, or each method would be measured against itself.
+bool chooses_method(const Parameter& row);
+
+/// PATH=VALUE of each varied row that chooses a method and that `settings` do not name, as the scene has it.
+std::vector<std::string> scene_methods(const std::vector<SweepAxis>& axes, const std::vector<std::string>& settings,
+                                       const Session& session);
+
 /// Whether the path is one of the two that make Δt = simulation.frame_time / simulation.substeps.
 bool is_time_step_path(const std::string& path);
 

@@ -89,6 +89,7 @@ std::string page(const SweepReport& report, const ReportTable& table, const Repo
       "content=\"width=device-width\"><link rel=\"icon\" "
       "href=\"data:,\"><title>{}</title>\n<style>\n{}</style></head><body>\n<h1>{}</h1>\n",
       title, sources.at("page.css"), title);
+  if (!report.caution.empty()) html += "<p class=\"caution\"><b>Caution:</b> " + html_text(report.caution) + ".</p>\n";
   html += summary_html(report, table, choice, base);
   html +=
       "<noscript><p>This page draws its plots and its table of jobs by JavaScript, which is switched off. The figures "

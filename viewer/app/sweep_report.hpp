@@ -14,6 +14,7 @@ struct SweepReport {
   std::vector<std::string> paths;      ///< varied
   std::vector<std::string> reference;  ///< PATH=VALUE, PATH=finest or case:NAME; empty without errors
   std::string errors;                  ///< how they were taken, as describe_errors() says it; empty without errors
+  std::string caution;                 ///< to be read before them, "" for nothing
   double seconds_per_run = 0.0;        ///< simulated
 };
 
