@@ -7,6 +7,7 @@
 #include <Eigen/CholmodSupport>
 #include <optional>
 
+#include "engine/algebra/serial_openmp.hpp"
 #include "engine/algebra/supernodal_gram.hpp"
 #include "engine/core/error.hpp"
 
@@ -18,6 +19,7 @@ class Cholmod : public LinearSolver {
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
+    const SerialOpenMp serial;
     llt_.analyzePattern(lower_->matrix());
     factored_ = false;
   }
@@ -29,6 +31,7 @@ class Cholmod : public LinearSolver {
       return status_ = SolveStatus::not_finite;
     }
     if (!lower_->refill(a) && factored_) return status_;
+    const SerialOpenMp serial;
     llt_.factorize(lower_->matrix());
     factored_ = true;
     ++factorizations;
@@ -36,16 +39,19 @@ class Cholmod : public LinearSolver {
   }
   SolveReport solve(const VecX& b, VecX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    const SerialOpenMp serial;
     x = llt_.solve(b);
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
   SolveReport solve_many(const MatX& b, MatX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    const SerialOpenMp serial;
     x = llt_.solve(b);
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
   SolveReport gram(const SparseColumns& b, MatX& w) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    const SerialOpenMp serial;
     supernodal_gram(llt_.factor(), b, w);
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
 #include "tests/support/pictures.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "viewer/image/png.hpp"
@@ -32,9 +33,16 @@ class SearchPath {
   std::string old_;
 };
 
+/// With a thread of its own, and in the caller's.
+struct Threads {
+  Threads() { set_thread_count(GENERATE(2, 1)); }
+  ~Threads() { set_thread_count(0); }
+};
+
 }  // namespace
 
 TEST_CASE("A sequence writes each frame under its number, in order, with its text") {
+  const Threads threads;
   const TempFolder folder;
   const auto frames = folder.path() / "run" / "frames";
   {
@@ -56,6 +64,7 @@ TEST_CASE("A sequence writes each frame under its number, in order, with its tex
 }
 
 TEST_CASE("A sequence that isn't finished still writes what it was given") {
+  const Threads threads;
   const TempFolder folder;
   {
     PngSequence sequence(folder.path());
@@ -68,6 +77,7 @@ TEST_CASE("A sequence that isn't finished still writes what it was given") {
 }
 
 TEST_CASE("A frame written twice holds the later picture") {
+  const Threads threads;
   const TempFolder folder;
   PngSequence sequence(folder.path());
   for (int k = 0; k < 20; ++k) sequence.add(7, noise(30, 30, k), {});
@@ -77,6 +87,7 @@ TEST_CASE("A frame written twice holds the later picture") {
 }
 
 TEST_CASE("A frame that can't be written stops the sequence, and its caller learns of it") {
+  const Threads threads;
   const TempFolder folder;
   std::filesystem::create_directory(folder / "000002.png");  // rename onto a folder fails
   std::string complaint;
@@ -99,6 +110,7 @@ TEST_CASE("A frame that can't be written stops the sequence, and its caller lear
 }
 
 TEST_CASE("A failure in the last frame shows when the sequence is finished") {
+  const Threads threads;
   const TempFolder folder;
   std::filesystem::create_directory(folder / "000000.png");
   PngSequence sequence(folder.path());

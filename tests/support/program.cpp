@@ -73,4 +73,16 @@ Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<s
   return finish(status, streams / "out", streams / "err");
 }
 
+Outcome impinge_watched(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                        const std::function<void(pid_t)>& look) {
+  const TempFolder streams;
+  const pid_t pid = start(folder, arguments, streams / "out", streams / "err");
+  int status = 0;
+  while (waitpid(pid, &status, WNOHANG) == 0) {
+    look(pid);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return finish(status, streams / "out", streams / "err");
+}
+
 }  // namespace impinge::test

@@ -1,7 +1,10 @@
 // The built program, run as a user runs it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,5 +25,9 @@ enum class Targets { program, children_first };
 /// wanted.
 Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds,
                         int signal, Targets targets = Targets::program);
+
+/// The same, watched: `look` is called about every millisecond, with its process.
+Outcome impinge_watched(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                        const std::function<void(pid_t)>& look);
 
 }  // namespace impinge::test

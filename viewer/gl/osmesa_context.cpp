@@ -1,6 +1,8 @@
 #include <array>
+#include <cstdlib>
 #include <stdexcept>
 
+#include "engine/core/parallel.hpp"
 #include "viewer/gl/context.hpp"
 #include "viewer/gl/gl.hpp"
 
@@ -22,6 +24,8 @@ class OsmesaContext final : public GlContext {
                               OSMESA_CONTEXT_MINOR_VERSION,
                               3,
                               0};
+    // llvmpipe's own threads are asked for by the environment alone; what the user says there holds
+    if (thread_count() == 1) setenv("LP_NUM_THREADS", "0", 0);
     context_ = OSMesaCreateContextAttribs(attributes, nullptr);
     if (context_ == nullptr) throw std::runtime_error("no OpenGL 3.3 core context from OSMesa");
     make_current();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
 
 namespace impinge {
 
@@ -22,7 +23,7 @@ std::filesystem::path made(std::filesystem::path folder) {
 }  // namespace
 
 PngSequence::PngSequence(std::filesystem::path folder)
-    : folder_(made(std::move(folder))), thread_([this] { work(); }) {}
+    : folder_(made(std::move(folder))), thread_(thread_count() > 1 ? std::thread([this] { work(); }) : std::thread()) {}
 
 PngSequence::~PngSequence() { end_thread(); }
 
@@ -31,10 +32,20 @@ std::filesystem::path PngSequence::file_name(int frame) { return fmt::format("{:
 void PngSequence::add(int frame, Image&& image, PngText text) {
   std::unique_lock lock(mutex_);
   IMPINGE_ASSERT(!ended_);
+  if (!thread_.joinable()) return write_at_once({frame, std::move(image), std::move(text)});
   changed_.wait(lock, [&] { return failure_ || waiting_.size() < kMaxWaiting; });
   if (failure_) std::rethrow_exception(failure_);
   waiting_.push_back({frame, std::move(image), std::move(text)});
   changed_.notify_all();
+}
+
+void PngSequence::write_at_once(const Entry& entry) {
+  if (failure_) std::rethrow_exception(failure_);
+  try {
+    write_png(folder_ / file_name(entry.frame), entry.image, entry.text);
+  } catch (...) {
+    failure_ = std::current_exception();  // the next call throws it, as with a thread
+  }
 }
 
 void PngSequence::finish() {

@@ -1,5 +1,5 @@
 // Writes a run's frames on a thread of its own: encoding takes about as long as drawing, so the next frame is drawn
-// meanwhile.
+// meanwhile. Where one thread is all there may be (set_thread_count), in the caller's.
 #pragma once
 
 #include <condition_variable>
@@ -41,6 +41,7 @@ class PngSequence {
     PngText text;
   };
   void work();
+  void write_at_once(const Entry& entry);
   void end_thread();
 
   const std::filesystem::path folder_;
