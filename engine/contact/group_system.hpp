@@ -18,7 +18,7 @@ struct BodyBlock {
 };
 
 /// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions
-/// move by Δq(v) = s v + d (SPEC §1): where a scheme's Δq is not Δt v (Newmark), what overlap is left after the
+/// move by Δq(v) = s v + d: where a scheme's Δq is not Δt v (Newmark), what overlap is left after the
 /// velocities is pushed out in the same sub-step, which sees displacement velocities Δq/Δt.
 struct SoftBlock {
   const BlockMatrix* a = nullptr;   ///< kg

@@ -97,7 +97,7 @@ Svd3 rotation_svd(const Mat3& f) {
 }
 
 Mat3 nearest_rotation(const Mat3& f) {
-  // Newton's iteration for the polar factor (Higham 1986) is several times cheaper than the singular values and exact
+  // Newton's iteration for the polar factor [Higham86] is several times cheaper than the singular values and exact
   // to rounding, but only for an F that is neither inverted nor nearly flat.
   const double det = f.determinant();
   const double norm_sq = f.squaredNorm();

@@ -1,5 +1,5 @@
-// Newmark's scheme (1959): x₁ = x₀ + h v₀ + h² ((½ − β) a₀ + β a₁), v₁ = v₀ + h ((1 − γ) a₀ + γ a₁), solved for v₁ by
-// Newton's method. β = ¼, γ = ½ (constant average acceleration): second order, no damping of its own in linear
+// Newmark's scheme [Newmark59]: x₁ = x₀ + h v₀ + h² ((½ − β) a₀ + β a₁), v₁ = v₀ + h ((1 − γ) a₀ + γ a₁), solved for v₁
+// by Newton's method. β = ¼, γ = ½ (constant average acceleration): second order, no damping of its own in linear
 // problems.
 #include "engine/core/error.hpp"
 #include "engine/integrators/deformable_integrator.hpp"

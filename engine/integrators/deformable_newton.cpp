@@ -1,6 +1,6 @@
 // Newton's method for an implicit sub-step, as the minimization of its incremental potential
 //   φ(v) = ½ (v − v̂)ᵀ M (v − v̂) + τ/2 vᵀ D v − τ f_extᵀ v + (τ/s) Ψ(x₀ + s v + d),   ∇φ = g,
-// (Gast et al. 2015): with a projected tangent each step is a descent direction, and halving it until φ falls makes the
+// [Gast15]: with a projected tangent each step is a descent direction, and halving it until φ falls makes the
 // iteration converge from anywhere, inverted elements included where the material allows them.
 #include <algorithm>
 #include <cmath>

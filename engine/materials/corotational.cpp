@@ -1,5 +1,5 @@
 // Co-rotational linear elasticity: the small strain is measured in the frame R of the polar decomposition F = R S, so
-// Ψ = μ ‖S − I‖² + λ/2 tr²(S − I) (Müller and Gross 2004; the seed's choice [Haapaoja16 §2.1]).
+// Ψ = μ ‖S − I‖² + λ/2 tr²(S − I) [MuellerGross04], the seed's choice [Haapaoja16 §2.1].
 //
 // Its default tangent is the warped R K Rᵀ: positive semidefinite and cheap, without the terms of ∂R/∂x. The exact and
 // the projected one come from the principal stretches: Ψ = μ Σ(σ_i − 1)² + λ/2 (Σσ_i − 3)².

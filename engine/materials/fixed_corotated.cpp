@@ -1,4 +1,4 @@
-// Fixed corotated elasticity (Stomakhin et al. 2012): Ψ = μ Σ(σ_i − 1)² + λ/2 (J − 1)², J = σ_0 σ_1 σ_2. The volume
+// Fixed corotated elasticity [Stomakhin12]: Ψ = μ Σ(σ_i − 1)² + λ/2 (J − 1)², J = σ_0 σ_1 σ_2. The volume
 // term is that of the true volume, so it holds up under bending and large strain better than the corotational one, and
 // it stays finite through inversion. Tangles, which that term would hold together, are let go (bodies/unwinding.hpp).
 #include "engine/materials/isotropic.hpp"

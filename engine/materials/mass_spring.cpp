@@ -2,8 +2,8 @@
 //
 // Stiffness from E: springs with Σ k l² = C V, spread evenly over all directions, have the energy density C/30 (2 ε:ε +
 // tr²ε) (the mean of n n n n over the sphere), that is μ = λ = C/15 and ν = 1/4. So each gets k = C V/(6 l²), and
-//   ν <= 1/4: C = 6 E, k = E V/l² (Van Gelder 1998), effective ν = 1/4;
-//   ν > 1/4:  C = 15 μ, and λ − μ is carried by (λ − μ)/2 (J − 1)² (volume springs, Teschner et al. 2004).
+//   ν <= 1/4: C = 6 E, k = E V/l² [VanGelder98], effective ν = 1/4;
+//   ν > 1/4:  C = 15 μ, and λ − μ is carried by (λ − μ)/2 (J − 1)² (volume springs [Teschner04]).
 // Edges of a real mesh are not evenly spread, so the measured E differs with direction: along the axes of a lattice of
 // cubes cut into six it is 30 % too high, along those of a body-centred cage 15 % too low. No choice of six numbers
 // mends that; where moduli matter, take another material.

@@ -1,6 +1,6 @@
 // Neo-Hookean elasticity with the classic logarithm, Ψ = μ/2 (Σσ_i² − 3) − μ ln J + λ/2 ln²J, ln J = Σ ln σ_i, safe
 // under inversion: below a threshold stretch (0.1 by default) each ln σ_i is continued by its quadratic Taylor
-// polynomial L, so Ψ is C² and finite for σ <= 0 (the idea of invertible finite elements, Irving et al. 2004). A
+// polynomial L, so Ψ is C² and finite for σ <= 0 (the idea of invertible finite elements [Irving04]). A
 // threshold of 0.6 resists inversion less steeply, so more tangled meshes recover, but it changes the answer to
 // compression below 0.6.
 //

@@ -34,7 +34,7 @@ double pair_friction(const RigidBody& a, const RigidBody& b, const Parameters& p
 
 /// The group's system at the bodies' free velocities. Row bound of a contact: J v >= -g0/Δt, raised to the rebound
 /// -e·min(0, J v⁻) where the gap closes in this sub-step; for overlap that exists already 0 (push_out = "split"), or
-/// the capped recovery speed (push_out = "velocity"). [Haapaoja16 §4.1], SPEC §3. An attachment asks J v = -(x_A -
+/// the capped recovery speed (push_out = "velocity"). [Haapaoja16 §4.1] An attachment asks J v = -(x_A -
 /// x_B)/Δt. Contacts that nothing can respond to (of held nodes with an immovable body) are taken out of the group.
 GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group);
 

@@ -24,7 +24,7 @@ double volume_now(const DeformableBody& body) {
   return total_volume(mesh);
 }
 
-/// Cantilever of AT-27: 1 × 0.1 × 0.1 m, E 1e8, ν 0.3, ρ 1000, held at x = 0, under its weight. `across` cells through
+/// Cantilever: 1 × 0.1 × 0.1 m, E 1e8, ν 0.3, ρ 1000, held at x = 0, under its weight. `across` cells through
 /// the thickness.
 DeformableBody cantilever(int across) {
   DeformableBody body = test::make_body(make_tet_box(Vec3(1.0, 0.1, 0.1), 10 * across, across, across),

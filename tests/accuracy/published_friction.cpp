@@ -1,4 +1,4 @@
-// AT-39: friction-contact problems that others published, solved to Siconos' residual; the solver is held against the
+// Friction-contact problems that others published, solved to Siconos' residual; the solver is held against the
 // iterations that plain Gauss-Seidel needs. Runs where the shared data folder is.
 #include <catch2/catch.hpp>
 
@@ -32,7 +32,7 @@ std::string published(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("AT-39: Newton reaches 1e-8 on every published problem in fewer iterations than Gauss-Seidel") {
+TEST_CASE("published problems: Newton reaches 1e-8 on every one in fewer iterations than Gauss-Seidel") {
   // name, sweeps of plain Gauss-Seidel to 1e-8 as measured by a program of its own; 0: not reached
   const std::tuple<const char*, int, int> table[] = {{"NESpheres_10_1", 9, 19},
                                                      {"Confeti-ex03-Fc3D-SBM", 54, 40},
@@ -56,7 +56,7 @@ TEST_CASE("AT-39: Newton reaches 1e-8 on every published problem in fewer iterat
   }
 }
 
-TEST_CASE("AT-39: Gauss-Seidel needs no more sweeps than was published, and claims nothing that it hasn't reached") {
+TEST_CASE("published problems: Gauss-Seidel takes no more sweeps than was published, and claims no more than it did") {
   const std::pair<const char*, int> table[] = {
       {"NESpheres_10_1", 19}, {"Confeti-ex03-Fc3D-SBM", 40},      {"Rover1039", 14},
       {"Rover9770", 9},       {"KaplasTower-i1061-4.hdf5", 1060}, {"Capsules-i100-889", 3320}};
@@ -74,7 +74,7 @@ TEST_CASE("AT-39: Gauss-Seidel needs no more sweeps than was published, and clai
   CHECK(stuck.result.solved() == (stuck.residual.siconos <= 1e-8));
 }
 
-TEST_CASE("AT-39: RockPile, where Gauss-Seidel gets stuck, to 1e-6", "[long]") {
+TEST_CASE("published problems: RockPile, where Gauss-Seidel gets stuck, to 1e-6", "[long]") {
   const std::string path = published("RockPile_tob1");
   if (path.empty()) return;
   const Solved newton = solve(read_friction_contact(path), "semismooth_newton", 1e-6, 2000);

@@ -84,7 +84,7 @@ TEST_CASE("a ball on a soft constraint sinks by g/ω², whatever its mass") {
   }
 }
 
-TEST_CASE("incline: true cones hold the block, regularised friction creeps by its law (AT-01, AT-02)") {
+TEST_CASE("incline: true cones hold the block, regularised friction creeps by its law") {
   const double angle = std::atan(0.5);
   const Vec3 normal(-std::sin(angle), std::cos(angle), 0.0), down(-std::cos(angle), -std::sin(angle), 0.0);
   for (const auto& e : responses())
@@ -115,7 +115,7 @@ TEST_CASE("incline: true cones hold the block, regularised friction creeps by it
     }
 }
 
-TEST_CASE("explicit friction lags by a sub-step: a block that sticks creeps by (m W - 1) g sin θ Δt (AT-02)") {
+TEST_CASE("explicit friction lags by a sub-step: a block that sticks creeps by (m W - 1) g sin θ Δt") {
   const double angle = std::atan(0.5);
   const Vec3 normal(-std::sin(angle), std::cos(angle), 0.0), down(-std::cos(angle), -std::sin(angle), 0.0);
   World world;
@@ -143,7 +143,7 @@ TEST_CASE("explicit friction lags by a sub-step: a block that sticks creeps by (
   CHECK(creep == Approx((mobility - 1.0) * pull).epsilon(2e-2));
 }
 
-TEST_CASE("stopping distance v²/2µg in every direction, for every response (AT-03, AT-04)") {
+TEST_CASE("stopping distance v²/2µg in every direction, for every response") {
   const double v = 3.0, mu = 0.5, exact = v * v / (2 * mu * kGravity);
   for (const auto& e : responses())
     for (int degrees = 0; degrees <= 45; degrees += 15) {
@@ -166,7 +166,7 @@ TEST_CASE("stopping distance v²/2µg in every direction, for every response (AT
     }
 }
 
-TEST_CASE("from sliding to rolling, for every response (AT-05)") {
+TEST_CASE("from sliding to rolling, for every response") {
   for (const auto& e : responses()) {
     CAPTURE(e.name);
     World world;

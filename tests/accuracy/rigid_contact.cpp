@@ -39,7 +39,7 @@ TEST_CASE("a box rests on a floor for 10 s") {
   CHECK(deepest < 1e-6);
   CHECK(fastest(world) < 1e-6);
   CHECK(std::abs(world.bodies()[1].pose.position.y() - 0.5) < 1e-6);
-  // total impulse of a sub-step carries the weight (AT-16)
+  // total impulse of a sub-step carries the weight
   double sum = 0.0;
   for (const ContactRecord& c : world.record().contacts)
     sum += c.lambda.x() * c.normal.y() * (c.body_a == 1 ? 1.0 : -1.0);
@@ -166,7 +166,7 @@ TEST_CASE("a block on an incline sticks below the friction angle and slides abov
   }
 }
 
-TEST_CASE("a sliding block stops after v²/2µg, whatever the direction (AT-03, AT-04)") {
+TEST_CASE("a sliding block stops after v²/2µg, whatever the direction") {
   const double v = 3.0, mu = 0.5, g = 9.81, exact = v * v / (2 * mu * g);
   double shortest = 1e9, longest = 0.0;
   for (int degrees = 0; degrees <= 45; degrees += 15) {
@@ -249,7 +249,7 @@ TEST_CASE("collisions between free bodies keep linear and angular momentum") {
   }
 }
 
-TEST_CASE("a rolling ball: from sliding to rolling, and down an incline (AT-05, AT-06)") {
+TEST_CASE("a rolling ball: from sliding to rolling, and down an incline") {
   World world;
   world.parameters.simulation.sleeping = false;
   world.parameters.contact.friction = 0.2;

@@ -52,7 +52,7 @@ TEST_CASE("a free tumbling bunny keeps its angular momentum") {
   CHECK(std::abs(energy() - e0) < 1e-3 * e0);
 }
 
-TEST_CASE("AT-20: a body spun about its middle axis flips over and over, momentum and energy kept") {
+TEST_CASE("a body spun about its middle axis flips over and over, momentum and energy kept") {
   // inertia 1 : 2 : 3; the middle axis is unstable (Dzhanibekov), the others are stable
   for (int axis = 0; axis < 3; ++axis) {
     CAPTURE(axis);

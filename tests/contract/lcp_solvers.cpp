@@ -214,7 +214,7 @@ TEST_CASE("every LCP solver: the history holds the relative residual before the 
   }
 }
 
-TEST_CASE("AT-17: Gauss-Seidel on two stacked boxes contracts by r/(1+r) a sweep") {
+TEST_CASE("Gauss-Seidel on two stacked boxes contracts by r/(1+r) a sweep") {
   for (double r : {1.0, 10.0, 100.0}) {
     // box 1 (mass 1) on the ground, box 2 (mass r) on it; W of the two normals
     MatX w = MatX::Zero(6, 6);

@@ -1,4 +1,4 @@
-// AT-38: random symmetric positive definite problems of up to 200 rows, every LCP solver against the pivoting reference
+// Random symmetric positive definite problems of up to 200 rows, every LCP solver against the pivoting reference
 // where the law is linear, and against the judge where it is a cone.
 #include <catch2/catch.hpp>
 
@@ -122,6 +122,6 @@ void check_problems(int count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("AT-38, a sample: random problems, every LCP solver") { check_problems(60, 38); }
+TEST_CASE("a sample of random problems, every LCP solver") { check_problems(60, 38); }
 
-TEST_CASE("AT-38: 2,000 random problems, every LCP solver", "[long]") { check_problems(2000, 3838); }
+TEST_CASE("2,000 random problems, every LCP solver", "[long]") { check_problems(2000, 3838); }

@@ -20,7 +20,7 @@ Vec3 lab(const Vec3& rgb) {
   return {116.0 * f(xyz[1]) - 16.0, 500.0 * (f(xyz[0]) - f(xyz[1])), 200.0 * (f(xyz[1]) - f(xyz[2]))};
 }
 
-// linear RGB as normal eyes and dichromats see it (Machado, Oliveira & Fernandes 2009, severity 1): protan, deutan,
+// linear RGB as normal eyes and dichromats see it ([Machado09], severity 1): protan, deutan,
 // tritan
 std::array<Mat3, 4> all_eyes() {
   std::array<Mat3, 4> eyes;

@@ -1,4 +1,4 @@
-// The folder of a run, DESIGN §5: what is in it, when it may be written to, and where an interrupted run goes on.
+// The folder of a run: what is in it, when it may be written to, and where an interrupted run goes on.
 //
 // A folder may be new or empty, or hold a run with the same run.toml, which is then made again in place. Any other
 // folder is refused. With `resume` a run that differs at most in a larger number of frames is continued. Foreign files

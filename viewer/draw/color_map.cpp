@@ -17,7 +17,7 @@ double to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-/// Linear sRGB of an OKLab colour (Ottosson 2020, "A perceptual color space for image processing").
+/// Linear sRGB of an OKLab colour [Ottosson20].
 Vec3 linear_rgb(const Vec3& lab) {
   const double l = lab[0] + 0.3963377774 * lab[1] + 0.2158037573 * lab[2];
   const double m = lab[0] - 0.1055613458 * lab[1] - 0.0638541728 * lab[2];

@@ -1,4 +1,4 @@
-// Colours. Bodies take turns through colours that stay apart for colour-blind eyes (after Okabe & Ito 2008); what a
+// Colours. Bodies take turns through colours that stay apart for colour-blind eyes (after [OkabeIto08]); what a
 // mark means has one colour everywhere: in the layers, the legend and the panels.
 #pragma once
 

@@ -15,7 +15,7 @@ namespace {
 using Plane = std::vector<float>;  // one value a pixel, row by row
 using Triple = std::array<double, 3>;
 
-// constants of [Andersson et al. 2020, §4 and §5]
+// constants of [Andersson20 §4, §5]
 constexpr double kErrorExponent = 0.7, kKnee = 0.4, kAtKnee = 0.95, kFeatureExponent = 0.5, kFeatureWidth = 0.082;
 
 // linear RGB to XYZ (D65) and back, and the white that the rows add up to
@@ -57,7 +57,7 @@ Triple from_opponent(const Triple& c) {
   return times(kFromXyz, {w[0] * (y + c[1] / 500.0), w[1] * y, w[2] * (y - c[2] / 200.0)});
 }
 
-// CIELAB with colours that fade in the dark as the eye's do: [Hunt 1952]
+// CIELAB with colours that fade in the dark as the eye's do: [Hunt52]
 Triple hunt_lab(const Triple& rgb) {
   static const Triple w = white();
   const Triple c = times(kToXyz, rgb);
@@ -71,7 +71,7 @@ Triple hunt_lab(const Triple& rgb) {
   return {l, 0.01 * l * 500.0 * (f[0] - f[1]), 0.01 * l * 200.0 * (f[1] - f[2])};
 }
 
-// a distance that holds for large differences too [Abasi et al. 2020]
+// a distance that holds for large differences too [Abasi20]
 double hyab(const Triple& a, const Triple& b) { return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]); }
 
 /// Weights at -radius ... radius.

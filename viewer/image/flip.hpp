@@ -1,5 +1,5 @@
 // LDR-FLIP: how large the difference between two pictures looks to someone who flips back and forth between them
-// [Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images"]. For information: the verdict is that
+// [Andersson20]. For information: the verdict is that
 // of difference.hpp, since a thin mark that vanishes hardly moves a mean.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Optimized spatial hashing [Haapaoja16 §3.2.2, after Teschner et al. 2003]: triangles are entered in the cells of a
+// Optimized spatial hashing [Haapaoja16 §3.2.2], [Teschner03]: triangles are entered in the cells of a
 // uniform grid that their boxes cover; cells are found through a hash table; triangles that meet in a cell are tested.
 //
 // What this adds to the seed's description:
