@@ -194,7 +194,7 @@ void World::substep(double h, int left) {
 
   {
     const StageTimer timer(times.assemble_ms);
-    // 7 match with the last sub-step, 8 groups
+    // 8 groups; 7, the match with the last sub-step, comes with the system of each (solve_group)
     s.make_collision_groups(bodies_, attachments_);
   }
 

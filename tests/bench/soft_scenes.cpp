@@ -34,7 +34,7 @@ void by_stage(const char* name, int frames, const std::vector<std::string>& over
     most = std::max(most, s.contacts);
     unconverged += s.unconverged;
     residual = std::max(residual, s.residual);
-    if (frame % 5 == 0) deepest = std::max(deepest, judge_overlap(session.world().bodies()).penetration);
+    deepest = std::max(deepest, judge_overlap(session.world().bodies()).penetration);
   }
   std::printf("%-17s %6d %7.2f %7.2f %9.2f %9.1f %10.1f %8.1f %8.0f (%ld) %10.1e %10.1e %6ld\n", name,
               session.record().stats.dofs, sum.broad_ms / n, sum.narrow_ms / n, sum.assemble_ms / n,
