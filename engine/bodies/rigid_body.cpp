@@ -1,6 +1,5 @@
 #include "engine/bodies/rigid_body.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "engine/core/error.hpp"
@@ -27,6 +26,12 @@ double farthest_point(const Shape& shape) {
 }
 
 }  // namespace
+
+void RigidBody::set_inertia(const Mat3& about_center) {
+  principal = principal_inertia(about_center);
+  inertia = principal.matrix();
+  inertia_inverse = principal.inverse();
+}
 
 void RigidBody::update_world_vertices() {
   const auto* mesh = std::get_if<MeshPointer>(&shape);
@@ -90,8 +95,7 @@ RigidBody make_rigid_body(const BodyDescription& description) {
     if (body.is_dynamic()) {
       const double ratio = description.mass ? *description.mass / properties.mass : 1.0;
       body.mass = properties.mass * ratio;
-      body.inertia = properties.inertia * ratio;
-      body.inertia_inverse = body.inertia.inverse();
+      body.set_inertia(properties.inertia * ratio);
     }
     body.radius = farthest_point(body.shape);
   }

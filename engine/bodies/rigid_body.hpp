@@ -6,6 +6,7 @@
 #include "engine/bodies/body_kind.hpp"
 #include "engine/bodies/motion.hpp"
 #include "engine/bodies/soft_body.hpp"
+#include "engine/geometry/mass_properties.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/shape.hpp"
 
@@ -36,11 +37,12 @@ struct RigidBody {
   std::string surface_file;
   Vec3 center = Vec3::Zero();   ///< centre of mass in the file's frame
   double mass = 0.0;            ///< kg; 0: static or scripted
-  Mat3 inertia = Mat3::Zero();  ///< about the centre of mass, body frame, kg·m²
+  Mat3 inertia = Mat3::Zero();  ///< about the centre of mass, body frame, kg·m²; see set_inertia
   Mat3 inertia_inverse = Mat3::Zero();
-  double radius = 0.0;     ///< farthest point from the centre of mass, metres (0 for planes)
-  double mean_edge = 0.0;  ///< of a mesh, metres
-  Motion motion;           ///< scripted only
+  PrincipalInertia principal;  ///< of a dynamic body: what the two above are made of
+  double radius = 0.0;         ///< farthest point from the centre of mass, metres (0 for planes)
+  double mean_edge = 0.0;      ///< of a mesh, metres
+  Motion motion;               ///< scripted only
 
   // State. A dynamic body carries its spatial angular momentum: free rotation then keeps it to rounding. [Haapaoja16
   // §2.1]
@@ -62,6 +64,7 @@ struct RigidBody {
   bool is_dynamic() const { return kind == BodyKind::dynamic; }
   bool is_deformable() const { return kind == BodyKind::deformable; }
   bool has_freedom() const { return is_dynamic() || is_deformable(); }
+  void set_inertia(const Mat3& about_center);
   Mat3 world_inertia() const { return pose.rotation * inertia * pose.rotation.transpose(); }
   Mat3 world_inertia_inverse() const { return pose.rotation * inertia_inverse * pose.rotation.transpose(); }
   Vec3 angular_velocity() const {

@@ -1,5 +1,7 @@
 #include "engine/geometry/mass_properties.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/geometry/aabb.hpp"
@@ -67,6 +69,24 @@ MassProperties mesh_mass(const TriangleMesh& mesh, double density) {
   }
   result.inertia = density * (second.trace() * Mat3::Identity() - second);
   return result;
+}
+
+PrincipalInertia principal_inertia(const Mat3& inertia) {
+  PrincipalInertia principal;
+  if (inertia.isDiagonal(0.0)) {
+    std::array<int, 3> order = {0, 1, 2};
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return inertia(a, a) < inertia(b, b); });
+    for (int i = 0; i < 3; ++i) {
+      principal.moments[i] = inertia(order[i], order[i]);
+      principal.axes.col(i) = Vec3::Unit(order[i]);
+    }
+  } else {
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(inertia);
+    principal.moments = solver.eigenvalues().cwiseMax(1e-15 * solver.eigenvalues()[2]);
+    principal.axes = solver.eigenvectors();
+  }
+  if (principal.axes.determinant() < 0.0) principal.axes.col(0) *= -1.0;
+  return principal;
 }
 
 MassProperties sphere_mass(double radius, double density) {

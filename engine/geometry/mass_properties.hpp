@@ -13,6 +13,19 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();  ///< about `center`, kg·m², in the axes of the shape
 };
 
+/// The moments about a body's principal axes.
+struct PrincipalInertia {
+  Vec3 moments = Vec3::Ones();   ///< kg·m², ascending, positive
+  Mat3 axes = Mat3::Identity();  ///< columns: the axis of each moment, right-handed
+
+  Mat3 matrix() const { return axes * moments.asDiagonal() * axes.transpose(); }
+  Mat3 inverse() const { return axes * moments.cwiseInverse().asDiagonal() * axes.transpose(); }
+};
+
+/// Of a symmetric matrix of inertia. A diagonal one keeps its moments to the last bit, whatever their ratio; of any
+/// other a moment below 1e-15 of the largest is rounding, and is taken as that.
+PrincipalInertia principal_inertia(const Mat3& inertia);
+
 /// Signed volume that a closed mesh encloses, m³; negative when its triangles face inwards.
 double signed_volume(const TriangleMesh& mesh);
 

@@ -8,8 +8,10 @@ namespace impinge {
 /// v* = v + Δt g. The angular momentum does not change: gyroscopic torque does not enter A and b.
 void apply_gravity(RigidBody& body, const Vec3& gravity, double time_step);
 
-/// Moves the centre by Δt v and turns the body by the Lie midpoint rule: w = I(R_mid)⁻¹ L with R_mid half-way, L kept
-/// to the last bit. Second order, symmetric: the energy error stays bounded. [Haapaoja16 §2.1]
+/// Moves the centre by Δt v and turns the body as it turns freely with its angular momentum L, exactly
+/// (free_rotation.hpp): contact changes L between two such turns, nothing within one. L is kept to the last bit, the
+/// energy to rounding. Throws DivergenceError, without frame and name, where the turn is so far (or not finite) that
+/// rounding leaves nothing of the attitude. [Haapaoja16 §2.1]
 void advance_rigid(RigidBody& body, double time_step);
 
 /// Turns and moves by a pseudo-velocity that changes no momentum (recovery from overlap).

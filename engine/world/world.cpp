@@ -34,7 +34,7 @@ void place_scripted(std::span<RigidBody> bodies, double time) {
 
 constexpr double kLargest = 1e12;  // metres, m/s: beyond this nothing is resolved and squares overflow soon
 
-void check_finite(const RigidBody& body, int frame, int group) {
+void check_state(const RigidBody& body, int frame, int group) {
   if (body.soft) {
     if (body.soft->fem.position.allFinite() && body.soft->fem.position.cwiseAbs().maxCoeff() < kLargest &&
         body.soft->fem.velocity.allFinite())
@@ -55,6 +55,17 @@ void check_finite(const RigidBody& body, int frame, int group) {
       "frame {}, group {}, body '{}': position or velocity is no longer a finite number below {:g}; use more "
       "sub-steps, or smaller velocities and forces",
       frame, group, body.name, kLargest));
+}
+
+/// advance_rigid knows neither frame nor name.
+void advance_or_name(RigidBody& body, double h, int frame, int group) {
+  try {
+    advance_rigid(body, h);
+  } catch (const DivergenceError& error) {
+    throw DivergenceError(
+        fmt::format("frame {}, group {}, body '{}': {}; use more sub-steps, or smaller velocities and forces", frame,
+                    group, body.name, error.what()));
+  }
 }
 
 bool is_moving_body(std::span<const RigidBody> bodies, int b) {
@@ -227,10 +238,13 @@ void World::substep(double h, int left) {
 
 void World::integrate(double h) {
   Stages& s = *stages_;
+  std::vector<int> group_of(bodies_.size(), -1);
+  for (std::size_t g = 0; g < s.groups.size(); ++g)
+    for (int b : s.groups[g].bodies) group_of[b] = static_cast<int>(g);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     RigidBody& body = bodies_[i];
     if (body.asleep) continue;
-    if (body.is_dynamic()) advance_rigid(body, h);
+    if (body.is_dynamic()) advance_or_name(body, h, frame_, group_of[i]);
     if (!body.soft) continue;
     DeformableBody& fem = body.soft->fem;
     s.integrator->advance(fem, s.soft[i]->step, s.soft[i]->step.v_star);
@@ -265,12 +279,9 @@ void World::integrate(double h) {
   }
   time_ += h;
   place_scripted(bodies_, time_);
-  std::vector<int> group_of(bodies_.size(), -1);
-  for (std::size_t g = 0; g < s.groups.size(); ++g)
-    for (int b : s.groups[g].bodies) group_of[b] = static_cast<int>(g);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].has_freedom() || bodies_[i].asleep) continue;
-    check_finite(bodies_[i], frame_, group_of[i]);
+    check_state(bodies_[i], frame_, group_of[i]);
     bodies_[i].update_world_vertices();
   }
 }
