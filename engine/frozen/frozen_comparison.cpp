@@ -1,10 +1,13 @@
 #include "engine/frozen/frozen_comparison.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/error.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/operators/assembled_delassus.hpp"
 #include "engine/response/operators/factored_delassus.hpp"
@@ -56,7 +59,10 @@ std::vector<Mat3> w_diagonal(ThawedGroup& thawed) {
   return diagonal;
 }
 
-double ratio(double value, double scale) { return scale > 0.0 ? value / scale : value; }
+double ratio(double value, double scale) {
+  if (!std::isfinite(scale)) return std::numeric_limits<double>::quiet_NaN();  // or anything would be nothing to it
+  return scale > 0.0 ? value / scale : value;
+}
 
 /// The larger of two histories, iteration by iteration; what has ended keeps its last value.
 void merge_history(std::vector<double>& into, const std::vector<double>& from) {
@@ -73,44 +79,64 @@ void merge_history(std::vector<double>& into, const std::vector<double>& from) {
 }  // namespace
 
 FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
-  const auto response = find_entry(responses(), "constraint_anticipation")->make();
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     const FrozenGroup& group = step.groups[g];
     ThawedGroup thawed = thaw(group, step.linear_solver);
-    w_diagonal_.push_back(w_diagonal(thawed));
     const ConeProblem problem = make_cone_problem(thawed.system);
     scale_.push_back(velocity_scale(problem));
-    // the nearest of what there is; the first is near enough unless the problem is ill-posed or too large for it
-    double best = std::numeric_limits<double>::infinity();
-    std::string method;
-    exact_.emplace_back();
-    for (const bool warm : {true, false})
-      for (const char* name :
-           {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
-        const auto solver = find_entry(lcp_solvers(), name)->make();
-        if (!solver->applies(problem).empty() || best <= kExact) continue;
-        if (warm)
-          thawed.system.lambda = group.system.lambda;
-        else
-          thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
-        ResponseSettings settings;
-        settings.lcp = {0.1 * kExact, kMostExactIterations};
-        response->solve(thawed.system, *solver, settings);
-        const double reached = residual(g, thawed.system);
-        if (!(reached < best)) continue;
-        best = reached;
-        method = name;
-        exact_[g] = {thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
-                     thawed.system.soft_delta};
-      }
+    w_diagonal_.emplace_back();
+    GroupAnswer exact;
+    std::string method, why = "no method reaches a finite residual";
+    try {
+      w_diagonal_.back() = w_diagonal(thawed);
+      method = solve_exactly(g, problem, thawed, exact);
+    } catch (const DivergenceError& error) {
+      why = error.what();
+    }
+    if (method.empty() && unsolved_.empty()) unsolved_ = fmt::format("of group {}: {}", g, why);
+    exact_.push_back(std::move(exact));
     if (exact_method_.find(method) == std::string::npos) exact_method_ += (exact_method_.empty() ? "" : ", ") + method;
-    exact_norm_ += energy_product(group, exact_[g], exact_[g]);
+    if (unsolved_.empty()) exact_norm_ += energy_product(group, exact_[g], exact_[g]);
   }
-  exact_norm_ = std::sqrt(exact_norm_);
+  exact_norm_ = unsolved_.empty() ? std::sqrt(exact_norm_) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The nearest of what there is; the first is near enough unless the problem is ill-posed or too large for it. Returns
+/// what came nearest, "" where nothing came to a finite residual.
+std::string FrozenRuler::solve_exactly(std::size_t g, const ConeProblem& problem, ThawedGroup& thawed,
+                                       GroupAnswer& exact) const {
+  const auto response = find_entry(responses(), "constraint_anticipation")->make();
+  double best = std::numeric_limits<double>::infinity();
+  std::string method;
+  for (const bool warm : {true, false})
+    for (const char* name :
+         {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
+      const auto solver = find_entry(lcp_solvers(), name)->make();
+      if (!solver->applies(problem).empty() || best <= kExact) continue;
+      if (warm)
+        thawed.system.lambda = step_.groups[g].system.lambda;
+      else
+        thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
+      ResponseSettings settings;
+      settings.lcp = {0.1 * kExact, kMostExactIterations};
+      response->solve(thawed.system, *solver, settings);
+      const GroupAnswer answer{thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
+                               thawed.system.soft_delta};
+      const double reached = residual(g, thawed.system);
+      if (!(reached < best) || !is_finite(answer)) continue;
+      best = reached;
+      method = name;
+      exact = answer;
+    }
+  return method;
 }
 
 double FrozenRuler::residual(std::size_t group, const GroupSystem& solved) const {
-  return ratio(judge_group(solved, &w_diagonal_[group]).residual(), scale_[group]);
+  return ratio(judge_group(solved, diagonal(group)).residual(), scale_[group]);
+}
+
+const std::vector<Mat3>* FrozenRuler::diagonal(std::size_t group) const {
+  return w_diagonal_[group].empty() ? nullptr : &w_diagonal_[group];
 }
 
 FrozenVerdict FrozenRuler::judge(const std::vector<GroupAnswer>& answers) const {
@@ -119,14 +145,12 @@ FrozenVerdict FrozenRuler::judge(const std::vector<GroupAnswer>& answers) const 
   double squared = 0.0;
   for (std::size_t g = 0; g < answers.size(); ++g) {
     const GroupSystem system = with_answer(step_.groups[g], answers[g]);
-    const GroupVerdict verdict = judge_group(system, &w_diagonal_[g]);
-    if (!(verdict.natural_map <= all.natural_map)) {
+    const GroupVerdict verdict = judge_group(system, diagonal(g));
+    if (!std::isnan(all.natural_map) && !(verdict.natural_map <= all.natural_map)) {
       all.natural_map = verdict.natural_map;
       all.worst = verdict.worst < 0 ? -1 : first + verdict.worst;
     }
-    const auto raise = [](double& to, double value) {
-      if (!(value <= to)) to = value;
-    };
+    const auto raise = [](double& to, double value) { to = larger(to, value); };
     raise(all.natural_map_relative, ratio(verdict.natural_map, scale_[g]));
     raise(all.momentum, verdict.momentum);
     raise(all.residual, ratio(verdict.residual(), scale_[g]));
@@ -138,7 +162,7 @@ FrozenVerdict FrozenRuler::judge(const std::vector<GroupAnswer>& answers) const 
       raise(all.complementarity, std::abs(system.lambda[i].dot(problem.dual(i, u))));
       raise(all.cone_violation, problem.violation(i, system.lambda[i]));
     }
-    const double d = energy_distance(step_.groups[g], answers[g], exact_[g]);
+    const double d = unsolved_.empty() ? energy_distance(step_.groups[g], answers[g], exact_[g]) : 0.0;
     squared += d * d;
     first += static_cast<int>(problem.q.size());
   }

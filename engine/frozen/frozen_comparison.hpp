@@ -29,7 +29,7 @@ struct FrozenVerdict {
   double complementarity = 0.0;  ///< max |λ·û|, J
   double cone_violation = 0.0;   ///< N·s
   int worst = -1;                ///< contact of the largest natural map, counted through all groups
-  double distance = 0.0;         ///< ‖Δv - Δv_exact‖_A / ‖Δv_exact‖_A; NaN where that isn't finite
+  double distance = 0.0;  ///< ‖Δv - Δv_exact‖_A / ‖Δv_exact‖_A; NaN where that isn't finite or not known
 };
 
 class FrozenRuler {
@@ -41,16 +41,23 @@ class FrozenRuler {
   FrozenVerdict judge(const std::vector<GroupAnswer>& answers) const;
   /// Relative residual of one group, as in FrozenVerdict.
   double residual(std::size_t group, const GroupSystem& solved) const;
+  /// Empty for groups that nothing solved: see unsolved().
   const std::vector<GroupAnswer>& exact() const { return exact_; }
+  /// Of which group there is no exact solution, and why; "" if of none. Distances are not known then.
+  const std::string& unsolved() const { return unsolved_; }
   const std::string& exact_method() const { return exact_method_; }
   /// Why a cone solver can't solve every group of the step; "" if it can.
   std::string applies(const LcpSolver& solver) const;
 
  private:
+  std::string solve_exactly(std::size_t group, const ConeProblem& problem, ThawedGroup& thawed,
+                            GroupAnswer& exact) const;
+  const std::vector<Mat3>* diagonal(std::size_t group) const;
+
   const FrozenStep& step_;
   std::vector<GroupAnswer> exact_;
-  std::string exact_method_;
-  std::vector<std::vector<Mat3>> w_diagonal_;  // by group and contact
+  std::string exact_method_, unsolved_;
+  std::vector<std::vector<Mat3>> w_diagonal_;  // by group and contact; none where W can't be had
   std::vector<double> scale_;                  // m/s, by group
   double exact_norm_ = 0.0;
 };

@@ -1,6 +1,7 @@
 #include "engine/frozen/frozen_step.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace impinge {
@@ -8,6 +9,14 @@ std::size_t FrozenStep::contacts() const {
   std::size_t sum = 0;
   for (const FrozenGroup& group : groups) sum += group.system.contacts.size();
   return sum;
+}
+
+bool is_finite(const GroupAnswer& answer) {
+  const auto finite = [](const auto& v) { return v.allFinite(); };
+  return std::all_of(answer.lambda.begin(), answer.lambda.end(), finite) &&
+         std::all_of(answer.delta_velocity.begin(), answer.delta_velocity.end(), finite) &&
+         std::all_of(answer.delta_angular_velocity.begin(), answer.delta_angular_velocity.end(), finite) &&
+         std::all_of(answer.soft_delta.begin(), answer.soft_delta.end(), finite);
 }
 
 FrozenGroup freeze(const GroupSystem& system) {

@@ -20,6 +20,8 @@ struct GroupAnswer {
   std::vector<VecX> soft_delta;
 };
 
+bool is_finite(const GroupAnswer& answer);
+
 struct FrozenGroup {
   /// λ: where the run started; the soft blocks' `a` and `solver` are null (see thaw)
   GroupSystem system;

@@ -14,7 +14,7 @@ Vec3 rows_there(const ConeProblem& problem, std::size_t i, const Vec3& u) {
 }
 
 void take(Measured& measured, double value, std::size_t i) {
-  if (value <= measured.absolute) return;
+  if (std::isnan(measured.absolute) || value <= measured.absolute) return;
   measured.absolute = value;
   measured.worst = static_cast<int>(i);
 }
@@ -86,7 +86,7 @@ Residual judge(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
   for (std::size_t i = 0; i < problem.q.size(); ++i) {
     u[i] = problem.w->row(i, problem.has_one_row(i)) + problem.q[i];
     const double r = natural_map(problem, i, u[i], lambda[i]);
-    if (!(r <= result.natural_map)) {
+    if (!std::isnan(result.natural_map) && !(r <= result.natural_map)) {
       result.natural_map = r;
       result.worst = static_cast<int>(i);
     }

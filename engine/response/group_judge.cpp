@@ -1,7 +1,6 @@
 #include "engine/response/group_judge.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 
 #include "engine/lcp/residual.hpp"
 
@@ -41,15 +40,15 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
     const double r = rows.kind == RowKind::attachment ? u.norm()
                      : rows.kind == RowKind::sliding  ? std::abs(u.x())
                                                       : natural_map(w, u, group.lambda[i], rows.friction);
-    if (!(r <= verdict.natural_map)) {
-      verdict.natural_map = r;
-      verdict.worst = static_cast<int>(i);
-    }
+    if (std::isnan(verdict.natural_map) || r <= verdict.natural_map) continue;
+    verdict.natural_map = r;
+    verdict.worst = static_cast<int>(i);
   }
   for (std::size_t b = 0; b < group.bodies.size(); ++b) {
     const BodyBlock& block = group.bodies[b];
-    verdict.momentum = std::max({verdict.momentum, (group.delta_velocity[b] - block.inverse_mass * impulse[b]).norm(),
-                                 (group.delta_angular_velocity[b] - block.inverse_inertia * turn[b]).norm()});
+    const Vec3 linear = group.delta_velocity[b] - block.inverse_mass * impulse[b];
+    const Vec3 angular = group.delta_angular_velocity[b] - block.inverse_inertia * turn[b];
+    verdict.momentum = larger(larger(verdict.momentum, linear.norm()), angular.norm());
   }
   // A Δv - J^T λ by node, as the velocity that its own block makes of it
   for (std::size_t s = 0; s < group.soft.size(); ++s) {
@@ -57,7 +56,7 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
     const VecX r = a * group.soft_delta[s] - group.soft_impulse(static_cast<int>(s), group.lambda);
     for (int i = 0; i < a.pattern->rows; ++i)
       verdict.momentum =
-          std::max(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
+          larger(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
   return verdict;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/contact/group_system.hpp"
+#include "engine/core/finite.hpp"
 
 namespace impinge {
 
@@ -9,7 +10,7 @@ struct GroupVerdict {
   double natural_map = 0.0;  ///< m/s, as in lcp/residual.hpp, with u = J (v* + Δv) - bound
   double momentum = 0.0;     ///< max |Δv - A⁻¹ J^T λ| over rigid bodies, |D⁻¹ (A Δv - J^T λ)| over nodes, m/s
   int worst = -1;            ///< contact of the largest natural map
-  double residual() const { return natural_map > momentum ? natural_map : momentum; }
+  double residual() const { return larger(natural_map, momentum); }
 };
 
 /// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them;

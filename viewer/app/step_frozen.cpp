@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "engine/frozen/frozen_comparison.hpp"
+#include "engine/frozen/finite_answer.hpp"
 #include "engine/frozen/frozen_step_file.hpp"
 #include "viewer/app/step_methods.hpp"
 #include "viewer/app/step_report.hpp"
@@ -72,18 +72,22 @@ class Comparison {
         fill(*outcome, settings, report);
       } else {
         report.stop_reason = "diverged";
-        for (double* figure :
-             {&report.residual, &report.natural_map, &report.natural_map_relative, &report.momentum, &report.distance})
+        for (double* figure : {&report.residual, &report.natural_map, &report.natural_map_relative, &report.momentum,
+                               &report.complementarity, &report.cone_violation, &report.distance})
           *figure = NAN;
-        report.lambda.assign(step_.contacts(), Vec3::Zero());
       }
       table_.row(report);
       if (!diverged.empty()) fmt::print("  {}\n", diverged);
-      if (outcome && curves_) take_curves(*response, *lcp, settings, *outcome, report);
+      if (report.lambda.empty() && first_failure_.empty())
+        first_failure_ = fmt::format("{}: {}", report.method, diverged.empty() ? report.stop_reason : diverged);
+      if (!report.lambda.empty() && curves_) take_curves(*response, *lcp, settings, *outcome, report);
       reports.push_back(std::move(report));
       if (!outcome || !outcome->used_solver) return;
     }
   }
+
+  /// Of the first method that came to no finite answer; "" if there is none.
+  const std::string& first_failure() const { return first_failure_; }
 
  private:
   FrozenOutcome timed(const Response& response, const LcpSolver& lcp, const ResponseSettings& settings) const {
@@ -106,6 +110,10 @@ class Comparison {
     report.stop_reason = outcome.converged && !(verdict.residual <= kFarAbove * settings.lcp.tolerance)
                              ? "ended above the tolerance"
                              : outcome.stop;
+    if (const std::string why = not_finite(step_, outcome.answers, verdict); !why.empty()) {
+      report.stop_reason = why;
+      return;
+    }
     for (const GroupAnswer& answer : outcome.answers)
       report.lambda.insert(report.lambda.end(), answer.lambda.begin(), answer.lambda.end());
   }
@@ -144,6 +152,7 @@ class Comparison {
   const FrozenRuler& ruler_;
   ResponseSettings settings_;
   bool curves_;
+  std::string first_failure_;
   TablePrinter table_{true};
 };
 
@@ -158,15 +167,20 @@ void print_head(const FrozenStep& step, const FrozenRuler& ruler, const std::str
       "{}: {}, frame {}, Δt {:.4g} s; {} contacts in {} group{}, {} rigid and {} deformable bodies, {} unknowns\n",
       file, step.scene, step.frame, step.time_step, step.contacts(), step.groups.size(),
       step.groups.size() == 1 ? "" : "s", rigid, soft, unknowns);
-  const FrozenVerdict exact = ruler.judge(ruler.exact());
-  fmt::print(
-      "exact solution: constraint_anticipation with {}; natural map {:.1e} m/s, relative {:.1e}, momentum {:.1e} m/s\n",
-      ruler.exact_method(), exact.natural_map, exact.natural_map_relative, exact.momentum);
+  const FrozenVerdict exact = ruler.unsolved().empty() ? ruler.judge(ruler.exact()) : FrozenVerdict{};
+  if (!ruler.unsolved().empty())
+    fmt::print("exact solution: none {}; distances are not known\n", ruler.unsolved());
+  else
+    fmt::print(
+        "exact solution: constraint_anticipation with {}; natural map {:.1e} m/s, relative {:.1e}, momentum {:.1e} "
+        "m/s\n",
+        ruler.exact_method(), exact.natural_map, exact.natural_map_relative, exact.momentum);
   std::vector<GroupAnswer> run;
   for (const FrozenGroup& group : step.groups) run.push_back(group.answer);
   const FrozenVerdict found = ruler.judge(run);
-  fmt::print("the run, {} with {} at {:.0e}: residual {:.2e}, distance {:.2e}\n", step.response, step.lcp,
-             step.settings.lcp.tolerance, found.residual, found.distance);
+  const auto known = [](double value) { return std::isfinite(value) ? fmt::format("{:.2e}", value) : "not known"; };
+  fmt::print("the run, {} with {} at {:.0e}: residual {}, distance {}\n", step.response, step.lcp,
+             step.settings.lcp.tolerance, known(found.residual), known(found.distance));
 }
 
 /// A residual says little where many answers nearly satisfy the step: a body on more contacts than it needs, that
@@ -237,6 +251,9 @@ int step_frozen(const Arguments& arguments) {
       "stays\n");
   say_if_undetermined(report);
   if (!arguments.out.empty()) write_report(arguments.out, report);
+  if (std::all_of(report.methods.begin(), report.methods.end(), [](const auto& m) { return m.lambda.empty(); }))
+    throw DivergenceError(fmt::format("{}: frame {}: no method reaches a finite residual; {}", arguments.a, step.frame,
+                                      comparison.first_failure()));
   return 0;
 }
 

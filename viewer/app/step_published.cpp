@@ -70,6 +70,15 @@ Solved timed(const LcpSolver& solver, const ConeProblem& problem, const LcpSetti
   return solved;
 }
 
+/// What of an answer is no number; "" where all of it is finite.
+std::string not_finite(const std::vector<Vec3>& lambda, double residual) {
+  constexpr const char* kRows[] = {"r_n", "r_t1", "r_t2"};
+  for (std::size_t i = 0; i < lambda.size(); ++i)
+    for (int d = 0; d < 3; ++d)
+      if (!std::isfinite(lambda[i][d])) return fmt::format("{} of contact {} is not finite", kRows[d], i);
+  return std::isfinite(residual) ? "" : "residual is not finite";
+}
+
 MethodReport report_of(const Entry<LcpSolver>& entry, const ConeProblem& problem, const LcpSettings& settings,
                        const std::vector<Vec3>& exact) {
   Solved solved = timed(*entry.make(), problem, settings);
@@ -84,7 +93,10 @@ MethodReport report_of(const Entry<LcpSolver>& entry, const ConeProblem& problem
   report.worst_contact = r.worst;
   report.complementarity = r.complementarity, report.cone_violation = r.cone_violation;
   report.distance = distance(problem, solved.lambda, exact);
-  report.lambda = std::move(solved.lambda);
+  if (std::string why = not_finite(solved.lambda, report.residual); !why.empty())
+    report.stop_reason = std::move(why);
+  else
+    report.lambda = std::move(solved.lambda);
   return report;
 }
 
@@ -153,16 +165,21 @@ int step_published(const Arguments& arguments) {
   for (const Entry<LcpSolver>* entry : applying) {
     report.methods.push_back(report_of(*entry, problem, settings, exact));
     table.row(report.methods.back());
-    if (!arguments.out.empty()) take_curves(*entry, problem, settings, exact, report.methods.back());
+    if (!arguments.out.empty() && !report.methods.back().lambda.empty())
+      take_curves(*entry, problem, settings, exact, report.methods.back());
   }
   for (const std::string& line : left_out) fmt::print("{}\n", line);
+  const auto rank = [](const MethodReport& m) { return m.lambda.empty() ? HUGE_VAL : m.residual; };
   const MethodReport& best = *std::min_element(report.methods.begin(), report.methods.end(),
-                                               [](const auto& l, const auto& r) { return l.residual < r.residual; });
-  fmt::print("smallest residual: {}, {}\n", best.method, regimes(problem, best.lambda));
+                                               [&](const auto& l, const auto& r) { return rank(l) < rank(r); });
+  if (!best.lambda.empty()) fmt::print("smallest residual: {}, {}\n", best.method, regimes(problem, best.lambda));
   fmt::print(
       "residual: by Siconos' definition; natural map: m/s, with the contact where it is worst; distance: of λ to the "
       "reference in W's norm, relative\n");
   if (!arguments.out.empty()) write_report(arguments.out, report);
+  if (best.lambda.empty())
+    throw DivergenceError(
+        fmt::format("{}: no method reaches a finite residual; {}: {}", arguments.a, best.method, best.stop_reason));
   return 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "engine/core/error.hpp"
@@ -19,6 +20,12 @@ std::vector<int> early_stops(int most) {
   return stops;
 }
 
+namespace {
+
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+}  // namespace
+
 TablePrinter::TablePrinter(bool has_bodies) : has_bodies_(has_bodies) {
   fmt::print("{:<42}{:>11}{}{:>11}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", "method", "iterations",
              has_bodies ? "  outer" : "", "ms", "residual", "natural map", "relative", "contact",
@@ -31,11 +38,12 @@ void TablePrinter::row(const MethodReport& r) {
     if (name.substr(0, at) != response_) fmt::print("{}\n", response_ = name.substr(0, at));
     name = "  " + name.substr(at + 1);
   }
+  const auto figure = [](double value) { return std::isfinite(value) ? fmt::format("{:.2e}", value) : "-"; };
   const std::string outer = has_bodies_ ? fmt::format("{:>7}", r.outer_iterations) : "",
-                    momentum = has_bodies_ ? fmt::format("{:>11.2e}", r.momentum) : "";
-  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11.2e}{:>13.2e}{:>11.2e}{:>9}{}{:>11.2e}  {}\n", name, r.iterations, outer,
-             r.ms, r.residual, r.natural_map, r.natural_map_relative, r.worst_contact, momentum, r.distance,
-             r.stop_reason);
+                    momentum = has_bodies_ ? fmt::format("{:>11}", figure(r.momentum)) : "";
+  fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", name, r.iterations, outer, r.ms,
+             figure(r.residual), figure(r.natural_map), figure(r.natural_map_relative), r.worst_contact, momentum,
+             figure(r.distance), r.stop_reason);
   std::fflush(stdout);
 }
 
@@ -47,9 +55,10 @@ std::string methods_table(const StepReport& report) {
       "complementarity_J,cone_violation_Ns,outer_iterations,"
       "momentum_m_per_s,distance_to_exact\n";
   for (const MethodReport& r : report.methods)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.method, r.iterations, r.ms, r.residual,
-                        r.stop_reason, r.natural_map, r.natural_map_relative, r.worst_contact, r.complementarity,
-                        r.cone_violation, r.outer_iterations, r.momentum, r.distance);
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.method, r.iterations, r.ms, cell(r.residual),
+                        r.stop_reason, cell(r.natural_map), cell(r.natural_map_relative), r.worst_contact,
+                        cell(r.complementarity), cell(r.cone_violation), r.outer_iterations, cell(r.momentum),
+                        cell(r.distance));
   return text;
 }
 
@@ -89,16 +98,17 @@ void write_report(const fs::path& folder, const StepReport& report) {
                     folder.string(), error.message()));
   std::string work = "method,iterations_allowed,ms,residual,distance_to_exact\n";
   for (const MethodReport& r : report.methods) {
+    if (r.lambda.empty()) continue;
     std::string text = "contact," + report.solution_head + "r_n,r_t1,r_t2\n";
     for (std::size_t i = 0; i < r.lambda.size(); ++i)
       text += fmt::format("{},{}{},{},{}\n", i, report.solution_columns[i], r.lambda[i].x(), r.lambda[i].y(),
                           r.lambda[i].z());
     write_file(folder / ("solution_" + r.method + ".csv"), text);
     text = "iteration,residual\n";
-    for (std::size_t i = 0; i < r.history.size(); ++i) text += fmt::format("{},{}\n", i, r.history[i]);
+    for (std::size_t i = 0; i < r.history.size(); ++i) text += fmt::format("{},{}\n", i, cell(r.history[i]));
     write_file(folder / ("history_" + r.method + ".csv"), text);
     for (const WorkPoint& p : r.work)
-      work += fmt::format("{},{},{},{},{}\n", r.method, p.iterations_allowed, p.ms, p.residual, p.distance);
+      work += fmt::format("{},{},{},{},{}\n", r.method, p.iterations_allowed, p.ms, cell(p.residual), cell(p.distance));
   }
   write_file(folder / "work_precision.csv", work);
   const std::vector<Image> pictures = paint_plots({history_plot(report), work_plot(report)}, 1280, 720);

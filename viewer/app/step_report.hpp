@@ -17,6 +17,7 @@ struct WorkPoint {
   double distance = 0.0;
 };
 
+/// What a method made of the step. Figures that are not finite are not known, and left blank where they are written.
 struct MethodReport {
   std::string method;
   int iterations = 0, outer_iterations = 0;
@@ -28,7 +29,7 @@ struct MethodReport {
   int worst_contact = -1;
   double complementarity = 0.0, cone_violation = 0.0;  ///< J, N·s
   double distance = 0.0;                               ///< to the exact solution, relative
-  std::vector<Vec3> lambda;
+  std::vector<Vec3> lambda;     ///< empty where there is no finite answer; the stop reason then says why
   std::vector<double> history;  ///< residual before the first and after each iteration
   std::vector<WorkPoint> work;
 };
