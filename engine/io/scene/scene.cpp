@@ -11,6 +11,7 @@
 #include "engine/io/scene/scene_attachments.hpp"
 #include "engine/io/scene/scene_body.hpp"
 #include "engine/io/scene/scene_overrides.hpp"
+#include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
@@ -73,11 +74,13 @@ void read_bodies(const TomlNode& list, Scene& scene, SurfaceFiles& surfaces, Wor
     if (!names.insert(body.name).second)
       refuse(table.find("name")->value.place, fmt::format("a second body named '{}'", body.name), "names must differ",
              "rename one of them");
+    const RigidBody* added = nullptr;
     try {
-      world.add_body(body);
+      added = &world.add_body(body);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: body.{}: {}", table.place, body.name, error.what()));
     }
+    check_mass(table, *added);
     scene.bodies.push_back(table);
   }
 }

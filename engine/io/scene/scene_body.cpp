@@ -4,6 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/scene/scene_motion.hpp"
+#include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_soft.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 // beyond these a number is a slip, not a quantity
 constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6}, kSpeed{-1e6, 1e6}, kTime{0.0, 1e9};
-constexpr double kMostLength = 1e6, kMostScale = 1e6, kMostDensity = 1e9, kMostMass = 1e15;
+constexpr double kMostScale = 1e6, kMostDensity = 1e9;
 
 const std::vector<std::string> kKeys = {
     "name",           "kind",     "shape",    "surface",          "scale",  "material", "mass",
@@ -48,12 +49,12 @@ Plane read_plane(const TomlNode& table, const std::string& what, double scale) {
   return {n / length, scale * d / length};
 }
 
-double read_size(const TomlNode& table, const char* key, const std::string& what) {
+double read_size(const TomlNode& table, const char* key, const std::string& what, double scale) {
   const TomlEntry* entry = table.find(key);
   if (entry == nullptr)
     refuse(table.place, fmt::format("{} has no {}", what, key), fmt::format("{} = a length in metres is wanted", key),
            "add it");
-  return scene_positive(entry->value, what + "." + key, kMostLength);
+  return scene_size(entry->value, what + "." + key, scale);
 }
 
 void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
@@ -107,18 +108,20 @@ Shape read_shape(const TomlNode& node, const std::string& what, double scale) {
   if (word == "plane") return read_plane(table, name, scale);
   if (word == "sphere") {
     check_keys(table, name, {"radius"});
-    return Sphere{scale * read_size(table, "radius", name)};
+    return Sphere{read_size(table, "radius", name, scale)};
   }
   if (word == "capsule") {
     check_keys(table, name, {"radius", "length"});
-    return Capsule{scale * read_size(table, "radius", name), scale * 0.5 * read_size(table, "length", name)};
+    return Capsule{read_size(table, "radius", name, scale), 0.5 * read_size(table, "length", name, scale)};
   }
   check_keys(table, name, {"size"});
   const TomlEntry* size = table.find("size");
   if (size == nullptr) refuse(table.place, name + " has no size", "size = [x, y, z] in metres is wanted", "add it");
-  const Vec3 lengths = scene_vector(size->value, name + ".size", kLength);
-  for (int i = 0; i < 3; ++i) scene_positive(size->value.items[i], name + ".size", kMostLength);
-  return Box{scale * 0.5 * lengths};
+  if (size->value.kind != TomlNode::array || size->value.items.size() != 3)
+    scene_vector(size->value, name + ".size", kLength);  // which says what is wanted
+  Vec3 half;
+  for (int i = 0; i < 3; ++i) half[i] = 0.5 * scene_size(size->value.items[i], name + ".size", scale);
+  return Box{half};
 }
 
 // a body's own, or nothing by the word that `set` and --set give it back to the scene with
@@ -174,7 +177,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   with("self_collision",
        [&](const TomlNode& node, const std::string& key) { body.self_collision = scene_flag(node, key); });
   with("material", [&](const TomlNode& node, const std::string& key) { read_material(node, key, body); });
-  with("mass", [&](const TomlNode& node, const std::string& key) { body.mass = scene_positive(node, key, kMostMass); });
+  with("mass", [&](const TomlNode& node, const std::string& key) { body.mass = scene_mass(node, key); });
   if (const TomlEntry* material = table.find("material");
       body.mass && material != nullptr && material->value.find("density") != nullptr)
     refuse(table.find("mass")->place, what + " has a mass and a density", "one of them is wanted", "remove one");

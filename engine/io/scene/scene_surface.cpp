@@ -8,6 +8,7 @@
 #include "engine/geometry/mesh_checks.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
@@ -98,11 +99,15 @@ MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, do
   const fs::path path = find(node, what);
   MeshPointer& surface = unscaled_[node.string];
   if (surface == nullptr) surface = read(path, node);
-  if (scale == 1.0) return surface;
+  if (scale == 1.0) {
+    check_extent(node, what, surface->mesh.vertices, scale);
+    return surface;
+  }
   MeshPointer& result = scaled_[{node.string, scale}];
   if (result == nullptr) {
     auto copy = std::make_shared<SurfaceMesh>(*surface);
     for (Vec3& x : copy->mesh.vertices) x *= scale;
+    check_extent(node, what, copy->mesh.vertices, scale);
     result = std::move(copy);
   }
   return result;

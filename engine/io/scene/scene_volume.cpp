@@ -10,6 +10,7 @@
 #include "engine/geometry/mesh_checks.hpp"
 #include "engine/geometry/tet_cage.hpp"
 #include "engine/io/scene/scene_body.hpp"
+#include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "engine/io/tets/tetrahedralize.hpp"
 #include "engine/shapes/primitive_surfaces.hpp"
@@ -184,6 +185,7 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
   const std::shared_ptr<const TetFile> file = files.load_volume(node, name);
   soft.mesh = file->mesh;
   for (Vec3& x : soft.mesh.vertices) x *= scale;
+  check_extent(node, name, soft.mesh.vertices, scale);
   use_file_material(table, node, name, *file, soft);
   const MeshPointer surface = table.find("surface") != nullptr
                                   ? outer_surface(table, what, scale, 1.0, 0, files, body)
