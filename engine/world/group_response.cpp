@@ -166,7 +166,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
   // 12 (in part) the judge sees the group while its system stands
   const StageTimer timer(times.response_ms);
   const GroupVerdict verdict = judge_group(system);
-  if (!(verdict.residual() <= s.frame_stats.residual)) s.frame_stats.residual = verdict.residual();
+  s.frame_stats.residual = larger(s.frame_stats.residual, verdict.residual());
   return system;
 }
 

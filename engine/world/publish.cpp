@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
+#include "engine/world/finite_record.hpp"
 #include "engine/world/ledger.hpp"
 #include "engine/world/world_stages.hpp"
 
@@ -63,7 +64,8 @@ void World::publish(bool solved) {
         if (c < static_cast<int>(s.contacts.size())) s.contacts[c].group = static_cast<int>(g);
   }
 
-  record_.bodies.clear();
+  StepRecord& record = s.next_record;
+  record.bodies.clear();
   for (const RigidBody& body : bodies_) {
     BodyRecord r;
     r.name = body.name;
@@ -82,25 +84,25 @@ void World::publish(bool solved) {
       r.pose.position = r.file_pose.position = body.soft->fem.center_of_mass();
     }
     r.asleep = body.asleep;
-    record_.bodies.push_back(r);
+    record.bodies.push_back(r);
   }
-  record_.groups.clear();
+  record.groups.clear();
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
-    record_.groups.push_back(s.groups[g].bodies);
-    for (int b : s.groups[g].bodies) record_.bodies[b].group = static_cast<int>(g);
+    record.groups.push_back(s.groups[g].bodies);
+    for (int b : s.groups[g].bodies) record.bodies[b].group = static_cast<int>(g);
   }
-  record_.broad_pairs = s.detection.pairs;
-  record_.triangle_pairs = s.detection.triangle_pairs;
-  record_.contacts.clear();
-  for (const SolvedContact& contact : s.contacts) record_.contacts.push_back(carried(contact, bodies_));
-  record_.attachments.clear();
+  record.broad_pairs = s.detection.pairs;
+  record.triangle_pairs = s.detection.triangle_pairs;
+  record.contacts.clear();
+  for (const SolvedContact& contact : s.contacts) record.contacts.push_back(carried(contact, bodies_));
+  record.attachments.clear();
   for (std::size_t i = 0; i < attachments_.size(); ++i) {
     const Attachment& a = attachments_[i];
-    record_.attachments.push_back(
+    record.attachments.push_back(
         {a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), s.attachment_impulse[i]});
   }
-  record_.gravity = parameters.simulation.gravity;
-  record_.frame_time = parameters.simulation.frame_time;
+  record.gravity = parameters.simulation.gravity;
+  record.frame_time = parameters.simulation.frame_time;
 
   FrameStats& stats = s.frame_stats;
   stats.frame = frame_;
@@ -112,12 +114,12 @@ void World::publish(bool solved) {
     stats.dofs += body.is_dynamic() ? 6 : body.soft ? body.soft->fem.dofs() : 0;
     stats.asleep += body.asleep ? 1 : 0;
   }
-  stats.broad_pairs = static_cast<std::int64_t>(record_.broad_pairs.size());
-  stats.triangle_pairs = static_cast<std::int64_t>(record_.triangle_pairs.size());
-  stats.contacts = static_cast<std::int64_t>(record_.contacts.size());
-  stats.groups = static_cast<std::int64_t>(record_.groups.size());
+  stats.broad_pairs = static_cast<std::int64_t>(record.broad_pairs.size());
+  stats.triangle_pairs = static_cast<std::int64_t>(record.triangle_pairs.size());
+  stats.contacts = static_cast<std::int64_t>(record.contacts.size());
+  stats.groups = static_cast<std::int64_t>(record.groups.size());
   stats.max_penetration = 0.0;
-  for (const ContactRecord& c : record_.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
+  for (const ContactRecord& c : record.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
   const Ledger ledger = make_ledger(bodies_, parameters.simulation.gravity);
   stats.kinetic = ledger.kinetic;
   stats.elastic = ledger.elastic;
@@ -125,7 +127,9 @@ void World::publish(bool solved) {
   stats.momentum = ledger.momentum;
   stats.angular_momentum = ledger.angular_momentum;
   stats.state_hash = state_hash();
-  record_.stats = stats;
+  record.stats = stats;
+  check_finite(record, bodies_);
+  std::swap(record_, record);  // so that a frame that may not be published leaves the last one standing
 }
 
 }  // namespace impinge

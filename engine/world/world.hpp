@@ -35,9 +35,10 @@ class World {
   void bind_bodies(ParameterSet& set);
 
   /// Checks that every pair of shapes that can meet is supported and that every named algorithm exists (InputError),
-  /// then publishes frame 0: detection only, no solve.
+  /// then publishes frame 0: detection only, no solve. Throws DivergenceError as step() does.
   void start();
-  /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body.
+  /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body,
+  /// or with frame, body and column where a figure is not finite; record() then has still the frame before.
   void step();
   /// The same, and hands out the group systems of the frame's last sub-step, the one that its record shows.
   FrozenStep step_and_freeze();

@@ -46,6 +46,7 @@ struct World::Stages {
   std::vector<VecX> soft_push;                // and by deformable body, over its free nodes; empty: none
   std::uint64_t settings_seen = 0;            // hash of what parameters_changed compares with
   FrameStats frame_stats;                     // sums and maxima over the frame's sub-steps
+  StepRecord next_record;                     // of the frame to be published
   FrozenStep* frozen = nullptr;               // if given, gets the groups of the frame's last sub-step
   bool freezing = false;                      // this is that sub-step
 

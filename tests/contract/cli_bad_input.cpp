@@ -100,6 +100,66 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   check_scene("a = " + std::string(100, '[') + std::string(100, ']') + "\n", "1:69", "nested deeper");
 }
 
+TEST_CASE("sizes and masses out of their ranges are refused at their keys, the same by --set") {
+  const std::string scene = kScene, box = "shape = { box = { size = [1, 1, 1] } }";
+  const std::string sizes = "a length greater than 0, in [1e-6, 1e6] m, is allowed", masses = "in [1e-15, 1e15] kg";
+  check_scene(replaced(scene, "[1, 1, 1]", "[1e-200, 1, 1]"), "10:27", "body.crate.shape.box.size is 1e-200; " + sizes);
+  check_scene(replaced(scene, "[1, 1, 1]", "[1, 9.9e-7, 1]"), "10:30", sizes);
+  check_scene(replaced(scene, "[1, 1, 1]", "[1, 1, 1.1e6]"), "10:33", sizes);
+  check_scene(replaced(scene, box, "shape = { sphere = { radius = 1e-7 } }"), "10:31", sizes);
+  check_scene(replaced(scene, box, "shape = { sphere = { radius = 2e6 } }"), "10:31", sizes);
+  check_scene(replaced(scene, box, "shape = { capsule = { radius = 1e-7, length = 1 } }"), "10:32", sizes);
+  check_scene(replaced(scene, box, "shape = { capsule = { radius = 1, length = 1e7 } }"), "10:44", sizes);
+  check_scene(replaced(scene, box, box + "\nscale = 1e-7"), "10:27", "1, 1e-07 with the scale 1e-07; " + sizes);
+  // a static body has a size too
+  check_scene(replaced(scene, "plane = { normal = [0, 1, 0], offset = 0 }", "sphere = { radius = 1e9 }"), "6:31",
+              sizes);
+  check_scene(replaced(scene, "position = [0, 2, 0]", "mass = 1e16"), "11:8", masses);
+  check_scene(replaced(scene, "position = [0, 2, 0]", "mass = 1e-16"), "11:8", "body.crate.mass is 1e-16; a mass");
+  // what the density makes of the size
+  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { density = 1e-300 }"), "11:24",
+              "the mass of body.crate is 1e-300 kg by its density; a mass in [1e-15, 1e15] kg is allowed");
+  check_scene(replaced(scene, "[1, 1, 1]", "[1e6, 1e6, 1e6]"), "7:1", "1e+21 kg by its density; a mass in [1e-15");
+
+  const TempFolder folder;
+  folder.write("s.toml", scene);
+  const auto refused = [&](const std::string& text, const std::string& says) {
+    check_refused(folder, run_with({"--set", text}), "--set " + text + ": ", says);
+  };
+  refused("body.crate.shape.box.size=[1e-200,1,1]", "body.crate.shape.box.size is 1e-200; " + sizes);
+  refused("body.crate.mass=1e16", "body.crate.mass is 1e+16; a mass greater than 0, " + masses + ", is allowed");
+  refused("body.crate.material.density=1e-300", "the mass of body.crate is 1e-300 kg by its density");
+
+  // at the ends of the ranges, and where a mass is never used, they are taken
+  const auto taken = [&](const std::string& text) {
+    folder.write("t.toml", text);
+    const Outcome outcome = impinge_run(folder.path(), {"check", "t.toml"});
+    INFO(text << outcome.err);
+    CHECK(outcome.code == 0);
+  };
+  taken(replaced(scene, box, "shape = { sphere = { radius = 1e-6 } }\nmaterial = { density = 1e6 }"));
+  taken(replaced(scene, box, "shape = { box = { size = [1e6, 1e6, 1] } }"));
+  taken(replaced(scene, "plane = { normal = [0, 1, 0], offset = 0 }", "box = { size = [1e6, 1e6, 1e6] }"));
+  taken(replaced(scene, "position = [0, 2, 0]", "mass = 1e15"));
+  taken(replaced(scene, "position = [0, 2, 0]", "mass = 1e-15"));
+  taken(replaced(scene, box, "shape = { box = { size = [1e-7, 1e-7, 1e-7] } }\nscale = 1e6"));
+}
+
+TEST_CASE("a surface that its scale takes out of the range of sizes is refused") {
+  const TempFolder folder;
+  folder.write("m.off", off_text(tetrahedron()));
+  const auto check = [&](const std::string& keys, const std::string& contains) {
+    folder.write("s.toml", "[[body]]\nname = \"a\"\nkind = \"dynamic\"\nsurface = \"m.off\"\n" + keys);
+    check_refused(folder, kRun, "s.toml:4:11: body.a.surface = \"m.off\" is ", contains);
+  };
+  check("scale = 1e-7", "with the scale 1e-07; lengths in [1e-6, 1e6] m are allowed");
+  check("scale = 1e6", "lengths in [1e-6, 1e6] m are allowed");
+  TriangleMesh thin = tetrahedron();
+  for (Vec3& x : thin.vertices) x.z() *= 1e-7;
+  folder.write("m.off", off_text(thin));
+  check("", " m long in z; lengths in");
+}
+
 TEST_CASE("meshes that bound no solid are refused with the remedy") {
   const TriangleMesh good = tetrahedron();
   const auto check_mesh = [](const std::string& text, const std::string& start, const std::string& contains) {

@@ -299,3 +299,42 @@ TEST_CASE("impinge run --freeze and impinge step: files, columns, figures") {
                 "command line: --freeze is 0", "frame 0 has no response");
   check_refused(folder, {"run", "s.toml", "--freeze", "-1", "--out", "x"}, "command line: ", "--freeze");
 }
+
+TEST_CASE("a frozen step that nothing solves to finite figures: a row with the reason each, and exit code 3") {
+  const TempFolder folder;
+  folder.write("s.toml", kScene);
+  REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--frames", "12", "--freeze", "12", "--no-images", "--out", "r"})
+              .code == 0);
+  const FrozenStep good = read_frozen_step(folder / "r/frozen/000012.step");
+  // finite numbers all of them, as the reader wants it, that overflow in whatever is made of them
+  for (int kind = 0; kind < 4; ++kind) {
+    FrozenStep step = good;
+    BodyBlock& body = step.groups[0].system.bodies[0];
+    if (kind == 0) body.velocity = Vec3::Constant(1.5e308);
+    if (kind == 1) body.inverse_mass = 1e308, body.velocity *= 1e200;
+    if (kind == 2) body.inverse_inertia = 1e308 * Mat3::Identity();
+    if (kind == 3)
+      for (ContactRows& rows : step.groups[0].system.contacts) rows.bound = -1.7e308, rows.a.arm *= 1e300;
+    CAPTURE(kind);
+    const FrozenRuler ruler(step);
+    write_frozen_step(folder / "bad.step", step);
+    const Outcome solved = impinge_run(folder.path(), {"step", "bad.step", "--out", fmt::format("result{}", kind)});
+    CAPTURE(solved.out, solved.err, ruler.unsolved());
+    const std::string methods = slurp(folder / fmt::format("result{}/methods.csv", kind));
+    CAPTURE(methods);
+    for (const Entry<Response>& response : responses())
+      CHECK(methods.find(fmt::format("\n{}", response.name)) != std::string::npos);
+    CHECK(methods.find("nan") == std::string::npos);
+    CHECK(methods.find("inf,") == std::string::npos);
+    if (kind == 0) CHECK_FALSE(ruler.unsolved().empty());
+    if (ruler.unsolved().empty()) continue;
+    CHECK(solved.code == 3);
+    CHECK(solved.error_lines() == 1);
+    CHECK(solved.err.rfind("diverged: bad.step: frame 12: no method reaches a finite residual; ", 0) == 0);
+    CHECK(solved.err.find("body 'crate': ") != std::string::npos);
+    CHECK(solved.out.find("exact solution: none of group 0: ") != std::string::npos);
+    CHECK(methods.find("is not finite") != std::string::npos);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / fmt::format("result{}", kind)))
+      CHECK(entry.path().filename().string().rfind("solution_", 0) != 0);
+  }
+}

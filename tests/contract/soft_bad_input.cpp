@@ -121,6 +121,19 @@ TEST_CASE("volumes that can't be made are refused at the right place") {
   check_refused_at(kShape, "shape = { box = { size = [0.2, 0.2, -1] } }", "s.toml:10:37", "greater than 0");
 }
 
+TEST_CASE("deformable bodies out of the ranges of sizes and masses are refused at the right place") {
+  const std::string sizes = "[1e-6, 1e6] m", masses = "[1e-15, 1e15] kg";
+  check_refused_at(kShape, "shape = { box = { size = [0.2, 1e-200, 0.2] } }", "s.toml:10:32", sizes);
+  check_refused_at(kShape, "shape = { sphere = { radius = 1e7 } }", "s.toml:10:31", sizes);
+  check_refused_at(kShape, std::string(kShape) + "\nscale = 1e-6", "s.toml:10:27", sizes);
+  check_refused_at(kShapeAndVolume, "volume = \"cube.veg\"\nscale = 1e-6", "s.toml:10:10",
+                   "m long in x with the scale 1e-06");
+  check_refused_at(kShape, "surface = \"cube.off\"\nscale = 1e-6", "s.toml:10:11", sizes);
+  check_refused_at(kMaterial, "mass = 1e16", "s.toml:12:8", masses);
+  check_refused_at(kMaterial, "mass = 1e-16", "s.toml:12:8", masses);
+  refused_material("density = 1e-200", "24", "kg by its density; a mass in " + masses);
+}
+
 TEST_CASE("volume files that don't fit are refused at the right place") {
   check_refused_at(kShapeAndVolume, "volume = \"none.veg\"", "s.toml:10:10", "there is no such file");
   check_refused_at(kShapeAndVolume, "volume = \"../secret.veg\"", "s.toml:10:10", "leads out of the scene's folder");

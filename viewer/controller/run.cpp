@@ -72,7 +72,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
                     "one, or another --out",
                     *options.freeze, folder.resume_frame()));
   if (folder.resume_frame() >= 0) {
-    result.resumed_from = folder.resume_frame();
+    result.resumed_from = result.last_frame = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
     for (int frame = 0; frame <= result.resumed_from && !stop; ++frame)
       stop = judge(frame, folder.kept()[frame].figures);
@@ -81,21 +81,22 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   while (!stop && session.frame() < last_frame && !interrupted()) {
     std::vector<Command> commands;
     FrozenStep frozen;
+    FrameExtras extras;
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
     try {
       commands = session.advance(freezes ? &frozen : nullptr);
+      if (judged) {
+        const OverlapVerdict verdict = judge_overlap(session.world().bodies());
+        extras.judged_penetration = verdict.penetration;
+        extras.judged_intersections = verdict.intersections;
+      }
+      check_figures(session.record().stats, extras, judged);
     } catch (const DivergenceError& error) {
       result.diverged = error.what();
       break;
     }
-    const int frame = session.frame();
-    FrameExtras extras;
+    const int frame = result.last_frame = session.frame();
     extras.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
-    if (judged) {
-      const OverlapVerdict verdict = judge_overlap(session.world().bodies());
-      extras.judged_penetration = verdict.penetration;
-      extras.judged_intersections = verdict.intersections;
-    }
     if (freezes) {
       folder.add_frozen_step(frozen);
       result.frozen_step = folder.frozen_step(frame);
@@ -109,8 +110,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     folder.add_snapshot(session);
   }
   view.finish();
-  result.last_frame = session.frame();
-  result.interrupted = session.frame() < last_frame && !stop && result.diverged.empty();
+  result.interrupted = result.last_frame < last_frame && !stop && result.diverged.empty();
   result.failures = expectations.failures();
   if (result.diverged.empty() && !result.interrupted) {
     expectations.note_unchecked(result.last_frame);

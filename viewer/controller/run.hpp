@@ -30,7 +30,7 @@ struct RunWatcher {
 };
 
 struct RunResult {
-  int last_frame = -1;    ///< made
+  int last_frame = -1;    ///< published
   int resumed_from = -1;  ///< the frame of the snapshot that was continued, -1: none
   int failures = 0;       ///< expectations not met
   bool stopped_by_break = false;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <span>
 
 #include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
 
 namespace impinge {
@@ -99,6 +101,13 @@ std::vector<double> figure_values(const FrameStats& stats, const FrameExtras& ex
   for (const Column& column : columns(judged))
     if (column.value != nullptr) values.push_back(column.value(stats, extras));
   return values;
+}
+
+void check_figures(const FrameStats& stats, const FrameExtras& extras, bool judged) {
+  for (const Column& column : columns(judged))
+    if (column.value != nullptr && !std::isfinite(column.value(stats, extras)))
+      throw DivergenceError(fmt::format("frame {}: {} is {}, and every figure must be finite; use more sub-steps",
+                                        stats.frame, column.name, column.value(stats, extras)));
 }
 
 StatsLine parse_stats_row(std::string_view line, bool judged) {

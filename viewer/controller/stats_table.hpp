@@ -25,6 +25,9 @@ std::string stats_row(const FrameStats& stats, const FrameExtras& extras, bool j
 const std::vector<std::string>& figure_names(bool judged);
 std::vector<double> figure_values(const FrameStats& stats, const FrameExtras& extras, bool judged);
 
+/// Throws DivergenceError with frame and column where a figure is not finite: such a row is not written.
+void check_figures(const FrameStats& stats, const FrameExtras& extras, bool judged);
+
 /// What a line of stats.csv says. Throws InputError on a line of another shape.
 struct StatsLine {
   std::vector<double> figures;
