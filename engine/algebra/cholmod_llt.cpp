@@ -4,12 +4,15 @@
 // everything works, slower.
 #ifdef IMPINGE_CHOLMOD
 
+#include <fmt/format.h>
+
 #include <Eigen/CholmodSupport>
 #include <optional>
 
 #include "engine/algebra/serial_openmp.hpp"
 #include "engine/algebra/supernodal_gram.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
 
 namespace impinge {
 namespace {
@@ -21,7 +24,7 @@ class Cholmod : public LinearSolver {
     lower_.emplace(pattern);
     const SerialOpenMp serial;
     llt_.analyzePattern(lower_->matrix());
-    factored_ = false;
+    factored_ = is_taken_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
     IMPINGE_ASSERT(lower_.has_value());
@@ -31,6 +34,12 @@ class Cholmod : public LinearSolver {
       return status_ = SolveStatus::not_finite;
     }
     if (!lower_->refill(a) && factored_) return status_;
+    // what the analysis has found is taken with the first factorization
+    if (!is_taken_)
+      check_memory("", fmt::format("the factorization of a system of {} unknowns", lower_->matrix().rows()),
+                   8.0 * static_cast<double>(llt_.factor().xsize),
+                   "use fewer elements, or simulation.linear_solver = \"conjugate_gradient\"");
+    is_taken_ = true;
     const SerialOpenMp serial;
     llt_.factorize(lower_->matrix());
     factored_ = true;
@@ -65,7 +74,7 @@ class Cholmod : public LinearSolver {
   std::optional<LowerTriangle> lower_;
   Factorization llt_;
   SolveStatus status_ = SolveStatus::ok;
-  bool factored_ = false;
+  bool factored_ = false, is_taken_ = false;  // is_taken_: the factor's numbers have their place
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "engine/algebra/linear_solver.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace impinge {
@@ -47,6 +48,7 @@ class ConjugateGradient : public LinearSolver {
     double rz = dot(r_, z_), r_norm = std::sqrt(dot(r_, r_));
     SolveReport report;
     while (r_norm > goal && report.iterations < max_iterations) {
+      check_interrupt();
       multiply(*a_, p_, q_);
       const double curvature = dot(p_, q_);
       if (!(curvature > 0.0))

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "engine/core/interrupt.hpp"
+
 // of the BLAS that CHOLMOD itself uses
 extern "C" {
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
@@ -109,6 +111,7 @@ void supernodal_gram(const cholmod_factor& l, const SparseColumns& b, MatX& w) {
     for (const int child : children[s])
       for (const int c : left[child].columns) add_column(c);
     if (columns.empty()) continue;
+    check_interrupt();
     std::sort(columns.begin(), columns.end());
     const int active = static_cast<int>(columns.size());
     for (int i = 0; i < active; ++i) local_column[columns[i]] = i;

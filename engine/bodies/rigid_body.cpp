@@ -3,10 +3,18 @@
 #include <algorithm>
 
 #include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/shapes/shape_mass.hpp"
 
 namespace impinge {
 namespace {
+
+/// A copy of the mesh for a body of its own, and its vertices in the world, bytes.
+double copy_bytes(const SurfaceMesh& surface) {
+  const double triangles = static_cast<double>(surface.mesh.triangles.size()),
+               vertices = static_cast<double>(surface.mesh.vertices.size());
+  return 60.0 * triangles + 52.0 * vertices;
+}
 
 /// A mesh whose vertices are relative to `center`: the body's frame sits in the centre of mass.
 MeshPointer recentered(const SurfaceMesh& source, const Vec3& center) {
@@ -90,6 +98,7 @@ RigidBody make_rigid_body(const BodyDescription& description) {
     body.center = properties.center;
     if (const auto* mesh = std::get_if<MeshPointer>(&body.shape)) {
       body.mean_edge = mean_edge_length((*mesh)->mesh);
+      check_memory("", "its surface", copy_bytes(**mesh), "simplify it, or use fewer bodies");
       body.shape = recentered(**mesh, body.center);
     }
     if (body.is_dynamic()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel_backend.hpp"
 
 namespace impinge {
@@ -22,10 +23,18 @@ int thread_count() {
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
   grain = std::max<std::size_t>(grain, 1);
   if (thread_count() == 1 || count <= grain) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      check_interrupt();
+      body(i);
+    }
     return;
   }
-  backend::run(count, grain, thread_count(), body);
+  const std::atomic<bool>* flag = InterruptScope::flag();  // of the thread that asks, lent to those that help
+  backend::run(count, grain, thread_count(), [&](std::size_t i) {
+    const InterruptScope scope(flag);
+    check_interrupt();
+    body(i);
+  });
 }
 
 }  // namespace impinge

@@ -11,7 +11,8 @@ namespace impinge {
 void set_thread_count(int count);
 int thread_count();
 
-/// Calls body(i) for 0 <= i < count, `grain` indices at least a task. Runs in the caller when one task is enough.
+/// Calls body(i) for 0 <= i < count, `grain` indices at least a task. Runs in the caller when one task is enough. Looks
+/// at the caller's interrupt flag before each index (interrupt.hpp); what body throws arrives at the caller.
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body);
 
 }  // namespace impinge

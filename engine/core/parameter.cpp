@@ -323,13 +323,22 @@ std::string describe_allowed(const Parameter& row) {
   return "";
 }
 
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 24;
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
+  constexpr std::size_t kShown = 20;
+  return fmt::format("{} and {} more", fmt::join(names.begin(), names.begin() + kShown, ", "), names.size() - kShown);
+}
+
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size()),
+                      shorter = std::min(word.size(), candidate.size());
+    if (longer - shorter >= best_distance) continue;  // no less than that is the distance
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance < std::min(word.size(), candidate.size()))
-      best = candidate, best_distance = distance;
+    if (distance < best_distance && distance < shorter) best = candidate, best_distance = distance;
   }
   return best;
 }

@@ -79,6 +79,9 @@ std::string describe_allowed(const Parameter& row);
 /// The candidate nearest to `word` by edit distance, or "" when none is within a third of its length (at least 2).
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
+/// The names as a list for a message: all of a few, the first of many and how many more there are.
+std::string some_of(const std::vector<std::string>& names);
+
 /// Shortest decimal text that reads back to the same double.
 std::string shortest(double value);
 

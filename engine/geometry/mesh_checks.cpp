@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "engine/geometry/mass_properties.hpp"
+#include "engine/geometry/mesh_shells.hpp"
 
 namespace impinge {
 namespace {
@@ -85,12 +86,8 @@ std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopolo
             "at vertices {} and {}; make the normals consistent",
             counted(topology.misoriented_edges, "edge"), edge.triangle0, edge.triangle1, edge.v0, edge.v1);
     }
-  const double volume = signed_volume(mesh);
-  if (volume < 0.0)
-    return fmt::format(
-        "is inside out: its triangles face inwards (volume {:.6g} m³); flip the order of each triangle's corners",
-        volume);
-  if (!(volume > 0.0)) return "encloses no volume: it is flat; give it a thickness";
+  if (auto problem = check_shells(mesh, topology)) return problem;
+  if (!(signed_volume(mesh) > 0.0)) return "encloses no volume: it is flat; give it a thickness";
   return std::nullopt;
 }
 

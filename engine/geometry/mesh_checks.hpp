@@ -13,8 +13,9 @@ namespace impinge {
 std::optional<std::string> check_indices(const TriangleMesh& mesh);
 
 /// The first problem that keeps the mesh from bounding a solid, in this order: those of check_indices, edges with three
-/// or more triangles, border edges, neighbours of opposite orientation, no or negative volume. Worded to follow the
-/// mesh's name ("is not closed: 3 border edges, first between vertices 0 and 7; ..."), with a remedy.
+/// or more triangles, border edges, neighbours of opposite orientation, a shell that faces the wrong way (see
+/// check_shells), no volume. Worded to follow the mesh's name ("is not closed: 3 border edges, first between vertices 0
+/// and 7; ..."), with a remedy.
 std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopology& topology);
 
 /// A mesh whose vertices of exactly equal position are one.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/geometry/aabb.hpp"
 
 namespace impinge {
@@ -36,6 +37,7 @@ RayColumns::RayColumns(const TriangleMesh& surface, int axis, double spacing) : 
   const int ua = u_axis(), va = v_axis();
   std::vector<Crossing> crossings;
   for (const Triangle& t : surface.triangles) {
+    check_interrupt();
     const Vec3 &a = surface.vertices[t[0]], &b = surface.vertices[t[1]], &c = surface.vertices[t[2]];
     const auto [i0, i1] = range(0, std::min({a[ua], b[ua], c[ua]}), std::max({a[ua], b[ua], c[ua]}));
     if (i0 >= i1) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/ray_columns.hpp"
@@ -134,6 +135,7 @@ std::vector<char> touched_tets(const Lattice& lattice, const TriangleMesh& surfa
   for (const std::size_t id : home) touched[id] = 1;
   const double slack = 1e-12 * lattice.cell();
   for (const Triangle& t : surface.triangles) {
+    check_interrupt();
     // tetrahedra are convex: a triangle whose corners share one lies in it
     if (home[t[0]] == home[t[1]] && home[t[0]] == home[t[2]]) continue;
     const std::array<Vec3, 3> triangle = {surface.vertices[t[0]], surface.vertices[t[1]], surface.vertices[t[2]]};
@@ -223,7 +225,9 @@ TetCage make_tet_cage(const TriangleMesh& surface, const TetCageSettings& settin
   cage.cell_size = lattice.cell();
   cage.dropped_rays = columns.dropped_rays();
   std::vector<int> node_index(lattice.node_count(), -1), tet_index(lattice.tet_count(), -1);
+  InterruptPoll poll;
   for (std::size_t id = 0; id < lattice.tet_count(); ++id) {
+    poll();
     if (!lattice.exists(id) || (!touched[id] && !(fraction[id] > 0.0))) continue;
     tet_index[id] = static_cast<int>(cage.mesh.tets.size());
     Tet tet;

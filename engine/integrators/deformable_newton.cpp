@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
@@ -52,6 +53,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
   double first_residual = 0.0;
   step.converged = false;
   for (step.newton_iterations = 0;; ++step.newton_iterations) {
+    check_interrupt();
     const double elastic = body.fem.stiffness(step.position(v), Tangent::projected, force, k);
     double size = 0.0;
     const VecX g = body.gather_free(potential.gradient(v, force, size));

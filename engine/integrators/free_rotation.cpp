@@ -141,7 +141,11 @@ void check_turn(double radians) {
 
 }  // namespace
 
-Mat3 free_rotation(const PrincipalInertia& inertia, const Vec3& momentum, double time) {
+Mat3 free_rotation(const PrincipalInertia& given, const Vec3& given_momentum, double time) {
+  // in units of a power of two near the largest moment, which changes no digit: squares neither overflow nor vanish
+  const double unit = std::exp2(-std::ilogb(given.moments[2]));
+  const PrincipalInertia inertia{unit * given.moments, given.axes};
+  const Vec3 momentum = unit * given_momentum;
   const double length = momentum.stableNorm(), w = length * time;
   const auto about_held_axis = [&] {
     const Vec3 along = inertia.axes.transpose() * momentum;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 
 namespace impinge {
 
@@ -47,6 +48,7 @@ void TextLines::split(std::string_view line) {
 }
 
 bool TextLines::next() {
+  if (next_line_ % 1000 == 0) check_interrupt();
   words_.clear();
   columns_.clear();
   while (words_.empty() && !text_.empty()) {

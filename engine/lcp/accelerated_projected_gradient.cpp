@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
 namespace impinge {
@@ -45,6 +46,7 @@ class Descent {
     double theta = 1.0, step = 1.0;
     for (int k = 1; k <= settings_.max_iterations; ++k) {
       for (;;) {
+        check_interrupt();
         for (std::size_t i = 0; i < n_; ++i)
           next_[i] = problem_.nearest(i, y[i] - step / scale_[i] * gradient(i, w_y[i]));
         apply(next_, w_next_);

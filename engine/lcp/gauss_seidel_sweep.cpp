@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
+
 namespace impinge {
 namespace {
 
@@ -50,7 +52,10 @@ double relax_contact(const ConeProblem& problem, std::size_t i, std::vector<Vec3
 
 double gauss_seidel_sweep(const ConeProblem& problem, std::vector<Vec3>& lambda) {
   double change = 0.0;
-  for (std::size_t i = 0; i < lambda.size(); ++i) change = std::max(change, relax_contact(problem, i, lambda));
+  for (std::size_t i = 0; i < lambda.size(); ++i) {
+    check_interrupt();  // a sweep over a dense W of thousands of contacts takes long
+    change = std::max(change, relax_contact(problem, i, lambda));
+  }
   return change;
 }
 

@@ -5,6 +5,8 @@
 #include <Eigen/SparseLU>
 #include <limits>
 
+#include "engine/core/interrupt.hpp"
+
 namespace impinge {
 
 namespace {
@@ -43,16 +45,20 @@ void NewtonSystem::factorize(std::span<const Mat3> a, std::span<const Mat3> b, c
   };
   if (!sparse_) {
     MatX m(n, n);
-    for (Eigen::Index c = 0; c < n; ++c)
+    for (Eigen::Index c = 0; c < n; ++c) {
+      check_interrupt();
       for (Eigen::Index r = 0; r < n; ++r) m(r, c) = value(kept_[r], kept_[c]);
+    }
     factors_->dense.compute(m);
     return;
   }
   std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index c = 0; c < n; ++c)
+  for (Eigen::Index c = 0; c < n; ++c) {
+    check_interrupt();
     for (Eigen::Index r = 0; r < n; ++r)
       if (const double v = value(kept_[r], kept_[c]); v != 0.0)
         entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
+  }
   Eigen::SparseMatrix<double> m(n, n);
   m.setFromTriplets(entries.begin(), entries.end());
   factors_->sparse.compute(m);

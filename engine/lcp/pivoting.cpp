@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
 namespace impinge {
@@ -78,6 +79,7 @@ class Tableau {
     if (value(row) >= 0.0) return {0, StopReason::converged};
     Eigen::Index entering = 2 * size_;
     for (int pivots = 1; pivots <= max_iterations; ++pivots) {
+      check_interrupt();
       const Eigen::Index leaving = basis_[row];
       pivot(row, entering);
       if (leaving == 2 * size_) return {pivots, StopReason::converged};

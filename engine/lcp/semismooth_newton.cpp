@@ -10,6 +10,7 @@
 #include <cmath>
 #include <deque>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/lcp/alart_curnier.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 #include "engine/lcp/newton_system.hpp"
@@ -104,6 +105,7 @@ class Search {
 
   /// ‖F‖² in velocities, at λ.
   double merit(const std::vector<Vec3>& lambda) {
+    check_interrupt();
     problem_.w->begin(lambda);
     velocities(problem_, u_);
     double sum = 0.0;

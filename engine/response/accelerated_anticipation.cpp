@@ -22,6 +22,7 @@
 #include <cmath>
 
 #include "engine/contact/friction_cone.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/response/conjugate_columns.hpp"
 #include "engine/response/multiplier_newton.hpp"
 #include "engine/response/operators/split_rows.hpp"
@@ -81,6 +82,7 @@ class Solver {
       earlier_ = group_.lambda;
       double change = 0.0;
       for (int k = 0; k < kSweeps; ++k) {
+        check_interrupt();
         change = rows_->sweep(group_.lambda, x_);
         ++result.iterations;
         if (change <= 0.3 * tolerance || change <= 0.1 * momentum) break;
@@ -152,6 +154,7 @@ class Solver {
     Vectors direction = x_, a_direction = x_;
     double rho = 0.0;
     for (int k = 0; k < kStartSteps; ++k) {
+      check_interrupt();
       for (std::size_t s = 0; s < x_.size(); ++s) {  // step_ = Q⁻¹ (f - A x)
         r_[s] = a_x_[s] - f_[s];
         inverse_[s].step(last_[s], r_[s], step_[s]);

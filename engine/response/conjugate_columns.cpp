@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/lcp/block_sparse_delassus.hpp"
 
 namespace impinge {
@@ -22,9 +23,11 @@ struct Columns {
 
 std::vector<BlockSparseDelassus::Block> blocks_of(const GroupOperator& a, const Columns& columns, int contacts) {
   MatX w = MatX::Zero(3 * contacts, 3 * contacts);
-  for (std::size_t k = 0; k < columns.rows.size(); ++k)
+  for (std::size_t k = 0; k < columns.rows.size(); ++k) {
+    check_interrupt();
     for (int i = 0; i < contacts; ++i)
       w.block<3, 1>(3 * i, columns.rows[k]) = a.row(static_cast<std::size_t>(i), columns.y[k]);
+  }
   std::vector<BlockSparseDelassus::Block> blocks;
   for (int i = 0; i < contacts; ++i)
     for (int j = 0; j < contacts; ++j)

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/lcp/residual.hpp"
 #include "engine/response/accelerated_anticipation.hpp"
 #include "engine/response/operators/factored_delassus.hpp"
@@ -63,6 +64,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   };
   show();
   while (!converged && result.outer_iterations < settings.max_outer_iterations) {
+    check_interrupt();
     for (std::size_t s = 0; s < x.size(); ++s)
       for (std::size_t i = 0; i < inverse[s].size(); ++i) {
         const auto at = static_cast<Eigen::Index>(3 * i);

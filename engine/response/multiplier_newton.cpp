@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/lcp/alart_curnier.hpp"
 #include "engine/lcp/residual.hpp"
 
@@ -57,6 +58,7 @@ class Solver {
     while (true) {
       result.converged = last.error() <= tolerance;
       if (result.converged || result.multiplier_steps == kMultiplierSteps) break;
+      check_interrupt();
       if (!last.along.empty()) follow(last);
       ++result.multiplier_steps;
       const bool solved = solve_springs(std::max(0.3 * tolerance, kPart * last.contacts), result.newton_steps);

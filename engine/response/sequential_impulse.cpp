@@ -6,6 +6,7 @@
 // contacts are pressed together with by forces is left to the sweeps, which bounce nothing.
 #include <algorithm>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/response/operators/contact_mobility.hpp"
 #include "engine/response/response.hpp"
 
@@ -29,6 +30,7 @@ class SequentialImpulse : public Response {
     if (impacts) collide(group, mobility, settings, result, impact, bound);
     mobility.show(settings.observe);
     while (!converged && result.iterations < settings.impulse_iterations) {
+      check_interrupt();
       double largest = 0.0;
       for (std::size_t i = 0; i < m; ++i) {
         Vec3 u = mobility.velocity(i);
@@ -80,6 +82,7 @@ class SequentialImpulse : public Response {
     }
     const double slow = 1e-9 * fastest;  // what is left of rounding
     for (bool more = true; more && result.iterations < settings.impulse_iterations; ++result.iterations) {
+      check_interrupt();
       more = false;
       for (std::size_t i = 0; i < m; ++i) {
         const ContactRows& rows = group.contacts[i];

@@ -4,6 +4,7 @@
 // than one after another, but no order of contacts is favoured and all answers are independent.
 #include <algorithm>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/response/operators/contact_mobility.hpp"
 #include "engine/response/response.hpp"
 
@@ -20,6 +21,7 @@ class SimultaneousImpulse : public Response {
     std::vector<Vec3> change(group.contacts.size());
     mobility.show(settings.observe);
     while (!converged && result.iterations < settings.impulse_iterations) {
+      check_interrupt();
       double largest = 0.0;
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         Vec3 u = mobility.velocity(i);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/response/operators/contact_mobility.hpp"
 #include "engine/response/response.hpp"
 
@@ -72,6 +73,7 @@ class SoftConstraint : public Response {
 
   template <class Next>
   static void sweep(const GroupSystem& group, ContactMobility& mobility, const Next& next) {
+    check_interrupt();
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
       const Vec3 change = next(i, mobility.velocity(i)) - group.lambda[i];
       if (!change.isZero(0.0)) mobility.change(i, change);

@@ -11,17 +11,14 @@ namespace {
 // in heights of the nearest tetrahedron: farther out, a small strain of it would be a large motion of the point
 constexpr double kMostOutside = 1.0;
 
-AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, std::span<const RigidBody> bodies) {
+AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, std::span<const RigidBody> bodies,
+                       const BodyNames& names) {
   AttachmentEnd end;
   end.local = d.point;
   if (name.empty()) return end;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    names.push_back(bodies[i].name);
-    if (bodies[i].name == name) end.body = static_cast<int>(i);
-  }
+  end.body = names.find(name);
   if (end.body < 0) {
-    const std::string near = nearest_word(name, names);
+    const std::string near = nearest_word(name, names.all());
     throw InputError(fmt::format("attachment '{}' names the body '{}', which is not there{}", d.name, name,
                                  near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
@@ -56,8 +53,8 @@ Vec3 AttachmentEnd::position(std::span<const RigidBody> bodies) const {
   return x;
 }
 
-Attachment make_attachment(const AttachmentDescription& d, std::span<const RigidBody> bodies) {
-  Attachment attachment{d.name, make_end(d, d.body_a, bodies), make_end(d, d.body_b, bodies)};
+Attachment make_attachment(const AttachmentDescription& d, std::span<const RigidBody> bodies, const BodyNames& names) {
+  Attachment attachment{d.name, make_end(d, d.body_a, bodies, names), make_end(d, d.body_b, bodies, names)};
   const auto moves = [&](const AttachmentEnd& end) { return end.body >= 0 && bodies[end.body].has_freedom(); };
   if (!moves(attachment.a) && !moves(attachment.b))
     throw InputError(fmt::format(

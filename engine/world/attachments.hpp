@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/bodies/attachment.hpp"
+#include "engine/bodies/body_names.hpp"
 #include "engine/bodies/rigid_body.hpp"
 
 namespace impinge {
@@ -23,6 +24,7 @@ struct Attachment {
 
 /// The bodies are in their places at the start. Throws InputError (without a place) for names that aren't there, and
 /// where neither end can move.
-Attachment make_attachment(const AttachmentDescription& description, std::span<const RigidBody> bodies);
+Attachment make_attachment(const AttachmentDescription& description, std::span<const RigidBody> bodies,
+                           const BodyNames& names);
 
 }  // namespace impinge

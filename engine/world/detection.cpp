@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/pairs/primitive.hpp"
@@ -39,6 +40,7 @@ void Detection::run(std::span<const RigidBody> bodies, const Parameters& paramet
     const StageTimer timer(times.broad_ms);
     find_pairs(bodies, parameters, time_step);
   }
+  check_interrupt();
   const StageTimer timer(times.narrow_ms);
   find_collisions(parameters, time_step);
 }
@@ -108,6 +110,7 @@ void Detection::find_collisions(const Parameters& parameters, double time_step) 
     if (is_mesh(*colliders_[pair.a].shape) && is_mesh(*colliders_[pair.b].shape)) mesh_pairs.push_back(pair);
   triangle_pairs.clear();
   if (!mesh_pairs.empty()) narrow_->find(colliders_, mesh_pairs, triangle_pairs);
+  check_interrupt();
 
   found_.resize(std::max(found_.size(), pairs.size()));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {

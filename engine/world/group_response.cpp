@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/world/world_stages.hpp"
@@ -133,6 +134,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
   const NewtonSettings& newton = s.integrator->newton;
   bool at_root = !s.integrator->is_newton() || system.soft.empty();
   for (int iteration = 0; !at_root && iteration < newton.max_iterations; ++iteration) {
+    check_interrupt();
     {
       const StageTimer timer(times.assemble_ms);
       double residual = 0.0;
@@ -186,6 +188,7 @@ void World::push_out(const GroupSystem& solved, const CollisionGroup& group, dou
   };
   if (!solved.position_velocity.empty()) return move(solved.position_velocity, solved.position_angular_velocity, {});
   if (s.response->lives_on_overlap() || !needs_push_out(solved, parameters, h)) return;
+  check_interrupt();
   const StageTimer timer(s.frame_stats.times.response_ms);
   GroupSystem recovery = make_push_out_system(solved, parameters, h);
   // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
@@ -93,6 +94,7 @@ double vertices_in_mesh(const RigidBody& source, const RigidBody& mesh) {
 
 double mesh_with_shape(const RigidBody& mesh, const RigidBody& shape) {
   double depth = 0.0;
+  check_interrupt();
   for (const Vec3& v : mesh.world_vertices) depth = std::max(depth, -signed_distance(shape, v));
   if (const auto* box = std::get_if<Box>(&shape.shape)) {
     for (int i = 0; i < 8; ++i) {
@@ -108,6 +110,7 @@ double mesh_with_shape(const RigidBody& mesh, const RigidBody& shape) {
     // the surface reaches `radius` beyond its centre line, which itself is sampled: a mesh's distance is not convex
     const int samples = (q - p).norm() > 0.0 ? 33 : 1;
     for (int i = 0; i < samples; ++i) {
+      check_interrupt();
       const Vec3 x = p + (samples == 1 ? 0.0 : i / (samples - 1.0)) * (q - p);
       const double distance = distance_to_surface(x, mesh.world_vertices, triangles_of(mesh));
       const bool inside = winding_number(x, mesh.world_vertices, triangles_of(mesh)) > 0.5;
@@ -154,9 +157,12 @@ std::int64_t crossing_triangles(const RigidBody& a, const RigidBody& b) {
   };
   const auto list_a = near(a, b.bounds()), list_b = near(b, a.bounds());
   std::int64_t count = 0;
+  InterruptPoll poll;
   for (const auto& [box_a, corners_a] : list_a)
-    for (const auto& [box_b, corners_b] : list_b)
+    for (const auto& [box_b, corners_b] : list_b) {
+      poll();
       if (overlap(box_a, box_b) && triangles_intersect(corners_a, corners_b)) ++count;
+    }
   return count;
 }
 

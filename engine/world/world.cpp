@@ -6,8 +6,10 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/detection/pairs/primitive.hpp"
 #include "engine/integrators/rigid_motion.hpp"
+#include "engine/world/tested_pairs.hpp"
 #include "engine/world/world_stages.hpp"
 
 namespace impinge {
@@ -82,6 +84,7 @@ World::~World() = default;
 
 RigidBody& World::add_body(const BodyDescription& description) {
   bodies_.push_back(make_rigid_body(description));
+  names_.add(description.name);
   return bodies_.back();
 }
 
@@ -113,17 +116,16 @@ void World::Stages::make_collision_groups(std::span<const RigidBody> bodies, std
 }
 
 void World::add_attachment(const AttachmentDescription& description) {
-  attachments_.push_back(make_attachment(description, bodies_));
+  attachments_.push_back(make_attachment(description, bodies_, names_));
 }
 
 void World::start() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies_.size(); ++j)
-      if ((bodies_[i].has_freedom() || bodies_[j].has_freedom()) &&
-          !is_pair_supported(bodies_[i].shape, bodies_[j].shape))
-        throw InputError(
-            fmt::format("bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test",
-                        bodies_[i].name, shape_name(bodies_[i].shape), bodies_[j].name, shape_name(bodies_[j].shape)));
+  if (const auto pair = first_untested_pair(bodies_, is_pair_supported)) {
+    const RigidBody &a = bodies_[pair->first], &b = bodies_[pair->second];
+    throw InputError(fmt::format(
+        "bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test; use other shapes",
+        a.name, shape_name(a.shape), b.name, shape_name(b.shape)));
+  }
   frame_ = 0;
   time_ = 0.0;
   stages_->frame_stats = {};
@@ -168,6 +170,7 @@ FrozenStep World::step_and_freeze() {
 }
 
 void World::free_velocity(int index, double h) {
+  check_interrupt();
   Stages& s = *stages_;
   RigidBody& body = bodies_[index];
   if (body.asleep || !body.has_freedom()) return;
@@ -221,6 +224,7 @@ void World::substep(double h, int left) {
   }
   s.freezing = s.frozen != nullptr && left == 1;
   for (std::size_t g = 0; g < s.groups.size(); ++g) {
+    check_interrupt();
     // 9 Jacobian and group system, 10 response
     const GroupSystem system = solve_group(s.groups[g], h);
     push_out(system, s.groups[g], h);
@@ -228,6 +232,7 @@ void World::substep(double h, int left) {
   }
   s.cache.assign(std::move(s.solved));
 
+  check_interrupt();
   // 11 integrate
   const StageTimer timer(times.integrate_ms);
   integrate(h);
@@ -289,6 +294,7 @@ void World::integrate(double h) {
 void World::detect(double h) {
   Stages& s = *stages_;
   for (;;) {
+    check_interrupt();
     s.detection.run(bodies_, parameters, h, s.frame_stats.times);
     std::vector<std::pair<int, int>> ends;
     for (const Collision& c : s.detection.collisions) ends.emplace_back(c.body_a, c.body_b);

@@ -30,6 +30,7 @@ class World {
   void add_attachment(const AttachmentDescription& description);
   std::vector<RigidBody>& bodies() { return bodies_; }
   const std::vector<RigidBody>& bodies() const { return bodies_; }
+  const BodyNames& body_names() const { return names_; }
 
   /// Declares the rows `body.NAME.*` of the bodies there are. The set refers to this object.
   void bind_bodies(ParameterSet& set);
@@ -38,7 +39,8 @@ class World {
   /// then publishes frame 0: detection only, no solve. Throws DivergenceError as step() does.
   void start();
   /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body,
-  /// or with frame, body and column where a figure is not finite; record() then has still the frame before.
+  /// or with frame, body and column where a figure is not finite; record() then has still the frame before. Throws
+  /// Interrupted (core/interrupt.hpp), after which the world stands in the middle of the frame until restore().
   void step();
   /// The same, and hands out the group systems of the frame's last sub-step, the one that its record shows.
   FrozenStep step_and_freeze();
@@ -70,6 +72,7 @@ class World {
   void publish(bool solved);
 
   std::vector<RigidBody> bodies_;
+  BodyNames names_;
   std::vector<Attachment> attachments_;
   std::unique_ptr<Stages> stages_;
   StepRecord record_;

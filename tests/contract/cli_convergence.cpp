@@ -53,8 +53,9 @@ TEST_CASE("the note at a run's end names the parameter that stopped the solves, 
                                std::string("response.form=") + form, "response.max_iterations=1"}),
                 "response.max_iterations");
   // what was named is what helps
-  CHECK(note_of(false, {"response.method=sequential_impulse", "response.impulse_iterations=2000", "lcp.tolerance=1e-6"})
-            .empty());
+  CHECK(
+      note_of(false, {"response.method=sequential_impulse", "response.impulse_iterations=100000", "lcp.tolerance=1e-6"})
+          .empty());
 }
 
 TEST_CASE("the note counts each cause for itself where there are several") {

@@ -2,9 +2,13 @@
 // throws InputError. Anything else (a crash, another exception, a hang) fails. Seeds are fixed, so a failure repeats.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/scene/toml.hpp"
+#include "engine/io/scene/toml_prescan.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/random.hpp"
 
@@ -76,7 +80,24 @@ text = """several
 lines""" 
 [view]
 camera = { eye = [3, 2, 4], target = [0, 0.5, 0] }
+[a.b]
+c.d = [ { e.f = 0x1F, 'gä' = "\u00E4" }, 1979-05-27T07:32:00Z ]
 )";
+
+/// Levels of tables and arrays below a node.
+int depth(const TomlNode& node) {
+  int most = 0;
+  for (const TomlNode& item : node.items) most = std::max(most, 1 + depth(item));
+  for (const TomlEntry& entry : node.entries) most = std::max(most, 1 + depth(entry.value));
+  return most;
+}
+
+bool is_utf8(const TomlNode& node) {
+  const auto fine = [](const std::string& text) { return find_invalid_utf8(text) == std::string::npos; };
+  return fine(node.string) && std::all_of(node.items.begin(), node.items.end(), is_utf8) &&
+         std::all_of(node.entries.begin(), node.entries.end(),
+                     [&](const TomlEntry& entry) { return fine(entry.key) && is_utf8(entry.value); });
+}
 
 }  // namespace
 
@@ -99,19 +120,60 @@ TEST_CASE("mesh files with damaged bytes are refused or read, never more") {
 
 TEST_CASE("a damaged scene text is refused or read, never more") {
   const std::string scene = kScene;
-  int refused = 0;
+  int refused = 0, taken = 0;
   const auto attempt = [&](const std::string& text) {
     try {
-      parse_toml("scene.toml", text);
+      const TomlNode root = parse_toml("scene.toml", text);
+      // a plain key is no level that is counted, so that a level may hold two
+      REQUIRE(depth(root) <= 2 * kMostTomlDepth + 1);
+      REQUIRE(is_utf8(root));
+      ++taken;
     } catch (const InputError& error) {
-      REQUIRE(std::string(error.what()).rfind("scene.toml:", 0) == 0);
+      const std::string message = error.what();
+      REQUIRE(message.rfind("scene.toml:", 0) == 0);
+      REQUIRE(find_invalid_utf8(message) == std::string::npos);
+      REQUIRE(message.find('\n') == std::string::npos);
+      REQUIRE(message.size() < 1000);
       ++refused;
     }
   };
   for (std::size_t n = 0; n < scene.size(); ++n) attempt(scene.substr(0, n));
   Random random(77);
   for (int i = 0; i < 3000; ++i) attempt(damaged(scene, random));
-  CHECK(refused > 500);
+  // what nests, and bytes that are not UTF-8, at any place
+  const std::string parts[] = {"[",
+                               "{",
+                               "]",
+                               "}",
+                               "a.",
+                               "[a.",
+                               "[[",
+                               "'''",
+                               "\"\"\"",
+                               "{a.b=",
+                               "[[[[[[[[",
+                               "a.a.a.a.a.a.a.a.",
+                               "\xE4",
+                               "\xC3",
+                               "\xED\xA0\x80",
+                               "\xF0\x9F\x98\x80",
+                               "\xEF\xBB\xBF",
+                               "\\",
+                               "1e999",
+                               "\r",
+                               "x"};
+  for (int i = 0; i < 6000; ++i) {
+    std::string text = scene;
+    for (int n = 1 + random.below(3); n > 0; --n) {
+      const std::string& part = parts[random.below(static_cast<int>(std::size(parts)))];
+      std::string many = part;
+      for (int k = random.below(3) == 0 ? random.below(2000) : 0; k > 0; --k) many += part;
+      text.insert(static_cast<std::size_t>(random.below(static_cast<int>(text.size()))), many);
+    }
+    attempt(text);
+  }
+  CHECK(refused > 3000);
+  CHECK(taken > 500);
 }
 
 TEST_CASE("what would exhaust the TOML parser is stopped before it") {
@@ -125,6 +187,13 @@ TEST_CASE("what would exhaust the TOML parser is stopped before it") {
   };
   CHECK(refused("a = " + std::string(100'000, '[')));
   CHECK(refused("a = " + std::string(100'000, '{')));
+  for (const int count : {1000, 12'000, 30'000}) {
+    std::string key = "a";
+    for (int i = 1; i < count; ++i) key += ".a";
+    CHECK(refused(key + " = 1\n"));
+    CHECK(refused("[" + key + "]\n"));
+    CHECK(refused("x = {" + key + " = 1}\n"));
+  }
   CHECK(refused("a = [" + std::string(200'000, '1') + "]"));
   CHECK(refused("# " + std::string(200'000, 'x')));
   CHECK(refused("a = \"" + std::string(200'000, 'x') + "\""));

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temp_folder.hpp"
+
 namespace impinge::test {
 
 struct Outcome {
@@ -16,8 +18,42 @@ struct Outcome {
   int error_lines() const;
 };
 
+/// What a program finds when it starts, beside its words.
+struct Surroundings {
+  bool without_rights = false;     ///< root may not pass over permissions; see can_lose_rights()
+  bool in_removed_folder = false;  ///< the folder it is started in (which must be empty) is gone
+  std::filesystem::path out = {};  ///< where its stdout goes, "": into Outcome::out
+};
+
+/// Whether a program without_rights meets permissions here: as any user but root, or as root who may give rights up.
+bool can_lose_rights();
+
+/// impinge at work; killed at the end if it still is.
+class RunningProgram {
+ public:
+  RunningProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                 const Surroundings& surroundings = {});
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void signal(int number) const;
+  bool has_ended();
+  /// What it has said on stderr by now.
+  std::string err() const { return slurp(streams_ / "err"); }
+  Outcome wait();
+
+ private:
+  TempFolder streams_;
+  pid_t pid_ = -1;
+  bool ended_ = false;
+  int status_ = 0;
+};
+
 /// Runs impinge in `folder` and waits for its end.
-Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                    const Surroundings& surroundings = {});
 
 enum class Targets { program, children_first };
 

@@ -148,3 +148,102 @@ TEST_CASE("other formats are read in a process of their own, whose death is an e
   CHECK_THROWS_AS(read_mesh(folder.path()), InputError);
   CHECK_THROWS_AS(read_mesh(folder / "nothing.ply"), InputError);
 }
+
+namespace {
+
+// a tetrahedron of edge 100 along the axes, moved by 100 in x, as Autodesk's ASCII FBX 7.4
+std::string fbx_text(const std::string& settings) {
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n FBXVersion: 7400\n}\n" +
+         (settings.empty() ? "" : "GlobalSettings: {\n Version: 1000\n Properties70: {\n" + settings + " }\n}\n") +
+         "Definitions: {\n Version: 100\n Count: 2\n ObjectType: \"Geometry\" {\n Count: 1\n }\n ObjectType: \"Model\" "
+         "{\n Count: 1\n }\n}\nObjects: {\n Geometry: 1001, \"Geometry::tet\", \"Mesh\" {\n Vertices: *12 {\n a: "
+         "0,0,0,100,0,0,0,100,0,0,0,100\n }\n PolygonVertexIndex: *12 {\n a: 0,2,-2,0,1,-4,0,3,-3,1,2,-4\n }\n "
+         "GeometryVersion: 124\n }\n Model: 2001, \"Model::tet\", \"Mesh\" {\n Version: 232\n Properties70: {\n P: "
+         "\"Lcl "
+         "Translation\", \"Lcl Translation\", \"\", \"A\",100,0,0\n }\n }\n}\nConnections: {\n C: \"OO\",2001,0\n C: "
+         "\"OO\",1001,2001\n}\n";
+}
+
+std::string fbx_unit(const std::string& factor) {
+  return " P: \"UnitScaleFactor\", \"double\", \"Number\", \"\"," + factor + "\n";
+}
+
+// the same as Collada
+std::string dae_text(const std::string& unit) {
+  return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+         "version=\"1.4.1\"><asset>" +
+         unit +
+         "<up_axis>Y_UP</up_axis></asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array "
+         "id=\"pa\" count=\"12\">0 0 0 100 0 0 0 100 0 0 0 100</float_array><technique_common><accessor source=\"#pa\" "
+         "count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/><param "
+         "name=\"Z\" type=\"float\"/></accessor></technique_common></source><vertices id=\"v\"><input "
+         "semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"4\"><input semantic=\"VERTEX\" "
+         "source=\"#v\" offset=\"0\"/><p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>"
+         "<library_visual_scenes><visual_scene id=\"s\"><node id=\"n\"><translate>100 0 "
+         "0</translate><instance_geometry "
+         "url=\"#g\"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene "
+         "url=\"#s\"/></scene></COLLADA>\n";
+}
+
+}  // namespace
+
+TEST_CASE("formats that know their unit arrive in metres") {
+  const TempFolder folder;
+  const auto check_edge = [&](const std::string& name, const std::string& text, double edge) {
+    const TriangleMesh mesh = read_mesh(folder.write(name, text));
+    Vec3 low = mesh.vertices.at(0), high = low;
+    for (const Vec3& v : mesh.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+    INFO(name);
+    // the mesh and where its node stands, both in the file's unit
+    CHECK((low - Vec3(edge, 0, 0)).norm() < 1e-6 * edge);
+    CHECK((high - Vec3(2 * edge, edge, edge)).norm() < 1e-6 * edge);
+  };
+  check_edge("none.fbx", fbx_text(""), 1.0);  // centimetres unless it says otherwise
+  check_edge("cm.fbx", fbx_text(fbx_unit("1")), 1.0);
+  check_edge("mm.fbx", fbx_text(fbx_unit("0.1")), 0.1);
+  check_edge("inch.fbx", fbx_text(fbx_unit("2.54")), 2.54);
+  check_edge("m.fbx", fbx_text(fbx_unit("100")), 100.0);
+  check_edge("none.dae", dae_text(""), 100.0);  // metres unless it says otherwise
+  check_edge("cm.dae", dae_text("<unit name=\"centimeter\" meter=\"0.01\"/>"), 1.0);
+  check_edge("inch.dae", dae_text("<unit name=\"inch\" meter=\"0.0254\"/>"), 2.54);
+}
+
+TEST_CASE("a mesh file that names another one reads it where that is allowed only") {
+  const TempFolder folder;
+  const auto gltf = [](const std::string& uri) {
+    return "{ \"asset\": { \"version\": \"2.0\" }, \"scene\": 0, \"scenes\": [ { \"nodes\": [0] } ], \"nodes\": [ { "
+           "\"mesh\": 0 } ], \"meshes\": [ { \"primitives\": [ { \"attributes\": { \"POSITION\": 0 }, \"indices\": 1 } "
+           "] } "
+           "], \"buffers\": [ { \"uri\": \"" +
+           uri +
+           "\", \"byteLength\": 96 } ], \"bufferViews\": [ { \"buffer\": 0, \"byteLength\": 48 }, { \"buffer\": 0, "
+           "\"byteOffset\": 48, \"byteLength\": 48 } ], \"accessors\": [ { \"bufferView\": 0, \"componentType\": 5126, "
+           "\"count\": 4, \"type\": \"VEC3\", \"min\": [0,0,0], \"max\": [1,1,1] }, { \"bufferView\": 1, "
+           "\"componentType\": 5125, \"count\": 12, \"type\": \"SCALAR\" } ] }\n";
+  };
+  const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::uint32_t faces[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  std::string buffer(96, '\0');
+  std::memcpy(buffer.data(), corners, 48);
+  std::memcpy(buffer.data() + 48, faces, 48);
+  folder.write("outside.bin", buffer);
+  folder.write("scene/inside.bin", buffer);
+  std::filesystem::create_symlink("../outside.bin", folder / "scene/link.bin");
+  const FileGuard guard(folder / "scene");
+  const auto refusal = [&](const std::string& uri) -> std::string {
+    try {
+      read_mesh(folder.write("scene/a.gltf", gltf(uri)), guard);
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  CHECK(refusal("inside.bin") == "");
+  for (const std::string uri : {"../outside.bin", "link.bin"}) {
+    const std::string message = refusal(uri);
+    INFO(message);
+    CHECK(message.find("a.gltf: names '") != std::string::npos);
+    CHECK(message.find("leads out of the scene's folder") != std::string::npos);
+    CHECK(read_mesh(folder / "scene/a.gltf").triangles.size() == 4);  // where nothing was forbidden
+  }
+}

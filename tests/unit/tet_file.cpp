@@ -142,6 +142,57 @@ TEST_CASE(".veg includes") {
   refuse(kVeg + "*SET s\n*INCLUDE wrong.txt\n", (folder / "wrong.txt").string() + ":2:4:", "element 2");
 }
 
+TEST_CASE("what a volume file needs beside itself stays in the folder, and is bounded in number") {
+  const test::TempFolder folder;
+  folder.write("secret.txt", "root:*:20228\n");
+  folder.write("scene/m.veg", kVeg + "*INCLUDE link.txt\n");
+  std::filesystem::create_symlink("../secret.txt", folder / "scene/link.txt");
+  const FileGuard guard(folder / "scene");
+  const std::string place = (folder / "scene/m.veg").string();
+  const auto refuse = [&](const std::string& at, const std::string& part) {
+    check_refused(at, part, [&] { read_tet_file(place, guard); });
+  };
+  refuse(place + ":11:10:", "'link.txt' leads out of the scene's folder");
+  // through a folder, and through a link to a link
+  std::filesystem::create_directory_symlink("..", folder / "scene/up");
+  std::filesystem::create_symlink("link.txt", folder / "scene/twice.txt");
+  folder.write("scene/m.veg", kVeg + "*INCLUDE up/secret.txt\n");
+  refuse(place + ":11:10:", "leads out of the scene's folder");
+  folder.write("scene/m.veg", kVeg + "*INCLUDE twice.txt\n");
+  refuse(place + ":11:10:", "leads out of the scene's folder");
+  folder.write("scene/inner.txt", "# fine\n");
+  std::filesystem::create_symlink("inner.txt", folder / "scene/inside.txt");
+  folder.write("scene/m.veg", kVeg + "*INCLUDE inside.txt\n");
+  CHECK(read_tet_file(place, guard).mesh.tets.size() == 1);
+
+  // a pair whose other half is elsewhere
+  folder.write("t.ele", "1 4 0\n0 0 1 2 3\n");
+  folder.write("scene/t.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  std::filesystem::create_symlink("../t.ele", folder / "scene/t.ele");
+  check_refused((folder / "scene/t.node").string() + ": ", "leads out of the scene's folder",
+                [&] { read_tet_file(folder / "scene/t.node", guard); });
+  CHECK(read_tet_file(folder / "scene/t.node").mesh.tets.size() == 1);
+
+  // 64 in all, nested or not: what includes 200 that include 200 ends
+  std::string most = kVeg;
+  for (int i = 0; i < 32; ++i) most += "*INCLUDE pair.txt\n";
+  folder.write("scene/pair.txt", "*INCLUDE inner.txt\n");
+  folder.write("scene/m.veg", most);
+  CHECK(read_tet_file(place, guard).mesh.tets.size() == 1);
+  folder.write("scene/m.veg", most + "*INCLUDE inner.txt\n");
+  refuse(place + ":43:10:", "64 files may be included in all");
+  std::string bomb;
+  for (int i = 0; i < 200; ++i) bomb += "*INCLUDE b0.txt\n";
+  folder.write("scene/m.veg", kVeg + bomb);
+  for (int level = 0; level < 6; ++level) {
+    std::string text;
+    for (int i = 0; i < 200; ++i) text += fmt::format("*INCLUDE b{}.txt\n", level + 1);
+    folder.write(fmt::format("scene/b{}.txt", level), level < 5 ? text : "# end\n");
+  }
+  check_refused((folder / "scene/b4.txt").string() + ":60:10:", "64 files may be included",
+                [&] { read_tet_file(place, guard); });
+}
+
 TEST_CASE("each damaged .veg file gives one located error") {
   const std::vector<Case> cases = {
       {"m.veg:1:1:", "*VERTICES", ""},

@@ -9,6 +9,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 
 namespace impinge {
 
@@ -237,16 +238,10 @@ void print_ablation(const RunOptions& options, const std::filesystem::path& out)
                        was_run ? fmt::format("{}", row.frame_ms) : "");
   });
   if (out.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error)
-    throw InputError(
-        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                    out.string(), error.message()));
+  make_folder(out);
   write_file(out / "ablation.csv", csv);
-  fmt::print(
-      "table:        {}{}\n", (out / "ablation.csv").string(),
-      std::filesystem::exists(out / "sweep.toml") ? "; the same impinge sweep once more shows it in its report" : "");
+  fmt::print("table:        {}{}\n", (out / "ablation.csv").string(),
+             is_there(out / "sweep.toml") ? "; the same impinge sweep once more shows it in its report" : "");
 }
 
 }  // namespace impinge

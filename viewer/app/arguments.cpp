@@ -10,6 +10,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
+#include "engine/core/utf8.hpp"
 #include "viewer/app/repeated_options.hpp"
 
 namespace impinge {
@@ -176,7 +177,13 @@ void check_sweep(Raw& raw, Arguments& arguments) {
 }  // namespace
 
 Arguments parse_arguments(int count, const char* const* words) {
-  const std::vector<std::string> list = repeat_options({words + std::min(count, 1), words + count});
+  const std::vector<std::string> raw_words(words + std::min(count, 1), words + count);
+  for (const std::string& word : raw_words)
+    if (find_invalid_utf8(word) != std::string::npos)
+      refuse(fmt::format("'{}' is not UTF-8", readable_utf8(word)),
+             "words and names of files in UTF-8 are wanted, since what is written names them",
+             "rename the file or folder");
+  const std::vector<std::string> list = repeat_options(raw_words);
   refuse_reserved(list);
   Arguments arguments;
   Raw raw;

@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "engine/core/utf8.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/output_files.hpp"
 #include "viewer/app/run_comparison.hpp"
@@ -34,6 +36,7 @@ class Comparison {
  public:
   explicit Comparison(const Arguments& arguments)
       : tolerance_(arguments.tolerance), out_(arguments.out), a_(arguments.a), b_(arguments.b) {
+    for (const RecordedRun* run : {&a_, &b_}) check_utf8_name(absolute_path(run->folder()).string());
     if (!out_.empty()) files_.make_folder(out_);
   }
 
@@ -212,7 +215,7 @@ class Comparison {
   }
 
   static std::string name_of(const RecordedRun& run) {
-    const fs::path folder = fs::absolute(run.folder()).lexically_normal();
+    const fs::path folder = absolute_path(run.folder()).lexically_normal();
     return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   }
 
@@ -224,7 +227,7 @@ class Comparison {
     for (int k = 0; k < count; ++k) frames.push_back(first_ + (count == 1 ? 0 : k * (last - first_) / (count - 1)));
     for (const int frame : frames)
       for (const RecordedRun* run : {&a_, &b_})
-        if (!fs::is_regular_file(run->picture(frame)))
+        if (!is_file(run->picture(frame)))
           return fmt::format("none: {} has no picture of frame {}", run->folder().string(), frame);
     constexpr int kMargin = 10, kScale = 2, kLine = 7 * kScale + 8, kWidth = 400;
     constexpr Rgb kPaper = {18, 20, 24}, kInk = {225, 225, 225};

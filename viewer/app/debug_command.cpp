@@ -7,7 +7,10 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/interrupt.hpp"
@@ -46,9 +49,9 @@ struct Source {
 };
 
 Source source_of(const RunOptions& options) {
-  if (!fs::is_directory(options.scene)) return {options.scene, {}};
+  if (!is_folder(options.scene)) return {options.scene, {}};
   for (const char* name : {"run.toml", "stats.csv"})
-    if (!fs::exists(options.scene / name))
+    if (!is_there(options.scene / name))
       throw InputError(
           fmt::format("{}: this folder is no run's, it has no {}; a scene file, or a folder that impinge run has "
                       "written is wanted; choose one",
@@ -75,11 +78,12 @@ std::string command_of(const Arguments& arguments) {
 void check_recording(const Arguments& arguments) {
   const fs::path path = arguments.record;
   if (path.empty()) return;
+  check_utf8_name(absolute_path(path).string());
   std::error_code error;
   if (fs::equivalent(path, arguments.run_options.script, error))
     throw InputError(fmt::format("command line: --record is the script itself, {}; another file is wanted; choose one",
                                  path.string()));
-  if (fs::exists(path) && !fs::is_directory(path) && fs::file_size(path, error) > 0 &&
+  if (is_file(path) && fs::file_size(path, error) > 0 &&
       !read_file(path, std::uint64_t{1} << 30).starts_with("# impinge debug "))
     throw InputError(
         fmt::format("command line: --record is {}, which is there and no recording; a new file is wanted; choose "
@@ -87,11 +91,11 @@ void check_recording(const Arguments& arguments) {
                     path.string()));
   try {
     write_file(path, "");  // better now than when there is something to lose
-  } catch (const InputError&) {
+  } catch (const OutputError& error) {
     throw InputError(
-        fmt::format("command line: --record is {}, which can't be written; a file in a folder that may be written to "
-                    "is wanted; choose another",
-                    path.string()));
+        fmt::format("command line: --record is {}, which can't be written ({}); a file in a folder that may be written "
+                    "to is wanted; choose another",
+                    path.string(), error.reason));
   }
 }
 
@@ -139,7 +143,7 @@ int debug_command(const Arguments& arguments) {
   debug.most_bytes = static_cast<std::size_t>(arguments.memory) << 20;
   debug.run_folder = source.run_folder;
   debug.interrupted = &interrupted();
-  watch_for_interrupt();
+  explain_interrupt("going back to the last whole frame and ending, within 2 s");
   FrameProgress progress;
   if (!arguments.quiet && isatty(STDERR_FILENO))
     debug.progress = [&](int frame, int last) {
@@ -174,6 +178,7 @@ int debug_command(const Arguments& arguments) {
       if (!script.lines[i].empty()) loop.run_line(line_at(i));
     if (windowed && !loop.has_quit() && !interrupted())
       show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted(), save_recording);
+  } catch (const Interrupted&) {  // while a frame was drawn or brought back
   } catch (...) {
     save_recording();  // what was done before is kept
     throw;

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/image/png.hpp"
@@ -22,23 +24,24 @@ struct Pair {
   fs::path a, b;  // "" for none
 };
 
-bool is_run(const fs::path& folder) {
-  return fs::is_directory(folder / "frames") && fs::is_regular_file(folder / "run.toml");
-}
+bool is_run(const fs::path& folder) { return is_folder(folder / "frames") && is_file(folder / "run.toml"); }
 
 // a run's folder stands for its frames
 fs::path pictures_of(const fs::path& folder) { return is_run(folder) ? folder / "frames" : folder; }
 
 std::set<std::string> pictures_in(const fs::path& folder) {
   std::set<std::string> names;
-  if (!fs::is_directory(folder)) return names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().extension() == ".png") names.insert(entry.path().filename().string());
+  if (!is_folder(folder)) return names;
+  for (const std::string& name : names_in(folder))
+    if (fs::path(name).extension() == ".png" && is_file(folder / name)) {
+      check_utf8_name((folder / name).string());
+      names.insert(name);
+    }
   return names;
 }
 
 void check_there(const fs::path& path) {
-  if (!fs::exists(path))
+  if (!is_there(path))
     throw InputError(path.string() +
                      ": there is no such file or folder; a PNG or a folder of PNGs is wanted; check the path");
 }
@@ -58,7 +61,7 @@ std::vector<Pair> pairs_of_folders(const fs::path& a, const fs::path& b) {
     Pair pair{name, folder_a / name, folder_b / name};
     if (!in_b.contains(name))
       pair.b.clear();
-    else if (!in_a.contains(name) && !fs::is_regular_file(alternate_for(pair.a, pair.b)))
+    else if (!in_a.contains(name) && !is_file(alternate_for(pair.a, pair.b)))
       pair.a.clear();
     pairs.push_back(std::move(pair));
   }
@@ -67,14 +70,14 @@ std::vector<Pair> pairs_of_folders(const fs::path& a, const fs::path& b) {
 
 std::vector<Pair> pairs_of(const fs::path& a, const fs::path& b, bool update) {
   check_there(b);
-  if (update && !fs::exists(a))
-    return fs::is_directory(b) ? pairs_of_folders(a, b) : std::vector<Pair>{{b.filename().string(), "", b}};
+  if (update && !is_there(a))
+    return is_folder(b) ? pairs_of_folders(a, b) : std::vector<Pair>{{b.filename().string(), "", b}};
   check_there(a);
-  if (fs::is_directory(a) != fs::is_directory(b))
+  if (is_folder(a) != is_folder(b))
     throw InputError(fmt::format(
         "{} and {}: one is a folder, the other is not; two PNGs or two folders are wanted; name two of a kind",
         a.string(), b.string()));
-  if (fs::is_directory(a)) return pairs_of_folders(a, b);
+  if (is_folder(a)) return pairs_of_folders(a, b);
   return {{a.filename().string(), a, b}};
 }
 
@@ -115,10 +118,10 @@ int update(const std::vector<PictureComparison>& all, const fs::path& a) {
     }
     const bool is_new = c.a.empty();
     const fs::path baseline = !is_new ? c.a : a.extension() == ".png" ? a : pictures_of(a) / c.name;
-    const bool had_ids = !is_new && fs::is_regular_file(id_picture_of(baseline));
+    const bool had_ids = !is_new && is_file(id_picture_of(baseline));
     const fs::path written = update_baseline(c, baseline, c.b);
     (written == baseline && !is_new ? rewritten : written_anew) += 1;
-    const bool has_ids = fs::is_regular_file(id_picture_of(written));
+    const bool has_ids = is_file(id_picture_of(written));
     fmt::print("  {} {}{}\n",
                is_new                ? "new:"
                : written == baseline ? "rewrote"

@@ -4,6 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
@@ -84,7 +85,7 @@ ModelFacts model_facts(const World& world) {
 
 bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& parameters, ModelFacts& facts) {
   try {
-    if (!std::filesystem::is_regular_file(run_toml)) return false;
+    if (!is_file(run_toml)) return false;
     const TomlNode root = parse_toml(run_toml.string(), read_file(run_toml, std::uint64_t{1} << 26));
     ParameterSet rows;
     parameters.bind(rows);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 
 namespace impinge {
 
@@ -17,16 +18,11 @@ OutputFiles::~OutputFiles() {
 }
 
 void OutputFiles::make_folder(const fs::path& folder) {
-  std::error_code error;
   std::vector<fs::path> missing;
-  for (fs::path path = fs::absolute(folder).lexically_normal(); !path.empty() && !fs::exists(path, error);
+  for (fs::path path = absolute_path(folder).lexically_normal(); !path.empty() && !is_there(path);
        path = path.parent_path())
     missing.push_back(path);
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw OutputError(
-        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                    folder.string(), error ? error.message() : "a file of that name exists"));
+  impinge::make_folder(folder);
   made_.insert(made_.end(), missing.rbegin(), missing.rend());
 }
 

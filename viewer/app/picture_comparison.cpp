@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/image/flip.hpp"
 #include "viewer/image/png.hpp"
 
@@ -20,7 +21,7 @@ constexpr std::size_t kMostObjects = 8;  // lines about objects
 
 void compare_objects(PictureComparison& c, const Image& a, const Image& b, const PictureRules& rules) {
   const fs::path ids_a = id_picture_of(c.a), ids_b = id_picture_of(c.b);
-  if (!fs::is_regular_file(ids_a) || !fs::is_regular_file(ids_b)) return;
+  if (!is_file(ids_a) || !is_file(ids_b)) return;
   c.has_ids = true;
   c.objects = object_changes(a, b, read_ids(ids_a), read_ids(ids_b), rules.settings.tolerance, rules.mask);
   for (std::size_t i = 0; i < c.objects.size() && i < kMostObjects; ++i) c.details.push_back(c.objects[i].text());
@@ -30,8 +31,7 @@ void compare_objects(PictureComparison& c, const Image& a, const Image& b, const
 }
 
 void copy_to(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::create_directories(fs::absolute(to).parent_path(), error);
+  make_folder(absolute_path(to).parent_path());
   write_file(to, read_file(from, kMostBytes));
 }
 
@@ -51,7 +51,7 @@ fs::path id_picture_of(const fs::path& picture) {
   const fs::path folder = picture.parent_path();
   if (folder.filename() == "frames") return folder.parent_path() / "ids" / picture.filename();
   // named from within
-  const bool is_in_frames = fs::absolute(picture).lexically_normal().parent_path().filename() == "frames";
+  const bool is_in_frames = absolute_path(picture).lexically_normal().parent_path().filename() == "frames";
   return (is_in_frames ? folder / ".." : folder) / "ids" / picture.filename();
 }
 
@@ -65,7 +65,7 @@ fs::path alternate_for(const fs::path& baseline, const fs::path& picture) {
 
 fs::path baseline_for(const fs::path& baseline, const fs::path& picture) {
   const fs::path alternate = alternate_for(baseline, picture);
-  return fs::is_regular_file(alternate) ? alternate : baseline;
+  return is_file(alternate) ? alternate : baseline;
 }
 
 PictureComparison compare_pictures(const std::string& name, const fs::path& a, const fs::path& b,
@@ -108,7 +108,7 @@ fs::path update_baseline(const PictureComparison& comparison, const fs::path& ba
   // the ids first: where the disk is full after them, the picture still differs and the next --update goes on
   const fs::path ids = id_picture_of(picture), ids_target = id_picture_of(target);
   std::error_code error;
-  if (fs::is_regular_file(ids))
+  if (is_file(ids))
     copy_to(ids, ids_target);
   else
     fs::remove(ids_target, error);
@@ -118,8 +118,7 @@ fs::path update_baseline(const PictureComparison& comparison, const fs::path& ba
 
 fs::path update_ids(const PictureComparison& same) {
   const fs::path ids = id_picture_of(same.b), target = id_picture_of(same.a);
-  if (!fs::is_regular_file(ids) || (fs::is_regular_file(target) && names_the_same(read_ids(target), read_ids(ids))))
-    return "";
+  if (!is_file(ids) || (is_file(target) && names_the_same(read_ids(target), read_ids(ids)))) return "";
   copy_to(ids, target);
   return target;
 }

@@ -3,6 +3,7 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/controller/stats_table.hpp"
 
@@ -10,7 +11,7 @@ namespace impinge {
 
 int replay_command(const Arguments& arguments) {
   const std::filesystem::path folder = arguments.a;
-  if (!std::filesystem::is_regular_file(folder / "run.toml"))
+  if (!is_file(folder / "run.toml"))
     throw InputError(folder.string() +
                      ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
   const std::string table = read_file(folder / "stats.csv", std::uint64_t{64} << 30);

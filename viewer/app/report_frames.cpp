@@ -5,6 +5,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/report_parts.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/jpeg.hpp"
@@ -25,11 +26,11 @@ fs::path picture(const fs::path& out, const std::string& hash, int frame) {
 
 int last_picture(const fs::path& out, const std::string& hash) {
   int last = -1;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(out / "jobs" / hash / "run" / "frames", error)) {
-    const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".png" && stem.size() == 6 &&
-        stem.find_first_not_of("0123456789") == std::string::npos)
+  const fs::path frames = out / "jobs" / hash / "run" / "frames";
+  if (!is_folder(frames)) return last;
+  for (const fs::path name : names_in(frames)) {
+    const std::string stem = name.stem().string();
+    if (name.extension() == ".png" && stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos)
       last = std::max(last, std::stoi(stem));
   }
   return last;
@@ -71,7 +72,7 @@ std::string frames_json(const ReportTable& table, const fs::path& out, double fr
   parallel_for(pictures.size(), 1, [&](std::size_t i) {
     if (frame_of(i) < 0 || frame_of(i) > lasts[i / per_job]) return;
     const fs::path file = picture(out, table.cell(i / per_job, "hash"), frame_of(i));
-    if (fs::is_regular_file(file)) pictures[i] = small_copy(file, sizes[i]);
+    if (is_file(file)) pictures[i] = small_copy(file, sizes[i]);
   });
   const auto size = *std::max_element(sizes.begin(), sizes.end());
   if (size.first == 0) return "null";

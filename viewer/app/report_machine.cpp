@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "engine/core/error.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/report_parts.hpp"
 #include "viewer/image/png.hpp"
 
@@ -31,7 +32,7 @@ std::string line_of(const char* file, const std::string& key) {
 std::string renderer_of(const ReportTable& table, const fs::path& out) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const fs::path file = out / "jobs" / table.cell(i, "hash") / "run/frames/000000.png";
-    if (!fs::is_regular_file(file)) continue;
+    if (!is_file(file)) continue;
     try {
       for (const auto& [key, text] : read_png_text(file))
         if (key == "impinge:renderer") return text;

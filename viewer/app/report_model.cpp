@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/model_report.hpp"
 #include "viewer/app/report_parts.hpp"
 #include "viewer/app/sweep_table.hpp"
@@ -25,7 +26,7 @@ constexpr const char* kParts[] = {"broad_ms", "narrow_ms", "assemble_ms", "respo
 
 // frame 0 is detection only and doesn't count
 bool read_needed(const fs::path& stats, Needed& needed) {
-  if (!fs::is_regular_file(stats)) return false;
+  if (!is_file(stats)) return false;
   const auto lines = parse_csv(read_file(stats, std::uint64_t{1} << 32));
   if (lines.size() < 2) return false;
   const auto column = [&](const char* name) {
@@ -151,7 +152,7 @@ std::string model_html(const ReportTable& table, const fs::path& out) {
 
 std::string ablation_html(const fs::path& out, const std::string& scene) {
   const fs::path file = out / "ablation.csv";
-  if (!fs::is_regular_file(file))
+  if (!is_file(file))
     return fmt::format(
         "<p>Not measured in this sweep. <code>impinge info {} --ablation --out {}</code> runs the scene with each "
         "economy switched off; the same sweep once more then shows the table here.</p>\n",

@@ -3,9 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 #include "engine/core/error.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/convergence_note.hpp"
 #include "viewer/app/frame_progress.hpp"
@@ -21,16 +24,21 @@ namespace {
 
 /// Before anything is simulated: a film that could not be written at the end.
 void check_video_path(const std::filesystem::path& video, const std::filesystem::path& out) {
-  const std::filesystem::path folder = std::filesystem::absolute(video).lexically_normal().parent_path();
+  const std::filesystem::path folder = absolute_path(video).lexically_normal().parent_path();
   static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
   if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
     throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(),
                                  fmt::join(kEndings, ", ")));
   // the run's own folder comes into being with the run
-  const bool is_own = folder == (std::filesystem::absolute(out) / "").lexically_normal().parent_path();
-  if (!is_own && !std::filesystem::is_directory(folder))
+  const bool is_own = folder == (absolute_path(out) / "").lexically_normal().parent_path();
+  if (!is_own && !is_folder(folder))
     throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another",
                                  video.string(), folder.string()));
+  if (!is_own && access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(
+        fmt::format("command line: --video is '{}'; it can't be written ({}); a folder that may be written to is "
+                    "wanted; name another",
+                    video.string(), std::strerror(errno)));
 }
 
 // the path of the sheet
@@ -52,10 +60,9 @@ bool write_video(const Arguments& arguments, double frames_per_second) {
 
 int run_command(const Arguments& arguments) {
   const RunOptions& options = arguments.run_options;
-  watch_for_interrupt();
+  explain_interrupt("stopping at the last whole frame, within 2 s");
   FrameProgress progress;
   RunWatcher watcher;
-  watcher.interrupted = &interrupted();
   if (!arguments.video.empty()) check_video_path(arguments.video, options.out);
   const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
   ConvergenceNote convergence;
@@ -71,7 +78,8 @@ int run_command(const Arguments& arguments) {
   progress.clear();
   if (!result.diverged.empty()) fmt::print(stderr, "diverged: {}\n", result.diverged);
   if (result.interrupted)
-    fmt::print(stderr, "interrupted after frame {}; the same command with --resume goes on\n", result.last_frame);
+    fmt::print(stderr, "interrupted {} {}; the same command with --resume goes on\n",
+               result.last_frame < 0 ? "before frame" : "after frame", std::max(0, result.last_frame));
   const std::string sheet =
       options.images && result.exit_code() < 2 ? write_contact_sheet(options.out, result.last_frame) : "";
   const bool filmed = !sheet.empty() && !arguments.video.empty() && write_video(arguments, result.frames_per_second);

@@ -10,6 +10,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/present/png_sequence.hpp"
@@ -121,7 +122,7 @@ std::vector<SettingDifference> setting_differences(const fs::path& run_a, const 
 }
 
 RecordedRun::RecordedRun(const fs::path& folder) : folder_(folder) {
-  if (!fs::is_regular_file(folder / "run.toml"))
+  if (!is_file(folder / "run.toml"))
     throw InputError(folder.string() +
                      ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
   session_ = std::make_unique<Session>(folder / "run.toml", std::vector<std::string>(), fs::path(),

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/plot_picture.hpp"
 
@@ -90,12 +91,7 @@ Plot work_plot(const StepReport& report) {
 }  // namespace
 
 void write_report(const fs::path& folder, const StepReport& report) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError(
-        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                    folder.string(), error.message()));
+  make_folder(folder);
   std::string work = "method,iterations_allowed,ms,residual,distance_to_exact\n";
   for (const MethodReport& r : report.methods) {
     if (r.lambda.empty()) continue;

@@ -6,7 +6,9 @@
 #include <thread>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/interrupt.hpp"
@@ -23,19 +25,17 @@ namespace fs = std::filesystem;
 
 // refuses a folder that holds something else, before anything is written
 void check_folder(const fs::path& out, const std::string& toml, bool resume) {
-  std::error_code error;
-  if (!fs::exists(out, error)) return;
-  if (!fs::is_directory(out, error)) refuse(out.string(), "is a file", "a folder is wanted", "choose another --out");
-  if (fs::exists(out / "sweep.toml")) {
+  if (!is_there(out)) return;
+  if (!is_folder(out)) refuse(out.string(), "is a file", "a folder is wanted", "choose another --out");
+  if (is_there(out / "sweep.toml")) {
     if (!resume && read_file(out / "sweep.toml", std::uint64_t{1} << 26) != toml)
       refuse(out.string(), "holds another sweep (its sweep.toml differs)", "the same sweep or a new folder is wanted",
              "add --resume to keep the jobs that both have, or choose another --out");
     return;
   }
-  for (const fs::directory_entry& entry : fs::directory_iterator(out, error)) {
-    const std::string name = entry.path().filename().string();
-    if (name == "lock" || name == "sweep.toml.tmp") continue;
-    if (fs::exists(out / "sweep.toml")) return check_folder(out, toml, resume);  // another process has just begun it
+  for (const std::string& name : names_in(out)) {
+    if (name == FolderLock::kName || is_temporary_name(name)) continue;
+    if (is_there(out / "sweep.toml")) return check_folder(out, toml, resume);  // another process has just begun it
     refuse(out.string(), fmt::format("holds {} and no sweep", name), "a new or empty folder is wanted",
            "choose another --out");
   }
@@ -43,7 +43,7 @@ void check_folder(const fs::path& out, const std::string& toml, bool resume) {
 
 SweepJob checked_job(const fs::path& out, const std::string& hash) {
   const fs::path folder = job_folder(out, hash);
-  if (!fs::is_regular_file(folder / "job.toml"))
+  if (!is_file(folder / "job.toml"))
     refuse("--job " + hash, fmt::format("{} holds no such job", (out / "jobs").string()),
            "the hash of a job of that sweep is wanted", "see its results.csv");
   const SweepJob job = read_sweep_job(folder);
@@ -75,12 +75,12 @@ int jobs_alone(const Arguments& arguments) {
 
 void write_plan(const fs::path& out, const Sweep& sweep, const std::string& toml, bool resume) {
   make_folder(out);
-  const FolderLock lock(out / "lock");
+  const FolderLock lock = FolderLock::wait_for(out);
   check_folder(out, toml, resume);
   write_file(out / "sweep.toml", toml);
   for (const SweepJob& job : sweep.jobs) {
     make_folder(job_folder(out, job.hash));
-    if (!fs::exists(job_folder(out, job.hash) / "job.toml")) write_sweep_job(job_folder(out, job.hash), job);
+    if (!is_there(job_folder(out, job.hash) / "job.toml")) write_sweep_job(job_folder(out, job.hash), job);
   }
 }
 
@@ -107,8 +107,8 @@ int sweep_command(const Arguments& given) {
   const SweepBase base(options);  // with the paths as given: they stand in the messages
   options.frames = base.last_frame();
   RunOptions anywhere = options;
-  anywhere.scene = fs::absolute(options.scene).lexically_normal();
-  if (!options.script.empty()) anywhere.script = fs::absolute(options.script).lexically_normal();
+  anywhere.scene = absolute_path(options.scene).lexically_normal();
+  if (!options.script.empty()) anywhere.script = absolute_path(options.script).lexically_normal();
   Sweep sweep = plan_sweep(sweep_options, options, base);
   for (SweepJob& job : sweep.jobs) job.options = anywhere;
   const std::string toml = format_sweep_file(sweep_options, anywhere);
@@ -125,6 +125,7 @@ int sweep_command(const Arguments& given) {
   else
     run_sweep_jobs(out, sweep.jobs, sweep_options.repeats(), local_jobs(sweep_options), shows_progress);
 
+  const InterruptScope to_the_end(nullptr);  // what there is by now is collected, interrupted or not
   const SweepTable table = collect_sweep(out, sweep, sweep_options, base);
   const std::string errors = describe_errors(sweep, table), caution = reference_caution(sweep),
                     summary = (caution.empty() ? "" : "caution: " + caution + "\n\n") +
@@ -132,7 +133,7 @@ int sweep_command(const Arguments& given) {
   std::size_t done = 0;
   for (const SweepRow& row : sweep.rows) done += row.outcome.status == SweepOutcome::done ? 1 : 0;
   {
-    const FolderLock lock(out / "lock");
+    const FolderLock lock = FolderLock::wait_for(out);
     write_file(out / "results.csv", sweep_csv(table, sweep.rows));
     write_file(out / "summary.txt", fmt::format("{}: {} of {} jobs done\n\n{}", options.scene.filename().string(), done,
                                                 sweep.rows.size(), summary));

@@ -2,7 +2,6 @@
 // folder and the program under the same paths.
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,12 +13,12 @@
 #include <thread>
 
 #include "engine/core/error.hpp"
+#include "engine/io/child_process.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/interrupt.hpp"
 #include "viewer/app/sweep_progress.hpp"
 #include "viewer/app/sweep_run.hpp"
-
-extern char** environ;
 
 namespace impinge {
 
@@ -43,7 +42,7 @@ std::string shell_word(const std::string& text) {
 std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
 
 std::string folder_of(const fs::path& out) {
-  std::string text = fs::absolute(out).lexically_normal().string();
+  std::string text = absolute_path(out).lexically_normal().string();
   if (text.size() > 1 && text.back() == '/') text.pop_back();
   return text;
 }
@@ -54,10 +53,7 @@ struct Said {
 };
 
 // a program of Slurm's, run without a shell
-Said say(std::vector<std::string> words) {
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
+Said say(const std::vector<std::string>& words) {
   std::FILE *out = std::tmpfile(), *err = std::tmpfile();
   if (out == nullptr || err == nullptr)
     throw InputError("--engine slurm: no temporary file can be made; room in /tmp is wanted; free space");
@@ -66,7 +62,7 @@ Said say(std::vector<std::string> words) {
   posix_spawn_file_actions_adddup2(&actions, fileno(out), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, fileno(err), STDERR_FILENO);
   pid_t child = -1;
-  const int failure = posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
+  const int failure = spawn(words, actions, child);
   posix_spawn_file_actions_destroy(&actions);
   Said said;
   if (failure == 0) {
@@ -116,7 +112,8 @@ std::string sweep_commands(const fs::path& out, const std::vector<SweepJob>& job
 
 void run_sweep_on_slurm(const fs::path& out, const std::vector<SweepJob>& jobs, int repeats, int at_once,
                         bool shows_progress) {
-  watch_for_interrupt();
+  explain_interrupt("the job array is cancelled; the same command goes on with what it did");
+  limit_interrupt(30.0);  // Slurm's own programs answer in their time, and the array must not stay behind
   std::vector<const SweepJob*> open;
   for (const SweepJob& job : jobs)
     if (!is_sweep_job_over(out, job, repeats)) open.push_back(&job);

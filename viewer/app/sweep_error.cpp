@@ -9,6 +9,7 @@
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
@@ -40,7 +41,7 @@ std::vector<std::pair<std::size_t, std::size_t>> common_frames(const std::vector
 
 std::vector<Vec3> surface(const fs::path& run, std::size_t frame, const std::string& body) {
   const fs::path file = run / "surfaces" / fmt::format("{:06}", frame) / (body + ".ply");
-  return fs::is_regular_file(file) ? read_mesh(file).vertices : std::vector<Vec3>();
+  return is_file(file) ? read_mesh(file).vertices : std::vector<Vec3>();
 }
 
 // sum of squared distances and number of points of one pair of frames
@@ -66,7 +67,7 @@ double start_size(const fs::path& run, const std::vector<std::string>& bodies) {
 using PairImpulses = std::map<std::string, Vec3>;
 std::map<std::size_t, PairImpulses> impulses_in(const fs::path& run) {
   std::map<std::size_t, PairImpulses> frames;
-  if (!fs::is_regular_file(run / "contacts.csv")) return frames;
+  if (!is_file(run / "contacts.csv")) return frames;
   const std::string text = read_file(run / "contacts.csv", std::uint64_t{1} << 34);
   for (std::size_t begin = text.find('\n') + 1, end = 0;
        begin != 0 && (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {

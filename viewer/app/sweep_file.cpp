@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
@@ -103,7 +104,7 @@ void read_sweep_file(Arguments& arguments) {
   RunOptions& run = arguments.run_options;
   SweepOptions& sweep = arguments.sweep_options;
   const fs::path file = run.scene;
-  if (!fs::is_regular_file(file)) return;  // the scene's own loading says so
+  if (!is_file(file)) return;  // the scene's own loading says so
   const TomlNode root = parse_toml(file.string(), read_file(file, std::uint64_t{1} << 30));
   const TomlEntry* entry = root.find("sweep");
   if (entry == nullptr) return;
@@ -116,7 +117,7 @@ void read_sweep_file(Arguments& arguments) {
         refuse(other.place, fmt::format("'{}' beside a [sweep] that names its scene", other.key),
                "either the sweep of this scene or a file with [sweep] alone is wanted", "take out one of them");
     run.scene = beside(scene_text(*node, "sweep.scene"));
-    if (!fs::is_regular_file(run.scene))
+    if (!is_file(run.scene))
       refuse(node->place, fmt::format("there is no scene {}", run.scene.string()),
              "a scene file, relative to this one, is wanted", "check the path");
   }

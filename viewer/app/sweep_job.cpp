@@ -5,6 +5,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/scene_overrides.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
@@ -64,11 +65,11 @@ std::string SweepBase::hash(const std::vector<std::string>& changes) const {
     const std::size_t equals = change.find('=');
     const Parameter* row = session_.rows().find(change.substr(0, equals));
     if (row == nullptr) {
-      apply_override(root, change);
+      apply_overrides(root, {change});
       // bodies are recorded as given: a real number has a point, as in most scenes
     } else if (change.rfind("body.", 0) == 0) {
-      apply_override(
-          root, change.substr(0, equals + 1) + format_toml(toml_node(parse_value(*row, change.substr(equals + 1)))));
+      apply_overrides(
+          root, {change.substr(0, equals + 1) + format_toml(toml_node(parse_value(*row, change.substr(equals + 1))))});
     } else {
       before.emplace_back(row, row->get());
       row->set(parse_value(*row, change.substr(equals + 1)));
@@ -124,7 +125,7 @@ SweepOutcome read_sweep_outcome(const fs::path& folder) {
   SweepOutcome outcome;
   for (const char* name : {"done", "failed"}) {
     const fs::path file = folder / name;
-    if (!fs::is_regular_file(file)) continue;
+    if (!is_file(file)) continue;
     const TomlNode table = parse_toml(file.string(), read_file(file, kMostBytes));
     const std::string status = scene_text(need(table, "status"), "status");
     for (int s = 0; s <= SweepOutcome::open; ++s)
@@ -140,14 +141,5 @@ SweepOutcome read_sweep_outcome(const fs::path& folder) {
 fs::path job_folder(const fs::path& out, const std::string& hash) { return out / "jobs" / hash; }
 
 fs::path repeat_folder(const fs::path& job, int k) { return k <= 1 ? job : job / "repeats" / std::to_string(k); }
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError(
-        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                    folder.string(), error.message()));
-}
 
 }  // namespace impinge

@@ -1,7 +1,7 @@
 // One job of a sweep: what it runs, what it is called, and its folder DIR/jobs/HASH.
 //
 //   job.toml    what it runs: enough to run it alone
-//   lock        held by the process that works on it, and by its child
+//   lock        while somebody works on it: held by that process and by its child
 //   run/        the run's own folder
 //   output.txt  what the run said
 //   done        how it ended, written last; a job that a crash ended has `failed` instead and is tried again
@@ -9,10 +9,11 @@
 //   and contacts
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
+#include <optional>
 
+#include "engine/io/child_process.hpp"
+#include "engine/io/folder_lock.hpp"
 #include "viewer/controller/run.hpp"
 
 namespace impinge {
@@ -61,8 +62,6 @@ SweepOutcome read_sweep_outcome(const std::filesystem::path& folder);
 std::filesystem::path job_folder(const std::filesystem::path& out, const std::string& hash);
 /// Of the k-th run of a job, k >= 1; the first is the job's own folder.
 std::filesystem::path repeat_folder(const std::filesystem::path& job, int k);
-/// The folder with all above it. Throws InputError.
-void make_folder(const std::filesystem::path& folder);
 
 /// A job being run by a child process of this one.
 class SweepWorker {
@@ -80,22 +79,10 @@ class SweepWorker {
 
  private:
   std::filesystem::path folder_;
-  pid_t child_ = -1;
-  int lock_ = -1;
+  FolderLock lock_;
+  std::optional<ChildProcess> child_;  // after the lock, so that it is gone before that is given back
   std::chrono::steady_clock::time_point begin_;
   SweepOutcome outcome_;
-};
-
-/// A file that one process at a time holds; waits for it. Throws InputError where it can't be made.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& file);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_ = -1;
 };
 
 }  // namespace impinge

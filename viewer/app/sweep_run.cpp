@@ -8,6 +8,7 @@
 #include <deque>
 #include <thread>
 
+#include "engine/io/paths.hpp"
 #include "viewer/app/interrupt.hpp"
 #include "viewer/app/sweep_progress.hpp"
 
@@ -33,7 +34,8 @@ void drop_pictures(const fs::path& run) {
 
 void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int repeats, int at_once,
                     bool shows_progress) {
-  watch_for_interrupt();
+  explain_interrupt("the jobs in work stop at their last whole frames, within 2 s; the same command goes on");
+  limit_interrupt(1.9);              // a little longer than its jobs have
   setenv("LP_NUM_THREADS", "0", 1);  // the renderer paints in the run's own thread: a job has one
   SweepProgress progress(jobs.size() * static_cast<std::size_t>(repeats), shows_progress);
   std::deque<Task> waiting;
@@ -55,7 +57,7 @@ void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int 
       SweepWorker worker;
       switch (worker.start(folder, *task.job)) {
         case SweepWorker::started:
-          running.push_back({worker, task});
+          running.push_back({std::move(worker), task});
           break;
         case SweepWorker::busy:
           waiting.push_back(task);
@@ -85,7 +87,7 @@ void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int 
 
 bool is_sweep_job_over(const fs::path& out, const SweepJob& job, int repeats) {
   for (int k = 1; k <= repeats; ++k)
-    if (!fs::exists(repeat_folder(job_folder(out, job.hash), k) / "done")) return false;
+    if (!is_there(repeat_folder(job_folder(out, job.hash), k) / "done")) return false;
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
@@ -103,7 +104,7 @@ bool is_sweep_column(const std::string& name) {
 
 std::vector<StatsLine> sweep_stats(const std::filesystem::path& run) {
   std::vector<StatsLine> lines;
-  if (!std::filesystem::is_regular_file(run / "stats.csv")) return lines;
+  if (!is_file(run / "stats.csv")) return lines;
   const std::string text = read_file(run / "stats.csv", kMostBytes);
   std::size_t begin = text.find('\n');
   if (begin == std::string::npos || text.substr(0, begin) != stats_header(false)) return lines;

@@ -1,7 +1,6 @@
 // The processes of a sweep: one child a job, one lock a job.
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "viewer/app/sweep_job.hpp"
 
@@ -22,15 +22,6 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-
-int open_lock(const fs::path& file) {
-  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor < 0)
-    throw InputError(
-        fmt::format("{}: can't be written ({}); a folder that may be written to is wanted; choose another --out",
-                    file.string(), std::strerror(errno)));
-  return descriptor;
-}
 
 std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   const RunOptions& o = job.options;
@@ -54,7 +45,7 @@ std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
 
 // the line that says why: a divergence if there is one, else the first that is no mere note
 std::string reason_in(const fs::path& output) {
-  const std::string text = fs::is_regular_file(output) ? read_file(output, std::uint64_t{1} << 30) : "";
+  const std::string text = is_file(output) ? read_file(output, std::uint64_t{1} << 30) : "";
   const std::size_t diverged = text.rfind("diverged: ");
   std::size_t begin = diverged == std::string::npos ? 0 : diverged + 10;
   while (text.compare(begin, 6, "note: ") == 0 && text.find('\n', begin) != std::string::npos)
@@ -100,7 +91,7 @@ SweepOutcome outcome_of(int status, const fs::path& output) {
 
 // only what is safe between fork and exec
 [[noreturn]] void become_run(char* const* words, int lock, int output, pid_t parent) {
-  setpgid(0, 0);                     // a Ctrl-C reaches the sweep, which passes it on once
+  setpgid(0, 0);  // a Ctrl-C reaches the sweep, which passes it on once; blocked here, it waits there
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // no run outlives its sweep
   if (getppid() != parent) _exit(130);
   fcntl(lock, F_SETFD, 0);  // the run holds the lock too: nobody else starts on the folder before it is gone
@@ -114,13 +105,9 @@ SweepOutcome outcome_of(int status, const fs::path& output) {
 
 SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& job) {
   folder_ = folder;
-  lock_ = open_lock(folder / "lock");
-  if (flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    close(lock_);
-    return busy;
-  }
-  if (fs::exists(folder / "done")) {
-    close(lock_);
+  std::optional<FolderLock> lock = FolderLock::try_take(folder);
+  if (!lock) return busy;
+  if (is_there(folder / "done")) {
     outcome_ = read_sweep_outcome(folder);
     return already_done;
   }
@@ -129,10 +116,8 @@ SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& jo
   const fs::path file = folder / "output.txt";
   const int output = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (output < 0) {
-    const int code = errno;
-    close(lock_);
     throw InputError(fmt::format("{}: can't be written ({}); free space or choose another --out", file.string(),
-                                 std::strerror(code)));
+                                 std::strerror(errno)));
   }
   std::vector<std::string> words = words_of(folder, job);
   std::vector<char*> pointers;
@@ -140,26 +125,28 @@ SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& jo
   pointers.push_back(nullptr);
   begin_ = std::chrono::steady_clock::now();
   const pid_t parent = getpid();
-  child_ = fork();
-  if (child_ == 0) become_run(pointers.data(), lock_, output, parent);
-  close(output);
-  if (child_ > 0) return started;
+  const pid_t child = fork();
   const int code = errno;
-  close(lock_);
-  throw InputError(
-      fmt::format("command line: no process can be started ({}); fewer are wanted; lower --jobs", std::strerror(code)));
+  if (child == 0) become_run(pointers.data(), lock->handle(), output, parent);
+  close(output);
+  if (child < 0)
+    throw InputError(fmt::format("command line: no process can be started ({}); fewer are wanted; lower --jobs",
+                                 std::strerror(code)));
+  child_.emplace(child);
+  lock_ = std::move(*lock);
+  return started;
 }
 
 bool SweepWorker::poll() {
-  int status = 0;
-  if (waitpid(child_, &status, WNOHANG) != child_) return false;
-  outcome_ = outcome_of(status, folder_ / "output.txt");
+  const std::optional<int> status = child_->poll();
+  if (!status) return false;
+  outcome_ = outcome_of(*status, folder_ / "output.txt");
   outcome_.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
   if (outcome_.status != SweepOutcome::interrupted)
     write_file(folder_ / (outcome_.is_final() ? "done" : "failed"),
                fmt::format("status = \"{}\"\nreason = {}\nwall_ms = {:.3f}\n", status_name(outcome_.status),
                            toml_string(outcome_.reason), outcome_.wall_ms));
-  close(lock_);
+  lock_ = {};
   return true;
 }
 
@@ -172,13 +159,6 @@ void SweepWorker::wait_for_any(std::chrono::milliseconds most) {
   } while (std::chrono::steady_clock::now() < end);
 }
 
-void SweepWorker::interrupt() const { kill(child_, SIGTERM); }
-
-FolderLock::FolderLock(const fs::path& file) : file_(open_lock(file)) {
-  while (flock(file_, LOCK_EX) != 0 && errno == EINTR) {
-  }
-}
-
-FolderLock::~FolderLock() { close(file_); }
+void SweepWorker::interrupt() const { kill(child_->pid(), SIGTERM); }
 
 }  // namespace impinge

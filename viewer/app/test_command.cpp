@@ -7,7 +7,10 @@
 #include <set>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/picture_comparison.hpp"
 #include "viewer/app/test_report.hpp"
@@ -33,7 +36,7 @@ std::optional<Size> size_of(const std::vector<Script::ImageExpectation>& picture
   std::optional<Size> size;
   fs::path first;
   for (const Script::ImageExpectation& picture : pictures) {
-    if (!fs::is_regular_file(picture.file)) continue;
+    if (!is_file(picture.file)) continue;
     const Image image = read_png(picture.file);
     if (size && (size->width != image.width || size->height != image.height))
       throw InputError(fmt::format(
@@ -47,23 +50,23 @@ std::optional<Size> size_of(const std::vector<Script::ImageExpectation>& picture
 class Suite {
  public:
   explicit Suite(const Arguments& arguments) : arguments_(arguments), folder_(arguments.a) {
-    if (!fs::is_directory(folder_))
+    if (!is_folder(folder_))
       throw InputError(folder_.string() +
                        ": there is no such folder; a folder of NAME.toml and NAME.script is wanted; check the path");
-    const fs::path named = fs::absolute(folder_).lexically_normal();
+    const fs::path named = absolute_path(folder_).lexically_normal();
+    check_utf8_name(named.string());
     suite_ = (named.has_filename() ? named : named.parent_path()).filename().string();
     out_ = arguments.out.empty() ? fs::path("out") / (suite_ + "-test") : fs::path(arguments.out);
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-      if (entry.is_regular_file() && entry.path().extension() == ".script") names_.insert(entry.path().stem().string());
+    for (const fs::path name : names_in(folder_))
+      if (name.extension() == ".script" && is_file(folder_ / name)) {
+        check_utf8_name((folder_ / name).string());
+        names_.insert(name.stem().string());
+      }
     if (names_.empty())
       throw InputError(folder_.string() +
                        ": holds no script; NAME.toml with NAME.script beside it is wanted; see impinge test --help");
-    std::error_code error;
-    fs::create_directories(out_, error);
-    if (error)
-      throw InputError(
-          fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                      out_.string(), error.message()));
+    make_folder(out_);
+    lock_ = FolderLock::take(out_);
     // the outcome of a long suite must not be lost for want of a place
     if (!arguments.junit.empty()) write_file(arguments.junit, junit_xml(suite_, {}));
   }
@@ -75,6 +78,9 @@ class Suite {
         outcomes.push_back(run_one(name));
       } catch (const OutputError& error) {
         give_up(outcomes, name, error.what());
+        throw;
+      } catch (const Interrupted&) {
+        give_up(outcomes, name, "interrupted");
         throw;
       }
       print(outcomes.back());
@@ -88,7 +94,8 @@ class Suite {
   }
 
  private:
-  /// No room for what a test writes is none for the next: the suite ends. Its XML must not pass for that of a good one.
+  /// No room for what a test writes is none for the next, and who interrupts one wants an end to all: the suite ends.
+  /// Its XML must not pass for that of a good one.
   void give_up(std::vector<TestOutcome>& outcomes, const std::string& name, const std::string& reason) const {
     if (arguments_.junit.empty()) return;
     TestOutcome& last = outcomes.emplace_back();
@@ -123,7 +130,7 @@ class Suite {
 
   void test(TestOutcome& outcome) {
     const fs::path scene = folder_ / (outcome.name + ".toml"), script = folder_ / (outcome.name + ".script");
-    if (!fs::is_regular_file(scene))
+    if (!is_file(scene))
       throw InputError(
           fmt::format("{}: has no scene {} beside it; every script of a suite has one; add it, or move the script",
                       script.string(), scene.filename().string()));
@@ -147,12 +154,21 @@ class Suite {
     options.images = options.ids = !pictures.empty();
     options.out = out_ / outcome.name / "run";
     for (const char* last : {"run", "again"})
-      if (const fs::path folder = out_ / outcome.name / last; fs::is_regular_file(folder / "run.toml"))
-        fs::remove_all(folder);
+      if (const fs::path folder = out_ / outcome.name / last; is_file(folder / "run.toml")) {
+        FolderLock::check_free(folder);
+        std::error_code error;
+        fs::remove_all(folder, error);
+        if (error)
+          throw OutputError(
+              fmt::format("{}: can't be removed ({}); a folder that may be written to is wanted; choose "
+                          "another --out",
+                          folder.string(), error.message()));
+      }
 
     RunWatcher watcher;
     watcher.message = [&](const std::string& line) { outcome.messages.push_back(line); };
     const RunResult result = impinge::run(options, watcher);
+    if (result.interrupted) throw Interrupted{};
     if (!result.diverged.empty()) outcome.messages.push_back("diverged: " + result.diverged);
     if (result.exit_code() != 0) outcome.kind = TestOutcome::failed;
     check_pictures(outcome, pictures, options, result.last_frame);
@@ -179,7 +195,7 @@ class Suite {
       PictureRules rules;
       rules.settings.tolerance = picture.tolerance;
       PictureComparison c;
-      if (fs::is_regular_file(baseline)) {
+      if (is_file(baseline)) {
         c = compare_pictures(baseline.filename().string(), baseline, made, rules);
       } else {
         c.name = picture.file.filename().string();
@@ -226,6 +242,7 @@ class Suite {
 
   const Arguments& arguments_;
   fs::path folder_, out_;
+  FolderLock lock_;  // of out_
   std::string suite_;
   std::set<std::string> names_;
 };

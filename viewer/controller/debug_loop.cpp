@@ -8,6 +8,8 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/image/png.hpp"
 
 namespace impinge {
@@ -142,15 +144,15 @@ void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
   const Image image = picture();
   const DebugModel& model = debugger_.model();
   try {
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+    if (path.has_parent_path()) make_folder(path.parent_path());
     write_png(path, image,
               {{"impinge:scene", model.scene},
                {"impinge:frame", std::to_string(model.frame)},
                {"impinge:state_hash", hex64(debugger_.state_hash())},
                {"impinge:renderer", window_.renderer_name()}});
-  } catch (const std::exception&) {
-    place.refuse(fmt::format("{} can't be written", path.string()), "a folder that may be written to is wanted",
-                 "change --out or the name");
+  } catch (const OutputError& error) {
+    place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
+                 "a folder that may be written to is wanted", "change --out or the name");
   }
   debugger_.record_shot(file, pointer());  // now: a picture doesn't show itself in the console
 }

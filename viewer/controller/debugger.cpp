@@ -6,6 +6,7 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
@@ -49,7 +50,7 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
     read_run_folder();
   }
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
-  advance();
+  if (advance()) breaks_here();
 }
 
 void Debugger::read_run_folder() {
@@ -104,6 +105,12 @@ bool Debugger::advance() {
     for (const Command& command : it->second) session_.change(command);
   try {
     if (!session_.advance().empty()) changed_frames_.insert(next);
+  } catch (const Interrupted&) {
+    if (next == 0) throw;  // there is no state yet
+    playing_ = false;
+    const InterruptScope finish(nullptr);
+    restore_before(next - 1);
+    return false;
   } catch (const DivergenceError& error) {
     playing_ = false;
     say(ConsoleLine::problem, fmt::format("diverged: {}", error.what()));
@@ -126,7 +133,6 @@ void Debugger::note_frame() {
     history_.push_back(std::move(figures));
     hashes_.push_back(record.stats.state_hash);
     expectations_.check(session_.frame(), history_.back(), [] { return fs::path(); });
-    if (expectations_.breaks(session_.frame(), history_.back())) playing_ = false;
   }
   if (!ring_.has(session_.frame())) {
     ByteWriter state;
@@ -135,6 +141,26 @@ void Debugger::note_frame() {
     ++puts_;
   }
   follow_selection();
+}
+
+std::span<const double> Debugger::figures_before(int frame) const {
+  if (frame == 0) return {};
+  return history_[static_cast<std::size_t>(frame) - 1];
+}
+
+/// Whether a `break` becomes true with the present frame; says which. Whoever goes on stops then.
+bool Debugger::breaks_here() {
+  const auto frame = static_cast<std::size_t>(session_.frame());
+  stopped_ = expectations_.breaks(session_.frame(), history_[frame], figures_before(session_.frame()));
+  if (stopped_) playing_ = false;
+  return stopped_;
+}
+
+/// The first frame after `frame`, up to `last`, that is known and with which a `break` becomes true; `last` if none.
+int Debugger::next_known_break(int frame, int last) const {
+  for (int k = frame + 1; k < std::min(last, static_cast<int>(history_.size())); ++k)
+    if (expectations_.would_break(history_[static_cast<std::size_t>(k)], figures_before(k))) return k;
+  return last;
 }
 
 void Debugger::restore_before(int frame) {
@@ -164,7 +190,10 @@ std::optional<int> Debugger::last_snapshot_before(int frame) const {
 }
 
 void Debugger::seek(int frame) {
-  const bool back = frame < session_.frame(), known = frame < static_cast<int>(hashes_.size());
+  const int from = session_.frame();
+  const bool back = frame < from;
+  frame = next_known_break(from, frame);  // a jump over frames that are known stops where going through them would
+  const bool known = frame < static_cast<int>(hashes_.size());
   if (back || (known && std::max(ring_.at_or_before(frame).value_or(0), last_snapshot_before(frame).value_or(0)) >
                             session_.frame())) {
     restore_before(frame);
@@ -175,8 +204,12 @@ void Debugger::seek(int frame) {
     say(ConsoleLine::message,
         fmt::format("the run kept no state of frame {}: made again from frame {}", frame, session_.frame()));
   }
-  while (session_.frame() < frame && !is_interrupted() && advance())
+  if (session_.frame() > from && session_.frame() == frame) breaks_here();
+  while (session_.frame() < frame && !is_interrupted() && advance()) {
     if (progress_) progress_(session_.frame(), frame);
+    if (session_.frame() > from && breaks_here()) break;
+  }
+  if (progress_ && session_.frame() < frame) progress_(frame, frame);  // cut short: nothing more to show
   follow_selection();
 }
 
@@ -272,13 +305,21 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
     return parsed;
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
+  stopped_ = false;
+  const int before = session_.frame();
   if (const auto* command = std::get_if<Command>(&parsed)) do_command(*command);
   if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
   if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
   // a line that was cut short is recorded as what it did
-  record(is_interrupted() && std::holds_alternative<TransportLine>(parsed) ? fmt::format("seek {}", session_.frame())
-                                                                           : std::string(line.text));
+  const auto* transport = std::get_if<TransportLine>(&parsed);
+  std::string done(line.text);
+  const int made = session_.frame() - before;
+  if (transport != nullptr && stopped_ && transport->verb == TransportLine::step && made < transport->frames)
+    done = fmt::format("step {}", made);
+  else if (transport != nullptr && ((stopped_ && transport->verb == TransportLine::seek) || is_interrupted()))
+    done = fmt::format("seek {}", session_.frame());
+  record(done);
   return std::nullopt;
 }
 
@@ -296,7 +337,11 @@ bool Debugger::play_on() {
   if (!playing_) return false;
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
-  if (advance()) record("step");
+  stopped_ = false;
+  if (advance()) {
+    breaks_here();
+    record("step");
+  }
   return true;
 }
 
@@ -339,9 +384,11 @@ void Debugger::record_transport(const std::string& line) {
   const auto frames = [](const std::string& text) {
     return text.find(' ') == std::string::npos ? 1 : std::stoi(word_of(text, 1));
   };
-  const Trace trace = known == known_before_ && puts_ == puts_before_ ? none
-                      : verb == "step" && made == frames(line)        ? new_frames
-                                                                      : other;
+  // a `break` would cut the sum of two lines short where it did the first
+  const Trace trace = stopped_                                          ? other
+                      : known == known_before_ && puts_ == puts_before_ ? none
+                      : verb == "step" && made == frames(line)          ? new_frames
+                                                                        : other;
   const bool same = may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb;
   if (same && verb == "step" && trace == trace_ && trace != other)
     return replace_recorded(fmt::format("step {}", frames(recorded_.back()) + frames(line)));

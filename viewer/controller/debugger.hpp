@@ -65,6 +65,9 @@ class Debugger {
   std::filesystem::path snapshot_file(int frame) const;
   std::optional<int> last_snapshot_before(int frame) const;
   void note_frame();
+  std::span<const double> figures_before(int frame) const;
+  bool breaks_here();
+  int next_known_break(int frame, int last) const;
   void read_run_folder();
   bool bring_back(int frame);
   void check_hash(int frame);
@@ -88,6 +91,7 @@ class Debugger {
   DebugModel model_;
   Expectations expectations_;
   bool playing_ = false;
+  bool stopped_ = false;  // the line being done was cut short by a `break`
   std::vector<std::string> recorded_;
   bool may_merge_ = false;  // whether the next line may become one with the last: nothing was said in between
   int known_before_ = 0;    // of the line being done: how many frames were known,

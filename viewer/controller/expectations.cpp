@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "viewer/controller/frame_view.hpp"
 #include "viewer/controller/stats_table.hpp"
 
@@ -26,15 +28,25 @@ void Expectations::check(int frame, std::span<const double> figures,
   }
 }
 
+bool Expectations::becomes_true(const Script::Break& point, std::span<const double> figures,
+                                std::span<const double> before) {
+  return point.condition.holds(figures) && (before.empty() || !point.condition.holds(before));
+}
+
+bool Expectations::would_break(std::span<const double> figures, std::span<const double> before) const {
+  return std::any_of(script_.breaks().begin(), script_.breaks().end(),
+                     [&](const Script::Break& point) { return becomes_true(point, figures, before); });
+}
+
 bool Expectations::needs_picture(int frame) const {
   for (const Script::ImageExpectation& image : script_.images())
     if (pictures_ && image.frame == frame) return true;
   return false;
 }
 
-bool Expectations::breaks(int frame, std::span<const double> figures) const {
+bool Expectations::breaks(int frame, std::span<const double> figures, std::span<const double> before) const {
   for (const Script::Break& point : script_.breaks()) {
-    if (!point.condition.holds(figures)) continue;
+    if (!becomes_true(point, figures, before)) continue;
     if (report_)
       report_(fmt::format("{}: frame {}: stopped by break when {}; {}", point.place, frame, point.condition.text(),
                           point.condition.describe(figures, figure_names(judged_))));

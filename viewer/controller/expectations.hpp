@@ -18,13 +18,18 @@ class Expectations {
   /// compared.
   void check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture);
   bool needs_picture(int frame) const;
-  /// Whether a `break` holds; says which.
-  bool breaks(int frame, std::span<const double> figures) const;
+  /// Whether a `break` becomes true with this frame, whose figures and those of the frame before (none: empty) are
+  /// given; says which.
+  bool breaks(int frame, std::span<const double> figures, std::span<const double> before) const;
+  /// The same for any `break`, without a word.
+  bool would_break(std::span<const double> figures, std::span<const double> before) const;
   /// Says how many `expect` lines lie after the last frame.
   void note_unchecked(int last_frame) const;
   int failures() const { return failures_; }
 
  private:
+  static bool becomes_true(const Script::Break& point, std::span<const double> figures, std::span<const double> before);
+
   const Script& script_;
   bool judged_ = false, pictures_ = true;
   std::function<void(const std::string&)> report_;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/frozen/frozen_step.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/world/judge.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/run_folder.hpp"
@@ -34,6 +36,7 @@ int RunResult::exit_code() const {
 }
 
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
+  FolderLock::check_free(options.out);  // at once, however long the scene takes to read
   Session session(options.scene, options.overrides, options.script,
                   {options.width, options.height, options.judge, !options.compares_pictures});
   const int last_frame = options.frames.value_or(session.default_last_frame());
@@ -59,14 +62,13 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   Expectations expectations(session.script(), judged, options.compares_pictures, watcher.message);
   const auto judge = [&](int frame, std::span<const double> figures) {
     expectations.check(frame, figures, [&] { return folder.picture(frame); });
-    if (!expectations.breaks(frame, figures)) return false;
+    if (!expectations.breaks(frame, figures, {})) return false;  // the first that is true ends the run
     result.stopped_by_break = true;
     return true;
   };
 
   bool stop = false;
-  if (options.freeze && *options.freeze <= folder.resume_frame() &&
-      !std::filesystem::exists(folder.frozen_step(*options.freeze)))
+  if (options.freeze && *options.freeze <= folder.resume_frame() && !is_there(folder.frozen_step(*options.freeze)))
     throw InputError(
         fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose "
                     "one, or another --out",
@@ -77,25 +79,20 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     for (int frame = 0; frame <= result.resumed_from && !stop; ++frame)
       stop = judge(frame, folder.kept()[frame].figures);
   }
-  const auto interrupted = [&] { return watcher.interrupted != nullptr && watcher.interrupted->load(); };
-  while (!stop && session.frame() < last_frame && !interrupted()) {
+  result.last_frame = result.resumed_from;
+  const auto make_frame = [&] {
     std::vector<Command> commands;
     FrozenStep frozen;
     FrameExtras extras;
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
-    try {
-      commands = session.advance(freezes ? &frozen : nullptr);
-      if (judged) {
-        const OverlapVerdict verdict = judge_overlap(session.world().bodies());
-        extras.judged_penetration = verdict.penetration;
-        extras.judged_intersections = verdict.intersections;
-      }
-      check_figures(session.record().stats, extras, judged);
-    } catch (const DivergenceError& error) {
-      result.diverged = error.what();
-      break;
+    commands = session.advance(freezes ? &frozen : nullptr);
+    if (judged) {
+      const OverlapVerdict verdict = judge_overlap(session.world().bodies());
+      extras.judged_penetration = verdict.penetration;
+      extras.judged_intersections = verdict.intersections;
     }
-    const int frame = result.last_frame = session.frame();
+    check_figures(session.record().stats, extras, judged);
+    const int frame = session.frame();
     extras.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
     if (freezes) {
       folder.add_frozen_step(frozen);
@@ -104,18 +101,29 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       result.frozen_groups = frozen.groups.size();
     }
     folder.add_frame(session.record(), commands, extras);
+    result.last_frame = frame;
     if (watcher.frame) watcher.frame(session.record().stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
     stop = judge(frame, figure_values(session.record().stats, extras, judged));
     folder.add_snapshot(session);
+  };
+  try {
+    while (!stop && result.last_frame < last_frame) {
+      check_interrupt();
+      make_frame();
+    }
+  } catch (const Interrupted&) {
+    result.interrupted = true;
+  } catch (const DivergenceError& error) {
+    result.diverged = error.what();
   }
   view.finish();
-  result.interrupted = result.last_frame < last_frame && !stop && result.diverged.empty();
   result.failures = expectations.failures();
   if (result.diverged.empty() && !result.interrupted) {
     expectations.note_unchecked(result.last_frame);
     folder.finish();
   }
+  result.lock = folder.hand_over_lock();
   return result;
 }
 

@@ -1,10 +1,10 @@
 // A run from its first frame to its last, into a run folder.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <optional>
 
+#include "engine/io/folder_lock.hpp"
 #include "viewer/controller/session.hpp"
 
 namespace impinge {
@@ -26,11 +26,10 @@ struct RunOptions {
 struct RunWatcher {
   std::function<void(const FrameStats& stats, int last_frame)> frame;
   std::function<void(const std::string& line)> message;  ///< a failed expectation, a break, a note
-  const std::atomic<bool>* interrupted = nullptr;        ///< asks to stop after the frame in work
 };
 
 struct RunResult {
-  int last_frame = -1;    ///< published
+  int last_frame = -1;    ///< whose row is in stats.csv
   int resumed_from = -1;  ///< the frame of the snapshot that was continued, -1: none
   int failures = 0;       ///< expectations not met
   bool stopped_by_break = false;
@@ -39,10 +38,12 @@ struct RunResult {
   std::size_t frozen_contacts = 0, frozen_groups = 0;
   double frames_per_second = 0;  ///< of simulated time
   std::string diverged;          ///< why, if the simulation left the finite numbers
+  FolderLock lock;               ///< of the folder, for whoever adds to it what belongs to the run
   int exit_code() const;
 };
 
-/// Loads and checks everything before it writes anything. Throws InputError.
+/// Loads and checks everything before it writes anything. Throws InputError, and Interrupted while it loads; once
+/// frames are made an interrupt (core/interrupt.hpp) ends the run after the last whole one.
 RunResult run(const RunOptions& options, const RunWatcher& watcher);
 
 }  // namespace impinge

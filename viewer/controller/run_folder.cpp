@@ -9,6 +9,7 @@
 #include "engine/frozen/frozen_step_file.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/surface_export.hpp"
@@ -32,7 +33,7 @@ std::pair<std::string, int> split_frames(const std::string& run_toml) {
   return {run_toml.substr(0, begin) + run_toml.substr(end), frames};
 }
 
-std::string read_if_there(const fs::path& path) { return fs::is_regular_file(path) ? read_file(path, kMostBytes) : ""; }
+std::string read_if_there(const fs::path& path) { return is_file(path) ? read_file(path, kMostBytes) : ""; }
 
 // how many bytes to keep so that no line of a frame after `frame` stays; `number` finds a line's frame
 template <class Number>
@@ -67,15 +68,6 @@ AppendFile open_table(const fs::path& path, int frame, const std::string& header
   return file;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError(
-        fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                    folder.string(), error.message()));
-}
-
 bool is_our_number(const fs::path& path, const char* ending) {
   const std::string stem = path.stem().string();
   return path.extension() == ending && stem.size() == 6 && stem.find_first_not_of("0123456789") == std::string::npos;
@@ -107,12 +99,15 @@ std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
 RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
                      std::uint64_t snapshot_bytes)
     : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes) {
-  check_new(resume, run_toml);
+  check_new(resume, run_toml);  // before anything is written, the lock's file among it
+  make_folder(folder_);
+  lock_ = FolderLock::take(folder_);
+  check_new(resume, run_toml);  // what another process may have made of it until it gave the lock back
+  clear_leftovers();
   if (resume) {
     kept_ = whole_rows(read_if_there(folder_ / "stats.csv"), run_.judge);
     kept_.resize(static_cast<std::size_t>(last_resumable(kept_) + 1));
   }
-  make_folder(folder_);
   write_file(folder_ / "run.toml", run_toml);
   clear_markers();
   make_folder(folder_ / "snapshots");
@@ -128,18 +123,14 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
 
 void RunFolder::check_new(bool resume, const std::string& run_toml) const {
   const std::string name = folder_.string();
-  std::error_code error;
-  const fs::file_status status = fs::status(folder_, error);
-  if (!fs::exists(status)) return;
-  if (!fs::is_directory(status)) throw InputError(name + ": is a file; a folder is wanted; choose another --out");
+  if (!is_there(folder_)) return;
+  if (!is_folder(folder_)) throw InputError(name + ": is a file; a folder is wanted; choose another --out");
   const fs::path recorded = folder_ / "run.toml";
-  if (!fs::exists(recorded)) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
-      if (entry.path().filename() != "run.toml.tmp")
-        throw InputError(
-            fmt::format("{}: holds {} and is no run's folder; a new or empty folder is wanted; choose another --out",
-                        name, entry.path().filename().string()));
-    if (error) throw InputError(fmt::format("{}: can't be read ({}); choose another --out", name, error.message()));
+  if (!is_there(recorded)) {
+    for (const std::string& other : names_in(folder_))
+      if (other != FolderLock::kName && !is_temporary_name(other))
+        throw InputError(fmt::format(
+            "{}: holds {} and is no run's folder; a new or empty folder is wanted; choose another --out", name, other));
     return;
   }
   const auto [before, frames_before] = split_frames(read_file(recorded, kMostBytes));
@@ -161,12 +152,27 @@ int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
   int pictures = static_cast<int>(rows.size());
   if (run_.images) {
     int there = 0;
-    while (there < pictures && fs::exists(picture(there)) && (!run_.ids || fs::exists(id_picture(there)))) ++there;
+    while (there < pictures && is_there(picture(there)) && (!run_.ids || is_there(id_picture(there)))) ++there;
     pictures = there;
   }
   for (int frame = pictures - 1; frame >= 0; --frame)
     if (is_valid_snapshot(snapshot(frame))) return frame;
   return -1;
+}
+
+void RunFolder::clear_leftovers() const {
+  std::vector<fs::path> folders = {folder_};
+  for (const char* name : {"snapshots", "frames", "ids", "frozen"}) folders.push_back(folder_ / name);
+  // of surfaces only the last frame's can be half written
+  if (const fs::path surfaces = folder_ / "surfaces"; is_folder(surfaces))
+    if (const std::vector<std::string> frames = names_in(surfaces); !frames.empty())
+      folders.push_back(surfaces / frames.back());
+  std::error_code error;
+  for (const fs::path& folder : folders) {
+    if (!is_folder(folder)) continue;
+    for (const std::string& name : names_in(folder))
+      if (is_temporary_name(name)) fs::remove(folder / name, error);
+  }
 }
 
 void RunFolder::clear_markers() {

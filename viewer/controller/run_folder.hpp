@@ -10,6 +10,7 @@
 #include <span>
 
 #include "engine/io/append_file.hpp"
+#include "engine/io/folder_lock.hpp"
 #include "viewer/controller/command.hpp"
 #include "viewer/controller/session.hpp"
 #include "viewer/controller/stats_table.hpp"
@@ -18,8 +19,8 @@ namespace impinge {
 
 class RunFolder {
  public:
-  /// Throws InputError, with nothing written, if the folder can't be taken; otherwise it holds run.toml and the files
-  /// that grow, cut back to the last frame from which the run can go on.
+  /// Throws InputError, with nothing written, if the folder can't be taken, because another process writes into it for
+  /// one; otherwise it holds run.toml and the files that grow, cut back to the last frame from which the run can go on.
   RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
             std::uint64_t snapshot_bytes);
 
@@ -39,15 +40,20 @@ class RunFolder {
   void add_snapshot(const Session& session);
   void add_frozen_step(const FrozenStep& step);
   void finish();
+  /// The folder's, which ends with this object otherwise.
+  FolderLock hand_over_lock() { return std::move(lock_); }
 
  private:
   void check_new(bool resume, const std::string& run_toml) const;
   int last_resumable(const std::vector<StatsLine>& rows) const;
   void clear_markers();
+  /// What a process that was killed in the middle of a file has left.
+  void clear_leftovers() const;
   void forget_snapshot(int frame);
 
   std::filesystem::path folder_;
   RunRecord run_;
+  FolderLock lock_;
   std::vector<StatsLine> kept_;
   std::uint64_t most_snapshot_bytes_, snapshot_bytes_ = 0;  // room for them, and taken
   std::map<int, std::uint64_t> snapshots_;                  // bytes by frame

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 
 namespace impinge {
 
@@ -59,6 +61,7 @@ std::string unquoted(std::string_view word) {
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
   const std::string text = read_file(path, 16u << 20);
+  check_utf8(path.string(), text);
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
@@ -177,7 +180,7 @@ void Script::read_expect(const PlacedText& line, std::span<const PlacedText> wor
     if (error != std::errc() || end != word.data() + word.size() || image.tolerance < 0 || image.tolerance > 255)
       inner[3].refuse(fmt::format("'{}'", word), "a tolerance from 0 to 255 is wanted", "write tolerance 3");
   }
-  if (!pictures_may_be_missing_ && !std::filesystem::is_regular_file(image.file))
+  if (!pictures_may_be_missing_ && !is_file(image.file))
     inner[1].refuse(fmt::format("there is no file {}", image.file.string()),
                     "a PNG file relative to the script is wanted", "make the baseline, or check the path");
   images_.push_back(std::move(image));

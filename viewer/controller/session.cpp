@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/frozen/frozen_step.hpp"
+#include "engine/io/paths.hpp"
 #include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
@@ -16,9 +18,7 @@ namespace fs = std::filesystem;
 constexpr int kDefaultLastFrame = 240;
 
 // for run.toml, which may be read from anywhere
-std::string absolute_path(const fs::path& path) {
-  return (path.empty() ? fs::current_path() : fs::absolute(path).lexically_normal()).string();
-}
+std::string from_anywhere(const fs::path& path) { return absolute_path(path).lexically_normal().string(); }
 
 void put_text(ByteWriter& out, const std::string& text) {
   out.put<std::uint64_t>(text.size());
@@ -77,6 +77,9 @@ ParameterValue get_value(ByteReader& in, const ParameterValue& like) {
 
 Session::Session(const fs::path& scene_file, const std::vector<std::string>& overrides, const fs::path& script_file,
                  const SessionOptions& options) {
+  // run.toml names them: what it can't hold must not get as far as frame 0
+  check_utf8_name(absolute_path(scene_file).string());
+  if (!script_file.empty()) check_utf8_name(absolute_path(script_file).string());
   world_.parameters.bind(rows_);
   view_.bind(rows_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
@@ -151,9 +154,9 @@ RunRecord Session::run_record() const {
   RunRecord run;
   if (scene_.run) run = *scene_.run;
   run.version = IMPINGE_VERSION;
-  run.scene = scene_.run ? scene_.run->scene : absolute_path(scene_.path);
-  run.folder = scene_.run ? scene_.run->folder : absolute_path(scene_.folder);
-  run.script_file = script_name_.empty() ? "" : absolute_path(script_name_);
+  run.scene = scene_.run ? scene_.run->scene : from_anywhere(scene_.path);
+  run.folder = scene_.run ? scene_.run->folder : from_anywhere(scene_.folder);
+  run.script_file = script_name_.empty() ? "" : from_anywhere(script_name_);
   run.script = script_lines_;
   run.judge = judge_;
   return run;

@@ -2,6 +2,7 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 
 namespace impinge {
 
@@ -31,7 +32,7 @@ std::size_t write_snapshot(const std::filesystem::path& path, const Session& ses
 
 bool is_valid_snapshot(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
+  if (!is_file(path)) return false;
   return !body_of(read_file(path, kMostBytes)).empty();
 }
 

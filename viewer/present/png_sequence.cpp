@@ -6,17 +6,14 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/io/paths.hpp"
 
 namespace impinge {
 
 namespace {
 
 std::filesystem::path made(std::filesystem::path folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error))
-    throw InputError(fmt::format("{}: can't be created ({}); a folder for frames is wanted; choose another --out",
-                                 folder.string(), error ? error.message() : "a file of that name exists"));
+  make_folder(folder);
   return folder;
 }
 

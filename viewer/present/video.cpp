@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,8 +14,9 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-
-extern "C" char** environ;
+#include "engine/io/child_process.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 
 namespace impinge {
 
@@ -31,10 +31,6 @@ struct Outcome {
 
 /// Runs `words[0]`, found on PATH, in `folder`, without a shell, and waits for its end.
 Outcome run_program(const std::vector<std::string>& words, const fs::path& folder) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     throw InputError(fmt::format("{}: can't be run ({})", words[0], std::strerror(errno)));
@@ -45,24 +41,18 @@ Outcome run_program(const std::vector<std::string>& words, const fs::path& folde
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   pid_t child = 0;
-  const int error = posix_spawnp(&child, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
+  const int error = spawn(words, actions, child);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
 
   Outcome outcome;
   if (error == 0) {
-    char buffer[512];
-    for (;;) {
-      const ssize_t got = read(ends[0], buffer, sizeof buffer);
-      if (got > 0 && outcome.complaint.size() < 4096) outcome.complaint.append(buffer, static_cast<std::size_t>(got));
-      if (got == 0 || (got < 0 && errno != EINTR)) break;
-    }
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
+    ChildProcess program(child);
+    outcome.complaint = ChildProcess::read_all(ends[0], 4096);
+    const int status = program.wait();
     outcome.succeeded = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
-  close(ends[0]);
+  if (error != 0) close(ends[0]);
   if (error == ENOENT)
     outcome.installed = false;
   else if (error != 0)
@@ -77,9 +67,8 @@ bool is_frame(const fs::path& path) {
 }
 
 void require_frames(const fs::path& folder) {
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (is_frame(entry->path())) return;
+  for (const std::string& name : names_in(folder))
+    if (is_frame(name)) return;
   throw InputError(folder.string() + ": has no frames; files such as 000000.png are wanted; run the scene first");
 }
 
@@ -99,9 +88,15 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
         fmt::format("{}: {} frames a second; a positive number is wanted; try 30", output.string(), frames_per_second));
   require_frames(frames);
   // ffmpeg runs in the frames' folder, as its patterns have no way to quote a folder's name; so its output is absolute
-  const fs::path target = fs::absolute(output);
-  const fs::path temporary = target.parent_path() / (target.stem().string() + ".tmp" + target.extension().string());
-  std::error_code ignored;
+  const fs::path target = absolute_path(output);
+  const fs::path temporary = temporary_name(target, true);
+  struct Removed {
+    const fs::path& path;
+    ~Removed() {
+      std::error_code ignored;
+      fs::remove(path, ignored);
+    }
+  } removed{temporary};
   std::string complaint;
   for (const std::vector<std::string>& codec :
        {std::vector<std::string>{"libx264", "-preset", "medium", "-crf", "18"}, {"mpeg4", "-q:v", "2"}}) {
@@ -133,10 +128,8 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
       std::error_code error;
       fs::rename(temporary, target, error);
       if (!error) return true;
-      fs::remove(temporary, ignored);
       throw InputError(fmt::format("{}: can't be written ({}); choose another name", output.string(), error.message()));
     }
-    fs::remove(temporary, ignored);
     if (complaint.empty()) complaint = first_line(outcome.complaint);
   }
   throw InputError(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/edge_cone.hpp"
 #include "engine/detection/contacts/proximity_parts.hpp"
 
@@ -79,8 +80,10 @@ void append_edge_contacts(const ProximityQuery& query, std::vector<Collision>& c
   const std::vector<EdgeCone> edges_a = convex_edges(query.a, std::move(triangles_a));
   const std::vector<EdgeCone> edges_b = convex_edges(query.b, std::move(triangles_b));
   if (edges_a.empty() || edges_b.empty()) return;
+  InterruptPoll poll;
   std::vector<std::uint64_t> keys;
-  for (const TrianglePair& pair : query.triangles)
+  for (const TrianglePair& pair : query.triangles) {
+    poll();
     for (int ea : query.a.triangle_edges(pair.triangle_a)) {
       const int i = find_edge(edges_a, ea);
       if (i < 0) continue;
@@ -89,9 +92,13 @@ void append_edge_contacts(const ProximityQuery& query, std::vector<Collision>& c
         if (j >= 0) keys.push_back(static_cast<std::uint64_t>(i) << 32 | static_cast<std::uint32_t>(j));
       }
     }
+  }
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  for (std::uint64_t key : keys) add_contact(query, edges_a[key >> 32], edges_b[key & 0xffffffffu], contacts);
+  for (std::uint64_t key : keys) {
+    poll();
+    add_contact(query, edges_a[key >> 32], edges_b[key & 0xffffffffu], contacts);
+  }
 }
 
 }  // namespace impinge

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/contacts/proximity_parts.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
@@ -75,7 +76,9 @@ void intersection_contacts(std::span<const Collider> colliders, const BodyPair& 
                            std::span<const TrianglePair> triangles, std::vector<Collision>& contacts) {
   const SurfaceView a(colliders[pair.a], pair.a), b(colliders[pair.b], pair.b);
   std::vector<Collision> found;
+  InterruptPoll poll;
   for (const TrianglePair& t : triangles) {
+    poll();
     if (!t.intersecting) continue;
     const Vec3 na = a.face_normal(t.triangle_a), nb = b.face_normal(t.triangle_b);
     const TriangleCorners ca = a.corners(t.triangle_a), cb = b.corners(t.triangle_b);

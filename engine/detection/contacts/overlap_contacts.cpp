@@ -10,6 +10,7 @@
 #include <limits>
 #include <set>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/edge_cone.hpp"
 #include "engine/detection/contacts/proximity_parts.hpp"
 
@@ -142,7 +143,9 @@ void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>
     if (c.gap <= query.touch) pushed.add(c);
   std::vector<std::pair<Collision, TrianglePair>> found, touching;
   bool is_any_pushed = std::any_of(contacts.begin(), contacts.end(), [](const Collision& c) { return c.gap < 0.0; });
+  InterruptPoll poll;
   for (const TrianglePair& pair : query.triangles) {
+    poll();
     if (!pair.intersecting || pushed.covers(query, pair)) continue;
     const Separation separation(query, pair);
     // triangles that merely touch need no push; sliding along each other they must not catch
@@ -161,6 +164,7 @@ void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>
   const double shallow = 2.0 * found.front().first.gap;
   std::vector<Collision> kept;
   for (const auto& [contact, pair] : found) {
+    poll();
     if (contact.gap < shallow && pushed.covers(query, pair)) continue;
     pushed.add(contact);
     kept.push_back(contact);

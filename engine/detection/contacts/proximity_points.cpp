@@ -14,6 +14,7 @@
 //   Where it is none, the rim is closer to an inner point of the face, and gives its own contact from the other side.
 #include <algorithm>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/contacts/proximity_parts.hpp"
 
@@ -39,8 +40,10 @@ void drop_coincident(std::vector<Collision>& contacts, double distance) {
     return std::pair(contacts[l].point_a.x(), l) < std::pair(contacts[r].point_a.x(), r);
   });
   std::vector<char> is_dropped(contacts.size(), 0);
+  InterruptPoll poll;
   for (std::size_t i = 0; i < order.size(); ++i)
     for (std::size_t j = i + 1; j < order.size(); ++j) {
+      poll();
       const Collision &l = contacts[order[i]], &r = contacts[order[j]];
       if (r.point_a.x() - l.point_a.x() > distance) break;
       if ((r.point_a - l.point_a).norm() <= distance && (r.point_b - l.point_b).norm() <= distance &&

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/proximity_parts.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
@@ -39,7 +40,9 @@ class VertexPass {
     }
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    InterruptPoll poll;
     for (std::size_t i = 0; i < keys.size();) {
+      poll();
       triangles_.clear();
       const int v = static_cast<int>(keys[i] >> 32);
       for (; i < keys.size() && static_cast<int>(keys[i] >> 32) == v; ++i)

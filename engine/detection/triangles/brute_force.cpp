@@ -1,6 +1,7 @@
 // Every triangle against every triangle of the other body: the reference, and the baseline of the seed's Fig. 6.4.
 #include <algorithm>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
@@ -38,10 +39,12 @@ class BruteForce final : public NarrowPhase {
     parallel_for(tasks, 1, [&](std::size_t task) {
       std::vector<TrianglePair>& out = rows_[task];
       out.clear();
+      InterruptPoll poll;
       for (std::size_t i = task * kRows; i < std::min(count, (task + 1) * kRows); ++i) {
         const TriangleCorners corners = corners_of(a, static_cast<int>(i));
         const Aabb box = boxes_a_[i];
         for (std::size_t j = is_self ? i + 1 : 0; j < boxes_b_.size(); ++j) {
+          poll();
           if (!overlap(box, boxes_b_[j])) continue;
           if (is_self && share_a_vertex(triangles[i], triangles[j])) continue;
           const int ta = static_cast<int>(i), tb = static_cast<int>(j);

@@ -21,6 +21,7 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/triangles/cell_hash.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
@@ -294,6 +295,7 @@ class SpatialHash final : public NarrowPhase {
     parallel_for(tasks, 1, [&](std::size_t task) {
       std::vector<TrianglePair>& out = task_found_[task];
       out.clear();
+      InterruptPoll poll;
       for (std::size_t u = task * kEntriesATask; u < std::min(used_.size(), (task + 1) * kEntriesATask); ++u) {
         const Count& count = counts_[used_[u]];
         // bodies stand in the list in ascending order: what a triangle can meet begins behind its own body
@@ -302,6 +304,7 @@ class SpatialHash final : public NarrowPhase {
           const Node& l = lists_[i];
           while (next < count.end && lists_[next].body == l.body) ++next;
           for (std::uint32_t j = is_self_[l.body] != 0 ? i + 1 : next; j < count.end; ++j) {
+            poll();
             const Node& r = lists_[j];
             // the smallest cell that both cover is the lowest of one of them on each axis; elsewhere the pair is not
             // tested
@@ -340,6 +343,7 @@ class SpatialHash final : public NarrowPhase {
     parallel_for(large_.size(), 1, [&](std::size_t task) {
       std::vector<TrianglePair>& out = task_found_[task];
       out.clear();
+      InterruptPoll poll;
       const std::uint32_t own = large_[task];
       const Item& item = items_[own];
       for (std::size_t b = 0; b < blocks_.size(); ++b) {
@@ -347,6 +351,7 @@ class SpatialHash final : public NarrowPhase {
         const std::vector<Partner>& partners = partners_[item.body];
         if (std::none_of(partners.begin(), partners.end(), is_block_body)) continue;
         for (std::size_t i = b * kBlock; i < b * kBlock + blocks_[b].items; ++i) {
+          poll();
           if (i == own || (items_[i].is_large && i < own)) continue;  // two large ones meet once
           test(items_[std::min<std::size_t>(own, i)], items_[std::max<std::size_t>(own, i)], out);
         }

@@ -48,10 +48,10 @@ TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
   return mesh;
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
+TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard) {
   const std::string bytes = read_file(path, kMostBytes);
   if (has_own_reader(ending(path.string()))) return parse_mesh(path.string(), bytes);
-  TriangleMesh mesh = read_with_assimp(path);
+  TriangleMesh mesh = read_with_assimp(path, guard);
   check_faces(path.string(), mesh);
   return mesh;
 }

@@ -11,12 +11,15 @@
 #include <span>
 
 #include "engine/geometry/triangle_mesh.hpp"
+#include "engine/io/file_guard.hpp"
 
 namespace impinge {
 
 /// The mesh in a file, by its ending: vertices in source order, polygons fanned from their first corner. Indices are in
-/// range and coordinates finite; whether the surface is closed is for others to check.
-TriangleMesh read_mesh(const std::filesystem::path& path);
+/// range and coordinates finite; whether the surface is closed is for others to check. Coordinates are metres: those of
+/// formats that say their unit (FBX, Collada) are converted, others are taken as they stand. What the file names in turn
+/// is read where the guard allows it.
+TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard = {});
 
 /// The same from bytes; `name` is used in messages and its ending chooses among ply, off, obj and stl.
 TriangleMesh parse_mesh(const std::string& name, std::string_view bytes);

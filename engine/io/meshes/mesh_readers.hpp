@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/geometry/triangle_mesh.hpp"
+#include "engine/io/file_guard.hpp"
 
 namespace impinge {
 
@@ -11,8 +12,8 @@ TriangleMesh read_ply(const std::string& name, std::string_view bytes);
 TriangleMesh read_off(const std::string& name, std::string_view bytes);
 TriangleMesh read_obj(const std::string& name, std::string_view bytes);
 TriangleMesh read_stl(const std::string& name, std::string_view bytes);
-/// Any format that assimp knows, read in a child process.
-TriangleMesh read_with_assimp(const std::filesystem::path& path);
+/// Any format that assimp knows, read in a child process; in metres where the format has a unit.
+TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard);
 
 /// Most vertices, triangles or corners of one polygon that are taken.
 inline constexpr std::int64_t kMostElements = 100'000'000;

@@ -6,12 +6,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <csignal>
 
 #include "engine/core/archive.hpp"
+#include "engine/io/child_process.hpp"
 #include "engine/io/meshes/mesh_readers.hpp"
 
 namespace impinge {
@@ -46,14 +49,63 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
   for (unsigned c = 0; c < node.mNumChildren; ++c) append_node(scene, *node.mChildren[c], transform, mesh, depth + 1);
 }
 
-// what the child sends: 'M' and the mesh, or 'E' and why not
-std::string import_in_child(const std::string& path) {
+/// Files for assimp: a mesh file may name others (buffers, parts of a scene), which must lie where the guard allows
+/// it.
+class GuardedFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit GuardedFiles(const FileGuard& guard) : guard_(guard) {}
+
+  // importers look whether files are there that nobody names: those are just not there
+  bool Exists(const char* file) const override { return !guard_.refused(file) && DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (const auto target = guard_.refused(file))
+      return refuse(fmt::format("names '{}', which leads out of the scene's folder ({})", file, target->string()));
+    // the file itself is one
+    if (++opened_ > kMostIncludes + 1) return refuse(fmt::format("names more than {} files", kMostIncludes));
+    return DefaultIOSystem::Open(file, mode);
+  }
+  /// The first refusal, worded to follow the file's name; "" where there was none.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  Assimp::IOStream* refuse(const std::string& problem) {
+    if (problem_.empty()) problem_ = problem;
+    return nullptr;
+  }
+
+  const FileGuard& guard_;
+  int opened_ = 0;
+  std::string problem_;
+};
+
+/// Metres of a unit of the file. assimp converts Collada's <unit> by itself and hands FBX's over: centimetres, times a
+/// factor. Other formats have none, or none that assimp reads.
+double unit_of(const aiScene& scene) {
+  constexpr const char* kFactor = "UnitScaleFactor";
+  float single = 0.0f;
+  double factor = 0.0;
+  if (scene.mMetaData == nullptr || !scene.mMetaData->HasKey(kFactor)) return 1.0;
+  if (scene.mMetaData->Get(kFactor, single))
+    factor = single;
+  else if (!scene.mMetaData->Get(kFactor, factor))
+    return 1.0;
+  if (!std::isfinite(factor) || !(factor > 0.0)) throw InputError(fmt::format("its unit is {} cm", factor));
+  return 0.01 * factor;
+}
+
+// what the child sends: 'M' and the mesh, 'E' and why not, or 'R' and what it asked for that it must not have
+std::string import_in_child(const std::string& path, const FileGuard& guard) {
+  auto* files = new GuardedFiles(guard);  // the importer deletes it
+  Assimp::Importer importer;
+  importer.SetIOHandler(files);
   try {
-    Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure);
+    if (!files->problem().empty()) return "R" + files->problem();
     if (scene == nullptr || scene->mRootNode == nullptr) return std::string("E") + importer.GetErrorString();
     TriangleMesh mesh;
     append_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, 0);
+    if (const double unit = unit_of(*scene); unit != 1.0)
+      for (Vec3& x : mesh.vertices) x *= unit;
     ByteWriter out;
     out.put('M');
     out.put<std::uint64_t>(mesh.vertices.size());
@@ -77,10 +129,13 @@ void limit_resources() {
 #endif
 }
 
-[[noreturn]] void child(const std::string& path, int out) {
+[[noreturn]] void child(const std::string& path, const FileGuard& guard, int out) {
   limit_resources();
+  sigset_t none;  // what the parent blocks, to take care of it by itself, ends this one
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
   if (std::freopen("/dev/null", "w", stderr) == nullptr || std::freopen("/dev/null", "w", stdout) == nullptr) _exit(1);
-  const std::string bytes = import_in_child(path);
+  const std::string bytes = import_in_child(path, guard);
   std::string_view rest = bytes;
   while (!rest.empty()) {
     const ssize_t n = write(out, rest.data(), rest.size());
@@ -92,7 +147,7 @@ void limit_resources() {
 
 }  // namespace
 
-TriangleMesh read_with_assimp(const std::filesystem::path& path) {
+TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard) {
   const std::string name = path.string();
   {
     const Assimp::Importer importer;
@@ -110,17 +165,18 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path) {
     throw InputError(name + ": no process for the importer; the system is out of processes; close some programs");
   if (pid == 0) {
     close(ends[0]);
-    child(name, ends[1]);
+    child(name, guard, ends[1]);
   }
   close(ends[1]);
-  std::string bytes;
-  char buffer[65536];
-  for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) > 0;) bytes.append(buffer, static_cast<std::size_t>(n));
-  close(ends[0]);
-  int status = 0;
-  waitpid(pid, &status, 0);
+  ChildProcess importer(pid);
+  const std::string bytes = ChildProcess::read_all(ends[0]);
+  const int status = importer.wait();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty())
     throw InputError(name + ": the importer failed on it; a sound file is wanted; convert it to PLY");
+  if (bytes[0] == 'R')
+    throw InputError(
+        fmt::format("{}: {}; files inside it are read, {} at most; copy them there, or convert the mesh to PLY", name,
+                    bytes.substr(1), kMostIncludes));
   if (bytes[0] == 'E')
     throw InputError(
         fmt::format("{}: can't be read ({}); a sound file is wanted; convert it to PLY", name, bytes.substr(1)));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/scene/run_record.hpp"
 #include "engine/io/scene/scene_attachments.hpp"
@@ -42,9 +43,15 @@ bool has_rows_below(const ParameterSet& rows, const std::string& path) {
          near.empty() ? "remove it" : fmt::format("did you mean '{}'?", near));
 }
 
+// read by other means than rows; [sweep] is `impinge sweep`'s
+constexpr std::string_view kOtherTables[] = {"body", "attachment", "run", "scene", "sweep"};
+
 // dotted paths of a table's values; a row takes its value, anything else must be a table that has rows below it
 void read_parameters(const TomlNode& table, const std::string& prefix, const ParameterSet& rows, Scene& scene) {
   for (const TomlEntry& entry : table.entries) {
+    if (prefix.empty() &&
+        std::find(std::begin(kOtherTables), std::end(kOtherTables), entry.key) != std::end(kOtherTables))
+      continue;
     const std::string path = prefix.empty() ? entry.key : prefix + "." + entry.key;
     if (const Parameter* row = rows.find(path)) {
       const ParameterValue value = scene_value(*row, entry.value);
@@ -65,11 +72,13 @@ void read_parameters(const TomlNode& table, const std::string& prefix, const Par
   }
 }
 
-void read_bodies(const TomlNode& list, Scene& scene, SurfaceFiles& surfaces, World& world) {
+void read_bodies(TomlNode& list, Scene& scene, SurfaceFiles& surfaces, World& world) {
   if (list.kind != TomlNode::array)
     refuse(list.place, fmt::format("body is {}", toml_kind_name(list)), "[[body]] tables are wanted", "write [[body]]");
   std::set<std::string> names;
-  for (const TomlNode& table : list.items) {
+  scene.bodies.reserve(list.items.size());
+  for (TomlNode& table : list.items) {
+    check_interrupt();
     const BodyDescription body = read_body(table, surfaces);
     if (!names.insert(body.name).second)
       refuse(table.find("name")->value.place, fmt::format("a second body named '{}'", body.name), "names must differ",
@@ -81,27 +90,29 @@ void read_bodies(const TomlNode& list, Scene& scene, SurfaceFiles& surfaces, Wor
       throw InputError(fmt::format("{}: body.{}: {}", table.place, body.name, error.what()));
     }
     check_mass(table, *added);
-    scene.bodies.push_back(table);
+    scene.bodies.push_back(std::move(table));
   }
 }
 
-void read_attachments(const TomlNode& list, Scene& scene, World& world) {
+void read_attachments(TomlNode& list, Scene& scene, World& world) {
   if (list.kind != TomlNode::array)
     refuse(list.place, fmt::format("attachment is {}", toml_kind_name(list)), "[[attachment]] tables are wanted",
            "write [[attachment]]");
-  for (const TomlNode& table : list.items) {
+  std::set<std::string> names;
+  for (TomlNode& table : list.items) {
     const AttachmentDescription attachment =
-        read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies());
-    for (const TomlNode& earlier : scene.attachments)
-      if (const TomlEntry* name = earlier.find("name"); name != nullptr && name->value.string == attachment.name)
-        refuse(table.place, fmt::format("a second attachment named '{}'", attachment.name), "names must differ",
-               "rename one of them");
+        read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies(), world.body_names());
+    const bool is_named = table.find("name") != nullptr;
+    if (names.contains(attachment.name))
+      refuse(table.place, fmt::format("a second attachment named '{}'", attachment.name), "names must differ",
+             "rename one of them");
+    if (is_named) names.insert(attachment.name);
     try {
       world.add_attachment(attachment);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}", table.place, error.what()));
     }
-    scene.attachments.push_back(table);
+    scene.attachments.push_back(std::move(table));
   }
 }
 
@@ -114,7 +125,7 @@ bool Scene::has(std::string_view parameter) const {
 Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides, World& world, ParameterSet& rows) {
   const std::string name = path.string();
   TomlNode root = parse_toml(name, read_file(path, std::uint64_t{1} << 30));
-  for (const std::string& text : overrides) apply_override(root, text);
+  apply_overrides(root, overrides);
 
   Scene scene;
   scene.path = path;
@@ -126,21 +137,15 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
   if (const TomlEntry* sweep = root.find("sweep"); sweep != nullptr && sweep->value.find("scene") != nullptr)
     refuse(sweep->value.find("scene")->place, "a sweep of another scene", "a scene is wanted here",
            "run it by impinge sweep");
-  TomlNode parameters = root;
-  // [sweep] is `impinge sweep`'s
-  std::erase_if(parameters.entries, [](const TomlEntry& entry) {
-    return entry.key == "body" || entry.key == "attachment" || entry.key == "run" || entry.key == "scene" ||
-           entry.key == "sweep";
-  });
-  read_parameters(parameters, "", rows, scene);
+  read_parameters(root, "", rows, scene);
   if (const TomlEntry* table = root.find("scene")) {
     check_keys(scene_table(table->value, "scene"), "scene", {"allow_outside_files"});
     if (const TomlEntry* allow = table->value.find("allow_outside_files"))
       scene.allow_outside_files = scene_flag(allow->value, "scene.allow_outside_files");
   }
   SurfaceFiles surfaces(scene.folder, scene.allow_outside_files);
-  if (const TomlEntry* bodies = root.find("body")) read_bodies(bodies->value, scene, surfaces, world);
-  if (const TomlEntry* attachments = root.find("attachment")) read_attachments(attachments->value, scene, world);
+  if (TomlEntry* bodies = root.find("body")) read_bodies(bodies->value, scene, surfaces, world);
+  if (TomlEntry* attachments = root.find("attachment")) read_attachments(attachments->value, scene, world);
   scene.surfaces = surfaces.files();
   if (const TomlEntry* run = root.find("run")) check_surface_hashes(run->value, scene.surfaces);
   world.bind_bodies(rows);

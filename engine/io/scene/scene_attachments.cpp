@@ -9,41 +9,37 @@
 namespace impinge {
 namespace {
 
-const RigidBody& body_named(const TomlNode& node, const std::string& what, std::span<const RigidBody> bodies) {
+const RigidBody& body_named(const TomlNode& node, const std::string& what, std::span<const RigidBody> bodies,
+                            const BodyNames& names) {
   const std::string& name = scene_text(node, what);
-  std::vector<std::string> names;
-  for (const RigidBody& body : bodies) {
-    if (body.name == name) return body;
-    names.push_back(body.name);
-  }
-  const std::string near = nearest_word(name, names);
+  if (const int i = names.find(name); i >= 0) return bodies[i];
+  const std::string near = nearest_word(name, names.all());
   refuse(node.place, fmt::format("{} names the body {}, which is not there", what, toml_string(name)),
-         names.empty() ? "the scene has no bodies" : fmt::format("bodies: {}", fmt::join(names, ", ")),
+         bodies.empty() ? "the scene has no bodies" : "bodies: " + some_of(names.all()),
          near.empty() ? "name one of them" : fmt::format("did you mean '{}'?", near));
 }
 
 }  // namespace
 
-AttachmentDescription read_attachment(const TomlNode& table, int index, std::span<const RigidBody> bodies) {
+AttachmentDescription read_attachment(const TomlNode& table, int index, std::span<const RigidBody> bodies,
+                                      const BodyNames& names) {
   scene_table(table, "attachment");
   check_keys(table, "attachment", {"name", "body_a", "body_b", "point"});
   AttachmentDescription a;
   a.name = fmt::format("attachment_{}", index);
   if (const TomlEntry* name = table.find("name")) {
     a.name = scene_text(name->value, "attachment.name");
-    if (!is_body_name(a.name))
-      refuse(name->value.place, fmt::format("{} as an attachment's name", toml_string(a.name)),
-             "letters, digits, _ and - are allowed, a letter or _ first", "rename it");
+    check_name(name->value, a.name, "an attachment");
   }
   const TomlEntry *first = table.find("body_a"), *second = table.find("body_b"), *point = table.find("point");
   if (first == nullptr)
     refuse(table.place, fmt::format("{} has no body_a", a.name), "the name of a body is wanted",
            "add body_a = \"...\"");
-  const RigidBody& body_a = body_named(first->value, a.name + ".body_a", bodies);
+  const RigidBody& body_a = body_named(first->value, a.name + ".body_a", bodies, names);
   a.body_a = body_a.name;
   bool moves = body_a.has_freedom();
   if (second != nullptr) {
-    const RigidBody& body_b = body_named(second->value, a.name + ".body_b", bodies);
+    const RigidBody& body_b = body_named(second->value, a.name + ".body_b", bodies, names);
     a.body_b = body_b.name;
     moves |= body_b.has_freedom();
   }

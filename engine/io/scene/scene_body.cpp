@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/io/scene/scene_motion.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_soft.hpp"
@@ -130,12 +133,15 @@ std::optional<double> read_coefficient(const TomlNode& node, const std::string& 
   return scene_real(node, what, {0.0, high});
 }
 
-bool is_body_name(std::string_view name) {
+void check_name(const TomlNode& node, const std::string& name, const char* whose) {
   const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
-  if (name.empty() || !is_letter(name[0])) return false;
-  for (const char c : name)
-    if (!is_letter(c) && !(c >= '0' && c <= '9') && c != '-') return false;
-  return true;
+  const auto may_follow = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+  if (name.empty() || !is_letter(name[0]) || !std::all_of(name.begin(), name.end(), may_follow))
+    refuse(node.place, fmt::format("{} as {}'s name", toml_string(shortened(name, 60)), whose),
+           "letters, digits, _ and - are allowed, a letter or _ first", "rename it");
+  if (name.size() > kMostNameLetters)
+    refuse(node.place, fmt::format("{}'s name of {} letters", whose, name.size()),
+           fmt::format("at most {} are allowed, since files are named after it", kMostNameLetters), "shorten it");
 }
 
 BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
@@ -144,9 +150,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   if (name == nullptr) refuse(table.place, "a body without a name", "name = \"...\" is wanted", "add it");
   BodyDescription body;
   body.name = scene_text(name->value, "body.name");
-  if (!is_body_name(body.name))
-    refuse(name->value.place, fmt::format("{} as a body's name", toml_string(body.name)),
-           "letters, digits, _ and - are allowed, a letter or _ first", "rename it");
+  check_name(name->value, body.name, "a body");
   const std::string what = "body." + body.name;
   body.kind = read_kind(table, what);
   check_keys(table, what, kKeys);

@@ -12,7 +12,11 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces);
 /// The one exact shape that the table names, its lengths times `scale`.
 Shape read_shape(const TomlNode& node, const std::string& what, double scale);
 
-/// Whether it may name a body: [A-Za-z_][A-Za-z0-9_-]*
-bool is_body_name(std::string_view name);
+/// Most letters of a name: it is part of the names of files.
+inline constexpr std::size_t kMostNameLetters = 128;
+
+/// Refuses what may not name a body or an attachment: [A-Za-z_][A-Za-z0-9_-]*, of kMostNameLetters at most. `whose`:
+/// "a body".
+void check_name(const TomlNode& node, const std::string& name, const char* whose);
 
 }  // namespace impinge

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <optional>
+
 #include "engine/core/parameter.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
@@ -9,25 +12,33 @@ namespace impinge {
 
 namespace {
 
-TomlNode& body_named(TomlNode& root, const std::string& name, const std::string& place) {
-  std::vector<std::string> names;
-  if (TomlEntry* bodies = root.find("body")) {
-    for (TomlNode& body : bodies->value.items) {
-      const TomlEntry* entry = body.find("name");
+/// The bodies of a scene's tree by their names, which no override can change.
+class Bodies {
+ public:
+  explicit Bodies(const TomlNode& root) {
+    const TomlEntry* bodies = root.find("body");
+    if (bodies == nullptr) return;
+    for (std::size_t i = 0; i < bodies->value.items.size(); ++i) {
+      const TomlEntry* entry = bodies->value.items[i].find("name");
       if (entry == nullptr) continue;
-      if (entry->value.string == name) return body;
-      names.push_back(entry->value.string);
+      names_.push_back(entry->value.string);
+      by_name_.emplace(entry->value.string, i);
     }
   }
-  const std::string near = nearest_word(name, names);
-  refuse(place, fmt::format("there is no body '{}'", name),
-         names.empty() ? "the scene has no bodies" : fmt::format("bodies: {}", fmt::join(names, ", ")),
-         near.empty() ? "name one of the scene's" : fmt::format("did you mean '{}'?", near));
-}
+  TomlNode& named(TomlNode& root, const std::string& name, const std::string& place) const {
+    if (const auto it = by_name_.find(name); it != by_name_.end()) return root.find("body")->value.items[it->second];
+    const std::string near = nearest_word(name, names_);
+    refuse(place, fmt::format("there is no body '{}'", name),
+           names_.empty() ? "the scene has no bodies" : "bodies: " + some_of(names_),
+           near.empty() ? "name one of the scene's" : fmt::format("did you mean '{}'?", near));
+  }
 
-}  // namespace
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::size_t> by_name_;
+};
 
-void apply_override(TomlNode& root, const std::string& text) {
+void apply_override(TomlNode& root, std::optional<Bodies>& bodies, const std::string& text) {
   const std::string place = "--set " + text;
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -49,7 +60,8 @@ void apply_override(TomlNode& root, const std::string& text) {
   if (keys[0] == "body") {
     if (keys.size() < 3)
       refuse(place, "no key of a body", "body.NAME.KEY=VALUE is wanted", "write --set body.crate.mass=2");
-    node = &body_named(root, keys[1], place);
+    if (!bodies) bodies.emplace(root);
+    node = &bodies->named(root, keys[1], place);
     i = 2;
     if (keys[2] == "name") refuse(place, "a body's name", "its other keys can be set", "rename it in the scene file");
   }
@@ -73,6 +85,13 @@ void apply_override(TomlNode& root, const std::string& text) {
   } else {
     node->entries.push_back({keys.back(), place, std::move(value)});
   }
+}
+
+}  // namespace
+
+void apply_overrides(TomlNode& root, const std::vector<std::string>& texts) {
+  std::optional<Bodies> bodies;
+  for (const std::string& text : texts) apply_override(root, bodies, text);
 }
 
 }  // namespace impinge

@@ -5,8 +5,8 @@
 
 namespace impinge {
 
-/// Replaces or adds the value at a dotted path; `body.NAME.key...` means the [[body]] of that name. Throws InputError
-/// `--set PATH=VALUE: ...`.
-void apply_override(TomlNode& root, const std::string& text);
+/// Replaces or adds the values at dotted paths, one after another; `body.NAME.key...` means the [[body]] of that name.
+/// Throws InputError `--set PATH=VALUE: ...`.
+void apply_overrides(TomlNode& root, const std::vector<std::string>& texts);
 
 }  // namespace impinge

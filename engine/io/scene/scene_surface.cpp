@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/core/archive.hpp"
+#include "engine/core/interrupt.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/geometry/mesh_checks.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "engine/io/meshes/mesh_memory.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
@@ -19,11 +21,6 @@ namespace {
 
 constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
 
-bool is_inside(const fs::path& folder, const fs::path& path) {
-  const fs::path relative = path.lexically_relative(folder);
-  return !relative.empty() && *relative.begin() != ".." && !relative.is_absolute();
-}
-
 }  // namespace
 
 fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const {
@@ -31,19 +28,21 @@ fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const
   if (name.empty())
     refuse(node.place, what + " is empty", "a mesh file's path relative to the scene file is wanted", "name a file");
   const fs::path path = folder_ / name;  // an absolute name replaces the folder
+  PathKind kind = PathKind::nothing;
+  try {
+    kind = path_kind(path);
+  } catch (const InputError& reason) {
+    throw InputError(fmt::format("{}: {} = {}: {}", node.place, what, toml_string(name), reason.what()));
+  }
   std::error_code error;
-  // symbolic links are followed first: what counts is where the file really is
-  const fs::path folder = fs::weakly_canonical(folder_.empty() ? fs::path(".") : folder_, error);
-  // of a name that isn't there, a relative one stays relative
-  const fs::path target = fs::weakly_canonical(fs::absolute(path, error), error);
-  if (!allow_outside_ && !is_inside(folder, target))
+  if (const auto target = guard_.refused(path))
     refuse(node.place,
-           fmt::format("{} = {} leads out of the scene's folder ({})", what, toml_string(name), target.string()),
+           fmt::format("{} = {} leads out of the scene's folder ({})", what, toml_string(name), target->string()),
            "files inside it are read", "move the file there, or set allow_outside_files = true in the table [scene]");
-  if (!fs::exists(path, error))
+  if (kind == PathKind::nothing)
     refuse(node.place, fmt::format("{} = {}: there is no such file ({})", what, toml_string(name), path.string()),
            "a mesh file is wanted", "check the path");
-  if (!fs::is_regular_file(path, error))
+  if (kind != PathKind::file)
     refuse(node.place, fmt::format("{} = {} is not a regular file", what, toml_string(name)), "a mesh file is wanted",
            "check the path");
   return path;
@@ -52,9 +51,16 @@ fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const
 MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
   SurfaceFile file;
   file.name = node.string;
+  const MeshCount count = estimate_mesh(path);
+  check_memory(node.place,
+               fmt::format("surface {} ({}, about {:.2g} triangles)", toml_string(node.string),
+                           describe_bytes(count.bytes), count.triangles),
+               surface_memory(count), "simplify it");
   file.hash = hash_bytes(read_file(path, kLargestFile));
   auto surface = std::make_shared<SurfaceMesh>();
-  surface->mesh = read_mesh(path);
+  check_interrupt();
+  surface->mesh = read_mesh(path, guard_);
+  check_interrupt();
   const auto refuse_mesh = [&](const std::string& problem) {
     throw InputError(fmt::format("{}: surface {} {}", node.place, toml_string(node.string), problem));
   };
@@ -80,7 +86,13 @@ std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, c
   const fs::path path = find(node, what);
   std::shared_ptr<const TetFile>& volume = volumes_[node.string];
   if (volume != nullptr) return volume;
-  volume = std::make_shared<TetFile>(read_tet_file(path));
+  std::error_code error;
+  const double bytes = static_cast<double>(fs::file_size(path, error));
+  // its text, and what it says: no less than 20 bytes a tetrahedron or a vertex
+  if (!error)
+    check_memory(node.place, fmt::format("{} = {} ({})", what, toml_string(node.string), describe_bytes(bytes)),
+                 3.0 * bytes, "use a coarser mesh");
+  volume = std::make_shared<TetFile>(read_tet_file(path, guard_));
   SurfaceFile file;
   file.name = node.string;
   file.hash = hash_bytes(read_file(path, kLargestFile));
@@ -105,6 +117,8 @@ MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, do
   }
   MeshPointer& result = scaled_[{node.string, scale}];
   if (result == nullptr) {
+    check_memory(node.place, fmt::format("surface {}, scaled,", toml_string(node.string)),
+                 surface_bytes(static_cast<double>(surface->mesh.triangles.size())), "use one scale for all bodies");
     auto copy = std::make_shared<SurfaceMesh>(*surface);
     for (Vec3& x : copy->mesh.vertices) x *= scale;
     check_extent(node, what, copy->mesh.vertices, scale);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "engine/io/file_guard.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "engine/io/tets/tet_file.hpp"
 #include "engine/io/tets/volume_cache.hpp"
@@ -24,7 +25,7 @@ struct SurfaceFile {
 class SurfaceFiles {
  public:
   SurfaceFiles(std::filesystem::path folder, bool allow_outside)
-      : folder_(std::move(folder)), allow_outside_(allow_outside) {}
+      : folder_(std::move(folder)), guard_(allow_outside ? FileGuard() : FileGuard(folder_)) {}
 
   /// The closed, outward surface of the file that `node` names, its vertices times `scale`. Throws InputError located
   /// at the node, or in the file where its text is at fault.
@@ -43,7 +44,7 @@ class SurfaceFiles {
   MeshPointer read(const std::filesystem::path& path, const TomlNode& node);
 
   std::filesystem::path folder_;
-  bool allow_outside_ = false;
+  FileGuard guard_;
   std::vector<SurfaceFile> files_;
   VolumeCache made_;
   std::map<std::string, std::shared_ptr<const TetFile>> volumes_;

@@ -5,14 +5,14 @@
 #include <algorithm>
 
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
 
 namespace impinge {
 
 namespace {
 
 std::string found(const TomlNode& node) {
-  const std::string text = format_toml(node);
-  return fmt::format("{} ({})", text.size() > 60 ? text.substr(0, 57) + "..." : text, toml_kind_name(node));
+  return fmt::format("{} ({})", shortened(format_toml(node), 57), toml_kind_name(node));
 }
 
 std::string interval(Range range) { return fmt::format("[{}, {}]", shortest(range.low), shortest(range.high)); }

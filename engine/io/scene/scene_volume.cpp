@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/memory.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/mesh_checks.hpp"
@@ -12,6 +13,7 @@
 #include "engine/io/scene/scene_body.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
+#include "engine/io/scene/volume_memory.hpp"
 #include "engine/io/tets/tetrahedralize.hpp"
 #include "engine/shapes/primitive_surfaces.hpp"
 
@@ -183,6 +185,8 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
     refuse(shape->place, what + " has a shape and a volume file",
            "the volume's own boundary or a surface file is its surface", "remove shape");
   const std::shared_ptr<const TetFile> file = files.load_volume(node, name);
+  check_memory(node.place, fmt::format("{} of {} tetrahedra", name, file->mesh.tets.size()),
+               soft_body_memory(static_cast<double>(file->mesh.tets.size()), 0.0), "use a coarser mesh");
   soft.mesh = file->mesh;
   for (Vec3& x : soft.mesh.vertices) x *= scale;
   check_extent(node, name, soft.mesh.vertices, scale);
@@ -199,6 +203,8 @@ void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& w
                SoftDescription& soft, BodyDescription& body) {
   const int cells = read_cells(way.value, what + ".volume.cage");
   const MeshPointer outer = outer_surface(table, what, scale, 0.0, cells, files, body);
+  check_memory(way.value.place, fmt::format("{}.volume.cage of {} cells", what, cells), cage_memory(outer->mesh, cells),
+               "use fewer cells");
   const auto make = [&]() -> CarriedVolume {
     TetCageSettings settings;
     settings.cells = cells;
@@ -217,6 +223,10 @@ void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string
     refuse(way.place, name + " is of a body that is not a box", "shape = { box = { size } } can be one", "use a cage");
   const Vec3 half = std::get<Box>(read_shape(shape->value, what + ".shape", scale)).half;
   const Eigen::Vector3i n = cells_of_box(half, cells);
+  const Vec3 count = n.cast<double>();
+  const double faces = count.x() * count.y() + count.y() * count.z() + count.z() * count.x();
+  check_memory(way.value.place, fmt::format("{} of {} cells", name, cells),
+               soft_body_memory(5.0 * count.prod(), 4.0 * faces), "use fewer cells");
   soft.mesh = make_alternating_box(2.0 * half, n.x(), n.y(), n.z());
   for (Vec3& x : soft.mesh.vertices) x -= half;
   const MeshPointer boundary = checked_surface(boundary_of(soft.mesh), way.value, name);
@@ -242,6 +252,8 @@ void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std:
            fmt::format("at least {:.3g} m, a {}th of the surface's longest side, is allowed", longest / kMostCells,
                        kMostCells),
            "make it larger");
+  check_memory(size->value.place, fmt::format("{} with max_size {}", name, shortest(settings.max_size)),
+               tetrahedralize_memory(outer->mesh, settings.max_size), "use a larger max_size");
   const auto make = [&]() -> CarriedVolume {
     try {
       CarriedVolume volume;

@@ -1,5 +1,5 @@
-// A TOML document as a plain tree in which every value and key knows its place. toml11, which parses it, is slow to
-// compile and easy to crash with odd input: it stays in toml.cpp, behind checks of size, line length and depth.
+// A TOML document as a plain tree in which every value and key knows its place. The library that parses it stays in
+// toml_parse.cpp, behind checks of encoding, size, line length and depth.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,8 @@ const char* toml_kind_name(const TomlNode& node);
 /// The tree of `text`; `name` is the file's name in messages. Throws InputError `name:line:column: ...`.
 TomlNode parse_toml(const std::string& name, const std::string& text);
 
-/// One value as it stands right of an equals sign; text that is no TOML value is taken as a bare string.
+/// One value as it stands right of an equals sign; text that is no TOML value is taken as a bare string. Throws
+/// InputError where it is no UTF-8.
 TomlNode parse_toml_value(const std::string& text, const std::string& place);
 
 /// The value as TOML on one line; parse_toml reads it back exactly.

@@ -1,4 +1,4 @@
-// What must hold before the TOML parser may see a file: it crashes on deep nesting and hangs on huge lines.
+// What must hold before a text is read as TOML: UTF-8 throughout, and bounded in size and in length of line.
 #pragma once
 
 #include <string>
@@ -8,9 +8,12 @@ namespace impinge {
 
 inline constexpr std::size_t kMostTomlBytes = 32u << 20;
 inline constexpr std::size_t kMostTomlLine = 64u << 10;  ///< bytes
-inline constexpr int kMostTomlDepth = 64;                ///< brackets and braces open at once
+/// Levels a value may lie deep: each open bracket and brace, each part of a dotted key and of a table's head is one, the
+/// list that [[...]] adds to is one more.
+inline constexpr int kMostTomlDepth = 64;
 
-/// Throws InputError `name:line:column: ...` if a limit is passed.
-void prescan_toml(const std::string& name, std::string_view text);
+/// The text without a byte order mark. Throws InputError `name:line:column: ...` if it is not UTF-8 or a limit is
+/// passed. Columns count characters, not bytes, from 1.
+std::string_view prescanned_toml(const std::string& name, std::string_view text);
 
 }  // namespace impinge

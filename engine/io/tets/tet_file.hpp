@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/geometry/tet_mesh.hpp"
+#include "engine/io/file_guard.hpp"
 
 namespace impinge {
 
@@ -29,14 +30,16 @@ struct TetFile {
   std::vector<std::string> notes;          ///< what was dropped or assumed, one sentence each
 };
 
-/// The mesh in a file, by its ending: .veg, .msh, or .node or .ele (whose partner is looked for beside it).
-TetFile read_tet_file(const std::filesystem::path& path);
+/// The mesh in a file, by its ending: .veg, .msh, or .node or .ele (whose partner is looked for beside it). What it
+/// names or needs beside itself is read where the guard allows it.
+TetFile read_tet_file(const std::filesystem::path& path, const FileGuard& guard = {});
 
 // the same from bytes; names are used in messages
 TetFile parse_msh(const std::string& name, std::string_view bytes);
 TetFile parse_tetgen(const std::string& node_name, std::string_view node_bytes, const std::string& ele_name,
                      std::string_view ele_bytes);
-/// Reads *INCLUDE files from `directory`.
-TetFile parse_veg(const std::string& name, std::string_view bytes, const std::filesystem::path& directory);
+/// Reads *INCLUDE files from `directory`, kMostIncludes of them in all.
+TetFile parse_veg(const std::string& name, std::string_view bytes, const std::filesystem::path& directory,
+                  const FileGuard& guard = {});
 
 }  // namespace impinge

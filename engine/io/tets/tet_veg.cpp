@@ -13,6 +13,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/tets/tet_draft.hpp"
 #include "engine/io/text_lines.hpp"
 
@@ -39,8 +40,8 @@ std::string without_blanks(std::string_view text) {
 
 class VegReader {
  public:
-  VegReader(const std::string& name, std::string_view bytes, std::filesystem::path directory)
-      : directory_(std::move(directory)) {
+  VegReader(const std::string& name, std::string_view bytes, std::filesystem::path directory, const FileGuard& guard)
+      : directory_(std::move(directory)), guard_(guard) {
     open(name, std::string(bytes), {});
   }
 
@@ -146,7 +147,13 @@ class VegReader {
     if (sources_.size() >= kDeepestInclude)
       fail(10, impinge::quoted(name), fmt::format("files may include one another {} deep", kDeepestInclude - 1),
            "put the parts into one file");
-    if (!std::filesystem::is_regular_file(path))
+    if (static_cast<int>(texts_.size()) > kMostIncludes)
+      fail(10, impinge::quoted(name), fmt::format("{} files may be included in all", kMostIncludes),
+           "put the parts into one file");
+    if (const auto target = guard_.refused(path))
+      fail(10, fmt::format("{} leads out of the scene's folder ({})", impinge::quoted(name), target->string()),
+           "files inside it are read", "copy the file beside the mesh");
+    if (!is_file(path))
       fail(10, fmt::format("{} is not there", impinge::quoted(name)), "an existing file is wanted",
            "put it beside the mesh");
     open(path.string(), read_file(path, kLargestTetFile), path);
@@ -393,6 +400,7 @@ class VegReader {
 
   TetDraft draft_;
   std::filesystem::path directory_;
+  const FileGuard& guard_;
   std::deque<std::string> texts_;
   std::vector<Source> sources_;
   std::string_view line_;
@@ -406,8 +414,9 @@ class VegReader {
 
 }  // namespace
 
-TetFile parse_veg(const std::string& name, std::string_view bytes, const std::filesystem::path& directory) {
-  return VegReader(name, bytes, directory).read();
+TetFile parse_veg(const std::string& name, std::string_view bytes, const std::filesystem::path& directory,
+                  const FileGuard& guard) {
+  return VegReader(name, bytes, directory, guard).read();
 }
 
 }  // namespace impinge

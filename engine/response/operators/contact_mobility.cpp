@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 
 namespace impinge {
 namespace {
@@ -91,10 +92,12 @@ void ContactMobility::add_coupled(int s) {
   }
   SparseColumns columns(block.velocity.size(), 3 * m);
   columns.setFromTriplets(entries.begin(), entries.end());
+  check_interrupt();
   if (block.solver->factorize(*block.a) != SolveStatus::ok ||
       block.solver->gram(columns, coupled.w).status != SolveStatus::ok)
     throw DivergenceError("the system matrix of a deformable body is not positive definite");
   for (int c = 0; c < m; ++c) {
+    check_interrupt();
     const Mat3 own = coupled.w.block<3, 3>(3 * c, 3 * c);
     double others = 0.0;
     for (int d = 0; d < m; ++d)

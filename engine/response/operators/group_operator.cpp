@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/interrupt.hpp"
+
 namespace impinge {
 
 GroupOperator::GroupOperator(const GroupSystem& group) : group_(group) {
@@ -190,6 +192,7 @@ bool GroupOperator::solve(const std::vector<Mat3>& h, const VecX& b, double tole
   VecX r = b - multiply_with_springs(h, x), z = precondition(inverse, r), p = z;
   double rz = dot(r, z);
   for (Eigen::Index k = 0; k < 4 * size_ + 20 && std::sqrt(rz) > goal; ++k) {
+    check_interrupt();
     const VecX q = multiply_with_springs(h, p);
     const double curvature = dot(p, q);
     if (!(curvature > 0.0)) return false;
@@ -214,6 +217,7 @@ bool GroupOperator::solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b,
   VecX p = r;
   double rho = dot(shadow, r), size = std::sqrt(dot(r, r));
   for (Eigen::Index k = 0; k < 2 * size_ + 20 && size > goal; ++k) {
+    check_interrupt();
     const VecX v = times(p);
     const double along = dot(shadow, v);
     if (along == 0.0) return false;
