@@ -15,18 +15,16 @@ namespace {
 constexpr double kExact = 1e-12;
 constexpr int kMostExactIterations = 2000;
 
-/// Hands everything on, and remembers whether it was asked and what came of it.
+/// Hands everything on, and counts how often it was asked.
 class WatchedSolver : public LcpSolver {
  public:
   explicit WatchedSolver(const LcpSolver& solver) : solver_(solver) {}
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     ++calls;
-    last = solver_.solve(problem, settings, lambda);
-    return last;
+    return solver_.solve(problem, settings, lambda);
   }
   std::string applies(const ConeProblem& problem) const override { return solver_.applies(problem); }
   mutable int calls = 0;
-  mutable LcpResult last;
 
  private:
   const LcpSolver& solver_;
@@ -60,13 +58,10 @@ std::vector<Mat3> w_diagonal(ThawedGroup& thawed) {
 
 double ratio(double value, double scale) { return scale > 0.0 ? value / scale : value; }
 
-std::string stop_of(const WatchedSolver& solver, const ResponseResult& result, const ResponseSettings& settings) {
-  if (solver.calls == 1 && result.outer_iterations <= 1) return std::string(name_of(solver.last.reason));
-  if (result.converged) return std::string(name_of(StopReason::converged));
-  const bool has_loop = result.outer_iterations > 1;  // whose steps are capped then, not the sum of what it does inside
-  const bool at_cap = has_loop ? result.outer_iterations >= settings.max_outer_iterations
-                               : result.iterations >= settings.lcp.max_iterations;
-  return std::string(name_of(at_cap ? StopReason::iteration_cap : StopReason::stagnated));
+const Entry<Response>& reference_response() {
+  for (const Entry<Response>& entry : responses())
+    if (entry.make()->is_reference()) return entry;
+  throw InternalError("no response is a reference");
 }
 
 /// The larger of two histories, iteration by iteration; what has ended keeps its last value.
@@ -84,7 +79,10 @@ void merge_history(std::vector<double>& into, const std::vector<double>& from) {
 }  // namespace
 
 FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
-  const auto response = find_entry(responses(), "constraint_anticipation")->make();
+  const Entry<Response>& reference = reference_response();
+  const auto response = reference.make();
+  exact_response_ = reference.name;
+  const std::vector<const Entry<LcpSolver>*> solvers = reference_solvers();
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     const FrozenGroup& group = step.groups[g];
     ThawedGroup thawed = thaw(group, step.linear_solver);
@@ -96,25 +94,24 @@ FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
     std::string method;
     exact_.emplace_back();
     for (const bool warm : {true, false})
-      for (const char* name :
-           {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
-        const auto solver = find_entry(lcp_solvers(), name)->make();
+      for (const Entry<LcpSolver>* entry : solvers) {
+        const auto solver = entry->make();
         if (!solver->applies(problem).empty() || best <= kExact) continue;
         if (warm)
           thawed.system.lambda = group.system.lambda;
         else
           thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
-        ResponseSettings settings;
-        settings.lcp = {0.1 * kExact, kMostExactIterations};
-        response->solve(thawed.system, *solver, settings);
+        ResponseContext context;
+        context.lcp = {0.1 * kExact, kMostExactIterations};
+        response->solve(thawed.system, *solver, context);
         const double reached = residual(g, thawed.system);
         if (!(reached < best)) continue;
         best = reached;
-        method = name;
+        method = entry->name;
         exact_[g] = {thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
                      thawed.system.soft_delta};
       }
-    if (exact_method_.find(method) == std::string::npos) exact_method_ += (exact_method_.empty() ? "" : ", ") + method;
+    if (exact_solver_.find(method) == std::string::npos) exact_solver_ += (exact_solver_.empty() ? "" : ", ") + method;
     exact_norm_ += energy_product(group, exact_[g], exact_[g]);
   }
   exact_norm_ = std::sqrt(exact_norm_);
@@ -164,12 +161,12 @@ std::string FrozenRuler::applies(const LcpSolver& solver) const {
 }
 
 FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver,
-                           const ResponseSettings& settings, const FrozenRuler* ruler) {
+                           const ResponseContext& context, const FrozenRuler* ruler) {
   FrozenOutcome outcome;
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     ThawedGroup thawed = thaw(step.groups[g], step.linear_solver);
     WatchedSolver watched(solver);
-    ResponseSettings own = settings;
+    ResponseContext own = context;
     std::vector<double> of_solver, of_loop;
     if (ruler != nullptr) {
       own.lcp.history = &of_solver;
@@ -182,8 +179,8 @@ FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, con
     outcome.outer_iterations += result.outer_iterations;
     outcome.used_solver |= watched.calls > 0;
     if (outcome.converged) {
-      outcome.converged = result.converged;
-      outcome.stop = stop_of(watched, result, settings);
+      outcome.converged = result.converged();
+      outcome.stop = std::string(name_of(result.ended));
     }
     merge_history(outcome.history, !of_loop.empty() ? of_loop : watched.calls == 1 ? of_solver : std::vector<double>());
     GroupSystem& s = thawed.system;

@@ -34,22 +34,23 @@ struct FrozenVerdict {
 
 class FrozenRuler {
  public:
-  /// Solves the step: constraint anticipation, semismooth Newton (or, where that does not apply or stays short of it,
-  /// what else comes nearest) to 1e-12. The step must outlive this.
+  /// Solves the step to 1e-12 by the reference response, with the first reference solver that gets there, or else with
+  /// the one that comes nearest. The step must outlive this.
   explicit FrozenRuler(const FrozenStep& step);
 
   FrozenVerdict judge(const std::vector<GroupAnswer>& answers) const;
   /// Relative residual of one group, as in FrozenVerdict.
   double residual(std::size_t group, const GroupSystem& solved) const;
   const std::vector<GroupAnswer>& exact() const { return exact_; }
-  const std::string& exact_method() const { return exact_method_; }
+  const std::string& exact_response() const { return exact_response_; }
+  const std::string& exact_solver() const { return exact_solver_; }
   /// Why a cone solver can't solve every group of the step; "" if it can.
   std::string applies(const LcpSolver& solver) const;
 
  private:
   const FrozenStep& step_;
   std::vector<GroupAnswer> exact_;
-  std::string exact_method_;
+  std::string exact_response_, exact_solver_;
   std::vector<std::vector<Mat3>> w_diagonal_;  // by group and contact
   std::vector<double> scale_;                  // m/s, by group
   double exact_norm_ = 0.0;
@@ -57,6 +58,6 @@ class FrozenRuler {
 
 /// Starts each group from the λ that the run started from. `ruler`: if given, the history is taken, which costs time.
 FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver,
-                           const ResponseSettings& settings, const FrozenRuler* ruler = nullptr);
+                           const ResponseContext& context, const FrozenRuler* ruler = nullptr);
 
 }  // namespace impinge

@@ -21,7 +21,7 @@ double push_out_slop(const Parameters& parameters) { return 1e-6 * parameters.co
 
 double row_bound(double gap, double free_velocity, double velocity_before, double restitution,
                  const Parameters& parameters, double h) {
-  const bool split = parameters.contact.push_out == "split";
+  const bool split = parameters.contact.push_out == PushOut::split;
   const double bound = gap >= 0.0 ? -gap / h : (split ? 0.0 : std::min(-gap / h, parameters.contact.max_push_out));
   const bool closes = gap + h * free_velocity < 0.0;
   if (!closes || restitution == 0.0 || velocity_before > -parameters.contact.restitution_threshold) return bound;
@@ -229,7 +229,7 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
 }
 
 bool needs_push_out(const GroupSystem& solved, const Parameters& parameters, double time_step) {
-  if (parameters.contact.push_out != "split" || parameters.contact.max_push_out <= 0.0) return false;
+  if (parameters.contact.push_out != PushOut::split || parameters.contact.max_push_out <= 0.0) return false;
   // rows whose positions move by Δt v leave no overlap that wasn't there; others (Newmark) are asked
   const bool all_move = std::all_of(solved.soft.begin(), solved.soft.end(),
                                     [](const SoftBlock& b) { return b.displacement_scale == 1.0; });

@@ -68,7 +68,7 @@ TEST_CASE("intersection contacts chatter by about g h², proximity contacts do n
   for (int proximity = 0; proximity < 2; ++proximity) {
     World world;
     world.parameters.simulation.sleeping = false;
-    world.parameters.contact.points = proximity ? "proximity" : "intersection";
+    world.parameters.contact.points = proximity ? ContactPoints::proximity : ContactPoints::intersection;
     world.parameters.simulation.substeps = 1;
     add_stack(world, 1, 1.0);
     world.bodies()[1].pose.position.y() += 1e-4;  // it has to find its own rest

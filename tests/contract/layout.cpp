@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -100,23 +101,39 @@ TEST_CASE("the model knows no view and no terminal") {
   }
 }
 
-TEST_CASE("every registered algorithm's file is named in its folder's list") {
-  for (const char* folder : {"engine/detection/broadphase", "engine/detection/triangles", "engine/integrators",
-                             "engine/lcp", "engine/response", "viewer/layers"}) {
-    const std::string list = text_of(kRoot / folder / "all.cpp");
-    int entries = 0;
-    for (const auto& e : fs::directory_iterator(kRoot / folder)) {
-      if (e.path().extension() != ".cpp" || e.path().filename() == "all.cpp") continue;
-      const std::string text = text_of(e.path());
+TEST_CASE("a folder's list names every file that makes an entry, by its stem, and nothing else") {
+  struct List {
+    const char *folder, *file, *suffix;
+  };
+  for (const List& list :
+       {List{"engine/algebra", "linear_solver.cpp", "_solver"},
+        List{"engine/detection/broadphase", "all.cpp", "_broad_phase"},
+        List{"engine/detection/triangles", "all.cpp", "_narrow_phase"},
+        List{"engine/integrators", "all.cpp", "_integrator"}, List{"engine/lcp", "all.cpp", "_solver"},
+        List{"engine/materials", "all.cpp", "_material"}, List{"engine/response", "all.cpp", "_response"},
+        List{"viewer/layers", "all.cpp", "_layer"}}) {
+    CAPTURE(list.folder);
+    const auto names_in = [&](const std::string& text, const std::string& form) {
+      std::set<std::string> names;
+      const std::regex pattern(form);
+      for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) names.insert((*it)[1]);
+      return names;
+    };
+    const std::set<std::string> listed = names_in(text_of(kRoot / list.folder / list.file),
+                                                  R"(IMPINGE_LIST\(all, (\w+))" + std::string(list.suffix) + R"(\);)");
+    std::set<std::string> made;
+    for (const auto& e : fs::directory_iterator(kRoot / list.folder)) {
+      if (e.path().extension() != ".cpp") continue;
       const std::string stem = e.path().stem().string();
-      // a file that declares an entry is named like it
-      if (text.find("Entry<") == std::string::npos && text.find("Layer " + stem) == std::string::npos) continue;
-      CAPTURE(folder, stem);
-      CHECK(list.find(stem) != std::string::npos);
-      ++entries;
+      for (const std::string& name :
+           names_in(text_of(e.path()), R"(\n(?:Entry<\w+>|Layer) (\w+))" + std::string(list.suffix) + R"(\(\) \{)")) {
+        CAPTURE(stem, name);
+        CHECK(name == stem);
+        made.insert(name);
+      }
     }
-    CAPTURE(folder);
-    CHECK(entries > 0);
+    CHECK(made.size() > 1);
+    CHECK(listed == made);
   }
 }
 

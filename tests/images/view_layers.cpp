@@ -35,7 +35,7 @@ int changed_near(const Image& a, const Image& b, const Camera& camera, const Vec
 
 }  // namespace
 
-TEST_CASE("layers have distinct names and each says what it draws") {
+TEST_CASE("layers have distinct names and each says what it draws", "[methods]") {
   std::set<std::string_view> names;
   for (const Layer& layer : layers()) {
     CHECK(names.insert(layer.name).second);
@@ -47,7 +47,7 @@ TEST_CASE("layers have distinct names and each says what it draws") {
     CHECK(names.count(name) == 1);
 }
 
-TEST_CASE("every layer changes the picture, and no two in the same way") {
+TEST_CASE("every layer changes the picture, and no two in the same way", "[methods]") {
   // of rigid bodies beside one of deformable ones
   const auto both = [](const std::vector<std::string>& names) {
     Image image = painted(sample_record(), settings_with(names)), soft = painted(soft_record(), settings_with(names));

@@ -48,7 +48,6 @@ class HandMadeRecord {
                const std::function<Vec3(const Vec3&)>& place, const std::vector<int>& held = {},
                std::string_view material = "corotational") {
     std::shared_ptr<Material> elastic = find_entry(materials(), material)->make();
-    elastic->configure({});
     DeformableBody& soft = soft_.emplace_back(FemAssembly(mesh, {{elastic, 1000.0}}, MassKind::lumped));
     soft.hold(held);
     for (int i = 0; i < soft.nodes(); ++i)

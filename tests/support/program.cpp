@@ -19,8 +19,8 @@ namespace impinge::test {
 namespace {
 
 pid_t start(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-            const std::filesystem::path& out, const std::filesystem::path& err) {
-  std::vector<const char*> words = {IMPINGE_PROGRAM};
+            const std::filesystem::path& out, const std::filesystem::path& err, const char* program = IMPINGE_PROGRAM) {
+  std::vector<const char*> words = {program};
   for (const std::string& argument : arguments) words.push_back(argument.c_str());
   words.push_back(nullptr);
   const pid_t pid = fork();
@@ -47,8 +47,13 @@ std::vector<pid_t> children_of(pid_t pid) {
 int Outcome::error_lines() const { return static_cast<int>(std::count(err.begin(), err.end(), '\n')); }
 
 Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+  return program_run(IMPINGE_PROGRAM, folder, arguments);
+}
+
+Outcome program_run(const char* program, const std::filesystem::path& folder,
+                    const std::vector<std::string>& arguments) {
   const TempFolder streams;
-  const pid_t pid = start(folder, arguments, streams / "out", streams / "err");
+  const pid_t pid = start(folder, arguments, streams / "out", streams / "err", program);
   int status = 0;
   waitpid(pid, &status, 0);
   return finish(status, streams / "out", streams / "err");

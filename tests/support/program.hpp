@@ -16,6 +16,10 @@ struct Outcome {
 /// Runs impinge in `folder` and waits for its end.
 Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
+/// The same with another program that takes impinge's arguments.
+Outcome program_run(const char* program, const std::filesystem::path& folder,
+                    const std::vector<std::string>& arguments);
+
 enum class Targets { program, children_first };
 
 /// The same, but the program gets the signal after `seconds` unless it has ended; its children just before it if

@@ -99,7 +99,7 @@ TEST_CASE("overrides replace what the scene says, bodies by name") {
   CHECK(s.world.parameters.simulation.gravity == Vec3(0, -20, 0));
   CHECK(s.world.bodies()[1].mass == Approx(7.0));
   CHECK(std::get<Capsule>(s.world.bodies()[2].shape).radius == 0.2);
-  CHECK(s.world.parameters.contact.points == "intersection");
+  CHECK(s.world.parameters.contact.points == ContactPoints::intersection);
   CHECK_FALSE(s.world.parameters.simulation.sleeping);
   CHECK(s.world.parameters.contact.friction == 0.75);
 }

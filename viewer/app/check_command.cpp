@@ -9,6 +9,7 @@ namespace impinge {
 int check_command(const Arguments& arguments) {
   const RunOptions& options = arguments.run_options;
   const Session session(options.scene, options.overrides, options.script, {.judge = true});
+  if (const std::string note = session.note_of_former_paths(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   fmt::print("{}: {} bodies, {} surface files, no problems found\n", options.scene.string(),
              session.world().bodies().size(), session.scene().surfaces.size());
   print_soft_bodies(session);

@@ -73,7 +73,7 @@ class Comparison {
   }
 
   void say_settings() const {
-    const std::vector<SettingDifference> differences = setting_differences(a_.folder(), b_.folder());
+    const std::vector<SettingDifference> differences = setting_differences(a_, b_);
     if (differences.empty()) {
       fmt::print("settings: the same\n");
       return;

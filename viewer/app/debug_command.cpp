@@ -150,6 +150,7 @@ int debug_command(const Arguments& arguments) {
     };
   // without: a finished run's own
   Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);
+  if (const std::string note = debugger.note_of_former_paths(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   DebugLoop loop(debugger, *window, options.out);
 
   std::string saved;

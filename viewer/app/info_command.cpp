@@ -69,6 +69,7 @@ int info_command(const Arguments& arguments) {
   const RunOptions& options = arguments.run_options;
   {
     Session session(options.scene, options.overrides, options.script);
+    if (const std::string note = session.note_of_former_paths(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
     if (arguments.ablation) check_ablation(options, session);
     const Counts counts = count(session.world());
     const ModelFacts facts = model_facts(session.world());

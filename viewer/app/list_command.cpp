@@ -8,7 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/detection/broadphase/broad_phase.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/response/response.hpp"
 #include "viewer/app/commands.hpp"
@@ -91,6 +91,15 @@ void print_parameters() {
   world.add_body(body);
   world.add_body(small_deformable());
   world.bind_bodies(rows);
+  // and what materials add to the one that this body has
+  std::vector<std::unique_ptr<Material>> all;
+  for (const Entry<Material>& entry : materials()) {
+    ParameterSet own;
+    all.push_back(entry.make());
+    all.back()->declare(Rows(own, "body.DEFORMABLE.material"));
+    for (const Parameter& row : own.all())
+      if (rows.find(row.path) == nullptr) rows.add(row);
+  }
   std::vector<Row> table = {{"path", "kind", "unit", "range", "default", "meaning"}};
   for (const Parameter& row : rows.all()) {
     const bool of_body = row.path.rfind("body.", 0) == 0;

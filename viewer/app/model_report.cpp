@@ -4,6 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
@@ -51,18 +52,11 @@ BodyKind kind_of(const std::string& word) {
 }
 
 std::string response_text(const Parameters& p) {
-  const std::string tolerance = shortest(p.lcp.tolerance);
-  const auto& r = p.response;
-  if (r.method == "sequential_impulse" || r.method == "simultaneous_impulse")
-    return fmt::format("{}, tolerance {}, at most {} sweeps", r.method, tolerance, r.impulse_iterations);
-  if (r.method == "penalty")
-    return fmt::format("{}, {}, stiffness {}", r.method, r.penalty_form,
-                       r.penalty_stiffness > 0.0 ? shortest(r.penalty_stiffness) + " N/m" : "by mass and sub-step");
-  if (r.method == "soft_constraint")
-    return fmt::format("{}, {} Hz, damping ratio {}, {} sweeps", r.method, shortest(r.soft_frequency),
-                       shortest(r.soft_damping_ratio), r.soft_iterations);
-  return fmt::format("{} with {}, tolerance {}, at most {} iterations", r.method, p.lcp.method, tolerance,
-                     p.lcp.max_iterations);
+  const Response& response = *p.response.method;
+  const std::string summary = response.summary(lcp_settings(p));
+  return fmt::format("{}{}{}{}", p.response.method.name(),
+                     response.uses_cone_solver() ? fmt::format(" with {}", p.lcp.method.name()) : "",
+                     summary.empty() ? "" : ", ", summary);
 }
 
 }  // namespace
@@ -85,9 +79,10 @@ ModelFacts model_facts(const World& world) {
 bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& parameters, ModelFacts& facts) {
   try {
     if (!std::filesystem::is_regular_file(run_toml)) return false;
-    const TomlNode root = parse_toml(run_toml.string(), read_file(run_toml, std::uint64_t{1} << 26));
+    TomlNode root = parse_toml(run_toml.string(), read_file(run_toml, std::uint64_t{1} << 26));
     ParameterSet rows;
     parameters.bind(rows);
+    rename_former_paths(root, rows);
     for (const Parameter& row : rows.all())
       if (const TomlNode* node = at_path(root, row.path)) row.set(scene_value(row, *node));
     int meshes = 0;
@@ -118,12 +113,14 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
   };
   const bool moves = f.moving() > 0, meets = f.meets();
   line("integrator", moves,
-       p.simulation.integrator + (f.deformable == 0 ? " (rigid: A = M)"
-                                  : f.dynamic == 0  ? ""
-                                                    : " (for rigid bodies A = M)"),
+       fmt::format("{}{}", p.simulation.integrator.name(),
+                   f.deformable == 0 ? " (rigid: A = M)"
+                   : f.dynamic == 0  ? ""
+                                     : " (for rigid bodies A = M)"),
        "nothing can move");
-  line("broad phase", meets, p.broad_phase.method, "no two bodies can meet");
-  line("narrow phase", meets && f.mesh_pairs, p.narrow_phase.method + ", contacts by " + p.contact.points,
+  line("broad phase", meets, std::string(p.broad_phase.method.name()), "no two bodies can meet");
+  line("narrow phase", meets && f.mesh_pairs,
+       fmt::format("{}, contacts by {}", p.narrow_phase.method.name(), name_of(p.contact.points)),
        "no two meshes can meet; exact shapes are tested by formula");
   line("response", meets, response_text(p), "no two bodies can meet");
   line("friction", meets && f.friction,
@@ -140,7 +137,7 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
        "switched off, or nothing can move");
   line("deformation", f.deformable > 0,
        fmt::format("{}linear solver {}", f.soft_dofs < 0 ? "" : fmt::format("{} degrees of freedom, ", f.soft_dofs),
-                   p.simulation.linear_solver),
+                   p.simulation.linear_solver.name()),
        "no body is deformable");
   line("self-contact", f.self_collision, "of the deformable bodies that ask for it", "no deformable body asks for it");
   line("attachments", f.attachments > 0, fmt::format("{}, three bilateral rows each", f.attachments),

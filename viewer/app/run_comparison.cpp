@@ -10,7 +10,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "engine/io/scene/toml.hpp"
+#include "engine/io/scene/former_paths.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/present/png_sequence.hpp"
 
@@ -50,9 +50,12 @@ void flatten(const TomlNode& table, const std::string& prefix, Settings& out) {
   }
 }
 
-Settings settings_of(const fs::path& run) {
+Settings settings_of(const RecordedRun& run) {
+  const fs::path file = run.folder() / "run.toml";
+  TomlNode root = parse_toml(file.string(), read_file(file, kMostBytes));
+  rename_former_paths(root, run.session().rows());
   Settings settings;
-  flatten(parse_toml((run / "run.toml").string(), read_file(run / "run.toml", kMostBytes)), "", settings);
+  flatten(root, "", settings);
   return settings;
 }
 
@@ -104,7 +107,7 @@ double angle_between(const Mat3& a, const Mat3& b) {
 
 }  // namespace
 
-std::vector<SettingDifference> setting_differences(const fs::path& run_a, const fs::path& run_b) {
+std::vector<SettingDifference> setting_differences(const RecordedRun& run_a, const RecordedRun& run_b) {
   const Settings a = settings_of(run_a), b = settings_of(run_b);
   const std::map<std::string, std::string> in_a(a.begin(), a.end()), in_b(b.begin(), b.end());
   std::vector<SettingDifference> differences;

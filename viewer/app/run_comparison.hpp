@@ -19,9 +19,6 @@ namespace impinge {
 struct SettingDifference {
   std::string path, a, b;  ///< values as TOML; "" where there is none
 };
-std::vector<SettingDifference> setting_differences(const std::filesystem::path& run_a,
-                                                   const std::filesystem::path& run_b);
-
 /// How far a body's state differs in one field.
 struct FieldDifference {
   std::string body, field, unit;
@@ -43,6 +40,7 @@ class RecordedRun {
   /// The state of a frame, made again; frames in ascending order. False if it isn't the recorded one.
   bool go_to(int frame);
   const StepRecord& record() const { return session_->record(); }
+  const Session& session() const { return *session_; }
 
  private:
   std::filesystem::path folder_;
@@ -51,6 +49,8 @@ class RecordedRun {
   std::unique_ptr<Session> session_;
 };
 
+/// Former paths of parameters count as the present ones.
+std::vector<SettingDifference> setting_differences(const RecordedRun& a, const RecordedRun& b);
 /// Bodies that both have, by name, in the order of A; fields of which no bit differs are left out.
 std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRecord& b);
 /// Names that only one of them has.

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kManyRightHandSides = 100;  // about what contact asks for; one is what a free body asks for
 
-std::string solvers_of(const std::string& wanted, int dofs) {
+std::string solvers_of(const LinearSolverChoice& wanted, int dofs) {
   if (dofs == 0) return "none, since every node is held";
-  if (wanted != "automatic") return wanted;
+  if (!wanted.is_automatic()) return std::string(wanted.name());
   const std::string_view one = automatic_linear_solver(dofs, 1),
                          many = automatic_linear_solver(dofs, kManyRightHandSides);
   return one == many ? fmt::format("{}", one) : fmt::format("{}; {} where it touches something", one, many);

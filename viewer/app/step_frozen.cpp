@@ -8,6 +8,7 @@
 
 #include "engine/frozen/frozen_comparison.hpp"
 #include "engine/frozen/frozen_step_file.hpp"
+#include "engine/world/parameters.hpp"
 #include "viewer/app/step_methods.hpp"
 #include "viewer/app/step_report.hpp"
 
@@ -21,55 +22,38 @@ constexpr double kQuick = 100.0;  // ms: shorter runs are repeated, and the shor
 constexpr int kRepeats = 3;
 constexpr double kFarAbove = 10.0;  // times the tolerance: what claims to have converged there has not
 
-/// A way of running a response that gets rows of its own.
-struct Variant {
-  const Entry<Response>* response;
-  std::string suffix, form, stop;
-};
-
-std::vector<Variant> variants_of(const Entry<Response>& response, const FrozenStep& step) {
-  std::vector<Variant> list = {{&response, "", step.settings.form, step.settings.stop}};
-  bool one_step = true;  // rigid bodies, and matrices that are block diagonal, leave its loop nothing to do
-  for (const FrozenGroup& group : step.groups)
-    for (const SoftBlock& block : group.system.soft) one_step &= block.is_diagonal;
-  if (response.name != "iterative_constraint_anticipation" || one_step) return list;
-  // the forms that this method is known in: how far the printed one and its 5 % rule are from the solution
-  list[0].form = "accelerated", list[0].stop = "residual";
-  list.push_back({&response, "_5_percent", "accelerated", "change"});
-  list.push_back({&response, "_seed", "seed", "residual"});
-  list.push_back({&response, "_seed_5_percent", "seed", "change"});
-  return list;
-}
-
 class Comparison {
  public:
-  Comparison(const Arguments& arguments, const FrozenStep& step, const FrozenRuler& ruler)
-      : step_(step), ruler_(ruler), curves_(!arguments.out.empty()) {
-    settings_ = step.settings;
-    settings_.lcp = {arguments.step_tolerance, arguments.max_iterations};
-    settings_.max_outer_iterations = settings_.impulse_iterations = arguments.max_iterations;
+  /// `settings`: the run's, those of methods too.
+  Comparison(const Arguments& arguments, const Parameters& settings, const FrozenStep& step, const FrozenRuler& ruler)
+      : settings_(settings), step_(step), ruler_(ruler), curves_(!arguments.out.empty()) {
+    context_ = response_context(settings);
+    context_.time_step = step.time_step;
+    context_.lcp = {arguments.step_tolerance, arguments.max_iterations};
   }
 
   /// One row for each solver, or one where the response has no use for a cone solver.
-  void run(const Variant& variant, const std::vector<const Entry<LcpSolver>*>& solvers,
-           std::vector<MethodReport>& reports) {
-    const auto response = variant.response->make();
-    ResponseSettings settings = settings_;
-    settings.form = variant.form, settings.stop = variant.stop;
-    const std::string name = std::string(variant.response->name) + variant.suffix;
+  void run(const Entry<Response>& entry, const ResponseVariant& variant,
+           const std::vector<const Entry<LcpSolver>*>& solvers, std::vector<MethodReport>& reports) {
+    const auto response = entry.make();
+    copy_settings(settings_.response.method.at(entry.name), *response);
+    configure(*response, variant.rows);
+    const IterationSetting own = response->iteration_setting();
+    if (own.count != nullptr && !own.is_exact) *own.count = context_.lcp.max_iterations;
+    const std::string name = std::string(entry.name) + variant.suffix;
     for (const Entry<LcpSolver>* solver : solvers) {
-      const auto lcp = solver->make();
+      const LcpSolver& lcp = settings_.lcp.method.at(solver->name);
       std::optional<FrozenOutcome> outcome;
       std::string diverged;
       try {
-        outcome = timed(*response, *lcp, settings);
+        outcome = timed(*response, lcp, context_);
       } catch (const DivergenceError& error) {
         diverged = error.what();
       }
       MethodReport report;
       report.method = outcome && outcome->used_solver ? fmt::format("{}-{}", name, solver->name) : name;
       if (outcome) {
-        fill(*outcome, settings, report);
+        fill(*outcome, report);
       } else {
         report.stop_reason = "diverged";
         for (double* figure :
@@ -79,21 +63,21 @@ class Comparison {
       }
       table_.row(report);
       if (!diverged.empty()) fmt::print("  {}\n", diverged);
-      if (outcome && curves_) take_curves(*response, *lcp, settings, *outcome, report);
+      if (outcome && curves_) take_curves(*response, lcp, *outcome, report);
       reports.push_back(std::move(report));
       if (!outcome || !outcome->used_solver) return;
     }
   }
 
  private:
-  FrozenOutcome timed(const Response& response, const LcpSolver& lcp, const ResponseSettings& settings) const {
-    FrozenOutcome outcome = solve_frozen(step_, response, lcp, settings);
+  FrozenOutcome timed(const Response& response, const LcpSolver& lcp, const ResponseContext& context) const {
+    FrozenOutcome outcome = solve_frozen(step_, response, lcp, context);
     for (int k = 1; k < kRepeats && outcome.ms < kQuick; ++k)
-      outcome.ms = std::min(outcome.ms, solve_frozen(step_, response, lcp, settings).ms);
+      outcome.ms = std::min(outcome.ms, solve_frozen(step_, response, lcp, context).ms);
     return outcome;
   }
 
-  void fill(const FrozenOutcome& outcome, const ResponseSettings& settings, MethodReport& report) const {
+  void fill(const FrozenOutcome& outcome, MethodReport& report) const {
     const FrozenVerdict verdict = ruler_.judge(outcome.answers);
     report.iterations = outcome.iterations, report.outer_iterations = outcome.outer_iterations;
     report.ms = outcome.ms;
@@ -103,29 +87,31 @@ class Comparison {
     report.worst_contact = verdict.worst;
     report.complementarity = verdict.complementarity, report.cone_violation = verdict.cone_violation;
     report.distance = verdict.distance;
-    report.stop_reason = outcome.converged && !(verdict.residual <= kFarAbove * settings.lcp.tolerance)
+    report.stop_reason = outcome.converged && !(verdict.residual <= kFarAbove * context_.lcp.tolerance)
                              ? "ended above the tolerance"
                              : outcome.stop;
     for (const GroupAnswer& answer : outcome.answers)
       report.lambda.insert(report.lambda.end(), answer.lambda.begin(), answer.lambda.end());
   }
 
-  void take_curves(const Response& response, const LcpSolver& lcp, const ResponseSettings& settings,
-                   const FrozenOutcome& outcome, MethodReport& report) const {
+  void take_curves(Response& response, const LcpSolver& lcp, const FrozenOutcome& outcome, MethodReport& report) const {
     const bool has_loop = outcome.outer_iterations > static_cast<int>(step_.groups.size());
-    report.history = solve_frozen(step_, response, lcp, settings, &ruler_).history;
+    report.history = solve_frozen(step_, response, lcp, context_, &ruler_).history;
     const bool shows_nothing = report.history.empty();
     if (shows_nothing) report.history.push_back(ruler_.judge(start()).residual);
-    // what is stopped is the outer loop, where there is one
+    // what is stopped is the method's own loop, where it has one
+    const IterationSetting own = response.iteration_setting();
+    const int whole = own.count == nullptr ? 0 : *own.count;
     for (const int stop : early_stops(has_loop ? outcome.outer_iterations : outcome.iterations)) {
-      ResponseSettings own = settings;
-      own.max_outer_iterations = stop;
-      if (!has_loop) own.lcp.max_iterations = own.impulse_iterations = own.soft_iterations = stop;
-      const FrozenOutcome early = timed(response, lcp, own);
+      ResponseContext context = context_;
+      if (own.count != nullptr) *own.count = stop;
+      if (!has_loop) context.lcp.max_iterations = stop;
+      const FrozenOutcome early = timed(response, lcp, context);
       const FrozenVerdict verdict = ruler_.judge(early.answers);
       report.work.push_back({stop, early.ms, verdict.residual, verdict.distance});
-      if (early.converged) break;  // no cap was met: more would be the same again
+      if (early.converged && !own.is_exact) break;  // no cap was met: more would be the same again
     }
+    if (own.count != nullptr) *own.count = whole;
     report.work.push_back(
         {has_loop ? outcome.outer_iterations : outcome.iterations, report.ms, report.residual, report.distance});
     if (shows_nothing) report.history.push_back(report.residual);
@@ -140,14 +126,15 @@ class Comparison {
     return list;
   }
 
+  const Parameters& settings_;
   const FrozenStep& step_;
   const FrozenRuler& ruler_;
-  ResponseSettings settings_;
+  ResponseContext context_;
   bool curves_;
   TablePrinter table_{true};
 };
 
-void print_head(const FrozenStep& step, const FrozenRuler& ruler, const std::string& file) {
+void print_head(const FrozenStep& step, const Parameters& settings, const FrozenRuler& ruler, const std::string& file) {
   std::size_t rigid = 0, soft = 0, unknowns = 0;
   for (const FrozenGroup& group : step.groups) {
     rigid += group.system.bodies.size(), soft += group.matrices.size();
@@ -159,14 +146,14 @@ void print_head(const FrozenStep& step, const FrozenRuler& ruler, const std::str
       file, step.scene, step.frame, step.time_step, step.contacts(), step.groups.size(),
       step.groups.size() == 1 ? "" : "s", rigid, soft, unknowns);
   const FrozenVerdict exact = ruler.judge(ruler.exact());
-  fmt::print(
-      "exact solution: constraint_anticipation with {}; natural map {:.1e} m/s, relative {:.1e}, momentum {:.1e} m/s\n",
-      ruler.exact_method(), exact.natural_map, exact.natural_map_relative, exact.momentum);
+  fmt::print("exact solution: {} with {}; natural map {:.1e} m/s, relative {:.1e}, momentum {:.1e} m/s\n",
+             ruler.exact_response(), ruler.exact_solver(), exact.natural_map, exact.natural_map_relative,
+             exact.momentum);
   std::vector<GroupAnswer> run;
   for (const FrozenGroup& group : step.groups) run.push_back(group.answer);
   const FrozenVerdict found = ruler.judge(run);
-  fmt::print("the run, {} with {} at {:.0e}: residual {:.2e}, distance {:.2e}\n", step.response, step.lcp,
-             step.settings.lcp.tolerance, found.residual, found.distance);
+  fmt::print("the run, {} with {} at {:.0e}: residual {:.2e}, distance {:.2e}\n", settings.response.method.name(),
+             settings.lcp.method.name(), settings.lcp.tolerance, found.residual, found.distance);
 }
 
 /// A residual says little where many answers nearly satisfy the step: a body on more contacts than it needs, that
@@ -192,6 +179,13 @@ int step_frozen(const Arguments& arguments) {
   if (step.contacts() == 0)
     throw InputError(fmt::format("{}: frame {} of {} has no contacts; a step with some is wanted; freeze another frame",
                                  arguments.a, step.frame, step.scene));
+  Parameters settings;
+  try {
+    take_settings(step.settings, settings);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}: settings: {}; write it anew with impinge run --freeze", arguments.a, error.what()));
+  }
   const FrozenRuler ruler(step);
   std::vector<const Entry<LcpSolver>*> solvers;
   std::vector<std::string> left_out;
@@ -207,7 +201,7 @@ int step_frozen(const Arguments& arguments) {
         fmt::format("{}: no chosen solver applies ({}); see impinge list lcp_solvers; choose others for --lcp",
                     arguments.a, left_out.front()));
 
-  print_head(step, ruler, arguments.a);
+  print_head(step, settings, ruler, arguments.a);
   StepReport report{fmt::format("{}, frame {}, {} contacts", step.scene, step.frame, step.contacts()),
                     "residual, relative",
                     "distance to the exact change of velocity in A's norm, relative",
@@ -222,12 +216,12 @@ int step_frozen(const Arguments& arguments) {
       report.solution_columns.push_back(
           fmt::format("{},{},{},{},", g, name(at.body_a), name(at.body_b), step.groups[g].system.contacts[i].friction));
     }
-  Comparison comparison(arguments, step, ruler);
+  Comparison comparison(arguments, settings, step, ruler);
   for (const Entry<Response>* response : chosen)
-    for (const Variant& variant : variants_of(*response, step)) {
-      // the printed form solves inside each of its iterations: with one solver, unless some are named
-      const bool one = variant.form == "seed" && arguments.lcp.empty();
-      comparison.run(variant, one ? std::vector{solvers.front()} : solvers, report.methods);
+    for (const ResponseVariant& variant : response->make()->variants(step.is_block_diagonal())) {
+      // with one solver, unless some are named
+      const bool one = variant.solves_in_a_loop && arguments.lcp.empty();
+      comparison.run(*response, variant, one ? std::vector{solvers.front()} : solvers, report.methods);
     }
   for (const std::string& line : left_out) fmt::print("{}\n", line);
   fmt::print(

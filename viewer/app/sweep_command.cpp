@@ -3,10 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <thread>
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/interrupt.hpp"
@@ -73,6 +75,39 @@ int jobs_alone(const Arguments& arguments) {
   return is_done ? 0 : 1;
 }
 
+/// Every `word` in the text by itself: what is before and after it is no part of a path.
+std::string with_word_replaced(std::string text, const std::string& word, const std::string& other) {
+  const auto is_path = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; };
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
+    const std::size_t end = at + word.size();
+    const bool whole = (at == 0 || !is_path(text[at - 1])) && (end == text.size() || !is_path(text[end]));
+    if (whole) text.replace(at, word.size(), other);
+    at += whole ? other.size() : word.size();
+  }
+  return text;
+}
+
+/// Present paths for former ones in all that the sweep is asked; says so once. One that stands for several parameters
+/// stays the name of its axis.
+void rename_former_paths(const Session& session, SweepOptions& sweep, std::vector<std::string>& overrides) {
+  const ParameterSet& rows = session.rows();
+  std::vector<std::string> used = session.scene().former_paths;
+  used.insert(used.end(), session.script().former_paths().begin(), session.script().former_paths().end());
+  overrides = renamed_overrides(overrides, rows, used);
+  const auto rename = [&](SweepSetting& setting) {
+    for (const auto& [former, present] : rows.former_paths()) {
+      const std::string renamed = with_word_replaced(setting.text, former, present.front());
+      if (renamed == setting.text) continue;
+      used.push_back(former);
+      if (present.size() == 1) setting.text = renamed;
+    }
+  };
+  for (auto* settings : {&sweep.vary, &sweep.reference, &sweep.columns})
+    for (SweepSetting& setting : *settings) rename(setting);
+  rename(sweep.filter);
+  if (!used.empty()) fmt::print(stderr, "note: {}\n", rows.note_of_former(used));
+}
+
 void write_plan(const fs::path& out, const Sweep& sweep, const std::string& toml, bool resume) {
   make_folder(out);
   const FolderLock lock(out / "lock");
@@ -94,7 +129,7 @@ int sweep_command(const Arguments& given) {
   if (!given.sweep_options.jobs_alone.empty()) return jobs_alone(given);
   Arguments arguments = given;
   read_sweep_file(arguments);
-  const SweepOptions& sweep_options = arguments.sweep_options;
+  SweepOptions& sweep_options = arguments.sweep_options;
   if (sweep_options.vary.empty())
     throw InputError(
         fmt::format("command line: no --vary, and no [sweep] vary in {}; at least one PATH=SPEC is wanted; add --vary "
@@ -105,6 +140,7 @@ int sweep_command(const Arguments& given) {
   options.export_ply = options.contacts = !sweep_options.reference.empty();
   options.resume = false;
   const SweepBase base(options);  // with the paths as given: they stand in the messages
+  rename_former_paths(base.session(), sweep_options, options.overrides);
   options.frames = base.last_frame();
   RunOptions anywhere = options;
   anywhere.scene = fs::absolute(options.scene).lexically_normal();

@@ -5,6 +5,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/scene_overrides.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
@@ -60,7 +61,8 @@ std::string SweepBase::hash(const std::vector<std::string>& changes) const {
   bodies.items = scene.bodies;
   root.entries.push_back({"body", "", bodies});
   std::vector<std::pair<const Parameter*, ParameterValue>> before;
-  for (const std::string& change : changes) {
+  std::vector<std::string> former;
+  for (const std::string& change : renamed_overrides(changes, session_.rows(), former)) {
     const std::size_t equals = change.find('=');
     const Parameter* row = session_.rows().find(change.substr(0, equals));
     if (row == nullptr) {

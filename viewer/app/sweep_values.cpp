@@ -104,7 +104,8 @@ SweepAxis read_sweep_axis(const char* option, const SweepSetting& setting, const
            "a parameter's path, =, and its values are wanted", "write contact.friction=0.1,0.5");
   SweepAxis axis;
   axis.path = trimmed(text.substr(0, equals));
-  const Parameter* row = session.rows().find(axis.path);
+  const std::vector<std::string>* renamed = session.rows().renamed(axis.path);
+  const Parameter* row = session.rows().find(renamed == nullptr ? axis.path : renamed->front());
   if (row == nullptr && axis.path.rfind("body.", 0) != 0)
     refuse(place, session.rows().unknown_message(axis.path), "a parameter or body.NAME.KEY is wanted",
            "change the path");

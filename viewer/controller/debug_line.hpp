@@ -41,7 +41,8 @@ struct ShotLine {
   std::string file;
 };
 struct QuitLine {};
-using DebugLine = std::variant<Command, TransportLine, SelectLine, PanelLine, InputLine, ShotLine, QuitLine>;
+using DebugLine =
+    std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, ShotLine, QuitLine>;
 
 /// What names a line may use.
 struct DebugNames {

@@ -49,6 +49,7 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
     read_run_folder();
   }
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
+  if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
   advance();
 }
 
@@ -272,7 +273,15 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
     return parsed;
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
-  if (const auto* command = std::get_if<Command>(&parsed)) do_command(*command);
+  if (const auto* commands = std::get_if<std::vector<Command>>(&parsed)) {
+    for (const Command& command : *commands) do_command(command);
+    const std::string path = word_of(std::string(line.text), 1);
+    if (session_.rows().renamed(path) != nullptr) {  // recorded as it is written today
+      say(ConsoleLine::message, session_.rows().note_of_former({path}));
+      for (const Command& command : *commands) record(format_command(command));
+      return std::nullopt;
+    }
+  }
   if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
   if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);

@@ -46,6 +46,7 @@ class Debugger {
   const ViewSettings& view() const { return session_.view().settings(); }
   std::uint64_t state_hash() const { return session_.record().stats.state_hash; }
   bool is_interrupted() const { return interrupted_ != nullptr && *interrupted_; }
+  std::string note_of_former_paths() const { return session_.note_of_former_paths(); }
   int failures() const { return expectations_.failures(); }
   void say(ConsoleLine::Kind kind, const std::string& text);
   /// A picture was taken: with what was done, since it says where, and the pointer shows.

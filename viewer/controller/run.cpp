@@ -53,6 +53,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume,
                    options.snapshot_megabytes << 20);
 
+  if (const std::string note = session.note_of_former_paths(); !note.empty() && watcher.message)
+    watcher.message("note: " + note);
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = session.is_judged();

@@ -139,6 +139,12 @@ int Session::default_last_frame() const {
   return scene_.run ? scene_.run->frames : std::max(kDefaultLastFrame, script_.last_frame());
 }
 
+std::string Session::note_of_former_paths() const {
+  std::vector<std::string> used = scene_.former_paths;
+  used.insert(used.end(), script_.former_paths().begin(), script_.former_paths().end());
+  return rows_.note_of_former(used);
+}
+
 RunRecord Session::run_record() const {
   RunRecord run;
   if (scene_.run) run = *scene_.run;

@@ -1,5 +1,5 @@
 // The pairs that the broad phase let through: from box middle to box middle, to a plane along its normal.
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

@@ -1,8 +1,8 @@
 // The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls in the way: see-through.
 #include <algorithm>
 
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
@@ -14,7 +14,8 @@ void draw(const LayerContext& context, DrawList& list) {
     if (const auto* plane = std::get_if<Plane>(body.shape)) {
       const Vec3 normal = body.pose.rotation * plane->normal;
       list.planes.push_back({normal, plane->offset + normal.dot(body.pose.position),
-                             context.settings.backdrop == "light" ? role::kLightFloor : role::kFloor, body_pick(i)});
+                             context.settings.backdrop == BackdropStyle::light ? role::kLightFloor : role::kFloor,
+                             body_pick(i)});
       continue;
     }
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};

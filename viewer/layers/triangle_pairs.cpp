@@ -1,7 +1,7 @@
 // The triangles that the narrow phase found to touch or to be near, each once; faint where something hides them.
 #include <map>
 
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

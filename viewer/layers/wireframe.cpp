@@ -1,6 +1,6 @@
 // Every edge of every surface: dark over drawn surfaces, in the bodies' colours where surfaces are not shown.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

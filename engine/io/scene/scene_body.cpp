@@ -59,9 +59,8 @@ double read_size(const TomlNode& table, const char* key, const std::string& what
 void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
   scene_table(node, what);
   if (body.kind == BodyKind::deformable) return;  // scene_soft.cpp
-  for (const char* key :
-       {"model", "young", "poisson", "damping", "damping_alpha", "damping_beta", "mass", "extension_threshold"})
-    if (const TomlEntry* entry = node.find(key))
+  for (const std::string& key : deformable_material_keys())
+    if (const TomlEntry* entry = node.find(key); entry != nullptr && key != "density")
       refuse(entry->place,
              fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
              "allowed: density", "make it deformable, or remove it");

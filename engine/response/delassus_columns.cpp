@@ -3,7 +3,7 @@
 // anew. Here they are made once a row: y_r = A⁻¹ J_r^T by conjugate gradients, W = J (y_1 ...), which is symmetrised,
 // and Δv = Σ λ_r y_r. What the columns lack in accuracy is taken into q and solved for again: each round gains as much
 // as they have.
-#include "engine/response/conjugate_columns.hpp"
+#include "engine/response/delassus_columns.hpp"
 
 #include <algorithm>
 
@@ -40,9 +40,9 @@ VecX impulse(const GroupOperator& a, const std::vector<Vec3>& lambda) {
 
 }  // namespace
 
-ColumnsResult solve_by_columns(const GroupOperator& a, ConeProblem problem, const LcpSolver& solver, double tolerance,
-                               GroupSystem& group, VecX& x) {
-  ColumnsResult result;
+DelassusColumnsResult solve_by_delassus_columns(const GroupOperator& a, ConeProblem problem, const LcpSolver& solver,
+                                                double tolerance, GroupSystem& group, VecX& x) {
+  DelassusColumnsResult result;
   Columns columns{rows_of(problem), {}};
   for (const int r : columns.rows) {
     VecX b = VecX::Zero(a.size()), y = VecX::Zero(a.size());

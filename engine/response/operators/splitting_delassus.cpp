@@ -1,4 +1,4 @@
-#include "engine/response/operators/split_rows.hpp"
+#include "engine/response/operators/splitting_delassus.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -8,14 +8,15 @@
 
 namespace impinge {
 
-SplitRows::SplitRows(GroupSystem& group, const std::vector<NodeInverse>& inverse, const std::vector<Vec3>& q)
+SplittingDelassus::SplittingDelassus(GroupSystem& group, const std::vector<NodeInverse>& inverse,
+                                     const std::vector<Vec3>& q)
     : group_(group), inverse_(inverse), q_(q), diagonal_(group.contacts.size()) {
   for (const ContactRows& rows : group.contacts)
     sides_.push_back({make_side(rows, rows.a, 1.0), make_side(rows, rows.b, -1.0)});
   prepare();
 }
 
-SplitRows::Side SplitRows::make_side(const ContactRows& rows, const ContactSide& from, double sign) {
+SplittingDelassus::Side SplittingDelassus::make_side(const ContactRows& rows, const ContactSide& from, double sign) {
   Side side;
   side.sign = sign;
   side.rigid = from.rigid;
@@ -31,7 +32,7 @@ SplitRows::Side SplitRows::make_side(const ContactRows& rows, const ContactSide&
   return side;
 }
 
-void SplitRows::prepare() {
+void SplittingDelassus::prepare() {
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const Mat3& d = group_.contacts[i].directions;
     diagonal_[i].setZero();
@@ -47,7 +48,7 @@ void SplitRows::prepare() {
   }
 }
 
-Vec3 SplitRows::velocity(std::size_t i, const std::vector<VecX>& x) const {
+Vec3 SplittingDelassus::velocity(std::size_t i, const std::vector<VecX>& x) const {
   Vec3 relative = Vec3::Zero(), turned = Vec3::Zero();
   for (const Side& side : sides_[i]) {
     if (side.rigid >= 0) {
@@ -62,7 +63,7 @@ Vec3 SplitRows::velocity(std::size_t i, const std::vector<VecX>& x) const {
   return group_.contacts[i].directions * relative + turned + q_[i];
 }
 
-void SplitRows::move_rigid(const std::vector<Vec3>& lambda) {
+void SplittingDelassus::move_rigid(const std::vector<Vec3>& lambda) {
   std::fill(group_.delta_velocity.begin(), group_.delta_velocity.end(), Vec3::Zero());
   std::fill(group_.delta_angular_velocity.begin(), group_.delta_angular_velocity.end(), Vec3::Zero());
   for (std::size_t i = 0; i < sides_.size(); ++i) {
@@ -76,7 +77,7 @@ void SplitRows::move_rigid(const std::vector<Vec3>& lambda) {
   }
 }
 
-Vec3 SplitRows::next_impulse(std::size_t i, const Vec3& u, const Vec3& lambda) const {
+Vec3 SplittingDelassus::next_impulse(std::size_t i, const Vec3& u, const Vec3& lambda) const {
   const ContactRows& rows = group_.contacts[i];
   const Mat3& w = diagonal_[i];
   switch (rows.kind) {
@@ -91,7 +92,7 @@ Vec3 SplitRows::next_impulse(std::size_t i, const Vec3& u, const Vec3& lambda) c
   return solve_one_contact(w, u - w * lambda, rows.friction);
 }
 
-double SplitRows::sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x) {
+double SplittingDelassus::sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x) {
   double largest = 0.0;
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const Vec3 next = next_impulse(i, velocity(i, x), lambda[i]);
@@ -115,7 +116,7 @@ double SplitRows::sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x) {
   return std::sqrt(largest);
 }
 
-double SplitRows::natural_residual(const std::vector<Vec3>& lambda, const std::vector<VecX>& x) const {
+double SplittingDelassus::natural_residual(const std::vector<Vec3>& lambda, const std::vector<VecX>& x) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < sides_.size(); ++i)
     worst = std::max(worst, natural_map(group_.contacts[i].kind, diagonal_[i], velocity(i, x), lambda[i],
@@ -123,7 +124,7 @@ double SplitRows::natural_residual(const std::vector<Vec3>& lambda, const std::v
   return worst;
 }
 
-void SplitRows::impulses(const std::vector<Vec3>& lambda, std::vector<VecX>& f) const {
+void SplittingDelassus::impulses(const std::vector<Vec3>& lambda, std::vector<VecX>& f) const {
   for (VecX& v : f) v.setZero();
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     if (lambda[i].isZero(0.0)) continue;

@@ -10,7 +10,7 @@
 // of the error along an eigenvector of W by 1/(1 + ρ eigenvalue), and hundreds of contacts on a few soft elements have
 // small ones. Above kStiffest Newton's steps fail. A dragon of 1e4 Pa in 1,170 contacts, whose sweeps stall at 1e-4:
 // 1e-8 in 3 to 7 s.
-#include "engine/response/multiplier_newton.hpp"
+#include "engine/response/augmented_lagrangian.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,8 +50,8 @@ class Solver {
     }
   }
 
-  MultipliersResult run(double tolerance) {
-    MultipliersResult result;
+  AugmentedLagrangianResult run(double tolerance) {
+    AugmentedLagrangianResult result;
     double stiffest = kStiffest;
     State best = state(), last = best;
     while (true) {
@@ -180,8 +180,8 @@ class Solver {
 
 }  // namespace
 
-MultipliersResult solve_by_multipliers(const GroupOperator& a, const ConeProblem& problem, double tolerance,
-                                       GroupSystem& group, VecX& x) {
+AugmentedLagrangianResult solve_by_augmented_lagrangian(const GroupOperator& a, const ConeProblem& problem,
+                                                        double tolerance, GroupSystem& group, VecX& x) {
   return Solver(a, problem, group, x).run(tolerance);
 }
 

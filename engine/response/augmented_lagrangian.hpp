@@ -1,4 +1,5 @@
-// The method of multipliers on contact with friction, in velocities: what is left where sweeps over the contacts stall.
+// The augmented Lagrangian method on contact with friction, in velocities: what is left where sweeps over the contacts
+// stall.
 #pragma once
 
 #include "engine/lcp/cone_problem.hpp"
@@ -6,7 +7,7 @@
 
 namespace impinge {
 
-struct MultipliersResult {
+struct AugmentedLagrangianResult {
   int newton_steps = 0, multiplier_steps = 0;
   bool converged = false;
 };
@@ -14,7 +15,7 @@ struct MultipliersResult {
 /// From where `x` (Δv, as GroupOperator holds it) and group.lambda stand; improves both. problem: q, mu and kinds of
 /// the group's contacts. `tolerance`, m/s: of the natural map of every contact, and of D⁻¹ (A Δv - J^T λ) of every node
 /// and rigid body.
-MultipliersResult solve_by_multipliers(const GroupOperator& a, const ConeProblem& problem, double tolerance,
-                                       GroupSystem& group, VecX& x);
+AugmentedLagrangianResult solve_by_augmented_lagrangian(const GroupOperator& a, const ConeProblem& problem,
+                                                        double tolerance, GroupSystem& group, VecX& x);
 
 }  // namespace impinge

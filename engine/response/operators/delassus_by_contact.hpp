@@ -1,5 +1,4 @@
-// What impulses do at contacts: W = J A⁻¹ J^T asked for contact by contact, for responses that go from contact to
-// contact. Rigid bodies and lumped nodes keep their Δv up to date; a deformable body whose A couples nodes is seen
+// The Delassus operator W = J A⁻¹ J^T asked for contact by contact, for responses that go from contact to contact. Rigid bodies and lumped nodes keep their Δv up to date; a deformable body whose A couples nodes is seen
 // through its part of W, which one factorization gives.
 #pragma once
 
@@ -9,11 +8,11 @@
 
 namespace impinge {
 
-class ContactMobility {
+class DelassusByContact {
  public:
   /// Throws DivergenceError where A is not positive definite. Starts from group.lambda (entries of rows that aren't
   /// there must be 0).
-  explicit ContactMobility(GroupSystem& group);
+  explicit DelassusByContact(GroupSystem& group);
 
   /// W_ii, 1/kg. Zero where both sides are held.
   const Mat3& diagonal(std::size_t i) const { return diagonal_[i]; }

@@ -35,7 +35,7 @@ class SymplecticEuler : public DeformableIntegrator {
 
 }  // namespace
 
-Entry<DeformableIntegrator> deformable_symplectic_euler() {
+Entry<DeformableIntegrator> symplectic_euler_integrator() {
   return entry<DeformableIntegrator, SymplecticEuler>("symplectic_euler", "explicit baseline, A = M");
 }
 

@@ -1,4 +1,4 @@
-#include "engine/response/operators/contact_mobility.hpp"
+#include "engine/response/operators/delassus_by_contact.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -20,7 +20,7 @@ Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const BodyBlo
 
 }  // namespace
 
-ContactMobility::ContactMobility(GroupSystem& group)
+DelassusByContact::DelassusByContact(GroupSystem& group)
     : group_(group),
       node_inverse_(group.soft.size()),
       coupled_(group.soft.size()),
@@ -74,7 +74,7 @@ ContactMobility::ContactMobility(GroupSystem& group)
     if (!group.lambda[i].isZero(0.0)) add_impulse(i, group.lambda[i]);
 }
 
-void ContactMobility::add_coupled(int s) {
+void DelassusByContact::add_coupled(int s) {
   const SoftBlock& block = group_.soft[s];
   Coupled& coupled = coupled_[s];
   const int m = static_cast<int>(coupled.contacts.size());
@@ -104,9 +104,11 @@ void ContactMobility::add_coupled(int s) {
   }
 }
 
-Vec3 ContactMobility::velocity(std::size_t i) const { return group_.contact_velocity(i, true) + coupled_velocity_[i]; }
+Vec3 DelassusByContact::velocity(std::size_t i) const {
+  return group_.contact_velocity(i, true) + coupled_velocity_[i];
+}
 
-void ContactMobility::add_impulse(std::size_t i, const Vec3& delta) {
+void DelassusByContact::add_impulse(std::size_t i, const Vec3& delta) {
   const ContactRows& rows = group_.contacts[i];
   const Vec3 force = rows.directions.transpose() * delta;
   const std::array<const ContactSide*, 2> sides{&rows.a, &rows.b};
@@ -131,12 +133,12 @@ void ContactMobility::add_impulse(std::size_t i, const Vec3& delta) {
   }
 }
 
-void ContactMobility::change(std::size_t i, const Vec3& delta) {
+void DelassusByContact::change(std::size_t i, const Vec3& delta) {
   group_.lambda[i] += delta;
   add_impulse(i, delta);
 }
 
-void ContactMobility::show(const std::function<void(const GroupSystem&)>& observe) {
+void DelassusByContact::show(const std::function<void(const GroupSystem&)>& observe) {
   if (!observe) return;
   finish();
   observe(group_);
@@ -145,7 +147,7 @@ void ContactMobility::show(const std::function<void(const GroupSystem&)>& observ
     if (!coupled_[s].contacts.empty()) group_.soft_delta[s].setZero();
 }
 
-bool ContactMobility::finish() {
+bool DelassusByContact::finish() {
   group_.clear_delta();
   std::fill(coupled_velocity_.begin(), coupled_velocity_.end(), Vec3::Zero());
   for (std::size_t i = 0; i < group_.contacts.size(); ++i)

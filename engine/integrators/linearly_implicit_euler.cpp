@@ -42,7 +42,7 @@ class LinearlyImplicitEuler : public DeformableIntegrator {
 
 }  // namespace
 
-Entry<DeformableIntegrator> deformable_linearly_implicit_euler() {
+Entry<DeformableIntegrator> linearly_implicit_euler_integrator() {
   return entry<DeformableIntegrator, LinearlyImplicitEuler>(
       "linearly_implicit_euler", "backward Euler with one Newton iteration (the seed's scheme)");
 }

@@ -1,7 +1,6 @@
 // Newmark's scheme (1959): x₁ = x₀ + h v₀ + h² ((½ − β) a₀ + β a₁), v₁ = v₀ + h ((1 − γ) a₀ + γ a₁), solved for v₁ by
 // Newton's method. β = ¼, γ = ½ (constant average acceleration): second order, no damping of its own in linear
 // problems.
-#include "engine/core/error.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
@@ -9,22 +8,28 @@ namespace {
 
 class Newmark : public DeformableIntegrator {
  public:
+  void declare(const Rows& rows) override {
+    newton_.declare(rows);
+    rows.add("beta", settings_.beta, {0.05, 0.5}, "", "How much of the end's acceleration enters the positions.");
+    rows.add("gamma", settings_.gamma, {0.5, 1.0}, "", "How much of it enters the velocities; above 1/2 it damps.");
+  }
+
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
-    IMPINGE_ASSERT(newmark_beta > 0.0 && newmark_gamma > 0.0);
+    const auto [beta, gamma] = settings_;
     step.time_step = h;
-    step.tau = newmark_gamma * h;
-    step.s = h * newmark_beta / newmark_gamma;
+    step.tau = gamma * h;
+    step.s = h * beta / gamma;
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     begin_step(body, body.damping.beta != 0.0, step);
     if (!body.acceleration_known) accelerate(body, step);
-    step.v_hat = body.velocity + (1.0 - newmark_gamma) * h * body.acceleration;
-    const VecX d = (h - step.s) * body.velocity + h * h * (0.5 - newmark_beta / newmark_gamma) * body.acceleration;
+    step.v_hat = body.velocity + (1.0 - gamma) * h * body.acceleration;
+    const VecX d = (h - step.s) * body.velocity + h * h * (0.5 - beta / gamma) * body.acceleration;
     for (const int i : body.free_node()) step.offset.segment<3>(3 * i) = d.segment<3>(3 * i);
   }
 
   void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const override {
-    const double gamma = newmark_gamma;
+    const double gamma = settings_.gamma;
     const VecX before = body.velocity;
     DeformableIntegrator::advance(body, step, v);
     body.acceleration = (body.velocity - before) / (gamma * step.time_step) - (1.0 - gamma) / gamma * body.acceleration;
@@ -32,9 +37,13 @@ class Newmark : public DeformableIntegrator {
       if (body.is_held(i)) body.acceleration.segment<3>(3 * i).setZero();
     body.acceleration_known = true;
   }
-  bool is_newton() const override { return true; }
+  const NewtonSettings* newton() const override { return &newton_; }
 
  private:
+  struct Settings {
+    double beta = 0.25, gamma = 0.5;
+  };
+
   /// M a₀ = f(x₀) + f_ext − D v₀, once: later accelerations follow from the velocities.
   static void accelerate(DeformableBody& body, DeformableStep& step) {
     fill_system(body, 1.0, 0.0, 0.0, nullptr, step);
@@ -48,11 +57,14 @@ class Newmark : public DeformableIntegrator {
     body.scatter_free(a, body.acceleration);
     body.acceleration_known = true;
   }
+
+  NewtonSettings newton_;
+  Settings settings_;
 };
 
 }  // namespace
 
-Entry<DeformableIntegrator> deformable_newmark() {
+Entry<DeformableIntegrator> newmark_integrator() {
   return entry<DeformableIntegrator, Newmark>("newmark", "Newmark's scheme, Newton's method with line search");
 }
 

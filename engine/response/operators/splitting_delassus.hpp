@@ -1,5 +1,5 @@
-// The contacts of a group over J Q⁻¹ J^T, where Q⁻¹ is a NodeInverse for deformable bodies and A⁻¹ for rigid ones. The
-// velocities themselves are carried, by node and by rigid body, so a sweep costs the few nodes that each contact
+// The Delassus operator of a splitting of A: J Q⁻¹ J^T, where Q⁻¹ is a NodeInverse for deformable bodies and A⁻¹ for
+// rigid ones. The velocities themselves are carried, by node and by rigid body, so a sweep costs the few nodes that each contact
 // touches.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace impinge {
 
-class SplitRows {
+class SplittingDelassus {
  public:
   /// Refers to both. Writes the group's rigid Δv; q: J v* - bound by contact.
-  SplitRows(GroupSystem& group, const std::vector<NodeInverse>& inverse, const std::vector<Vec3>& q);
+  SplittingDelassus(GroupSystem& group, const std::vector<NodeInverse>& inverse, const std::vector<Vec3>& q);
 
   /// Once more after a NodeInverse has changed.
   void prepare();

@@ -14,12 +14,16 @@ class ImplicitEuler : public DeformableIntegrator {
     step.v_hat = body.velocity;
     begin_step(body, body.damping.beta != 0.0, step);
   }
-  bool is_newton() const override { return true; }
+  const NewtonSettings* newton() const override { return &newton_; }
+  void declare(const Rows& rows) override { newton_.declare(rows); }
+
+ private:
+  NewtonSettings newton_;
 };
 
 }  // namespace
 
-Entry<DeformableIntegrator> deformable_implicit_euler() {
+Entry<DeformableIntegrator> implicit_euler_integrator() {
   return entry<DeformableIntegrator, ImplicitEuler>("implicit_euler",
                                                     "backward Euler, Newton's method with line search");
 }

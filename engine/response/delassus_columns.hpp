@@ -6,18 +6,18 @@
 
 namespace impinge {
 
-struct ColumnsResult {
+struct DelassusColumnsResult {
   int solves = 0, iterations = 0;
   bool converged = false;
 };
 
-/// Rows up to which the columns take less time than the method of multipliers.
+/// Rows up to which the columns take less time than the augmented Lagrangian.
 constexpr std::size_t kFewRows = 60;
 
 /// From where `x` (Δv, as GroupOperator holds it) and group.lambda stand. problem: q, mu and kinds of the group's
 /// contacts; `solver` gets it with a dense W. `tolerance`, m/s: of the natural map of every contact, and of D⁻¹ (A Δv -
 /// J^T λ) of every node and rigid body. What does not converge leaves x and λ as they came.
-ColumnsResult solve_by_columns(const GroupOperator& a, ConeProblem problem, const LcpSolver& solver, double tolerance,
-                               GroupSystem& group, VecX& x);
+DelassusColumnsResult solve_by_delassus_columns(const GroupOperator& a, ConeProblem problem, const LcpSolver& solver,
+                                                double tolerance, GroupSystem& group, VecX& x);
 
 }  // namespace impinge
