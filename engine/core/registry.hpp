@@ -42,4 +42,11 @@ std::unique_ptr<Interface> make_named(const Registry<Interface>& registry, std::
   return found->make();
 }
 
+/// Declares the function `maker` of the namespace around it, which another file defines, and appends what it makes.
+#define IMPINGE_LIST(list, maker)              \
+  do {                                         \
+    extern decltype(list)::value_type maker(); \
+    (list).push_back(maker());                 \
+  } while (false)
+
 }  // namespace impinge

@@ -62,7 +62,7 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const RigidBody& body = bodies[i];
     Collider& c = colliders_[i];
-    c.shape = &body.shape;
+    c.shape = body.shape.get();
     c.pose = body.pose;
     c.vertices = body.world_vertices;
     c.bounds = body.bounds();
@@ -103,9 +103,12 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
 void Detection::find_collisions(const Parameters& parameters, double time_step) {
   const bool proximity = parameters.contact.points == "proximity";
   const ContactQuery query{proximity, parameters.contact.activation_distance, time_step};
+  const auto is_mesh_pair = [&](const BodyPair& pair) {
+    return colliders_[pair.a].shape->mesh() != nullptr && colliders_[pair.b].shape->mesh() != nullptr;
+  };
   std::vector<BodyPair> mesh_pairs;
   for (const BodyPair& pair : pairs)
-    if (is_mesh(*colliders_[pair.a].shape) && is_mesh(*colliders_[pair.b].shape)) mesh_pairs.push_back(pair);
+    if (is_mesh_pair(pair)) mesh_pairs.push_back(pair);
   triangle_pairs.clear();
   if (!mesh_pairs.empty()) narrow_->find(colliders_, mesh_pairs, triangle_pairs);
 
@@ -114,7 +117,7 @@ void Detection::find_collisions(const Parameters& parameters, double time_step) 
     const BodyPair& pair = pairs[i];
     std::vector<Collision>& out = found_[i];
     out.clear();
-    if (!is_mesh(*colliders_[pair.a].shape) || !is_mesh(*colliders_[pair.b].shape)) {
+    if (!is_mesh_pair(pair)) {
       primitive_contacts(colliders_, pair, query, out);
       return;
     }

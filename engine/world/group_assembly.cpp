@@ -38,7 +38,7 @@ double pair_friction(const RigidBody& a, const RigidBody& b, const Parameters& p
 }
 
 Vec3 triangle_weights(const RigidBody& body, int triangle, const Vec3& point) {
-  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
   const Vec3 &a = body.world_vertices[t[0]], &b = body.world_vertices[t[1]], &c = body.world_vertices[t[2]];
   const Vec3 e0 = b - a, e1 = c - a, x = closest_on_triangle(point, {a, b, c}).point - a;
   const double d00 = e0.dot(e0), d01 = e0.dot(e1), d11 = e1.dot(e1), d20 = x.dot(e0), d21 = x.dot(e1);
@@ -53,7 +53,7 @@ namespace {
 /// Nodes and weights of a point of a deformable surface, every node once.
 std::vector<NodeWeight> carrying_nodes(const RigidBody& body, int triangle, const Vec3& point) {
   const Vec3 corner = triangle_weights(body, triangle, point);
-  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
   std::vector<NodeWeight> list;
   for (int k = 0; k < 3; ++k) {
     if (corner[k] == 0.0) continue;

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "engine/core/archive.hpp"
-#include "engine/detection/pairs/primitive.hpp"
 #include "engine/integrators/rigid_motion.hpp"
 #include "engine/world/world_stages.hpp"
 
@@ -106,13 +105,6 @@ void World::add_attachment(const AttachmentDescription& description) {
 }
 
 void World::start() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies_.size(); ++j)
-      if ((bodies_[i].has_freedom() || bodies_[j].has_freedom()) &&
-          !is_pair_supported(bodies_[i].shape, bodies_[j].shape))
-        throw InputError(
-            fmt::format("bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test",
-                        bodies_[i].name, shape_name(bodies_[i].shape), bodies_[j].name, shape_name(bodies_[j].shape)));
   frame_ = 0;
   time_ = 0.0;
   stages_->frame_stats = {};

@@ -15,7 +15,7 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
   for (const auto& e : responses())
     for (const bool rod : {false, true}) {
       BodyDescription body =
-          dynamic_body("body", rod ? Shape(Capsule{radius, 0.3}) : Shape(Sphere{radius}), radius * normal);
+          dynamic_body("body", rod ? SharedShape(Capsule{radius, 0.3}) : SharedShape(Sphere{radius}), radius * normal);
       body.mass = 2.0;
       if (rod) body.rotation = Vec3(90, 0, 0);
       World probe;

@@ -222,7 +222,7 @@ TEST_CASE("collisions between free bodies keep linear and angular momentum") {
     world.parameters.simulation.gravity.setZero();
     world.parameters.contact.friction = trial % 3 == 0 ? 0.0 : 0.5;
     world.parameters.contact.restitution = trial % 2 ? 0.7 : 0.0;
-    const Shape shapes[] = {Sphere{0.3}, Box{Vec3(0.2, 0.3, 0.4)}, Capsule{0.2, 0.3}};
+    const SharedShape shapes[] = {Sphere{0.3}, Box{Vec3(0.2, 0.3, 0.4)}, Capsule{0.2, 0.3}};
     for (int i = 0; i < 6; ++i) {
       const Vec3 place = 1.2 * random.direction() * (1.0 + 0.8 * i);
       BodyDescription d = dynamic_body("body" + std::to_string(i), shapes[i % 3], place);

@@ -54,7 +54,7 @@ std::vector<Vec3> random_points(Random& r) {
 }
 
 TriangleMesh placed(const Polyhedron& p, const Pose& pose) {
-  TriangleMesh mesh = p.polyhedron()->mesh();
+  TriangleMesh mesh = p.polyhedron()->surface()->mesh;
   for (Vec3& v : mesh.vertices) v = pose.apply(v);
   return mesh;
 }

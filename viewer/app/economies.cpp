@@ -47,7 +47,7 @@ std::vector<Economy> economies(const Session& session) {
     if (body.friction == 0.0) rows.push_back(fmt::format("body.{}.friction=1e-9", body.name));
     if (!body.soft) continue;
     const FemAssembly& fem = body.soft->fem.fem;
-    vertices += std::get<MeshPointer>(body.shape)->mesh.vertices.size();
+    vertices += body.shape->mesh()->mesh.vertices.size();
     nodes += static_cast<std::size_t>(fem.nodes());
     if (fem.mass_kind() == MassKind::lumped)
       masses.push_back(fmt::format("body.{}.material.mass=consistent", body.name));

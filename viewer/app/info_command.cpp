@@ -21,17 +21,17 @@ struct Counts {
 Counts count(const World& world) {
   Counts counts;
   for (const RigidBody& body : world.bodies()) {
-    counts.shapes[shape_name(body.shape)]++;
+    counts.shapes[std::string(body.shape->name())]++;
     if (body.soft) counts.bytes += memory_of(*body.soft);
     counts.bytes += sizeof(RigidBody);
-    const auto* mesh = std::get_if<MeshPointer>(&body.shape);
+    const SurfaceMesh* mesh = body.shape->mesh();
     if (mesh == nullptr) continue;
-    counts.vertices += (*mesh)->mesh.vertices.size();
-    counts.triangles += (*mesh)->mesh.triangles.size();
+    counts.vertices += mesh->mesh.vertices.size();
+    counts.triangles += mesh->mesh.triangles.size();
     // vertices in the body's frame and in the world; triangles, their edges, and the edges with their triangles
-    counts.bytes += (*mesh)->mesh.vertices.size() * (2 * sizeof(Vec3) + sizeof(int)) +
-                    (*mesh)->mesh.triangles.size() * (sizeof(Triangle) + 2 * sizeof(std::array<int, 3>)) +
-                    (*mesh)->topology.edges.size() * sizeof(MeshTopology::Edge);
+    counts.bytes += mesh->mesh.vertices.size() * (2 * sizeof(Vec3) + sizeof(int)) +
+                    mesh->mesh.triangles.size() * (sizeof(Triangle) + 2 * sizeof(std::array<int, 3>)) +
+                    mesh->topology.edges.size() * sizeof(MeshTopology::Edge);
   }
   return counts;
 }

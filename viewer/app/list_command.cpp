@@ -11,6 +11,7 @@
 #include "engine/integrators/integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/response/response.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/sweep_reference.hpp"
 #include "viewer/layers/layer.hpp"
@@ -87,7 +88,7 @@ void print_parameters() {
   view.bind(rows);
   BodyDescription body;
   body.name = "NAME";
-  body.shape = Sphere{1.0};
+  body.shape = Sphere(1.0);
   world.add_body(body);
   world.add_body(small_deformable());
   world.bind_bodies(rows);

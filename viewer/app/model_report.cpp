@@ -72,8 +72,7 @@ ModelFacts model_facts(const World& world) {
   int meshes = 0;
   const Parameters& p = world.parameters;
   for (const RigidBody& body : world.bodies()) {
-    count_body(body.kind, std::holds_alternative<MeshPointer>(body.shape),
-               body.friction < 0.0 ? p.contact.friction : body.friction,
+    count_body(body.kind, body.shape->mesh() != nullptr, body.friction < 0.0 ? p.contact.friction : body.friction,
                body.restitution < 0.0 ? p.contact.restitution : body.restitution, body.self_collision, meshes, facts);
     if (body.soft) facts.soft_dofs += body.soft->fem.dofs();
   }

@@ -30,7 +30,7 @@ void print_soft_bodies(const Session& session) {
     const int held = fem.nodes() - soft.fem.free_nodes();
     double filled = 0.0;
     for (const TetRest& element : fem.elements()) filled += element.volume;
-    const TriangleMesh& surface = std::get<MeshPointer>(body.shape)->mesh;
+    const TriangleMesh& surface = body.shape->mesh()->mesh;
     const double enclosed = signed_volume(surface);
     const std::size_t outside = static_cast<std::size_t>(soft.embedding.outside);
 

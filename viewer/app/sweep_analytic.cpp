@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/app/sweep_reference.hpp"
 
 namespace impinge {
@@ -27,8 +28,8 @@ double given(double own, double scene) { return own < 0.0 ? scene : own; }
 
 // how far the shape reaches from its centre against the normal, at its pose
 double reach(const RigidBody& body, const Vec3& normal) {
-  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) return sphere->radius;
-  const auto& box = std::get<Box>(body.shape);
+  if (const auto* sphere = body.shape->as<Sphere>()) return sphere->radius;
+  const auto& box = *body.shape->as<Box>();
   return (body.pose.rotation.transpose() * normal).cwiseAbs().dot(box.half);
 }
 
@@ -39,18 +40,18 @@ OnPlane on_plane(const std::string& name, const Session& session, bool wants_sph
   OnPlane scene;
   const RigidBody* ground = nullptr;
   for (const RigidBody& body : session.world().bodies()) {
-    if (body.kind == BodyKind::fixed && std::holds_alternative<Plane>(body.shape) && ground == nullptr)
+    if (body.kind == BodyKind::fixed && body.shape->as<Plane>() != nullptr && ground == nullptr)
       ground = &body;
     else if (body.is_dynamic() && scene.body == nullptr &&
-             (wants_sphere ? std::holds_alternative<Sphere>(body.shape) : std::holds_alternative<Box>(body.shape)))
+             (wants_sphere ? body.shape->as<Sphere>() != nullptr : body.shape->as<Box>() != nullptr))
       scene.body = &body;
     else
-      unfit(name, fmt::format("body '{}' is a {} {}", body.name, kind_name(body.kind), shape_name(body.shape)), wanted);
+      unfit(name, fmt::format("body '{}' is a {} {}", body.name, kind_name(body.kind), body.shape->name()), wanted);
   }
   if (scene.body == nullptr || ground == nullptr)
     unfit(name, scene.body == nullptr ? "the scene has no such body" : "the scene has no plane", wanted);
   if (scene.body->angular_momentum.norm() > 0.0) unfit(name, fmt::format("body '{}' spins", scene.body->name), wanted);
-  const Plane& plane = std::get<Plane>(ground->shape);
+  const Plane& plane = *ground->shape->as<Plane>();
   scene.normal = ground->pose.rotation * plane.normal;
   scene.gap = scene.normal.dot(scene.body->pose.position - ground->pose.position) - plane.offset -
               reach(*scene.body, scene.normal);
@@ -81,7 +82,7 @@ AnalyticMotion sliding(const Session& session) {
   const Vec3 g = session.world().parameters.simulation.gravity, n = scene.normal, v = scene.body->velocity;
   const double press = -g.dot(n);
   const Vec3 pull = g - g.dot(n) * n;
-  const Vec3 half = std::get<Box>(scene.body->shape).half;
+  const Vec3 half = scene.body->shape->as<Box>()->half;
   const double speed = v.norm(), height = reach(*scene.body, n);
   if (std::abs(scene.gap) > 1e-3 * half.norm())
     unfit("sliding", fmt::format("the box is {:.3g} m off the plane", scene.gap), "a box that lies on the plane");

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/shapes/primitives.hpp"
+
 namespace impinge {
 namespace {
 
@@ -142,11 +144,11 @@ void DebugWindow::mark_selection(const DebugModel& model, DrawList& list) const 
     return;
   }
   const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
-  if (!body.bounds.is_empty() && !std::holds_alternative<Plane>(*body.shape))
+  if (!body.bounds.is_empty() && body.shape->as<Plane>() == nullptr)
     list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
-  const auto* mesh = std::get_if<MeshPointer>(body.shape);
-  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>((*mesh)->mesh.triangles.size())) return;
-  const auto& t = (*mesh)->mesh.triangles[static_cast<std::size_t>(s.triangle)];
+  const SurfaceMesh* mesh = body.shape->mesh();
+  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>(mesh->mesh.triangles.size())) return;
+  const auto& t = mesh->mesh.triangles[static_cast<std::size_t>(s.triangle)];
   list.triangles.push_back(
       {{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])],
         body.vertices[static_cast<std::size_t>(t[2])]},

@@ -63,7 +63,8 @@ std::vector<int> thinned(const std::vector<Vec2>& points, const std::vector<int>
 
 }  // namespace
 
-ConvexPolyhedron::ConvexPolyhedron(TriangleMesh surface) : mesh_(std::move(surface)), topology_(make_topology(mesh_)) {
+ConvexPolyhedron::ConvexPolyhedron(TriangleMesh surface)
+    : surface_(make_surface(std::move(surface))), mesh_(surface_->mesh), topology_(surface_->topology) {
   Vec3 low = mesh_.vertices[0], high = mesh_.vertices[0];
   for (const Vec3& v : mesh_.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
   size_ = (high - low).norm();

@@ -25,8 +25,7 @@ class ConvexPolyhedron {
   /// Of a closed convex surface, outward. Triangles in one plane (to 1e-12 of the size) are one face.
   explicit ConvexPolyhedron(TriangleMesh surface);
 
-  const TriangleMesh& mesh() const { return mesh_; }
-  const MeshTopology& topology() const { return topology_; }
+  const MeshPointer& surface() const { return surface_; }
   const std::vector<Vec3>& vertices() const { return mesh_.vertices; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Edge>& edges() const { return edges_; }
@@ -54,8 +53,9 @@ class ConvexPolyhedron {
   void find_neighbours();
   void find_resting_rings();
 
-  TriangleMesh mesh_;
-  MeshTopology topology_;
+  MeshPointer surface_;
+  const TriangleMesh& mesh_;      ///< the surface's
+  const MeshTopology& topology_;  ///< likewise
   double size_ = 0.0;
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
