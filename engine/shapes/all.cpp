@@ -12,9 +12,33 @@ const std::vector<ShapeEntry>& shape_entries() {
     IMPINGE_LIST(all, box_shape);
     IMPINGE_LIST(all, capsule_shape);
     IMPINGE_LIST(all, mesh_shape);
+    IMPINGE_LIST(all, cylinder_shape);
+    IMPINGE_LIST(all, cone_shape);
+    IMPINGE_LIST(all, convex_hull_shape);
+    IMPINGE_LIST(all, compound_shape);
     return all;
   }();
   return list;
+}
+
+std::string_view unit_of(ShapeKey::Kind kind) {
+  switch (kind) {
+    case ShapeKey::length:
+      return "m, greater than 0";
+    case ShapeKey::lengths:
+      return "[x, y, z] in m, greater than 0";
+    case ShapeKey::coordinate:
+      return "m";
+    case ShapeKey::direction:
+      return "[x, y, z]";
+    case ShapeKey::points:
+      return "[[x, y, z], ...] in m";
+    case ShapeKey::surface:
+      return "a mesh file";
+    case ShapeKey::parts:
+      return "[{ shape = { ... }, position, rotation }, ...]";
+  }
+  return "";
 }
 
 int shape_type(std::string_view name) {

@@ -25,6 +25,9 @@ struct ShapeKey {
   bool required = true;
 };
 
+/// What a value of that kind is, in a word or two for lists: "m, greater than 0".
+std::string_view unit_of(ShapeKey::Kind kind);
+
 /// What the keys of one table say. A key that is not required and not there reads as zero or empty.
 class ShapeValues {
  public:

@@ -7,6 +7,7 @@
 namespace impinge {
 namespace {
 
+constexpr std::size_t kFew = 100000;                    // edge pairs of polyhedra that are all looked at
 constexpr int kSamples = 500;                           // directions, evenly over the sphere: some 0.17 rad apart
 constexpr int kStarts = 6;                              // of them, those that are searched about
 constexpr int kLineSteps = 26;                          // of a golden section
@@ -39,6 +40,10 @@ class Overlap {
 
   double of_any() const {
     std::vector<std::pair<double, Vec3>> found;
+    for (const PlacedConvex* p : {&a_, &b_})
+      if (const ConvexPolyhedron* solid = p->set->polyhedron())
+        for (const ConvexPolyhedron::Face& f : solid->faces())
+          add(found, (p == &a_ ? -1.0 : 1.0) * (p->pose.rotation * f.normal));
     for (int i = 0; i < kSamples; ++i) {
       const double y = 1.0 - (2.0 * i + 1.0) / kSamples, r = std::sqrt(1.0 - y * y);
       const double angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -126,8 +131,9 @@ class Overlap {
 
 double least_overlap(const PlacedConvex& a, const PlacedConvex& b) {
   const Overlap overlap(a, b);
-  const bool polyhedral = a.set->polyhedron() != nullptr && b.set->polyhedron() != nullptr;
-  return std::max(0.0, polyhedral ? overlap.of_polyhedra() : overlap.of_any());
+  const ConvexPolyhedron *solid_a = a.set->polyhedron(), *solid_b = b.set->polyhedron();
+  const bool few = solid_a != nullptr && solid_b != nullptr && solid_a->edges().size() * solid_b->edges().size() < kFew;
+  return std::max(0.0, few ? overlap.of_polyhedra() : overlap.of_any());
 }
 
 }  // namespace impinge

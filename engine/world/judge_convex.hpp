@@ -6,8 +6,8 @@
 
 namespace impinge {
 
-/// The least motion that parts them, metres; 0 if a direction does part them. Polyhedra by all their separating axes,
-/// others by sampling directions and searching about the best ones, right to 1e-7 of their size.
+/// The least motion that parts them, metres; 0 if a direction does part them. Polyhedra of few edges by all their
+/// separating axes, others by sampling directions and searching about the best ones, right to 1e-7 of their size.
 double least_overlap(const PlacedConvex& a, const PlacedConvex& b);
 
 }  // namespace impinge

@@ -12,6 +12,7 @@
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/response/response.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/shape_entry.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/sweep_reference.hpp"
 #include "viewer/layers/layer.hpp"
@@ -117,8 +118,19 @@ void print_cases() {
   print_table(rows);
 }
 
-const std::vector<std::string> kTopics = {"parameters",    "layers",    "responses",   "lcp_solvers",    "broad_phases",
-                                          "narrow_phases", "materials", "integrators", "linear_solvers", "cases"};
+void print_shapes() {
+  std::vector<Row> rows;
+  for (const ShapeEntry& entry : shape_entries()) {
+    rows.push_back({std::string(entry.name), "", std::string(entry.doc)});
+    for (const ShapeKey& key : entry.keys)
+      rows.push_back({"", std::string(key.name), fmt::format("{}; {}", unit_of(key.kind), key.doc)});
+  }
+  print_table(rows);
+}
+
+const std::vector<std::string> kTopics = {"parameters",     "layers",        "responses", "lcp_solvers",
+                                          "broad_phases",   "narrow_phases", "materials", "integrators",
+                                          "linear_solvers", "cases",         "shapes"};
 
 }  // namespace
 
@@ -144,6 +156,8 @@ int list_command(const Arguments& arguments) {
     print_registry(linear_solvers());
   else if (topic == "cases")
     print_cases();
+  else if (topic == "shapes")
+    print_shapes();
   else {
     const std::string near = nearest_word(topic, kTopics);
     throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", topic, fmt::join(kTopics, ", "),

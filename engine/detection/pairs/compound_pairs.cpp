@@ -9,6 +9,7 @@ namespace impinge {
 namespace {
 
 constexpr double kSamePlace = 1e-9;  // of the smaller body: contacts nearer than this are one
+constexpr double kSeam = 1e3;        // times that: parts nearer than this are joined
 
 /// The parts of a collider as colliders; itself if it is no compound.
 std::vector<Collider> parts_of(const Collider& whole) {
@@ -32,12 +33,16 @@ std::uint64_t with_part(std::uint64_t half, std::size_t part) {
   return (half & ~std::uint64_t{0x3ff00000}) | (static_cast<std::uint64_t>(part) & 0x3ffu) << 20;
 }
 
-/// Whether a point outside, whose nearest place on part `own` is `gap` away, is nearer to another part: then that place
-/// is no local minimum of its distance to the compound.
-bool is_behind_another(const Vec3& point, double gap, std::size_t own, const std::vector<Collider>& parts, double tie) {
+/// Whether the place on part `own` that is nearest to a point outside, `gap` away, is no local minimum of the point's
+/// distance to the compound: it belongs to another part as well, which is convex and nearer to the point.
+bool is_seam(const Vec3& place, const Vec3& point, double gap, std::size_t own, const std::vector<Collider>& parts,
+             double tie) {
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (k == own || !overlap(parts[k].bounds.inflated(gap), Aabb{point, point})) continue;
-    if (parts[k].shape->signed_distance(parts[k].pose.apply_inverse(point)) < gap - tie) return true;
+    if (k == own || !overlap(parts[k].bounds.inflated(kSeam * tie), Aabb{place, place})) continue;
+    const auto distance = [&](const Vec3& x) {
+      return parts[k].shape->signed_distance(parts[k].pose.apply_inverse(x));
+    };
+    if (distance(place) <= kSeam * tie && distance(point) < gap - tie) return true;
   }
   return false;
 }
@@ -64,8 +69,8 @@ void compound_contacts(std::span<const Collider> colliders, const BodyPair& pair
       found.clear();
       primitive_contacts(local, {0, 1, pair.margin}, query, found);
       for (Collision& c : found) {
-        if (c.gap > 0.0 && ((many_b && is_behind_another(c.point_a, c.gap, j, parts_b, tie)) ||
-                            (many_a && is_behind_another(c.point_b, c.gap, i, parts_a, tie))))
+        if (c.gap > 0.0 && ((many_b && is_seam(c.point_b, c.point_a, c.gap, j, parts_b, tie)) ||
+                            (many_a && is_seam(c.point_a, c.point_b, c.gap, i, parts_a, tie))))
           continue;
         const auto is_same = [&](const Collision& k) {
           return k.normal.dot(c.normal) > 1.0 - 1e-9 && (k.point_a - c.point_a).norm() <= tie &&

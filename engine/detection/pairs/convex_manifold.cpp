@@ -11,8 +11,8 @@ constexpr double kNearlyParallel = 0.05;  // sine: lines closer to parallel than
 constexpr double kMerge = 1e-4;           // of the smaller face: corners closer than this are one
 constexpr double kTie = 1e-9;             // of the size: gaps closer than this are equal
 
-/// A corner of a clipped face. `edge` is where the side from it to the next lies: a side of the incident face (>= 0) or,
-/// below zero, ~p along side p of the reference face.
+/// A corner of a clipped face. `edge` is where the side from it to the next lies: a side of the incident face (>= 0)
+/// or, below zero, ~p along side p of the reference face.
 struct Corner {
   Vec3 point;
   int vertex = -1;   ///< place in the incident face, if the corner is one of its

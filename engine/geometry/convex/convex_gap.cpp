@@ -104,7 +104,7 @@ class Gap {
       const Vec3 between = point_a_ - point_b_;
       gap_ = between.norm();
       normal_ = between / gap_;
-    } else if (g.apart) {
+    } else if (g.apart && g.distance > kNoDirection * size_) {
       normal_ = g.nearest / g.distance;
       gap_ = d_.separation(normal_);
       refine();
