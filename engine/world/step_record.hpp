@@ -57,6 +57,7 @@ struct AttachmentRecord {
   Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
 };
 
+/// A frame in numbers; what they mean: figures.cpp.
 struct FrameStats {
   int frame = 0;
   double time = 0.0;
@@ -70,6 +71,9 @@ struct FrameStats {
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
   StageTimes times;
   std::uint64_t state_hash = 0;
+  // Filled in by who asks the judge of overlap (judge.hpp).
+  double judged_penetration = 0.0;  ///< metres
+  std::int64_t judged_intersections = 0;
 };
 
 struct StepRecord {

@@ -250,11 +250,7 @@ Arguments parse_arguments(int count, const char* const* words) {
   info->add_option("--threads", raw.threads, "threads to use (default: all cores; one with --ablation)");
 
   CLI::App* names = app.add_subcommand("list", "parameters, layers and algorithms there are");
-  names
-      ->add_option("TOPIC", arguments.a,
-                   "parameters|layers|responses|lcp_solvers|broad_phases|narrow_phases|materials|integrators|linear_"
-                   "solvers|cases")
-      ->required();
+  names->add_option("TOPIC", arguments.a, fmt::format("{}", fmt::join(list_topics(), "|")))->required();
 
   CLI::App* step = app.add_subcommand(
       "step", "solve a frozen step or a published friction-contact problem with every method, and compare them");

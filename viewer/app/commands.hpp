@@ -12,6 +12,8 @@ int diff_command(const Arguments& arguments);
 int check_command(const Arguments& arguments);
 int info_command(const Arguments& arguments);
 int list_command(const Arguments& arguments);
+/// What `impinge list` has a list of.
+std::vector<std::string> list_topics();
 int step_command(const Arguments& arguments);
 int sweep_command(const Arguments& arguments);
 int debug_command(const Arguments& arguments);

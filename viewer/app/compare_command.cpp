@@ -158,12 +158,16 @@ class Comparison {
                : run.rows()[static_cast<std::size_t>(frame)].figures[static_cast<std::size_t>(it - names.begin())];
   }
 
+  /// What tells two runs apart: no times, and only what both files have.
+  bool is_compared(const std::string& name) const {
+    return name != "frame" && name != "time_s" && find_figure(name)->kind != FigureKind::time &&
+           !std::isnan(figure(a_, 0, name)) && !std::isnan(figure(b_, 0, name));
+  }
+
   void write() {
     std::vector<std::string> figures;
     for (const std::string& name : a_.columns())
-      if (name != "frame" && name != "time_s" && !(name.size() > 3 && name.substr(name.size() - 3) == "_ms") &&
-          !std::isnan(figure(b_, 0, name)))
-        figures.push_back(name);
+      if (is_compared(name)) figures.push_back(name);
     std::string csv = "frame,time_a_s,time_b_s,same_state,position_m,body";
     for (const std::string& name : figures) csv += ",abs_" + name;
     csv += "\n";

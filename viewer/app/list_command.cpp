@@ -11,6 +11,7 @@
 #include "engine/integrators/integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/response/response.hpp"
+#include "engine/world/figures.hpp"
 #include "viewer/app/commands.hpp"
 #include "viewer/app/sweep_reference.hpp"
 #include "viewer/layers/layer.hpp"
@@ -116,39 +117,52 @@ void print_cases() {
   print_table(rows);
 }
 
-const std::vector<std::string> kTopics = {"parameters",    "layers",    "responses",   "lcp_solvers",    "broad_phases",
-                                          "narrow_phases", "materials", "integrators", "linear_solvers", "cases"};
+void print_figures() {
+  std::vector<Row> rows = {{"column", "unit", "number", "kind", "meaning"}};
+  for (const Figure& figure : figures())
+    rows.push_back({std::string(figure.name), std::string(figure.unit),
+                    figure.is_hash()    ? "hash"
+                    : figure.is_whole() ? "whole"
+                                        : "real",
+                    std::string(kind_name(figure.kind)), std::string(figure.doc)});
+  print_table(rows);
+}
+
+/// What there is a list of. Messages and --help name the topics in this order.
+struct Topic {
+  const char* name;
+  void (*print)();
+};
+const std::vector<Topic> kTopics = {
+    {"parameters", print_parameters},
+    {"layers", print_layers},
+    {"responses", [] { print_registry(responses()); }},
+    {"lcp_solvers", [] { print_registry(lcp_solvers()); }},
+    {"broad_phases", [] { print_registry(broad_phases()); }},
+    {"narrow_phases", [] { print_registry(narrow_phases()); }},
+    {"materials", [] { print_registry(materials()); }},
+    {"integrators", [] { print_registry(integrators()); }},
+    {"linear_solvers", [] { print_registry(linear_solvers()); }},
+    {"cases", print_cases},
+    {"figures", print_figures},
+};
 
 }  // namespace
 
+std::vector<std::string> list_topics() {
+  std::vector<std::string> names;
+  for (const Topic& topic : kTopics) names.emplace_back(topic.name);
+  return names;
+}
+
 int list_command(const Arguments& arguments) {
-  const std::string& topic = arguments.a;
-  if (topic == "parameters")
-    print_parameters();
-  else if (topic == "layers")
-    print_layers();
-  else if (topic == "responses")
-    print_registry(responses());
-  else if (topic == "lcp_solvers")
-    print_registry(lcp_solvers());
-  else if (topic == "broad_phases")
-    print_registry(broad_phases());
-  else if (topic == "narrow_phases")
-    print_registry(narrow_phases());
-  else if (topic == "integrators")
-    print_registry(integrators());
-  else if (topic == "materials")
-    print_registry(materials());
-  else if (topic == "linear_solvers")
-    print_registry(linear_solvers());
-  else if (topic == "cases")
-    print_cases();
-  else {
-    const std::string near = nearest_word(topic, kTopics);
-    throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", topic, fmt::join(kTopics, ", "),
-                                 near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
-  }
-  return 0;
+  const std::string& wanted = arguments.a;
+  for (const Topic& topic : kTopics)
+    if (wanted == topic.name) return topic.print(), 0;
+  const std::vector<std::string> names = list_topics();
+  const std::string near = nearest_word(wanted, names);
+  throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", wanted, fmt::join(names, ", "),
+                               near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
 }
 
 }  // namespace impinge

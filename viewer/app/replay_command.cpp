@@ -20,15 +20,9 @@ int replay_command(const Arguments& arguments) {
                      ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
 
   int frames = 0, different = 0;
-  std::size_t begin = table.find('\n');
-  if (begin == std::string::npos || table.substr(0, begin) != stats_header(session.is_judged()))
-    throw InputError((folder / "stats.csv").string() +
-                     ":1:1: another header; the columns of this version are wanted; run the scene again");
-  for (++begin; begin < table.size();) {
-    const std::size_t end = table.find('\n', begin);
-    if (end == std::string::npos) break;  // the row of an interrupted run that was not finished
-    const StatsLine row = parse_stats_row(std::string_view(table).substr(begin, end - begin), session.is_judged());
-    begin = end + 1;
+  const std::string file = (folder / "stats.csv").string();
+  StatsReader reader(table, session.is_judged(), file);
+  for (StatsLine row; reader.next(row);) {
     session.advance();
     const std::string hash = hex64(session.record().stats.state_hash);
     if (row.figures[0] != session.frame())

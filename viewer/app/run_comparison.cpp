@@ -58,20 +58,13 @@ Settings settings_of(const fs::path& run) {
 
 std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
   const std::string table = read_file(file, kMostBytes);
-  std::size_t begin = table.find('\n');
-  if (begin == std::string::npos || table.substr(0, begin) != stats_header(judged))
-    throw InputError(file.string() +
-                     ":1:1: another header; the columns of this version are wanted; run the scene again");
+  const std::string name = file.string();
+  StatsReader reader(table, judged, name);
   std::vector<StatsLine> rows;
-  for (++begin; begin < table.size();) {
-    const std::size_t end = table.find('\n', begin);
-    if (end == std::string::npos) break;  // the row of an interrupted run that was not finished
-    rows.push_back(parse_stats_row(std::string_view(table).substr(begin, end - begin), judged));
-    if (rows.back().figures[0] != static_cast<double>(rows.size() - 1))
-      throw InputError(fmt::format("{}:{}: is of frame {}; rows in order are wanted; run the scene again",
-                                   file.string(), rows.size() + 1, rows.back().figures[0]));
-    begin = end + 1;
-  }
+  for (StatsLine row; reader.next(row); rows.push_back(row))
+    if (row.figures[0] != static_cast<double>(rows.size()))
+      throw InputError(fmt::format("{}:{}: is of frame {}; rows in order are wanted; run the scene again", name,
+                                   rows.size() + 2, row.figures[0]));
   if (rows.empty()) throw InputError(file.string() + ": has no frames; a recorded run is wanted; run the scene first");
   return rows;
 }

@@ -59,6 +59,14 @@ ExpressionWords column_words(const SweepWords& paths) {
   return words;
 }
 
+/// Of a word like max(step_ms).
+bool is_of_time(const std::string& word) {
+  const std::size_t open = word.find('(');
+  if (open == std::string::npos) return false;
+  const Figure* figure = find_figure(std::string_view(word).substr(open + 1, word.size() - open - 2));
+  return figure != nullptr && figure->kind == FigureKind::time;
+}
+
 bool is_name(const std::string& text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
          std::all_of(text.begin(), text.end(),
@@ -119,7 +127,7 @@ SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std:
     names_.push_back(name);
     bool is_time = false;
     for (std::size_t i = 0; i < words.names.size(); ++i)
-      is_time |= words.names[i].ends_with("_ms)") && expressions_.back().uses(i);
+      is_time |= is_of_time(words.names[i]) && expressions_.back().uses(i);
     if (is_time != name.ends_with("_ms"))
       refuse(where, is_time ? fmt::format("'{}' holds a time", name) : fmt::format("'{}' holds no time", name),
              "columns of times, and only they, end in _ms", "rename it");

@@ -18,12 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double kApart = 1e-3;  // scene sizes
 
-std::size_t figure(const char* name) {
-  const std::vector<std::string>& names = figure_names(false);
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-double time_of(const StatsLine& line) { return line.figures[figure("time_s")]; }
+double time_of(const StatsLine& line) { return line.figures[figure_index("time_s")]; }
 
 // frames of two runs that show the same time, up to the window's end; times are sums of steps, rounded
 std::vector<std::pair<std::size_t, std::size_t>> common_frames(const std::vector<StatsLine>& a,
@@ -87,7 +82,7 @@ std::map<std::size_t, PairImpulses> impulses_in(const fs::path& run) {
 }
 
 double sub_step(const std::vector<StatsLine>& lines, std::size_t i) {
-  return i == 0 ? 0.0 : (time_of(lines[i]) - time_of(lines[i - 1])) / lines[i].figures[figure("substeps")];
+  return i == 0 ? 0.0 : (time_of(lines[i]) - time_of(lines[i - 1])) / lines[i].figures[figure_index("substeps")];
 }
 
 void compare_forces(const fs::path& run, const fs::path& reference, const std::vector<StatsLine>& a,
@@ -152,16 +147,17 @@ SweepErrors sweep_errors(const fs::path& run, const fs::path& reference, const s
   Squares squares;
   double own_depth = 0.0, depth = 0.0;
   const auto energy = [](const StatsLine& line) {
-    return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")];
+    return line.figures[figure_index("kinetic_J")] + line.figures[figure_index("potential_J")] +
+           line.figures[figure_index("elastic_J")];
   };
   const auto momentum = [](const StatsLine& line) {
-    return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")],
-                line.figures[figure("momentum_z")]);
+    return Vec3(line.figures[figure_index("momentum_x")], line.figures[figure_index("momentum_y")],
+                line.figures[figure_index("momentum_z")]);
   };
   for (const auto& [i, k] : frames) {
     for (const std::string& body : bodies) squares.add(surface(run, i, body), surface(reference, k, body));
-    own_depth = std::max(own_depth, a[i].figures[figure("max_penetration_m")]);
-    depth = std::max(depth, b[k].figures[figure("max_penetration_m")]);
+    own_depth = std::max(own_depth, a[i].figures[figure_index("max_penetration_m")]);
+    depth = std::max(depth, b[k].figures[figure_index("max_penetration_m")]);
     errors.energy = std::max(errors.energy, std::abs(energy(a[i]) - energy(b[k])));
     errors.momentum = std::max(errors.momentum, (momentum(a[i]) - momentum(b[k])).norm());
     errors.seconds = time_of(a[i]);
@@ -183,7 +179,7 @@ SweepErrors analytic_errors(const fs::path& run, const AnalyticMotion& motion, c
   Squares squares;
   std::size_t count = 0;
   for (std::size_t i = 0; i < lines.size() && time_of(lines[i]) <= window.seconds * (1.0 + 1e-9); ++i) {
-    if (motion.ends_with_contact && lines[i].figures[figure("contacts")] > 0.0) {
+    if (motion.ends_with_contact && lines[i].figures[figure_index("contacts")] > 0.0) {
       window.seconds = errors.seconds;
       window.reason = fmt::format("the formula holds until the first contact at {:.3g} s", time_of(lines[i]));
       break;

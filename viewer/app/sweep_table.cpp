@@ -43,14 +43,9 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   return out;
 }
 
-std::size_t figure(const char* name) {
-  const std::vector<std::string>& names = figure_names(false);
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 double sum(const std::vector<StatsLine>& lines, const char* name) {
   double total = 0.0;
-  for (const StatsLine& line : lines) total += line.figures[figure(name)];
+  for (const StatsLine& line : lines) total += line.figures[figure_index(name)];
   return total;
 }
 
@@ -102,22 +97,8 @@ bool is_sweep_column(const std::string& name) {
 }
 
 std::vector<StatsLine> sweep_stats(const std::filesystem::path& run) {
-  std::vector<StatsLine> lines;
-  if (!std::filesystem::is_regular_file(run / "stats.csv")) return lines;
-  const std::string text = read_file(run / "stats.csv", kMostBytes);
-  std::size_t begin = text.find('\n');
-  if (begin == std::string::npos || text.substr(0, begin) != stats_header(false)) return lines;
-  for (++begin; begin < text.size();) {  // whole lines only: an interrupted run may end in half a line
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    try {
-      lines.push_back(parse_stats_row(std::string_view(text).substr(begin, end - begin), false));
-    } catch (const InputError&) {
-      break;
-    }
-    begin = end + 1;
-  }
-  return lines;
+  if (!std::filesystem::is_regular_file(run / "stats.csv")) return {};
+  return whole_rows(read_file(run / "stats.csv", kMostBytes), false);
 }
 
 double median(std::vector<double> values) {
@@ -162,17 +143,18 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
 
   const auto largest = [&](const char* name) {
     double most = 0.0;
-    for (const StatsLine& line : lines) most = std::max(most, line.figures[figure(name)]);
+    for (const StatsLine& line : lines) most = std::max(most, line.figures[figure_index(name)]);
     return most;
   };
   const auto energy = [&](const StatsLine& line) {
-    return line.figures[figure("kinetic_J")] + line.figures[figure("potential_J")] + line.figures[figure("elastic_J")];
+    return line.figures[figure_index("kinetic_J")] + line.figures[figure_index("potential_J")] +
+           line.figures[figure_index("elastic_J")];
   };
   const auto momentum = [&](const StatsLine& line) {
-    return Vec3(line.figures[figure("momentum_x")], line.figures[figure("momentum_y")],
-                line.figures[figure("momentum_z")]);
+    return Vec3(line.figures[figure_index("momentum_x")], line.figures[figure_index("momentum_y")],
+                line.figures[figure_index("momentum_z")]);
   };
-  const auto last = [&](const char* name) { return lines.back().figures[figure(name)]; };
+  const auto last = [&](const char* name) { return lines.back().figures[figure_index(name)]; };
   double drift = 0.0, push = 0.0;
   for (const StatsLine& line : lines) {
     drift = std::max(drift, std::abs(energy(line) - energy(lines.front())));

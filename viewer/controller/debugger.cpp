@@ -119,7 +119,7 @@ bool Debugger::advance() {
 void Debugger::note_frame() {
   const StepRecord& record = session_.record();
   const auto frame = static_cast<std::size_t>(session_.frame());
-  std::vector<double> figures = figure_values(record.stats, {}, session_.is_judged());
+  std::vector<double> figures = figure_values(record.stats, session_.is_judged());
   if (frame < hashes_.size()) {
     check_hash(session_.frame());
   } else {

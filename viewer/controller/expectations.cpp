@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/world/figures.hpp"
 #include "viewer/controller/frame_view.hpp"
-#include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
 

@@ -89,12 +89,12 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       break;
     }
     const int frame = session.frame();
-    FrameExtras extras;
-    extras.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
+    FrameStats stats = session.record().stats;
+    if (options.images) stats.times.render_ms = view.draw(session.record(), commands, folder.path());
     if (judged) {
       const OverlapVerdict verdict = judge_overlap(session.world().bodies());
-      extras.judged_penetration = verdict.penetration;
-      extras.judged_intersections = verdict.intersections;
+      stats.judged_penetration = verdict.penetration;
+      stats.judged_intersections = verdict.intersections;
     }
     if (freezes) {
       folder.add_frozen_step(frozen);
@@ -102,10 +102,10 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       result.frozen_contacts = frozen.contacts();
       result.frozen_groups = frozen.groups.size();
     }
-    folder.add_frame(session.record(), commands, extras);
-    if (watcher.frame) watcher.frame(session.record().stats, last_frame);
+    folder.add_frame(session.record(), commands, stats);
+    if (watcher.frame) watcher.frame(stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
-    stop = judge(frame, figure_values(session.record().stats, extras, judged));
+    stop = judge(frame, figure_values(stats, judged));
     folder.add_snapshot(session);
   }
   view.finish();

@@ -6,7 +6,7 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/frozen/frozen_step.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "engine/world/figures.hpp"
 
 namespace impinge {
 

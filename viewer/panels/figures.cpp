@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/world/figures.hpp"
 #include "viewer/panels/panels.hpp"
 
 namespace impinge {
@@ -43,33 +44,47 @@ void add_deformable(std::vector<Row>& rows, const StepRecord& record) {
                                                                  : fmt::format("{:.4g} J", record.stats.elastic)});
 }
 
+/// A figure of the table in the panel's words.
+struct Shown {
+  const char* figure;
+  const char* label;
+  bool brief;
+  std::string (*text)(double value);
+};
+
+std::string number(double value) { return grouped(static_cast<std::int64_t>(value)); }
+
+constexpr Shown kShown[] = {
+    {"frame", "frame", true, number},
+    {"time_s", "time", true, [](double s) { return fmt::format("{:.4f} s", s); }},
+    {"broad_pairs", "body pairs", false, number},
+    {"triangle_pairs", "triangle pairs", false, number},
+    {"contacts", "contacts", true, number},
+    {"groups", "groups", false, number},
+    {"max_penetration_m", "penetration", true, [](double m) { return fmt::format("{:.4f} mm", 1e3 * m); }},
+    {"lcp_iterations", "iterations", false, number},
+    {"residual", "residual", true, [](double v) { return v > 0.0 ? fmt::format("{:.1e} m/s", v) : "0 m/s"; }},
+};
+
+/// Of a column of milliseconds. The picture's own time is not known while it is drawn.
+bool is_stage(const Figure& figure) { return figure.kind == FigureKind::time && figure.name != "render_ms"; }
+
 std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   const FrameStats& s = record.stats;
   const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) {
     return b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable;
   });
-  std::vector<Row> rows = {
-      {"frame", grouped(s.frame), true},
-      {"time", fmt::format("{:.4f} s", s.time), true},
-      {"body pairs", grouped(s.broad_pairs)},
-      {"triangle pairs", grouped(s.triangle_pairs)},
-      {"contacts", grouped(s.contacts), true},
-      {"groups", grouped(s.groups)},
-      {"penetration", fmt::format("{:.4f} mm", 1e3 * s.max_penetration), true},
-      {"iterations", grouped(s.lcp_iterations)},
-      {"residual", s.residual > 0.0 ? fmt::format("{:.1e} m/s", s.residual) : "0 m/s", true},
-      {"asleep", fmt::format("{} of {}", s.asleep, dynamic)},
-  };
+  std::vector<Row> rows;
+  for (const Shown& shown : kShown)
+    rows.push_back({shown.label, shown.text(find_figure(shown.figure)->value(s)), shown.brief});
+  rows.push_back({"asleep", fmt::format("{} of {}", s.asleep, dynamic)});
   add_deformable(rows, record);
   if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), true, kWarning});
   if (timings)
-    for (const auto& [name, ms] : {std::pair{"broad", s.times.broad_ms},
-                                   {"narrow", s.times.narrow_ms},
-                                   {"assemble", s.times.assemble_ms},
-                                   {"response", s.times.response_ms},
-                                   {"integrate", s.times.integrate_ms},
-                                   {"step", s.times.step_ms}})
-      rows.push_back({name, fmt::format("{:.2f} ms", ms), true});
+    for (const Figure& figure : figures())
+      if (is_stage(figure))
+        rows.push_back({std::string(figure.name.substr(0, figure.name.size() - 3)),
+                        fmt::format("{:.2f} ms", figure.value(s)), true});
   return rows;
 }
 
