@@ -5,8 +5,8 @@
 
 #include "viewer/app/html_text.hpp"
 #include "viewer/app/report_table.hpp"
-#include "viewer/panels/heat_table.hpp"
-#include "viewer/panels/plot.hpp"
+#include "viewer/panels/overlay/heat_table.hpp"
+#include "viewer/panels/overlay/plot.hpp"
 
 namespace impinge {
 

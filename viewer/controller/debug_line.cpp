@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "engine/core/error.hpp"
+#include "viewer/panels/debug/panel.hpp"
 
 namespace impinge {
 namespace {
@@ -134,7 +135,7 @@ DebugLine parse_panel(const PlacedText& line, Words words, const DebugNames& nam
     case PanelLine::scroll:
       want(words, 4, 4, "panel scroll PANEL PIXELS");
       p.name = std::string(words[2].text);
-      find(words[2], "panel", {"layers", "parameters", "inspector", "contacts", "stages", "timeline", "console"});
+      find(words[2], "panel", panel_names());
       p.pixels = static_cast<float>(number(words[3], 0, 1e7));
       break;
     case PanelLine::help:

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "viewer/controller/command.hpp"
-#include "viewer/panels/debug_model.hpp"
+#include "viewer/state/debug_model.hpp"
 
 namespace impinge {
 

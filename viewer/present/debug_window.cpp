@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "viewer/panels/debug/keys.hpp"
+
 namespace impinge {
 namespace {
 
@@ -48,19 +50,10 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   CommandLines lines;
   ui_.begin(width(), height());
   keys_to_lines(ui_, model, lines);
-  draw_layers_panel(ui_, model, layout_.layers, lines);
-  draw_parameters_panel(ui_, model, layout_.parameters, lines);
-  draw_inspector_panel(ui_, model, layout_.inspector, lines);
-  draw_contacts_panel(ui_, model, layout_.contacts, lines);
-  draw_stages_panel(ui_, model, layout_.stages, lines);
-  draw_transport_panel(ui_, model, layout_.transport, lines);
-  draw_timeline_panel(ui_, model, layout_.timeline, lines);
-  draw_console_panel(ui_, model, layout_.console, lines);
-  draw_help_panel(ui_, model, layout_.view);
+  for (std::size_t i = 0; i < panels().size(); ++i) draw_panel(panels()[i], layout_.panels[i], ui_, model, lines);
+  draw_help(model, layout_.view);
   use_mouse(model, lines);
-  const UiArea areas[] = {layout_.layers, layout_.parameters, layout_.inspector, layout_.contacts,
-                          layout_.stages, layout_.transport,  layout_.timeline,  layout_.console};
-  const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), areas);
+  const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), layout_.panels);
   has_changed_ = is_new || !changed || !changed->empty();
   if (!changed) window_.clear(kBetweenPanels);
   if (!changed || is_new)

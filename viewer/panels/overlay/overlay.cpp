@@ -1,4 +1,4 @@
-#include "viewer/panels/overlay.hpp"
+#include "viewer/panels/overlay/overlay.hpp"
 
 #include <imgui.h>
 #include <mutex>

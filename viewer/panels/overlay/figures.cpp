@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/world/figures.hpp"
-#include "viewer/panels/panels.hpp"
+#include "viewer/panels/overlay/picture_panels.hpp"
 
 namespace impinge {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/core/types.hpp"
-#include "viewer/panels/overlay.hpp"
+#include "viewer/panels/overlay/overlay.hpp"
 
 namespace impinge {
 

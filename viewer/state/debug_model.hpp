@@ -69,9 +69,7 @@ struct DebugModel {
   }
 };
 
-/// Columns that the contact table sorts by, keys and mouse buttons, as commands name them.
+/// Columns that the contact table sorts by, as commands name them.
 const std::vector<std::string>& contact_columns();
-const std::vector<std::string>& key_names();
-const std::vector<std::string>& button_names();
 
 }  // namespace impinge

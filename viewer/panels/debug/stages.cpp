@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 
-void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  const PanelFrame frame(ui, model, "stages", "stages of the frame", area, lines);
+namespace {
+
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const FrameStats& s = model.record->stats;
   struct Row {
     const char* name;
@@ -54,5 +55,9 @@ void draw_stages_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
     ImGui::Text("%.2f ms a frame", step_ms);
   }
 }
+
+}  // namespace
+
+Panel stages_panel() { return {"stages", "stages of the frame", PanelPlace::right, {0.28f, 150.0f}, draw}; }
 
 }  // namespace impinge

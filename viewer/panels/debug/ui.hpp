@@ -3,6 +3,7 @@
 // in files.
 #pragma once
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <map>
@@ -18,6 +19,10 @@ struct ImDrawData;
 struct ImDrawList;
 
 namespace impinge {
+
+/// Keys and mouse buttons, as commands name them.
+const std::vector<std::string>& key_names();
+const std::vector<std::string>& button_names();
 
 struct UiEvent {
   enum Kind { move, press, release, wheel, key_down, key_up, type };
@@ -40,6 +45,14 @@ struct UiWidget {
   bool is_slider = false, is_whole = false;
   double low = 0.0, high = 0.0;  ///< of a slider; of a logarithmic one log10
   bool logarithmic = false;
+};
+
+/// What is being typed and not entered yet. It is the window's, like the pointer: no part of what the panels show, and of
+/// a recording only the keys.
+struct UiTyping {
+  std::string parameter;            ///< path of the row whose value is; "": none
+  bool begins = false;              ///< its field has no focus yet
+  std::array<char, 512> line = {};  ///< of the console
 };
 
 class Ui {
@@ -74,6 +87,7 @@ class Ui {
   bool takes_keys() const;
   /// Notes where the widget that was made last is. Scrolls to it if it is asked for.
   void name(const std::string& name, const UiWidget& what = {});
+  UiTyping& typing() { return typing_; }
   /// The name that a script looks for and that isn't drawn yet, or "".
   const std::string& wanted() const { return wanted_; }
 
@@ -91,6 +105,7 @@ class Ui {
   std::deque<UiEvent> queue_;
   std::map<std::string, UiWidget> widgets_;
   std::string wanted_;
+  UiTyping typing_;
   float mouse_x_ = -1.0f, mouse_y_ = -1.0f, wheel_ = 0.0f;
   bool down_[3] = {}, went_down_[3] = {}, went_up_[3] = {};
   std::vector<int> keys_now_;

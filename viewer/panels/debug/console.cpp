@@ -1,13 +1,11 @@
 // What was done, as the lines that do it again; and a place to write some.
-#include <cstring>
-
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 
-void draw_console_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  const float below = ImGui::GetFrameHeight() + 4.0f * ui.unit();
-  PanelFrame frame(ui, model, "console", "console", area, lines, below);
+namespace {
+
+void draw(Ui&, const DebugModel& model, CommandLines&) {
   // newest last, and in sight
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float between = ImGui::GetTextLineHeightWithSpacing() - ImGui::GetTextLineHeight();
@@ -26,16 +24,22 @@ void draw_console_panel(Ui& ui, const DebugModel& model, const UiArea& area, Com
     ImGui::TextColored(ink, "%s", line.text.c_str());
   }
   ImGui::PopTextWrapPos();
-  frame.end_content();
-  static char text[512];  // what is being typed: one console a program
+}
+
+void draw_line(Ui& ui, const DebugModel&, CommandLines& lines) {
+  auto& text = ui.typing().line;
   ImGui::SetNextItemWidth(-1.0f);
-  const bool entered = ImGui::InputTextWithHint("##line", "a command, e.g. set contact.friction 0.5", text, sizeof text,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##line", "a command, e.g. set contact.friction 0.5", text.data(),
+                                                text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   ui.name("console/line");
   if (!entered) return;
-  if (*text != 0) lines.push_back(text);
-  *text = 0;
+  if (text[0] != 0) lines.emplace_back(text.data());
+  text[0] = 0;
   ImGui::SetKeyboardFocusHere(-1);  // the next line follows
 }
+
+}  // namespace
+
+Panel console_panel() { return {"console", "console", PanelPlace::below, {0.36f, 0.0f}, draw, nullptr, draw_line}; }
 
 }  // namespace impinge

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 namespace {
@@ -73,21 +73,14 @@ std::vector<int> sorted(const DebugModel& model) {
   return order;
 }
 
-}  // namespace
-
-const std::vector<std::string>& contact_columns() {
-  static const std::vector<std::string> names = {"index", "a", "b", "gap", "normal", "friction", "state"};
-  return names;
+std::string count(const DebugModel& model) {
+  const int asleep = model.record->stats.asleep;  // their contacts are not looked for
+  return fmt::format(": {}{}   mm, N s", model.record->contacts.size(),
+                     asleep > 0 ? fmt::format(" ({} asleep)", asleep) : "");
 }
 
-void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const std::vector<ContactRecord>& contacts = model.record->contacts;
-  const int asleep = model.record->stats.asleep;  // their contacts are not looked for
-  const PanelFrame frame(
-      ui, model, "contacts",
-      fmt::format("contacts: {}{}   mm, N s", contacts.size(), asleep > 0 ? fmt::format(" ({} asleep)", asleep) : "")
-          .c_str(),
-      area, lines);
   static constexpr const char* kHeads[] = {"#", "A", "B", "gap", "n", "t", ""};
   static constexpr const char* kTips[] = {
       "index in this frame",        "the body that stands earlier in the scene", "the other body",
@@ -146,5 +139,9 @@ void draw_contacts_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
     }
   ImGui::EndTable();
 }
+
+}  // namespace
+
+Panel contacts_panel() { return {"contacts", "contacts", PanelPlace::right, {}, draw, count}; }
 
 }  // namespace impinge

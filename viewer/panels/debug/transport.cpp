@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 
-void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  const PanelFrame frame(ui, model, "transport", "", area, lines);
+namespace {
+
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (named_button(ui, "transport/first", "|<")) lines.push_back("seek 0");
   tooltip("first frame (home)");
   ImGui::SameLine();
@@ -50,5 +51,9 @@ void draw_transport_panel(Ui& ui, const DebugModel& model, const UiArea& area, C
   ImGui::TextColored(dim(), "%s", memory.c_str());
   tooltip("states kept for going back; where there are too many the ones that are missed least go");
 }
+
+}  // namespace
+
+Panel transport_panel() { return {"transport", "", PanelPlace::bar, {0.0f, 34.0f}, draw}; }
 
 }  // namespace impinge

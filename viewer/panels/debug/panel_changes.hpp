@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "viewer/panels/ui.hpp"
+#include "viewer/panels/debug/ui.hpp"
 
 struct ImDrawData;
 struct ImDrawList;

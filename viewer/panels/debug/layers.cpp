@@ -1,12 +1,13 @@
 // A checkbox for each debug layer.
 #include <fmt/format.h>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 
-void draw_layers_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  const PanelFrame frame(ui, model, "layers", "layers", area, lines);
+namespace {
+
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::Columns(2, nullptr, false);
   for (const LayerSwitch& layer : model.view->layers) {
     bool on = layer.on;
@@ -18,5 +19,9 @@ void draw_layers_panel(Ui& ui, const DebugModel& model, const UiArea& area, Comm
   }
   ImGui::Columns(1);
 }
+
+}  // namespace
+
+Panel layers_panel() { return {"layers", "layers", PanelPlace::left, {0.45f, 246.0f}, draw}; }
 
 }  // namespace impinge

@@ -1,38 +1,12 @@
-// Where the debugger's panels are, and what its keys do.
+#include "viewer/panels/debug/keys.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
-
-int debug_scale(int height) { return std::max(1, static_cast<int>(std::lround(height / 800.0))); }
-
-DebugLayout debug_layout(int width, int height, float unit) {
-  const auto whole = [](float v) { return std::round(v); };
-  const float w = static_cast<float>(width), h = static_cast<float>(height), gap = std::max(1.0f, unit);
-  const float side = whole(std::clamp(0.225f * w, 200.0f * unit, 330.0f * unit)),
-              below = whole(std::clamp(0.24f * h, 150.0f * unit, 230.0f * unit));
-  const float right = whole(std::clamp(0.265f * w, 230.0f * unit, 400.0f * unit));  // the contact table wants it
-  const float bar = 34.0f * unit, top = h - below - gap;
-  const float layers = whole(std::min(0.45f * top, 246.0f * unit)),
-              inspector = whole(std::min(0.39f * top, 214.0f * unit)),
-              stages = whole(std::min(0.28f * top, 150.0f * unit));
-  DebugLayout l;
-  l.layers = {0, 0, side, layers};
-  l.parameters = {0, layers + gap, side, top - layers - gap};
-  l.inspector = {w - right, 0, right, inspector};
-  l.contacts = {w - right, inspector + gap, right, top - inspector - stages - 2 * gap};
-  l.stages = {w - right, top - stages, right, stages};
-  l.view = {side + gap, 0, w - side - right - 2 * gap, top};
-  l.transport = {0, top + gap, w, bar};
-  const float rest = top + gap + bar + gap, console = whole(0.36f * w);
-  l.timeline = {0, rest, w - console - gap, h - rest};
-  l.console = {w - console, rest, console, h - rest};
-  return l;
-}
 
 void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("f1")) lines.push_back(model.state.help ? "panel help off" : "panel help on");
@@ -51,7 +25,7 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
     lines.push_back(model.state.help ? "panel help off" : "select none");
 }
 
-void draw_help_panel(Ui&, const DebugModel& model, const UiArea& view) {
+void draw_help(const DebugModel& model, const UiArea& view) {
   if (!model.state.help) return;
   static constexpr const char* kRows[][2] = {{"space", "play, pause"},
                                              {"right, left", "a frame on, a frame back"},

@@ -1,4 +1,4 @@
-#include "viewer/panels/panel_changes.hpp"
+#include "viewer/panels/debug/panel_changes.hpp"
 
 #include <imgui.h>
 

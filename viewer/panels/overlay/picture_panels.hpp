@@ -2,7 +2,7 @@
 #pragma once
 
 #include "viewer/layers/layer.hpp"
-#include "viewer/panels/overlay.hpp"
+#include "viewer/panels/overlay/overlay.hpp"
 
 namespace impinge {
 

@@ -1,4 +1,4 @@
-#include "viewer/panels/plot.hpp"
+#include "viewer/panels/overlay/plot.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 namespace {
@@ -64,10 +64,7 @@ void contact_rows(const DebugModel& model, const Selection& s) {
   row("group", std::to_string(c.group));
 }
 
-}  // namespace
-
-void draw_inspector_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  const PanelFrame frame(ui, model, "inspector", "selected", area, lines);
+void draw(Ui& ui, const DebugModel& model, CommandLines&) {
   const Selection& s = model.selection;
   if (s.kind == Selection::none) {
     ImGui::TextColored(dim(), "nothing: click a body or a contact");
@@ -86,5 +83,9 @@ void draw_inspector_panel(Ui& ui, const DebugModel& model, const UiArea& area, C
     contact_rows(model, s);
   ImGui::EndTable();
 }
+
+}  // namespace
+
+Panel inspector_panel() { return {"inspector", "selected", PanelPlace::right, {0.39f, 214.0f}, draw}; }
 
 }  // namespace impinge

@@ -8,7 +8,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 namespace {
@@ -83,16 +83,15 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
       if (row.range.low == -1.0 && now == -1.0) format = "the scene's";  // what -1 stands for in a body's rows
       // a value that is being typed counts when it is entered, not letter by letter
-      static std::string typing;  // path of the row whose value is
-      static bool begins = false;
-      if (typing == row.path) {
-        if (begins) ImGui::SetKeyboardFocusHere();
+      UiTyping& typing = ui.typing();
+      if (typing.parameter == row.path) {
+        if (typing.begins) ImGui::SetKeyboardFocusHere();
         double typed = now;
         if (ImGui::InputDouble("##v", &typed, 0.0, 0.0, "%.6g",
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll))
           set(shortest(typed));
-        if (!begins && !ImGui::IsItemActive()) typing.clear();
-        begins = false;
+        if (!typing.begins && !ImGui::IsItemActive()) typing.parameter.clear();
+        typing.begins = false;
         ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
         break;
       }
@@ -101,8 +100,8 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       if (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl) {
         ImGui::ClearActiveID();
         changed = false;
-        typing = row.path;
-        begins = true;
+        typing.parameter = row.path;
+        typing.begins = true;
       }
       if (changed) {
         now = range.logarithmic ? std::pow(10.0, at) : at;
@@ -127,10 +126,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
   }
 }
 
-}  // namespace
-
-void draw_parameters_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  PanelFrame frame(ui, model, "parameters", "parameters", area, lines);
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   char filter[64] = {};
   std::strncpy(filter, model.state.filter.c_str(), sizeof filter - 1);
   ImGui::SetNextItemWidth(-1.0f);
@@ -181,5 +177,9 @@ void draw_parameters_panel(Ui& ui, const DebugModel& model, const UiArea& area, 
     ImGui::PopID();
   }
 }
+
+}  // namespace
+
+Panel parameters_panel() { return {"parameters", "parameters", PanelPlace::left, {}, draw}; }
 
 }  // namespace impinge

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/panels/panel_frame.hpp"
+#include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 namespace {
@@ -60,10 +60,7 @@ void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, f
   list.AddText({axis.right + kValues * unit - width, middle}, ink(0xf2f4f7), value.c_str());
 }
 
-}  // namespace
-
-void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, CommandLines& lines) {
-  const PanelFrame frame(ui, model, "timeline", "", area, lines);
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const float u = ui.unit();
   ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "timeline");
   ImGui::SameLine();
@@ -116,5 +113,9 @@ void draw_timeline_panel(Ui& ui, const DebugModel& model, const UiArea& area, Co
     }
   }
 }
+
+}  // namespace
+
+Panel timeline_panel() { return {"timeline", "", PanelPlace::below, {}, draw}; }
 
 }  // namespace impinge

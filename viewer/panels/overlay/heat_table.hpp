@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/panels/overlay.hpp"
+#include "viewer/panels/overlay/overlay.hpp"
 
 namespace impinge {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "viewer/draw/color_map.hpp"
-#include "viewer/panels/panels.hpp"
+#include "viewer/panels/overlay/picture_panels.hpp"
 
 namespace impinge {
 namespace {

@@ -1,4 +1,4 @@
-// What all panels of the debugger are drawn in: a fixed sheet with a heading, its content scrolling below.
+// What the panels of the debugger are made of, beside Dear ImGui's own.
 #pragma once
 
 #include <imgui.h>
@@ -7,26 +7,9 @@
 #include <string>
 
 #include "viewer/draw/palette.hpp"
-#include "viewer/panels/debug_panels.hpp"
+#include "viewer/panels/debug/panel.hpp"
 
 namespace impinge {
-
-/// Begins on construction, ends on destruction. The scroll position is the model's; scrolled by hand it comes out as a
-/// line.
-class PanelFrame {
- public:
-  PanelFrame(Ui& ui, const DebugModel& model, const char* name, const char* heading, const UiArea& area,
-             CommandLines& lines, float below = 0.0f);
-  ~PanelFrame();
-  PanelFrame(const PanelFrame&) = delete;
-  PanelFrame& operator=(const PanelFrame&) = delete;
-
-  /// Leaves the scrolling part; what follows stands below it, in the `below` pixels kept free.
-  void end_content();
-
- private:
-  bool in_content_ = true;
-};
 
 inline ImVec4 dim() { return ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled); }
 

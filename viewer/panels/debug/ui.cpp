@@ -1,4 +1,4 @@
-#include "viewer/panels/ui.hpp"
+#include "viewer/panels/debug/ui.hpp"
 
 #include <imgui.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "viewer/draw/palette.hpp"
-#include "viewer/panels/debug_model.hpp"
 
 namespace impinge {
 namespace {

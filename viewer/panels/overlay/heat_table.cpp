@@ -1,4 +1,4 @@
-#include "viewer/panels/heat_table.hpp"
+#include "viewer/panels/overlay/heat_table.hpp"
 
 #include <fmt/format.h>
 #include <imgui.h>

@@ -1,7 +1,7 @@
 #include <imgui.h>
 #include <algorithm>
 
-#include "viewer/panels/panels.hpp"
+#include "viewer/panels/overlay/picture_panels.hpp"
 
 namespace impinge {
 
