@@ -9,7 +9,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "viewer/controller/debug_loop.hpp"
+#include "viewer/debugger/loop.hpp"
 
 using namespace impinge;
 

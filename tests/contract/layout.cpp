@@ -61,7 +61,12 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/panels/debug", 23},
                                                  {"viewer/present", 24},
                                                  {"viewer/controller", 25},
-                                                 {"viewer/app", 26}};
+                                                 {"viewer/debugger", 26},
+                                                 {"viewer/study", 26},
+                                                 {"viewer/sweep", 26},
+                                                 {"viewer/report", 27},
+                                                 {"viewer/compare", 28},
+                                                 {"viewer/app", 29}};
   return map;
 }
 

@@ -10,8 +10,8 @@
 
 #include "tests/support/refusal.hpp"
 #include "tests/support/sweep_results.hpp"
-#include "viewer/app/report_parts.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/report/parts.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "engine/core/types.hpp"
-#include "viewer/controller/debug_loop.hpp"
+#include "viewer/debugger/loop.hpp"
 #include "viewer/draw/palette.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "viewer/app/sweep_options.hpp"
 #include "viewer/controller/run.hpp"
+#include "viewer/sweep/options.hpp"
 
 namespace impinge {
 

@@ -1,0 +1,190 @@
+// impinge debug
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "viewer/app/commands.hpp"
+#include "viewer/app/frame_progress.hpp"
+#include "viewer/controller/interrupt.hpp"
+#include "viewer/debugger/window_loop.hpp"
+#include "viewer/present/window.hpp"
+
+namespace impinge {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A script may hold both: lines by frame (at, from, expect, break), and lines to be done one after another.
+struct DebugScript {
+  std::string name;
+  bool has_timed = false;
+  std::vector<std::string> timed, lines;  // as long as the file, with empty lines where the other has one
+};
+
+DebugScript read_script(const fs::path& path) {
+  DebugScript script;
+  if (path.empty()) return script;
+  script.name = path.string();
+  for (std::string& line : read_lines(path)) {
+    const std::string bare = line.substr(0, line.find('#'));
+    const std::vector<PlacedText> words = split_words({bare, &script.name, 1, 1});
+    const bool timed = !words.empty() && (words[0].text == "at" || words[0].text == "from" ||
+                                          words[0].text == "expect" || words[0].text == "break");
+    script.has_timed |= timed;
+    script.timed.push_back(timed ? line : "");
+    script.lines.push_back(words.empty() || timed ? "" : bare.substr(0, bare.find_last_not_of(" \t\r") + 1));
+  }
+  return script;
+}
+
+struct Source {
+  fs::path scene, run_folder;
+};
+
+Source source_of(const RunOptions& options) {
+  if (!fs::is_directory(options.scene)) return {options.scene, {}};
+  for (const char* name : {"run.toml", "stats.csv"})
+    if (!fs::exists(options.scene / name))
+      throw InputError(
+          fmt::format("{}: this folder is no run's, it has no {}; a scene file, or a folder that impinge run has "
+                      "written is wanted; choose one",
+                      options.scene.string(), name));
+  if (!options.overrides.empty())
+    throw InputError(
+        "command line: --set with a finished run; its settings are in its run.toml; leave --set out, or debug the "
+        "scene");
+  return {options.scene / "run.toml", options.scene};
+}
+
+/// What a recording is to be played with.
+std::string command_of(const Arguments& arguments) {
+  const RunOptions& options = arguments.run_options;
+  std::string text = fmt::format("# impinge debug {}", options.scene.string());
+  for (const std::string& set : options.overrides) text += fmt::format(" --set '{}'", set);
+  text += fmt::format(" --size {}x{}", options.width, options.height);
+  if (arguments.scale > 0) text += fmt::format(" --scale {}", arguments.scale);
+  if (arguments.memory != Arguments().memory) text += fmt::format(" --memory {}", arguments.memory);
+  return text + fmt::format(" --script {}\n", arguments.record);
+}
+
+/// A recording may take the place of an older one, and of nothing else.
+void check_recording(const Arguments& arguments) {
+  const fs::path path = arguments.record;
+  if (path.empty()) return;
+  std::error_code error;
+  if (fs::equivalent(path, arguments.run_options.script, error))
+    throw InputError(fmt::format("command line: --record is the script itself, {}; another file is wanted; choose one",
+                                 path.string()));
+  if (fs::exists(path) && !fs::is_directory(path) && fs::file_size(path, error) > 0 &&
+      !read_file(path, std::uint64_t{1} << 30).starts_with("# impinge debug "))
+    throw InputError(
+        fmt::format("command line: --record is {}, which is there and no recording; a new file is wanted; choose "
+                    "another or remove it",
+                    path.string()));
+  try {
+    write_file(path, "");  // better now than when there is something to lose
+  } catch (const InputError&) {
+    throw InputError(
+        fmt::format("command line: --record is {}, which can't be written; a file in a folder that may be written to "
+                    "is wanted; choose another",
+                    path.string()));
+  }
+}
+
+}  // namespace
+
+int debug_command(const Arguments& arguments) {
+  const RunOptions& options = arguments.run_options;
+  const bool windowed = arguments.window || (!arguments.headless && has_screen());
+  if (!windowed && options.script.empty())
+    throw InputError(
+        "command line: debug without a screen and without --script; one of them is wanted; set DISPLAY, or write "
+        "--script FILE");
+  if (arguments.window && !has_screen())
+    throw InputError(
+        "command line: --window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
+  const int scale = arguments.scale > 0 ? arguments.scale : debug_scale(options.height);
+  if (options.width < scale * kLeastWidth || options.height < scale * kLeastHeight)
+    throw InputError(fmt::format(
+        "command line: --size is {}x{}; the panels want {}x{} at least with text of scale {}; choose a larger one{}",
+        options.width, options.height, scale * kLeastWidth, scale * kLeastHeight, scale,
+        scale > 1 ? ", or a smaller --scale" : ""));
+  const Source source = source_of(options);
+  const DebugScript script = read_script(options.script);
+  if (!source.run_folder.empty() && script.has_timed)
+    throw InputError(
+        fmt::format("{}: lines by frame (at, from, expect, break) with a finished run, which has its own; lines done "
+                    "one after another are wanted; debug the scene instead",
+                    script.name));
+  check_recording(arguments);
+
+  std::unique_ptr<DebugWindow> window;
+  try {
+    window = std::make_unique<DebugWindow>(options.width, options.height, scale);
+  } catch (const InternalError& error) {
+    throw InputError(fmt::format("window of {}x{}: {}; a smaller one is wanted; change --size", options.width,
+                                 options.height, error.what()));
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("window: {}; OpenGL through OSMesa is wanted; install libosmesa6", error.what()));
+  }
+  DebuggerOptions debug;
+  debug.session.height = options.height;
+  // what the camera is fitted to is the view
+  debug.session.width = static_cast<int>(options.height * window->view_aspect());
+  if (script.has_timed) debug.session.script_lines = script.timed;
+  debug.most_bytes = static_cast<std::size_t>(arguments.memory) << 20;
+  debug.run_folder = source.run_folder;
+  debug.interrupted = &interrupted();
+  watch_for_interrupt();
+  FrameProgress progress;
+  if (!arguments.quiet && isatty(STDERR_FILENO))
+    debug.progress = [&](int frame, int last) {
+      if (frame < last)
+        progress.show(frame, last);
+      else
+        progress.clear();
+    };
+  // without: a finished run's own
+  Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);
+  DebugLoop loop(debugger, *window, options.out);
+
+  std::string saved;
+  const auto save_recording = [&] {
+    if (arguments.record.empty()) return;
+    std::string text = command_of(arguments);
+    for (const std::string& line : script.timed)
+      if (!line.empty()) text += line + "\n";
+    for (const std::string& line : debugger.recording(loop.pointer())) text += line + "\n";
+    if (text != saved) write_file(arguments.record, text);
+    saved = std::move(text);
+  };
+  const auto line_at = [&](std::size_t i) -> PlacedText {
+    const std::size_t first = script.lines[i].find_first_not_of(" \t");
+    return {std::string_view(script.lines[i]).substr(first), &script.name, static_cast<int>(i) + 1,
+            static_cast<int>(first) + 1};
+  };
+  for (std::size_t i = 0; i < script.lines.size(); ++i)
+    if (!script.lines[i].empty()) debugger.check(line_at(i));
+  try {
+    for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit() && !interrupted(); ++i)
+      if (!script.lines[i].empty()) loop.run_line(line_at(i));
+    if (windowed && !loop.has_quit() && !interrupted())
+      show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted(), save_recording);
+  } catch (...) {
+    save_recording();  // what was done before is kept
+    throw;
+  }
+  save_recording();
+  if (!arguments.quiet) fmt::print("frame {}, state {}\n", debugger.model().frame, hex64(debugger.state_hash()));
+  for (const ConsoleLine& line : debugger.model().console)
+    if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+  if (interrupted()) return 130;
+  return debugger.failures() > 0 ? 1 : 0;
+}
+
+}  // namespace impinge
