@@ -1,18 +1,37 @@
 // impinge check
 #include <fmt/format.h>
 
-#include "viewer/app/commands.hpp"
+#include "viewer/app/shared_options.hpp"
 #include "viewer/study/soft_report.hpp"
 
 namespace impinge {
 
-int check_command(const Arguments& arguments) {
-  const RunOptions& options = arguments.run_options;
-  const Session session(options.scene, options.overrides, options.script, {.judge = true});
-  fmt::print("{}: {} bodies, {} surface files, no problems found\n", options.scene.string(),
-             session.world().bodies().size(), session.scene().surfaces.size());
-  print_soft_bodies(session);
-  return 0;
+namespace {
+
+class CheckCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    scene_options(options, scene_, overrides_);
+    script_option(options, script_, "script file");
+  }
+
+  int run() override {
+    const Session session(scene_, overrides_, script_, {.judge = true});
+    fmt::print("{}: {} bodies, {} surface files, no problems found\n", scene_.string(), session.world().bodies().size(),
+               session.scene().surfaces.size());
+    print_soft_bodies(session);
+    return 0;
+  }
+
+ private:
+  std::filesystem::path scene_, script_;
+  std::vector<std::string> overrides_;
+};
+
+}  // namespace
+
+Entry<Command> check_command() {
+  return entry<Command, CheckCommand>("check", "check a scene (and a script) and do nothing else");
 }
 
 }  // namespace impinge

@@ -8,8 +8,8 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "viewer/app/commands.hpp"
 #include "viewer/app/frame_progress.hpp"
+#include "viewer/app/shared_options.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/debugger/window_loop.hpp"
 #include "viewer/present/window.hpp"
@@ -46,7 +46,17 @@ struct Source {
   fs::path scene, run_folder;
 };
 
-Source source_of(const RunOptions& options) {
+/// What the command line says.
+struct Given {
+  fs::path scene, script, out, record;
+  std::vector<std::string> overrides;
+  bool window = false, headless = false, quiet = false;
+  int width = 1280, height = 720;  // pixels
+  int scale = 0;                   // of text; 0: by the height
+  int memory = 256;                // megabytes
+};
+
+Source source_of(const Given& options) {
   if (!fs::is_directory(options.scene)) return {options.scene, {}};
   for (const char* name : {"run.toml", "stats.csv"})
     if (!fs::exists(options.scene / name))
@@ -62,22 +72,21 @@ Source source_of(const RunOptions& options) {
 }
 
 /// What a recording is to be played with.
-std::string command_of(const Arguments& arguments) {
-  const RunOptions& options = arguments.run_options;
+std::string command_of(const Given& options) {
   std::string text = fmt::format("# impinge debug {}", options.scene.string());
   for (const std::string& set : options.overrides) text += fmt::format(" --set '{}'", set);
   text += fmt::format(" --size {}x{}", options.width, options.height);
-  if (arguments.scale > 0) text += fmt::format(" --scale {}", arguments.scale);
-  if (arguments.memory != Arguments().memory) text += fmt::format(" --memory {}", arguments.memory);
-  return text + fmt::format(" --script {}\n", arguments.record);
+  if (options.scale > 0) text += fmt::format(" --scale {}", options.scale);
+  if (options.memory != Given().memory) text += fmt::format(" --memory {}", options.memory);
+  return text + fmt::format(" --script {}\n", options.record.string());
 }
 
 /// A recording may take the place of an older one, and of nothing else.
-void check_recording(const Arguments& arguments) {
-  const fs::path path = arguments.record;
+void check_recording(const Given& options) {
+  const fs::path& path = options.record;
   if (path.empty()) return;
   std::error_code error;
-  if (fs::equivalent(path, arguments.run_options.script, error))
+  if (fs::equivalent(path, options.script, error))
     throw InputError(fmt::format("command line: --record is the script itself, {}; another file is wanted; choose one",
                                  path.string()));
   if (fs::exists(path) && !fs::is_directory(path) && fs::file_size(path, error) > 0 &&
@@ -96,19 +105,18 @@ void check_recording(const Arguments& arguments) {
   }
 }
 
-}  // namespace
-
-int debug_command(const Arguments& arguments) {
-  const RunOptions& options = arguments.run_options;
-  const bool windowed = arguments.window || (!arguments.headless && has_screen());
+int debug(const Given& options) {
+  if (options.window && options.headless)
+    refuse_option("--window and --headless", "one of them is allowed", "leave one out");
+  const bool windowed = options.window || (!options.headless && has_screen());
   if (!windowed && options.script.empty())
     throw InputError(
         "command line: debug without a screen and without --script; one of them is wanted; set DISPLAY, or write "
         "--script FILE");
-  if (arguments.window && !has_screen())
+  if (options.window && !has_screen())
     throw InputError(
         "command line: --window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
-  const int scale = arguments.scale > 0 ? arguments.scale : debug_scale(options.height);
+  const int scale = options.scale > 0 ? options.scale : debug_scale(options.height);
   if (options.width < scale * kLeastWidth || options.height < scale * kLeastHeight)
     throw InputError(fmt::format(
         "command line: --size is {}x{}; the panels want {}x{} at least with text of scale {}; choose a larger one{}",
@@ -121,7 +129,7 @@ int debug_command(const Arguments& arguments) {
         fmt::format("{}: lines by frame (at, from, expect, break) with a finished run, which has its own; lines done "
                     "one after another are wanted; debug the scene instead",
                     script.name));
-  check_recording(arguments);
+  check_recording(options);
 
   std::unique_ptr<DebugWindow> window;
   try {
@@ -132,35 +140,35 @@ int debug_command(const Arguments& arguments) {
   } catch (const std::runtime_error& error) {
     throw InputError(fmt::format("window: {}; OpenGL through OSMesa is wanted; install libosmesa6", error.what()));
   }
-  DebuggerOptions debug;
-  debug.session.height = options.height;
+  DebuggerOptions debugged;
+  debugged.session.height = options.height;
   // what the camera is fitted to is the view
-  debug.session.width = static_cast<int>(options.height * window->view_aspect());
-  if (script.has_timed) debug.session.script_lines = script.timed;
-  debug.most_bytes = static_cast<std::size_t>(arguments.memory) << 20;
-  debug.run_folder = source.run_folder;
-  debug.interrupted = &interrupted();
+  debugged.session.width = static_cast<int>(options.height * window->view_aspect());
+  if (script.has_timed) debugged.session.script_lines = script.timed;
+  debugged.most_bytes = static_cast<std::size_t>(options.memory) << 20;
+  debugged.run_folder = source.run_folder;
+  debugged.interrupted = &interrupted();
   watch_for_interrupt();
   FrameProgress progress;
-  if (!arguments.quiet && isatty(STDERR_FILENO))
-    debug.progress = [&](int frame, int last) {
+  if (!options.quiet && isatty(STDERR_FILENO))
+    debugged.progress = [&](int frame, int last) {
       if (frame < last)
         progress.show(frame, last);
       else
         progress.clear();
     };
   // without: a finished run's own
-  Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debug);
+  Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debugged);
   DebugLoop loop(debugger, *window, options.out);
 
   std::string saved;
   const auto save_recording = [&] {
-    if (arguments.record.empty()) return;
-    std::string text = command_of(arguments);
+    if (options.record.empty()) return;
+    std::string text = command_of(options);
     for (const std::string& line : script.timed)
       if (!line.empty()) text += line + "\n";
     for (const std::string& line : debugger.recording(loop.pointer())) text += line + "\n";
-    if (text != saved) write_file(arguments.record, text);
+    if (text != saved) write_file(options.record, text);
     saved = std::move(text);
   };
   const auto line_at = [&](std::size_t i) -> PlacedText {
@@ -180,11 +188,44 @@ int debug_command(const Arguments& arguments) {
     throw;
   }
   save_recording();
-  if (!arguments.quiet) fmt::print("frame {}, state {}\n", debugger.model().frame, hex64(debugger.state_hash()));
+  if (!options.quiet) fmt::print("frame {}, state {}\n", debugger.model().frame, hex64(debugger.state_hash()));
   for (const ConsoleLine& line : debugger.model().console)
     if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
   if (interrupted()) return 130;
   return debugger.failures() > 0 ? 1 : 0;
+}
+
+class DebugCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    options.word("SCENE", given_.scene,
+                 "scene file (TOML), or the folder of a run, which is shown without being simulated again where it has "
+                 "kept the frame's state");
+    script_option(options, given_.script,
+                  "script file: lines by frame as for run, and lines done one after another (viewer/README.md)");
+    options.path("--record", given_.record, "file that gets what was done, as lines of a script that do it again");
+    options.flag("--window", given_.window,
+                 "show a window, after the script if there is one (default where there is a screen)");
+    options.flag("--headless", given_.headless, "no window: the script drives it");
+    options.path("--out", given_.out, "folder that `shot FILE` lines write into (default: here)");
+    size_option(options, given_.width, given_.height, "WIDTHxHEIGHT of the window in pixels (default: 1280x720)");
+    options.whole("--scale", given_.scale, 1, 8, "size of text, in steps of 13 pixels (default: by the height)");
+    options.whole("--memory", given_.memory, 1, 1 << 20, "megabytes of states kept for going back (default: 256)");
+    set_option(options, given_.overrides, "PATH=VALUE: override a parameter of the scene (repeatable)");
+    quiet_option(options, given_.quiet, "say nothing but problems");
+    threads_option(options);
+  }
+  int run() override { return debug(given_); }
+
+ private:
+  Given given_;
+};
+
+}  // namespace
+
+Entry<Command> debug_command() {
+  return entry<Command, DebugCommand>(
+      "debug", "the interactive debugger: play, step, go back, pick and change; what is done by hand is a script");
 }
 
 }  // namespace impinge

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "engine/core/parallel.hpp"
-#include "viewer/app/commands.hpp"
+#include "viewer/app/shared_options.hpp"
 #include "viewer/study/ablation.hpp"
 #include "viewer/study/model_report.hpp"
 #include "viewer/study/soft_report.hpp"
@@ -63,23 +63,50 @@ void print_model(const Parameters& p, const ModelFacts& facts) {
     fmt::print("{:<14}{}{}\n", line.stage + ":", line.used ? "" : "left out: ", line.what);
 }
 
+class InfoCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    scene_options(options, run_.scene, run_.overrides);
+    script_option(options, run_.script, "script file");
+    options.flag(
+        "--ablation", ablation_,
+        "run the scene as it is and with each economy switched off: what it would cost, and what it would change");
+    frames_option(options, run_.frames, "with --ablation: the last frame's number (default: 20)");
+    options.path("--out", out_, "with --ablation: folder for ablation.csv; a sweep's folder shows it in its report");
+    options.whole("--threads", threads_, 1, 4096, "threads to use (default: all cores; one with --ablation)");
+  }
+
+  int run() override {
+    if (!ablation_ && (run_.frames || !out_.empty()))
+      refuse_option(run_.frames ? "--frames without --ablation" : "--out without --ablation", "info alone runs nothing",
+                    "add --ablation, or leave it out");
+    set_thread_count(threads_.value_or(0));
+    {
+      Session session(run_.scene, run_.overrides, run_.script);
+      if (ablation_) check_ablation(run_, session);
+      const Counts counts = count(session.world());
+      const ModelFacts facts = model_facts(session.world());
+      fmt::print("{}\n", run_.scene.string());
+      print_scene(session, counts, facts);
+      print_model(session.world().parameters, facts);
+    }
+    if (!ablation_) return 0;
+    if (!threads_) set_thread_count(1);  // threads that wait for work would count as work
+    print_ablation(run_, out_);
+    return 0;
+  }
+
+ private:
+  RunOptions run_;
+  bool ablation_ = false;
+  std::filesystem::path out_;
+  std::optional<int> threads_;
+};
+
 }  // namespace
 
-int info_command(const Arguments& arguments) {
-  const RunOptions& options = arguments.run_options;
-  {
-    Session session(options.scene, options.overrides, options.script);
-    if (arguments.ablation) check_ablation(options, session);
-    const Counts counts = count(session.world());
-    const ModelFacts facts = model_facts(session.world());
-    fmt::print("{}\n", options.scene.string());
-    print_scene(session, counts, facts);
-    print_model(session.world().parameters, facts);
-  }
-  // threads that wait for work would count as work
-  if (arguments.ablation && arguments.threads == 0) set_thread_count(1);
-  if (arguments.ablation) print_ablation(options, arguments.out);
-  return 0;
+Entry<Command> info_command() {
+  return entry<Command, InfoCommand>("info", "what of a scene is modelled and what is left out");
 }
 
 }  // namespace impinge

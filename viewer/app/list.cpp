@@ -12,7 +12,7 @@
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/response/response.hpp"
 #include "engine/world/figures.hpp"
-#include "viewer/app/commands.hpp"
+#include "viewer/app/command.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/sweep/reference.hpp"
 
@@ -147,22 +147,34 @@ const std::vector<Topic> kTopics = {
     {"figures", print_figures},
 };
 
-}  // namespace
-
-std::vector<std::string> list_topics() {
+std::vector<std::string> topic_names() {
   std::vector<std::string> names;
   for (const Topic& topic : kTopics) names.emplace_back(topic.name);
   return names;
 }
 
-int list_command(const Arguments& arguments) {
-  const std::string& wanted = arguments.a;
-  for (const Topic& topic : kTopics)
-    if (wanted == topic.name) return topic.print(), 0;
-  const std::vector<std::string> names = list_topics();
-  const std::string near = nearest_word(wanted, names);
-  throw InputError(fmt::format("command line: unknown topic '{}'; allowed: {}; {}", wanted, fmt::join(names, ", "),
-                               near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
+class ListCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    options.word("TOPIC", topic_, fmt::format("{}", fmt::join(topic_names(), "|")));
+  }
+
+  int run() override {
+    for (const Topic& topic : kTopics)
+      if (topic_ == topic.name) return topic.print(), 0;
+    const std::string near = nearest_word(topic_, topic_names());
+    refuse_option(fmt::format("unknown topic '{}'", topic_), fmt::format("allowed: {}", fmt::join(topic_names(), ", ")),
+                  near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+  }
+
+ private:
+  std::string topic_;
+};
+
+}  // namespace
+
+Entry<Command> list_command() {
+  return entry<Command, ListCommand>("list", "parameters, layers and algorithms there are");
 }
 
 }  // namespace impinge

@@ -3,43 +3,9 @@
 #include <csignal>
 #include <cstdio>
 
-#include "engine/core/error.hpp"
-#include "engine/core/parallel.hpp"
-#include "viewer/app/commands.hpp"
+#include "viewer/app/command.hpp"
 
 namespace {
-
-int dispatch(const impinge::Arguments& arguments) {
-  using impinge::Arguments;
-  switch (arguments.kind) {
-    case Arguments::run:
-      return impinge::run_command(arguments);
-    case Arguments::replay:
-      return impinge::replay_command(arguments);
-    case Arguments::diff:
-      return impinge::diff_command(arguments);
-    case Arguments::check:
-      return impinge::check_command(arguments);
-    case Arguments::info:
-      return impinge::info_command(arguments);
-    case Arguments::list:
-      return impinge::list_command(arguments);
-    case Arguments::step:
-      return impinge::step_command(arguments);
-    case Arguments::sweep:
-      return impinge::sweep_command(arguments);
-    case Arguments::debug:
-      return impinge::debug_command(arguments);
-    case Arguments::test:
-      return impinge::test_command(arguments);
-    case Arguments::compare:
-      return impinge::compare_command(arguments);
-    case Arguments::print:
-      std::fputs(arguments.text.c_str(), stdout);
-      return 0;
-  }
-  return 4;
-}
 
 int fail(int code, const char* kind, const char* what) {
   std::fflush(stdout);
@@ -52,9 +18,7 @@ int fail(int code, const char* kind, const char* what) {
 int main(int count, char** words) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes then shows as a failed write, which says what to do
   try {
-    const impinge::Arguments arguments = impinge::parse_arguments(count, words);
-    impinge::set_thread_count(arguments.threads);
-    return dispatch(arguments);
+    return impinge::run_command_line(count, words);
   } catch (const impinge::InputError& error) {
     return fail(2, "", error.what());
   } catch (const impinge::DivergenceError& error) {

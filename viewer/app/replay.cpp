@@ -3,13 +3,15 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
-#include "viewer/app/commands.hpp"
+#include "viewer/app/shared_options.hpp"
 #include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
 
-int replay_command(const Arguments& arguments) {
-  const std::filesystem::path folder = arguments.a;
+namespace {
+
+/// Returns the exit code.
+int replay(const std::filesystem::path& folder) {
   if (!std::filesystem::is_regular_file(folder / "run.toml"))
     throw InputError(folder.string() +
                      ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
@@ -43,6 +45,24 @@ int replay_command(const Arguments& arguments) {
   }
   fmt::print("{}: {} frames repeated, every state hash is the recorded one\n", folder.string(), frames);
   return 0;
+}
+
+class ReplayCommand : public Command {
+ public:
+  void declare(Options& options) override {
+    options.word("DIR", folder_, "folder of the run");
+    threads_option(options);
+  }
+  int run() override { return replay(folder_); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+Entry<Command> replay_command() {
+  return entry<Command, ReplayCommand>("replay", "repeat a recorded run and check every state hash");
 }
 
 }  // namespace impinge

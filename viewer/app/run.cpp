@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "engine/core/error.hpp"
-#include "viewer/app/commands.hpp"
 #include "viewer/app/frame_progress.hpp"
+#include "viewer/app/shared_options.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
@@ -60,22 +60,63 @@ std::string write_contact_sheet(const std::filesystem::path& out, int last_frame
   return sheet.string();
 }
 
-bool write_video(const Arguments& arguments, double frames_per_second) {
-  const bool made = make_video(arguments.run_options.out / "frames", arguments.video, frames_per_second);
+bool write_video(const std::filesystem::path& out, const std::filesystem::path& video, double frames_per_second) {
+  const bool made = make_video(out / "frames", video, frames_per_second);
   if (!made) fmt::print(stderr, "note: ffmpeg is not installed, so there is no video\n");
   return made;
 }
 
-}  // namespace
+class RunCommand : public Command {
+ public:
+  void declare(Options& options) override;
+  int run() override;
 
-int run_command(const Arguments& arguments) {
-  const RunOptions& options = arguments.run_options;
+ private:
+  RunOptions options_;
+  std::filesystem::path video_;
+  bool quiet_ = false;
+};
+
+void RunCommand::declare(Options& options) {
+  scene_options(options, options_.scene, options_.overrides);
+  script_option(options, options_.script);
+  options.path("--out", options_.out, "folder to write to (default: out/SCENE)");
+  frames_option(options, options_.frames);
+  size_option(options, options_.width, options_.height);
+  images_option(options, options_.images);
+  const auto take_format = [this](const std::string& format) {
+    if (format != "ply") refuse_option(fmt::format("--export is '{}'", format), "ply is wanted", "write --export ply");
+    options_.export_ply = true;
+  };
+  options.other("--export", take_format, "ply: the bodies' surfaces of each frame");
+  options.flag("--contacts", options_.contacts, "write contacts.csv");
+  options.flag("--ids", options_.ids,
+               "write ids/NNNNNN.png too: what each pixel of a frame shows, for impinge diff to name what changed");
+  options.whole(
+      "--snapshots", [this](int megabytes) { options_.snapshot_megabytes = static_cast<std::uint64_t>(megabytes); }, 0,
+      1 << 20,
+      "megabytes for the states of the frames (default: 256): from these a run is resumed, and opened in the debugger "
+      "without being simulated again; where they don't fit every second one is given up, and so on");
+  options.flag("--judge", options_.judge,
+               "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
+  options.whole("--freeze", options_.freeze, 0, 100'000'000,
+                "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
+  threads_option(options);
+  options.flag("--resume", options_.resume, "continue an interrupted run in the folder");
+  options.path("--video", video_, "video file to make of the pictures (needs ffmpeg)");
+  quiet_option(options, quiet_);
+}
+
+int RunCommand::run() {
+  if (options_.out.empty()) options_.out = default_out(options_.scene);
+  if (!video_.empty() && !options_.images)
+    refuse_option("--video in a run without pictures", "pictures are wanted", "leave out --no-images");
   watch_for_interrupt();
   FrameProgress progress;
   RunWatcher watcher;
   watcher.interrupted = &interrupted();
-  if (!arguments.video.empty()) check_video_path(arguments.video, options.out);
-  const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
+  if (!video_.empty()) check_video_path(video_, options_.out);
+  const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   Convergence convergence;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
@@ -85,29 +126,35 @@ int run_command(const Arguments& arguments) {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
   };
-  const RunResult result = run(options, watcher);
+  const RunResult result = impinge::run(options_, watcher);
   progress.clear();
   if (!result.diverged.empty()) fmt::print(stderr, "diverged: {}\n", result.diverged);
   if (result.interrupted)
     fmt::print(stderr, "interrupted after frame {}; the same command with --resume goes on\n", result.last_frame);
   const std::string sheet =
-      options.images && result.exit_code() < 2 ? write_contact_sheet(options.out, result.last_frame) : "";
-  const bool filmed = !sheet.empty() && !arguments.video.empty() && write_video(arguments, result.frames_per_second);
-  if (arguments.quiet) return result.exit_code();
+      options_.images && result.exit_code() < 2 ? write_contact_sheet(options_.out, result.last_frame) : "";
+  const bool filmed = !sheet.empty() && !video_.empty() && write_video(options_.out, video_, result.frames_per_second);
+  if (quiet_) return result.exit_code();
 
   convergence.report();
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
-  if (options.images && result.last_frame >= 0)
-    fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options.out.string(), result.last_frame);
-  fmt::print("figures:  {}/stats.csv ({} frames)\n", options.out.string(), result.last_frame + 1);
+  if (options_.images && result.last_frame >= 0)
+    fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);
+  fmt::print("figures:  {}/stats.csv ({} frames)\n", options_.out.string(), result.last_frame + 1);
   if (!result.frozen_step.empty())
     fmt::print("frozen:   {} ({} group{}, {} contact{}); impinge step solves it\n", result.frozen_step.string(),
                result.frozen_groups, result.frozen_groups == 1 ? "" : "s", result.frozen_contacts,
                result.frozen_contacts == 1 ? "" : "s");
   if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
-  if (filmed) fmt::print("video:    {}\n", arguments.video);
+  if (filmed) fmt::print("video:    {}\n", video_.string());
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");
   return result.exit_code();
+}
+
+}  // namespace
+
+Entry<Command> run_command() {
+  return entry<Command, RunCommand>("run", "simulate a scene and write its frames and figures into a folder");
 }
 
 }  // namespace impinge

@@ -1,5 +1,6 @@
 // impinge sweep: one scene, many settings, a child process a job.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/scene/scene_values.hpp"
-#include "viewer/app/commands.hpp"
+#include "viewer/app/shared_options.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/report/sweep_report.hpp"
 #include "viewer/sweep/collect.hpp"
@@ -54,9 +55,7 @@ SweepJob checked_job(const fs::path& out, const std::string& hash) {
   return job;
 }
 
-int jobs_alone(const Arguments& arguments) {
-  const fs::path out = arguments.run_options.out;
-  const SweepOptions& options = arguments.sweep_options;
+int jobs_alone(const fs::path& out, const SweepOptions& options, bool quiet) {
   std::vector<SweepJob> jobs;
   for (const std::string& hash : options.jobs_alone) jobs.push_back(checked_job(out, hash));
   run_sweep_jobs(out, jobs, options.repeats(), std::max(1, options.jobs), false);
@@ -68,7 +67,7 @@ int jobs_alone(const Arguments& arguments) {
     measure_sweep_job(job_folder(out, job.hash), options.repeats(), row);
     is_done &= row.outcome.status == SweepOutcome::done;
   }
-  if (!arguments.quiet) fmt::print("{}", sweep_summary({}, rows));
+  if (!quiet) fmt::print("{}", sweep_summary({}, rows));
   if (interrupted()) return 130;
   return is_done ? 0 : 1;
 }
@@ -88,19 +87,15 @@ int local_jobs(const SweepOptions& options) {
   return options.jobs > 0 ? options.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-}  // namespace
-
-int sweep_command(const Arguments& given) {
-  if (!given.sweep_options.jobs_alone.empty()) return jobs_alone(given);
-  Arguments arguments = given;
-  read_sweep_file(arguments.sweep_options, arguments.run_options);
-  const SweepOptions& sweep_options = arguments.sweep_options;
+/// `given`: as the command line says it; a file's [sweep] table may say more.
+int sweep(SweepOptions sweep_options, const RunOptions& given, bool quiet) {
+  RunOptions options = given;
+  read_sweep_file(sweep_options, options);
   if (sweep_options.vary.empty())
     throw InputError(
         fmt::format("command line: no --vary, and no [sweep] vary in {}; at least one PATH=SPEC is wanted; add --vary "
                     "contact.friction=0.1,0.5",
-                    given.run_options.scene.string()));
-  RunOptions options = arguments.run_options;
+                    given.scene.string()));
   const fs::path out = options.out;
   options.export_ply = options.contacts = !sweep_options.reference.empty();
   options.resume = false;
@@ -112,10 +107,10 @@ int sweep_command(const Arguments& given) {
   Sweep sweep = plan_sweep(sweep_options, options, base);
   for (SweepJob& job : sweep.jobs) job.options = anywhere;
   const std::string toml = format_sweep_file(sweep_options, anywhere);
-  check_folder(out, toml, arguments.run_options.resume);
-  write_plan(out, sweep, toml, arguments.run_options.resume);
+  check_folder(out, toml, given.resume);
+  write_plan(out, sweep, toml, given.resume);
 
-  const bool shows_progress = !arguments.quiet && isatty(STDERR_FILENO);
+  const bool shows_progress = !quiet && isatty(STDERR_FILENO);
   if (sweep_options.engine == "list") {
     fmt::print("{}", sweep_commands(out, sweep.jobs, sweep_options.repeats()));
     return 0;
@@ -139,7 +134,7 @@ int sweep_command(const Arguments& given) {
                         errors, base.session().world().parameters.simulation.frame_time * base.last_frame()},
                        base.session());
   }
-  if (!arguments.quiet)
+  if (!quiet)
     fmt::print("{}{} of {} jobs done\nresults: {}\nreport:  {}\n", summary, done, sweep.rows.size(),
                (out / "results.csv").string(), (out / "report.html").string());
   if (interrupted()) {
@@ -150,6 +145,101 @@ int sweep_command(const Arguments& given) {
     return !row.reference.empty() && read_sweep_outcome(job_folder(out, row.reference)).status > SweepOutcome::failed;
   });
   return done == sweep.rows.size() && !lacks_reference ? 0 : 1;
+}
+
+class SweepCommand : public Command {
+ public:
+  void declare(Options& options) override;
+  int run() override;
+
+ private:
+  void check_engine() const;
+
+  RunOptions run_;
+  SweepOptions sweep_;
+  std::vector<std::string> vary_, reference_, columns_;
+  bool quiet_ = false;
+};
+
+void SweepCommand::declare(Options& options) {
+  options.optional_word(
+      "SCENE", run_.scene,
+      "scene file (TOML), or the run.toml of a run, or a file with a [sweep] table that says the rest");
+  set_option(options, run_.overrides, "PATH=VALUE: the same in every job");
+  options.texts("--vary", vary_,
+                "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n): a job for each value, and for each combination of "
+                "several --vary");
+  options.flag("--zip", sweep_.zip,
+               "the first values of all --vary together, then the second ones, ..., instead of all combinations");
+  options.text("--filter", sweep_.filter.text,
+               "EXPR: only combinations for which it holds, such as 'simulation.substeps <= 8 || response.method == "
+               "\"penalty\"'");
+  options.texts("--reference", reference_,
+                "PATH=VALUE: each job's errors are against the same job with these settings; or 'finest': with the "
+                "sweep's smallest time step; or 'case:NAME': against a formula (see impinge list cases)");
+  options.text("--window", sweep_.window.text,
+               "seconds that errors are taken over; 'all'; or 'automatic' (default): as long as a reference run "
+               "started 1e-9 scene sizes aside stays within 1e-3 of it");
+  options.texts("--column", columns_,
+                "NAME=EXPR: one more column, over last(), max(), min(), mean(), sum() of a column of stats.csv and "
+                "over varied paths");
+  options.whole("--repeat", sweep_.repeat, 1, 1000,
+                "runs of each job: columns of times are then medians, with columns spread_..._ms (largest less "
+                "smallest)");
+  options.flag("--coarse-first", sweep_.coarse_first,
+               "run the ends and middles of all ranges first; changes no result");
+  script_option(options, run_.script);
+  frames_option(options, run_.frames);
+  const auto take_size = [this](int width, int height) {
+    run_.width = width, run_.height = height, sweep_.size_given = true;
+  };
+  options.size("--size", take_size, "WIDTHxHEIGHT of the pictures (default: 1280x720)");
+  images_option(options, run_.images);
+  options.whole("--jobs", sweep_.jobs, 1, 4096,
+                "jobs at once, each in a process and on a thread of its own (default: all cores; with slurm: as many "
+                "as it gives)");
+  options.text("--engine", sweep_.engine,
+               "local: run here (default); list: print a command a job, for GNU parallel or a render farm; slurm: "
+               "submit a job array, wait and collect");
+  options.names("--job", sweep_.jobs_alone, "HASH[,HASH...]: run only these jobs of the sweep in --out");
+  options.path("--out", run_.out, "folder to write to (default: out/SCENE-sweep)");
+  options.flag("--resume", run_.resume,
+               "take a folder that holds another sweep too, and keep the jobs that both have (the same sweep always "
+               "goes on)");
+  options.flag("--yes", sweep_.yes, "more than 10000 jobs are meant");
+  quiet_option(options, quiet_);
+}
+
+void SweepCommand::check_engine() const {
+  const std::vector<std::string> engines = {"local", "list", "slurm"};
+  if (std::find(engines.begin(), engines.end(), sweep_.engine) != engines.end()) return;
+  const std::string near = nearest_word(sweep_.engine, engines);
+  refuse_option(fmt::format("--engine is '{}'", sweep_.engine), fmt::format("allowed: {}", fmt::join(engines, ", ")),
+                near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+}
+
+int SweepCommand::run() {
+  for (const auto& [texts, to] :
+       {std::pair{&vary_, &sweep_.vary}, {&reference_, &sweep_.reference}, {&columns_, &sweep_.columns}})
+    for (const std::string& text : *texts) to->push_back({text});
+  check_engine();
+  if (!sweep_.jobs_alone.empty()) {
+    if (!run_.scene.empty() || !vary_.empty())
+      refuse_option("--job beside a scene or --vary",
+                    "a job's folder says what it runs; --job HASH --out DIR is wanted", "leave out the rest");
+    if (run_.out.empty()) refuse_option("--job without --out", "the folder of the sweep is wanted", "add --out DIR");
+    return jobs_alone(run_.out, sweep_, quiet_);
+  }
+  if (run_.scene.empty())
+    refuse_option("no SCENE", "a scene file, or a file with a [sweep] table, is wanted", "see impinge sweep --help");
+  if (run_.out.empty()) run_.out = default_out(run_.scene, "-sweep");
+  return sweep(sweep_, run_, quiet_);
+}
+
+}  // namespace
+
+Entry<Command> sweep_command() {
+  return entry<Command, SweepCommand>("sweep", "run a scene with many settings and put what came out side by side");
 }
 
 }  // namespace impinge

@@ -1,237 +1,36 @@
-// impinge test: the scenes of a folder that have a script, as a test suite.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <optional>
-#include <set>
-
-#include "engine/core/error.hpp"
-#include "engine/io/file.hpp"
-#include "viewer/app/commands.hpp"
-#include "viewer/compare/picture_comparison.hpp"
-#include "viewer/image/png.hpp"
-#include "viewer/present/png_sequence.hpp"
-#include "viewer/report/junit.hpp"
+// impinge test
+#include "viewer/app/shared_options.hpp"
+#include "viewer/compare/suite.hpp"
 
 namespace impinge {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-std::string plural(std::size_t count, const char* word) {
-  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
-}
-
-struct Size {
-  int width = 0, height = 0;
-};
-
-/// The size that the pictures of a test have. Throws InputError where two of them differ.
-std::optional<Size> size_of(const std::vector<Script::ImageExpectation>& pictures) {
-  std::optional<Size> size;
-  fs::path first;
-  for (const Script::ImageExpectation& picture : pictures) {
-    if (!fs::is_regular_file(picture.file)) continue;
-    const Image image = read_png(picture.file);
-    if (size && (size->width != image.width || size->height != image.height))
-      throw InputError(fmt::format(
-          "{}: {} has {}x{} pixels; {}x{} as in {} are wanted; remove one of them and write it anew with --update",
-          picture.place, picture.file.string(), image.width, image.height, size->width, size->height, first.string()));
-    if (!size) size = Size{image.width, image.height}, first = picture.file;
-  }
-  return size;
-}
-
-class Suite {
+class TestCommand : public Command {
  public:
-  explicit Suite(const Arguments& arguments) : arguments_(arguments), folder_(arguments.a) {
-    if (!fs::is_directory(folder_))
-      throw InputError(folder_.string() +
-                       ": there is no such folder; a folder of NAME.toml and NAME.script is wanted; check the path");
-    const fs::path named = fs::absolute(folder_).lexically_normal();
-    suite_ = (named.has_filename() ? named : named.parent_path()).filename().string();
-    out_ = arguments.out.empty() ? fs::path("out") / (suite_ + "-test") : fs::path(arguments.out);
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-      if (entry.is_regular_file() && entry.path().extension() == ".script") names_.insert(entry.path().stem().string());
-    if (names_.empty())
-      throw InputError(folder_.string() +
-                       ": holds no script; NAME.toml with NAME.script beside it is wanted; see impinge test --help");
-    std::error_code error;
-    fs::create_directories(out_, error);
-    if (error)
-      throw InputError(
-          fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
-                      out_.string(), error.message()));
-    // the outcome of a long suite must not be lost for want of a place
-    if (!arguments.junit.empty()) write_file(arguments.junit, junit_xml(suite_, {}));
+  void declare(Options& options) override {
+    options.word("DIR", suite_.folder,
+                 "folder of NAME.toml and NAME.script; pictures as the scripts' `expect image` lines name them");
+    options.path("--junit", suite_.junit, "XML file of the outcome, as continuous integration reads it");
+    options.path("--out", suite_.out, "folder for the runs and the reports of failures (default: out/DIR-test)");
+    size_option(options, suite_.width, suite_.height,
+                "WIDTHxHEIGHT of pictures without a baseline yet (default: 320x180)");
+    options.flag("--update", suite_.update,
+                 "write the pictures that `expect image` lines name where they differ or are missing, and say which");
+    threads_option(options);
   }
-
-  int run() {
-    std::vector<TestOutcome> outcomes;
-    for (const std::string& name : names_) {
-      try {
-        outcomes.push_back(run_one(name));
-      } catch (const OutputError& error) {
-        give_up(outcomes, name, error.what());
-        throw;
-      }
-      print(outcomes.back());
-    }
-    if (!arguments_.junit.empty()) write_file(arguments_.junit, junit_xml(suite_, outcomes));
-    const auto bad =
-        std::count_if(outcomes.begin(), outcomes.end(), [](const TestOutcome& o) { return o.kind != TestOutcome::ok; });
-    fmt::print("{}: {} ok, {} failed\n", plural(outcomes.size(), "test"),
-               static_cast<std::ptrdiff_t>(outcomes.size()) - bad, bad);
-    return bad == 0 ? 0 : 1;
-  }
+  int run() override { return run_suite(suite_); }
 
  private:
-  /// No room for what a test writes is none for the next: the suite ends. Its XML must not pass for that of a good one.
-  void give_up(std::vector<TestOutcome>& outcomes, const std::string& name, const std::string& reason) const {
-    if (arguments_.junit.empty()) return;
-    TestOutcome& last = outcomes.emplace_back();
-    last.name = name, last.kind = TestOutcome::error;
-    last.messages.push_back(reason + "; the tests after this one were not run");
-    std::error_code error;
-    try {
-      write_file(arguments_.junit, junit_xml(suite_, outcomes));
-    } catch (const OutputError&) {
-      fs::remove(arguments_.junit, error);
-    }
-  }
-
-  TestOutcome run_one(const std::string& name) {
-    const auto start = std::chrono::steady_clock::now();
-    TestOutcome outcome;
-    outcome.name = name;
-    try {
-      test(outcome);
-    } catch (const OutputError&) {
-      throw;
-    } catch (const InputError& error) {
-      outcome.kind = TestOutcome::error;
-      outcome.messages.push_back(error.what());
-    } catch (const std::exception& error) {
-      outcome.kind = TestOutcome::error;
-      outcome.messages.push_back(std::string("a bug of impinge: ") + error.what());
-    }
-    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return outcome;
-  }
-
-  void test(TestOutcome& outcome) {
-    const fs::path scene = folder_ / (outcome.name + ".toml"), script = folder_ / (outcome.name + ".script");
-    if (!fs::is_regular_file(scene))
-      throw InputError(
-          fmt::format("{}: has no scene {} beside it; every script of a suite has one; add it, or move the script",
-                      script.string(), scene.filename().string()));
-    RunOptions options;
-    options.scene = scene;
-    options.script = script;
-    options.compares_pictures = false;
-    std::vector<Script::ImageExpectation> pictures;
-    {
-      const Session session(scene, {}, script, {16, 9, false, true});
-      pictures = session.script().images();
-      outcome.expectations = static_cast<int>(session.script().expectations().size());
-      options.frames = session.script().last_frame();
-    }
-    outcome.pictures = static_cast<int>(pictures.size());
-    if (outcome.expectations + outcome.pictures == 0)
-      throw InputError(script.string() +
-                       ": expects nothing; at least one `expect` line is wanted; write expect contacts > 0 at 20");
-    const Size size = size_of(pictures).value_or(Size{arguments_.run_options.width, arguments_.run_options.height});
-    options.width = size.width, options.height = size.height;
-    options.images = options.ids = !pictures.empty();
-    options.out = out_ / outcome.name / "run";
-    for (const char* last : {"run", "again"})
-      if (const fs::path folder = out_ / outcome.name / last; fs::is_regular_file(folder / "run.toml"))
-        fs::remove_all(folder);
-
-    RunWatcher watcher;
-    watcher.message = [&](const std::string& line) { outcome.messages.push_back(line); };
-    const RunResult result = impinge::run(options, watcher);
-    if (!result.diverged.empty()) outcome.messages.push_back("diverged: " + result.diverged);
-    if (result.exit_code() != 0) outcome.kind = TestOutcome::failed;
-    check_pictures(outcome, pictures, options, result.last_frame);
-    if (outcome.kind != TestOutcome::ok)
-      outcome.messages.push_back(fmt::format("again: impinge run {} --script {} --frames {} --size {}x{} --out {}",
-                                             scene.string(), script.string(), *options.frames, size.width, size.height,
-                                             (out_ / outcome.name / "again").string()));
-  }
-
-  void check_pictures(TestOutcome& outcome, const std::vector<Script::ImageExpectation>& pictures,
-                      const RunOptions& options, int last_frame) {
-    const fs::path shown = out_ / outcome.name;
-    std::error_code error;
-    fs::remove(shown / "report.html", error);  // of the last time
-    std::vector<PictureComparison> all;
-    for (const Script::ImageExpectation& picture : pictures) {
-      if (picture.frame > last_frame) {
-        outcome.kind = TestOutcome::failed;
-        outcome.messages.push_back(fmt::format("{}: frame {} was not reached", picture.place, picture.frame));
-        continue;
-      }
-      const fs::path made = options.out / "frames" / PngSequence::file_name(picture.frame),
-                     baseline = baseline_for(picture.file, made);
-      PictureRules rules;
-      rules.settings.tolerance = picture.tolerance;
-      PictureComparison c;
-      if (fs::is_regular_file(baseline)) {
-        c = compare_pictures(baseline.filename().string(), baseline, made, rules);
-      } else {
-        c.name = picture.file.filename().string();
-        c.b = made;
-        c.verdict = PictureComparison::missing_in_a;
-        c.headline =
-            fmt::format("there is no {}; impinge test {} --update writes it", picture.file.string(), folder_.string());
-      }
-      if (c.verdict == PictureComparison::same) {
-        if (!arguments_.update) continue;
-        if (const fs::path ids = update_ids(c); !ids.empty())
-          outcome.messages.push_back(
-              fmt::format("wrote the ids {}; the picture is the same within the limits, and kept", ids.string()));
-        continue;
-      }
-      if (arguments_.update) {
-        const bool is_new = c.a.empty();
-        const fs::path target = is_new ? picture.file : c.a, written = update_baseline(c, target, made);
-        outcome.messages.push_back(fmt::format("{} {}{}",
-                                               is_new              ? "new:"
-                                               : written == target ? "rewrote"
-                                                                   : "wrote the alternate",
-                                               written.string(), is_new ? "" : ": " + c.headline));
-        continue;
-      }
-      outcome.kind = TestOutcome::failed;
-      outcome.messages.push_back(fmt::format("{}: frame {}: {}: {}", picture.place, picture.frame, c.name, c.headline));
-      for (const std::string& line : c.details) outcome.messages.push_back("  " + line);
-      all.push_back(std::move(c));
-    }
-    if (all.empty()) return;
-    write_picture_report(shown, outcome.name + ": A is wanted, B was drawn", all, {});
-    outcome.messages.push_back(fmt::format("see:   {}", (shown / "report.html").string()));
-  }
-
-  static void print(const TestOutcome& o) {
-    const char* word = o.kind == TestOutcome::ok ? "ok    " : o.kind == TestOutcome::failed ? "FAILED" : "ERROR ";
-    fmt::print("{}  {}: {}, {} ({:.1f} s)\n", word, o.name,
-               plural(static_cast<std::size_t>(o.expectations), "expectation"),
-               plural(static_cast<std::size_t>(o.pictures), "picture"), o.seconds);
-    for (const std::string& line : o.messages) fmt::print("        {}\n", line);
-    std::fflush(stdout);
-  }
-
-  const Arguments& arguments_;
-  fs::path folder_, out_;
-  std::string suite_;
-  std::set<std::string> names_;
+  SuiteOptions suite_;
 };
 
 }  // namespace
 
-int test_command(const Arguments& arguments) { return Suite(arguments).run(); }
+Entry<Command> test_command() {
+  return entry<Command, TestCommand>(
+      "test",
+      "run every scene of a folder that has a script of the same name, and check its expectations and pictures");
+}
 
 }  // namespace impinge
