@@ -109,7 +109,7 @@ TEST_CASE("the model knows no view and no terminal") {
 
 TEST_CASE("every registered algorithm's file is named in its folder's list") {
   for (const char* folder : {"engine/detection/broadphase", "engine/detection/triangles", "engine/integrators",
-                             "engine/lcp", "engine/response", "viewer/layers", "viewer/panels/debug"}) {
+                             "engine/lcp", "engine/response", "viewer/layers", "viewer/panels/debug", "viewer/app"}) {
     const std::string list = text_of(kRoot / folder / "all.cpp");
     int entries = 0;
     for (const auto& e : fs::directory_iterator(kRoot / folder)) {
@@ -117,7 +117,7 @@ TEST_CASE("every registered algorithm's file is named in its folder's list") {
       const std::string text = text_of(e.path());
       const std::string stem = e.path().stem().string();
       // a file that declares an entry is named like it
-      if (text.find("Entry<") == std::string::npos && text.find("Layer " + stem) == std::string::npos &&
+      if (text.find("\nEntry<") == std::string::npos && text.find("Layer " + stem) == std::string::npos &&
           text.find("\nPanel " + stem + "_panel()") == std::string::npos)
         continue;
       CAPTURE(folder, stem);
@@ -126,6 +126,20 @@ TEST_CASE("every registered algorithm's file is named in its folder's list") {
     }
     CAPTURE(folder);
     CHECK(entries > 0);
+  }
+}
+
+TEST_CASE("a folder holds at most 40 files") {
+  std::map<std::string, int> files;
+  for (const fs::path& file : sources()) ++files[fs::relative(file.parent_path(), kRoot).generic_string()];
+  for (const auto& [folder, count] : files) {
+    CAPTURE(folder);
+    CHECK(count <= 40);
+    CHECK(floors().count(folder) == 1);
+  }
+  for (const auto& [folder, floor] : floors()) {
+    CAPTURE(folder);
+    CHECK(files.count(folder) == 1);
   }
 }
 

@@ -18,9 +18,10 @@ namespace impinge::test {
 
 namespace {
 
-pid_t start(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-            const std::filesystem::path& out, const std::filesystem::path& err) {
-  std::vector<const char*> words = {IMPINGE_PROGRAM};
+pid_t start(const std::filesystem::path& program, const std::filesystem::path& folder,
+            const std::vector<std::string>& arguments, const std::filesystem::path& out,
+            const std::filesystem::path& err) {
+  std::vector<const char*> words = {program.c_str()};
   for (const std::string& argument : arguments) words.push_back(argument.c_str());
   words.push_back(nullptr);
   const pid_t pid = fork();
@@ -46,18 +47,23 @@ std::vector<pid_t> children_of(pid_t pid) {
 
 int Outcome::error_lines() const { return static_cast<int>(std::count(err.begin(), err.end(), '\n')); }
 
-Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+Outcome program_run(const std::filesystem::path& program, const std::filesystem::path& folder,
+                    const std::vector<std::string>& arguments) {
   const TempFolder streams;
-  const pid_t pid = start(folder, arguments, streams / "out", streams / "err");
+  const pid_t pid = start(program, folder, arguments, streams / "out", streams / "err");
   int status = 0;
   waitpid(pid, &status, 0);
   return finish(status, streams / "out", streams / "err");
 }
 
+Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+  return program_run(IMPINGE_PROGRAM, folder, arguments);
+}
+
 Outcome impinge_stopped(const std::filesystem::path& folder, const std::vector<std::string>& arguments, double seconds,
                         int signal, Targets targets) {
   const TempFolder streams;
-  const pid_t pid = start(folder, arguments, streams / "out", streams / "err");
+  const pid_t pid = start(IMPINGE_PROGRAM, folder, arguments, streams / "out", streams / "err");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   int status = 0;
   while (waitpid(pid, &status, WNOHANG) == 0) {

@@ -13,6 +13,9 @@ struct Outcome {
   int error_lines() const;
 };
 
+/// Runs a program in `folder` and waits for its end.
+Outcome program_run(const std::filesystem::path& program, const std::filesystem::path& folder,
+                    const std::vector<std::string>& arguments);
 /// Runs impinge in `folder` and waits for its end.
 Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 

@@ -1,11 +1,11 @@
 // The list of commands: one line each, in the order of --help.
-#include "viewer/app/command.hpp"
+#include "viewer/app/sub_command.hpp"
 
 namespace impinge {
 
-const Registry<Command>& commands() {
-  static const Registry<Command> list = [] {
-    Registry<Command> all;
+const Registry<SubCommand>& sub_commands() {
+  static const Registry<SubCommand> list = [] {
+    Registry<SubCommand> all;
     IMPINGE_LIST(all, run_command);
     IMPINGE_LIST(all, replay_command);
     IMPINGE_LIST(all, diff_command);

@@ -8,7 +8,7 @@ namespace impinge {
 
 namespace {
 
-class CheckCommand : public Command {
+class CheckCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     scene_options(options, scene_, overrides_);
@@ -30,8 +30,8 @@ class CheckCommand : public Command {
 
 }  // namespace
 
-Entry<Command> check_command() {
-  return entry<Command, CheckCommand>("check", "check a scene (and a script) and do nothing else");
+Entry<SubCommand> check_command() {
+  return entry<SubCommand, CheckCommand>("check", "check a scene (and a script) and do nothing else");
 }
 
 }  // namespace impinge

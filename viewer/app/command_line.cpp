@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "engine/core/parameter.hpp"
-#include "viewer/app/command.hpp"
 #include "viewer/app/reserved_words.hpp"
+#include "viewer/app/sub_command.hpp"
 
 namespace impinge {
 
@@ -48,7 +48,7 @@ std::vector<std::string> names_between_commas(const std::string& text, const std
 
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
-  for (const CommandEntry& command : commands()) names.emplace_back(command.name);
+  for (const Entry<SubCommand>& command : sub_commands()) names.emplace_back(command.name);
   return names;
 }
 
@@ -97,7 +97,7 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, const s
 
 /// A command with the words that are for it.
 struct Declared {
-  std::unique_ptr<Command> command;
+  std::unique_ptr<SubCommand> command;
   std::unique_ptr<Options> options;
   CLI::App* app;
 };
@@ -149,7 +149,7 @@ void Options::other(const char* name, std::function<void(const std::string&)> ta
   app_.add_option(name, texts_.back().first, doc);
 }
 
-void Options::whole(const char* name, std::function<void(int)> take, int low, int high, const std::string& doc) {
+void Options::whole(const char* name, const std::function<void(int)>& take, int low, int high, const std::string& doc) {
   other(
       name, [=](const std::string& text) { take(whole_number(text, name, low, high)); }, doc);
 }
@@ -174,7 +174,7 @@ void Options::names(const char* name, std::vector<std::string>& to, const std::s
       name, [=, &to](const std::string& text) { to = names_between_commas(text, name); }, doc);
 }
 
-void Options::size(const char* name, std::function<void(int, int)> take, const std::string& doc) {
+void Options::size(const char* name, const std::function<void(int, int)>& take, const std::string& doc) {
   const auto read = [=](const std::string& text) {
     const std::size_t x = text.find('x');
     if (x == std::string::npos)
@@ -203,7 +203,7 @@ int run_command_line(int count, const char* const* words) {
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("impinge ") + IMPINGE_VERSION);
   std::vector<Declared> all;
-  for (const CommandEntry& entry : commands()) {
+  for (const Entry<SubCommand>& entry : sub_commands()) {
     CLI::App* sub = app.add_subcommand(std::string(entry.name), std::string(entry.doc));
     all.push_back({entry.make(), std::make_unique<Options>(*sub), sub});
     all.back().command->declare(*all.back().options);

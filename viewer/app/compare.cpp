@@ -7,7 +7,7 @@ namespace impinge {
 
 namespace {
 
-class CompareCommand : public Command {
+class CompareCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("A", runs_.a, "folder of a run");
@@ -25,8 +25,8 @@ class CompareCommand : public Command {
 
 }  // namespace
 
-Entry<Command> compare_command() {
-  return entry<Command, CompareCommand>(
+Entry<SubCommand> compare_command() {
+  return entry<SubCommand, CompareCommand>(
       "compare", "two runs: what was set differently, and in which frame, body and field they part");
 }
 

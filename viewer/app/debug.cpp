@@ -195,7 +195,7 @@ int debug(const Given& options) {
   return debugger.failures() > 0 ? 1 : 0;
 }
 
-class DebugCommand : public Command {
+class DebugCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("SCENE", given_.scene,
@@ -223,8 +223,8 @@ class DebugCommand : public Command {
 
 }  // namespace
 
-Entry<Command> debug_command() {
-  return entry<Command, DebugCommand>(
+Entry<SubCommand> debug_command() {
+  return entry<SubCommand, DebugCommand>(
       "debug", "the interactive debugger: play, step, go back, pick and change; what is done by hand is a script");
 }
 

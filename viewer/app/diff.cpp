@@ -6,7 +6,7 @@ namespace impinge {
 
 namespace {
 
-class DiffCommand : public Command {
+class DiffCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("A", pictures_.a, "PNG file or folder: what is wanted");
@@ -26,8 +26,8 @@ class DiffCommand : public Command {
 
 }  // namespace
 
-Entry<Command> diff_command() {
-  return entry<Command, DiffCommand>("diff", "compare two pictures or two folders of pictures");
+Entry<SubCommand> diff_command() {
+  return entry<SubCommand, DiffCommand>("diff", "compare two pictures or two folders of pictures");
 }
 
 }  // namespace impinge

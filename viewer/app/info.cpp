@@ -63,7 +63,7 @@ void print_model(const Parameters& p, const ModelFacts& facts) {
     fmt::print("{:<14}{}{}\n", line.stage + ":", line.used ? "" : "left out: ", line.what);
 }
 
-class InfoCommand : public Command {
+class InfoCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     scene_options(options, run_.scene, run_.overrides);
@@ -105,8 +105,8 @@ class InfoCommand : public Command {
 
 }  // namespace
 
-Entry<Command> info_command() {
-  return entry<Command, InfoCommand>("info", "what of a scene is modelled and what is left out");
+Entry<SubCommand> info_command() {
+  return entry<SubCommand, InfoCommand>("info", "what of a scene is modelled and what is left out");
 }
 
 }  // namespace impinge

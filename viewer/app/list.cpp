@@ -12,7 +12,7 @@
 #include "engine/lcp/lcp_solver.hpp"
 #include "engine/response/response.hpp"
 #include "engine/world/figures.hpp"
-#include "viewer/app/command.hpp"
+#include "viewer/app/sub_command.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/sweep/reference.hpp"
 
@@ -153,7 +153,7 @@ std::vector<std::string> topic_names() {
   return names;
 }
 
-class ListCommand : public Command {
+class ListCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("TOPIC", topic_, fmt::format("{}", fmt::join(topic_names(), "|")));
@@ -173,8 +173,8 @@ class ListCommand : public Command {
 
 }  // namespace
 
-Entry<Command> list_command() {
-  return entry<Command, ListCommand>("list", "parameters, layers and algorithms there are");
+Entry<SubCommand> list_command() {
+  return entry<SubCommand, ListCommand>("list", "parameters, layers and algorithms there are");
 }
 
 }  // namespace impinge

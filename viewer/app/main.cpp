@@ -3,7 +3,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "viewer/app/command.hpp"
+#include "viewer/app/sub_command.hpp"
 
 namespace {
 

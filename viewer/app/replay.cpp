@@ -4,6 +4,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/app/shared_options.hpp"
+#include "viewer/controller/session.hpp"
 #include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
@@ -47,7 +48,7 @@ int replay(const std::filesystem::path& folder) {
   return 0;
 }
 
-class ReplayCommand : public Command {
+class ReplayCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("DIR", folder_, "folder of the run");
@@ -61,8 +62,8 @@ class ReplayCommand : public Command {
 
 }  // namespace
 
-Entry<Command> replay_command() {
-  return entry<Command, ReplayCommand>("replay", "repeat a recorded run and check every state hash");
+Entry<SubCommand> replay_command() {
+  return entry<SubCommand, ReplayCommand>("replay", "repeat a recorded run and check every state hash");
 }
 
 }  // namespace impinge

@@ -9,6 +9,7 @@
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/controller/interrupt.hpp"
+#include "viewer/controller/run.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/png_sequence.hpp"
@@ -66,7 +67,7 @@ bool write_video(const std::filesystem::path& out, const std::filesystem::path& 
   return made;
 }
 
-class RunCommand : public Command {
+class RunCommand : public SubCommand {
  public:
   void declare(Options& options) override;
   int run() override;
@@ -153,8 +154,8 @@ int RunCommand::run() {
 
 }  // namespace
 
-Entry<Command> run_command() {
-  return entry<Command, RunCommand>("run", "simulate a scene and write its frames and figures into a folder");
+Entry<SubCommand> run_command() {
+  return entry<SubCommand, RunCommand>("run", "simulate a scene and write its frames and figures into a folder");
 }
 
 }  // namespace impinge

@@ -1,7 +1,7 @@
 // Options that several commands have, each with the one way in which it is said and read.
 #pragma once
 
-#include "viewer/app/command.hpp"
+#include "viewer/app/sub_command.hpp"
 
 namespace impinge {
 

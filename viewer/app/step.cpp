@@ -1,13 +1,13 @@
 // impinge step: one problem, solved by every method, all judged by the same residual.
 #include "engine/frozen/frozen_step_file.hpp"
-#include "viewer/app/command.hpp"
+#include "viewer/app/sub_command.hpp"
 #include "viewer/study/methods.hpp"
 
 namespace impinge {
 
 namespace {
 
-class StepCommand : public Command {
+class StepCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("FILE", step_.file,
@@ -36,8 +36,8 @@ class StepCommand : public Command {
 
 }  // namespace
 
-Entry<Command> step_command() {
-  return entry<Command, StepCommand>(
+Entry<SubCommand> step_command() {
+  return entry<SubCommand, StepCommand>(
       "step", "solve a frozen step or a published friction-contact problem with every method, and compare them");
 }
 

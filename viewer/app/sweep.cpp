@@ -47,7 +47,7 @@ SweepJob checked_job(const fs::path& out, const std::string& hash) {
   if (!fs::is_regular_file(folder / "job.toml"))
     refuse("--job " + hash, fmt::format("{} holds no such job", (out / "jobs").string()),
            "the hash of a job of that sweep is wanted", "see its results.csv");
-  const SweepJob job = read_sweep_job(folder);
+  SweepJob job = read_sweep_job(folder);
   if (SweepBase(job.options).hash(job.changes) != hash)
     refuse((folder / "job.toml").string(),
            "its scene, script or surfaces, or the program, have changed since the sweep was planned",
@@ -147,7 +147,7 @@ int sweep(SweepOptions sweep_options, const RunOptions& given, bool quiet) {
   return done == sweep.rows.size() && !lacks_reference ? 0 : 1;
 }
 
-class SweepCommand : public Command {
+class SweepCommand : public SubCommand {
  public:
   void declare(Options& options) override;
   int run() override;
@@ -238,8 +238,8 @@ int SweepCommand::run() {
 
 }  // namespace
 
-Entry<Command> sweep_command() {
-  return entry<Command, SweepCommand>("sweep", "run a scene with many settings and put what came out side by side");
+Entry<SubCommand> sweep_command() {
+  return entry<SubCommand, SweepCommand>("sweep", "run a scene with many settings and put what came out side by side");
 }
 
 }  // namespace impinge

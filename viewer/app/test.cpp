@@ -6,7 +6,7 @@ namespace impinge {
 
 namespace {
 
-class TestCommand : public Command {
+class TestCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("DIR", suite_.folder,
@@ -27,8 +27,8 @@ class TestCommand : public Command {
 
 }  // namespace
 
-Entry<Command> test_command() {
-  return entry<Command, TestCommand>(
+Entry<SubCommand> test_command() {
+  return entry<SubCommand, TestCommand>(
       "test",
       "run every scene of a folder that has a script of the same name, and check its expectations and pictures");
 }

@@ -9,6 +9,7 @@
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/compare/picture_comparison.hpp"
+#include "viewer/controller/run.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/png_sequence.hpp"
 #include "viewer/report/junit.hpp"

@@ -37,13 +37,13 @@ class Options {
   void flag_off(const char* name, bool& to, const std::string& doc);  ///< sets false
   void whole(const char* name, int& to, int low, int high, const std::string& doc);
   void whole(const char* name, std::optional<int>& to, int low, int high, const std::string& doc);
-  void whole(const char* name, std::function<void(int)> take, int low, int high, const std::string& doc);
+  void whole(const char* name, const std::function<void(int)>& take, int low, int high, const std::string& doc);
   void real(const char* name, double& to, double low, double high, const std::string& doc);
   /// Names with commas between them.
   void names(const char* name, std::vector<std::string>& to, const std::string& doc);
   /// WIDTHxHEIGHT, pixels.
   void size(const char* name, int& width, int& height, const std::string& doc);
-  void size(const char* name, std::function<void(int width, int height)> take, const std::string& doc);
+  void size(const char* name, const std::function<void(int width, int height)>& take, const std::string& doc);
   /// Anything else: `take` gets the text if there is one, and may throw InputError.
   void other(const char* name, std::function<void(const std::string&)> take, const std::string& doc);
 
@@ -55,17 +55,16 @@ class Options {
   std::deque<std::pair<std::string, std::function<void(const std::string&)>>> texts_;
 };
 
-class Command {
+class SubCommand {
  public:
-  virtual ~Command() = default;
+  virtual ~SubCommand() = default;
   virtual void declare(Options& options) = 0;
   /// Prints what it has to say and returns the exit code. Throws InputError and DivergenceError.
   virtual int run() = 0;
 };
-using CommandEntry = Entry<Command>;
 
 /// All of them, in the order of --help.
-const Registry<Command>& commands();
+const Registry<SubCommand>& sub_commands();
 
 /// "command line: found; allowed; remedy", as an InputError.
 [[noreturn]] void refuse_option(const std::string& found, const std::string& allowed, const std::string& remedy);
