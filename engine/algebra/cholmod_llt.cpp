@@ -79,7 +79,7 @@ class Cholmod : public LinearSolver {
 
 }  // namespace
 
-Entry<LinearSolver> cholmod_solver() {
+Entry<LinearSolver> cholmod_llt_solver() {
   return entry<LinearSolver, Cholmod>("cholmod", "CHOLMOD's supernodal Cholesky factorization");
 }
 

@@ -6,11 +6,9 @@
 
 namespace impinge {
 
-Entry<LinearSolver> conjugate_gradient_solver();
-Entry<LinearSolver> simplicial_llt_solver();
-#ifdef IMPINGE_CHOLMOD
-Entry<LinearSolver> cholmod_solver();
-#endif
+namespace {
+constexpr std::string_view kAutomatic = "automatic";
+}
 
 SolveReport LinearSolver::gram(const SparseColumns& b, MatX& w) {
   constexpr Eigen::Index kSlab = 96;  // columns at a time: memory stays in bounds however many there are
@@ -31,13 +29,15 @@ SolveReport LinearSolver::gram(const SparseColumns& b, MatX& w) {
 }
 
 const Registry<LinearSolver>& linear_solvers() {
-  static const Registry<LinearSolver> list = {
-      conjugate_gradient_solver(),
-      simplicial_llt_solver(),
+  static const Registry<LinearSolver> list = [] {
+    Registry<LinearSolver> all;
+    IMPINGE_LIST(all, conjugate_gradient_solver);
+    IMPINGE_LIST(all, simplicial_llt_solver);
 #ifdef IMPINGE_CHOLMOD
-      cholmod_solver(),
+    IMPINGE_LIST(all, cholmod_llt_solver);
 #endif
-  };
+    return all;
+  }();
   return list;
 }
 
@@ -66,11 +66,28 @@ std::string_view automatic_linear_solver(int unknowns, int right_hand_sides) {
 #endif
 }
 
+LinearSolverChoice& LinearSolverChoice::operator=(std::string_view name) {
+  chosen_ = name == kAutomatic ? nullptr : find_entry(linear_solvers(), name);
+  if (chosen_ == nullptr && name != kAutomatic)
+    throw InternalError("no linear solver is named '" + std::string(name) + "'");
+  return *this;
+}
+
+std::string_view LinearSolverChoice::name() const { return is_automatic() ? kAutomatic : chosen_->name; }
+
+std::vector<std::string> LinearSolverChoice::names() const {
+  std::vector<std::string> names = {std::string(kAutomatic)};
+  for (const Entry<LinearSolver>& entry : linear_solvers()) names.emplace_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<LinearSolver> LinearSolverChoice::make(int unknowns, int right_hand_sides) const {
+  if (!is_automatic()) return chosen_->make();
+  return make_named(linear_solvers(), automatic_linear_solver(unknowns, right_hand_sides));
+}
+
 std::unique_ptr<LinearSolver> make_linear_solver(std::string_view name, int unknowns, int right_hand_sides) {
-  if (name == "automatic") name = automatic_linear_solver(unknowns, right_hand_sides);
-  const Entry<LinearSolver>* found = find_entry(linear_solvers(), name);
-  IMPINGE_ASSERT(found != nullptr);
-  return found->make();
+  return LinearSolverChoice(name).make(unknowns, right_hand_sides);
 }
 
 }  // namespace impinge

@@ -55,7 +55,25 @@ std::string_view automatic_linear_solver(int unknowns, int right_hand_sides);
 /// What a body that may be in contact asks its solver for at a time: three a contact.
 inline constexpr int kContactRightHandSides = 100;
 
-/// A solver by registered name, or the automatic one for "automatic". Throws InternalError on an unknown name.
+/// Which solver systems get: a registered one, or by their size whichever is best.
+class LinearSolverChoice {
+ public:
+  LinearSolverChoice() = default;  ///< by size: "automatic"
+  explicit LinearSolverChoice(std::string_view name) { *this = name; }
+  /// A registered name or "automatic"; throws InternalError for another.
+  LinearSolverChoice& operator=(std::string_view name);
+  bool operator==(const LinearSolverChoice&) const = default;
+
+  bool is_automatic() const { return chosen_ == nullptr; }
+  std::string_view name() const;
+  std::vector<std::string> names() const;  ///< all that there are
+  std::unique_ptr<LinearSolver> make(int unknowns, int right_hand_sides) const;
+
+ private:
+  const Entry<LinearSolver>* chosen_ = nullptr;
+};
+
+/// A solver by the name of a choice.
 std::unique_ptr<LinearSolver> make_linear_solver(std::string_view name, int unknowns = 0, int right_hand_sides = 1);
 
 }  // namespace impinge

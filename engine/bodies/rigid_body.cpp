@@ -4,7 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/shapes/shape_mass.hpp"
+#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
@@ -16,23 +16,6 @@ double copy_bytes(const SurfaceMesh& surface) {
   return 60.0 * triangles + 52.0 * vertices;
 }
 
-/// A mesh whose vertices are relative to `center`: the body's frame sits in the centre of mass.
-MeshPointer recentered(const SurfaceMesh& source, const Vec3& center) {
-  auto moved = std::make_shared<SurfaceMesh>(source);
-  for (Vec3& v : moved->mesh.vertices) v -= center;
-  return moved;
-}
-
-double farthest_point(const Shape& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius;
-  if (const auto* b = std::get_if<Box>(&shape)) return b->half.norm();
-  if (const auto* c = std::get_if<Capsule>(&shape)) return c->half_length + c->radius;
-  double reach = 0.0;
-  if (const auto* m = std::get_if<MeshPointer>(&shape))
-    for (const Vec3& v : (*m)->mesh.vertices) reach = std::max(reach, v.norm());
-  return reach;
-}
-
 }  // namespace
 
 void RigidBody::set_inertia(const Mat3& about_center) {
@@ -42,19 +25,19 @@ void RigidBody::set_inertia(const Mat3& about_center) {
 }
 
 void RigidBody::update_world_vertices() {
-  const auto* mesh = std::get_if<MeshPointer>(&shape);
+  const SurfaceMesh* mesh = shape->mesh();
   if (mesh == nullptr) return;
   if (soft) {
     interpolate(soft->embedding, soft->fem.fem.rest(), soft->fem.position, world_vertices);
     return;
   }
-  const std::vector<Vec3>& local = (*mesh)->mesh.vertices;
+  const std::vector<Vec3>& local = mesh->mesh.vertices;
   world_vertices.resize(local.size());
   for (std::size_t i = 0; i < local.size(); ++i) world_vertices[i] = pose.apply(local[i]);
 }
 
 Aabb RigidBody::bounds() const {
-  if (!is_mesh(shape)) return shape_bounds(shape, pose);
+  if (shape->mesh() == nullptr) return shape->bounds(pose);
   Aabb box;
   for (const Vec3& v : world_vertices) box.include(v);
   return box;
@@ -80,33 +63,33 @@ RigidBody make_rigid_body(const BodyDescription& description) {
     }
     body.mass = body.soft->fem.fem.total_mass();
     body.velocity = description.velocity;
-    body.mean_edge = mean_edge_length(std::get<MeshPointer>(body.shape)->mesh);
+    body.mean_edge = mean_edge_length(body.shape->mesh()->mesh);
     body.update_world_vertices();
     body.soft->surface_velocity.assign(body.world_vertices.size(), description.velocity);
     return body;
   }
-  const bool is_plane = std::holds_alternative<Plane>(body.shape);
+  const bool is_plane = body.shape->as<Plane>() != nullptr;
   if (is_plane && body.is_dynamic())
     throw InputError("a dynamic body is a plane, which has no mass; a plane is static or scripted; use a box");
   if (!is_plane) {
-    MassProperties properties = shape_mass(body.shape, description.density);
+    MassProperties properties = body.shape->mass(description.density);
     if (!(properties.mass > 0.0))
       throw InputError(
           "the surface encloses no positive volume; a body needs a closed surface whose triangles are "
           "counter-clockwise seen "
           "from outside; flip its triangles");
     body.center = properties.center;
-    if (const auto* mesh = std::get_if<MeshPointer>(&body.shape)) {
-      body.mean_edge = mean_edge_length((*mesh)->mesh);
-      check_memory("", "its surface", copy_bytes(**mesh), "simplify it, or use fewer bodies");
-      body.shape = recentered(**mesh, body.center);
+    if (const SurfaceMesh* mesh = description.shape->mesh()) {
+      body.mean_edge = mean_edge_length(mesh->mesh);
+      check_memory("", "its surface", copy_bytes(*mesh), "simplify it, or use fewer bodies");
     }
+    body.shape = body.shape->recentered(body.center);
     if (body.is_dynamic()) {
       const double ratio = description.mass ? *description.mass / properties.mass : 1.0;
       body.mass = properties.mass * ratio;
       body.set_inertia(properties.inertia * ratio);
     }
-    body.radius = farthest_point(body.shape);
+    body.radius = body.shape->bounding_radius();
   }
 
   Pose file{rotation_from_degrees(description.rotation), description.position};

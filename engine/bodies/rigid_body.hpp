@@ -16,7 +16,7 @@ namespace impinge {
 struct BodyDescription {
   std::string name;
   BodyKind kind = BodyKind::dynamic;
-  Shape shape;                           ///< mesh: scaled vertices, file origin
+  SharedShape shape;                     ///< scaled, in the file's axes
   std::string surface_file;              ///< of a mesh, as the scene names it; for run.toml and messages
   double density = 1000.0;               ///< kg/m³
   std::optional<double> mass;            ///< kg, instead of the density
@@ -33,7 +33,7 @@ struct BodyDescription {
 struct RigidBody {
   std::string name;
   BodyKind kind = BodyKind::dynamic;
-  Shape shape;  ///< mesh vertices relative to the centre of mass
+  SharedShape shape;  ///< relative to the centre of mass
   std::string surface_file;
   Vec3 center = Vec3::Zero();   ///< centre of mass in the file's frame
   double mass = 0.0;            ///< kg; 0: static or scripted

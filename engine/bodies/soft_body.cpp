@@ -47,7 +47,8 @@ double SoftBody::fastest_node() const {
 SoftBody make_soft_body(const SoftDescription& d, const Pose& file, const Vec3& velocity,
                         const Vec3& angular_velocity) {
   std::shared_ptr<Material> material = make_named(materials(), d.model);
-  material->configure(d.material);
+  material->settings() = d.material;
+  configure(*material, d.settings);
   SoftBody soft{DeformableBody(FemAssembly(d.mesh, {{material, d.density}}, d.mass, {}, d.fraction)),
                 d.embedding,
                 material,

@@ -26,8 +26,9 @@ struct SoftDescription {
   std::vector<double> fraction;  ///< filled fraction of each tetrahedron; empty: all full
   Embedding embedding;           ///< of the surface's vertices
   std::string model = "corotational";
-  MaterialSettings material;
-  double density = 1000.0;  ///< kg/m³
+  MaterialSettings material;      ///< what every model has
+  std::vector<RowText> settings;  ///< rows of the model, which come after `material`
+  double density = 1000.0;        ///< kg/m³
   MassKind mass = MassKind::lumped;
   RayleighDamping damping;
   std::vector<NodeRegion> fixed;

@@ -25,7 +25,7 @@ inline Vec3 project(const Vec3& z, double mu, FrictionLaw law) {
 /// Nearest point of the dual cone K_mu* = { (n, t) : n >= mu |t| } to z.
 Vec3 project_to_dual_cone(const Vec3& z, double mu);
 
-/// u_hat = u + mu |u_T| n: with it Coulomb's law is the complementarity K_mu ∋ λ ⊥ u_hat ∈ K_mu* [deSaxce98].
+/// u_hat = u + mu |u_T| n: with it Coulomb's law is the complementarity K_mu ∋ λ ⊥ u_hat ∈ K_mu* [DeSaxce98].
 inline Vec3 de_saxce(const Vec3& u, double mu) { return {u.x() + mu * std::hypot(u.y(), u.z()), u.y(), u.z()}; }
 
 /// The same for either law: the shift is mu times what a unit normal impulse dissipates, |u_T| or |u_1| + |u_2|.

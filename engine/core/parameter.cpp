@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/error.hpp"
 #include "engine/core/reserved_names.hpp"
@@ -106,76 +105,37 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return cost.back();
 }
 
-template <class T>
-Parameter row_for(std::string path, T& variable, ParameterKind kind, std::string doc) {
-  Parameter row;
-  row.path = std::move(path);
-  row.kind = kind;
-  row.doc = std::move(doc);
-  row.initial = variable;
-  row.get = [&variable] { return ParameterValue(variable); };
-  row.set = [&variable](const ParameterValue& value) { variable = std::get<T>(value); };
-  return row;
-}
-
 }  // namespace
 
-void ParameterSet::add(std::string path, bool& variable, std::string doc) {
-  add(row_for(std::move(path), variable, ParameterKind::boolean, std::move(doc)));
-}
-
-void ParameterSet::add(std::string path, int& variable, Range range, std::string unit, std::string doc) {
-  Parameter row;
-  row.path = std::move(path);
-  row.kind = ParameterKind::integer;
-  row.range = {std::max(range.low, double(std::numeric_limits<int>::min())),
-               std::min(range.high, double(std::numeric_limits<int>::max())), range.logarithmic};
-  row.unit = std::move(unit);
-  row.doc = std::move(doc);
-  row.initial = std::int64_t{variable};
-  row.get = [&variable] { return ParameterValue(std::int64_t{variable}); };
-  row.set = [&variable](const ParameterValue& value) { variable = static_cast<int>(std::get<std::int64_t>(value)); };
-  add(std::move(row));
-}
-
-void ParameterSet::add(std::string path, double& variable, Range range, std::string unit, std::string doc) {
-  Parameter row = row_for(std::move(path), variable, ParameterKind::real, std::move(doc));
-  row.range = range;
-  row.unit = std::move(unit);
-  add(std::move(row));
-}
-
-void ParameterSet::add(std::string path, Vec3& variable, Range range, std::string unit, std::string doc) {
-  Parameter row = row_for(std::move(path), variable, ParameterKind::vector3, std::move(doc));
-  row.range = range;
-  row.unit = std::move(unit);
-  add(std::move(row));
-}
-
-void ParameterSet::add(std::string path, std::string& variable, std::string doc) {
-  add(row_for(std::move(path), variable, ParameterKind::text, std::move(doc)));
-}
-
-void ParameterSet::add(std::string path, std::string& variable, std::vector<std::string> names, std::string doc) {
-  Parameter row = row_for(std::move(path), variable, ParameterKind::choice, std::move(doc));
-  row.names = std::move(names);
-  add(std::move(row));
-}
-
-void ParameterSet::add(std::string path, std::vector<std::string>& variable, std::string doc) {
-  add(row_for(std::move(path), variable, ParameterKind::text_list, std::move(doc)));
-}
-
 Parameter& ParameterSet::add(Parameter parameter) {
-  if (!index_.emplace(parameter.path, rows_.size()).second)
+  if (former_.count(parameter.path) > 0 || !index_.emplace(parameter.path, rows_.size()).second)
     throw InternalError("parameter '" + parameter.path + "' is declared twice");
   rows_.push_back(std::move(parameter));
   return rows_.back();
 }
 
+void ParameterSet::add_former_path(std::string former, std::string path) {
+  if (index_.count(former) > 0) throw InternalError("parameter '" + former + "' is declared twice");
+  former_[std::move(former)].push_back(std::move(path));
+}
+
 const Parameter* ParameterSet::find(std::string_view path) const {
   const auto it = index_.find(path);
   return it == index_.end() ? nullptr : &rows_[it->second];
+}
+
+const std::vector<std::string>* ParameterSet::renamed(std::string_view path) const {
+  const auto it = former_.find(path);
+  return it == former_.end() ? nullptr : &it->second;
+}
+
+std::string ParameterSet::note_of_former(const std::vector<std::string>& used) const {
+  std::string note;
+  for (const auto& [former, present] : former_)
+    if (std::find(used.begin(), used.end(), former) != used.end())
+      note += fmt::format("{}{} for {}", note.empty() ? "parameters have new paths: write " : ", ",
+                          fmt::join(present, " and "), former);
+  return note;
 }
 
 std::string ParameterSet::nearest(std::string_view path) const {

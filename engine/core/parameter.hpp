@@ -1,6 +1,7 @@
 // One declaration a parameter. A row says where it is (dotted path), what it may be (kind, unit, range, names), what it
 // starts as and what it means, and can read and write it. Scene file, --set, script, GUI, sweep and reference go by
-// rows, but for the keys of bodies in a scene file, most of which have none: io/scene reads them.
+// rows, but for the keys of bodies in a scene file, most of which have none: io/scene reads them. Rows of variables are
+// declared through rows.hpp.
 #pragma once
 
 #include <functional>
@@ -41,17 +42,18 @@ struct Parameter {
 
 class ParameterSet {
  public:
-  // Rows bound to a variable, whose present value is the default. `names` of a choice are the allowed words.
-  void add(std::string path, bool& variable, std::string doc);
-  void add(std::string path, int& variable, Range range, std::string unit, std::string doc);
-  void add(std::string path, double& variable, Range range, std::string unit, std::string doc);
-  void add(std::string path, Vec3& variable, Range range, std::string unit, std::string doc);
-  void add(std::string path, std::string& variable, std::string doc);
-  void add(std::string path, std::string& variable, std::vector<std::string> names, std::string doc);
-  void add(std::string path, std::vector<std::string>& variable, std::string doc);
-  Parameter& add(Parameter parameter);  ///< with its own get and set; throws InternalError on a path that exists
+  /// Throws InternalError on a path that exists. Rows of variables are made by rows.hpp.
+  Parameter& add(Parameter parameter);
+  /// A path under which a row stood in earlier versions; one that several rows had stands for each of them. What reads
+  /// paths takes it (see renamed) and writes the present ones. Throws InternalError where it is a row's present path.
+  void add_former_path(std::string former, std::string path);
 
   const Parameter* find(std::string_view path) const;
+  /// The present paths of a former one, in the order in which they were given; null for any other.
+  const std::vector<std::string>* renamed(std::string_view path) const;
+  const std::map<std::string, std::vector<std::string>, std::less<>>& former_paths() const { return former_; }
+  /// What to tell whoever used such paths, each once: which to write instead. "" for none.
+  std::string note_of_former(const std::vector<std::string>& used) const;
   const std::vector<Parameter>& all() const { return rows_; }  ///< in order of declaration
   /// The known path nearest to `path` (edit distance), or "" when none is near.
   std::string nearest(std::string_view path) const;
@@ -61,6 +63,7 @@ class ParameterSet {
  private:
   std::vector<Parameter> rows_;
   std::map<std::string, std::size_t, std::less<>> index_;
+  std::map<std::string, std::vector<std::string>, std::less<>> former_;
 };
 
 /// The value a text stands for: `0.5`, `true`, `[0, -9.81, 0]` (or `0 -9.81 0`), a word, `[a, b]`. Throws InputError

@@ -1,5 +1,14 @@
 // A registry is an ordered, explicit list: one line in a folder's all.cpp adds an algorithm everywhere. (Objects that
 // register themselves are dropped by the linker when they live in a static library and nobody names their file.)
+//
+//   const Registry<LcpSolver>& lcp_solvers() {
+//     static const Registry<LcpSolver> list = [] {
+//       Registry<LcpSolver> all;
+//       IMPINGE_LIST(all, my_solver);      // the line: my_solver.cpp defines Entry<LcpSolver> my_solver()
+//       return all;
+//     }();
+//     return list;
+//   }
 #pragma once
 
 #include <memory>
@@ -41,5 +50,12 @@ std::unique_ptr<Interface> make_named(const Registry<Interface>& registry, std::
   if (found == nullptr) throw InternalError("no registered algorithm is named '" + std::string(name) + "'");
   return found->make();
 }
+
+/// Declares the function `maker` of the namespace around it, which another file defines, and appends what it makes.
+#define IMPINGE_LIST(list, maker)              \
+  do {                                         \
+    extern decltype(list)::value_type maker(); \
+    (list).push_back(maker());                 \
+  } while (false)
 
 }  // namespace impinge

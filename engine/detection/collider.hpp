@@ -9,6 +9,7 @@ namespace impinge {
 
 struct Collider {
   const Shape* shape = nullptr;
+  const SurfaceMesh* surface = nullptr;     ///< the triangles it is looked at as, if they are not a mesh's own
   Pose pose;                                ///< of the body's frame; exact shapes are placed by it
   std::span<const Vec3> vertices;           ///< world positions of a mesh's vertices (empty for exact shapes)
   Aabb bounds;                              ///< world bounds, not inflated
@@ -18,7 +19,7 @@ struct Collider {
   bool self_collision = false;
   double mean_edge = 0.0;  ///< mean edge length of a mesh, metres
 
-  const SurfaceMesh& mesh() const { return *std::get<MeshPointer>(*shape); }
+  const SurfaceMesh& mesh() const { return surface != nullptr ? *surface : *shape->mesh(); }
   /// Velocity of the material point of a rigid body that is at `point` (world).
   Vec3 velocity_at(const Vec3& point) const { return velocity + angular_velocity.cross(point - pose.position); }
   /// Velocity of mesh vertex i.

@@ -64,6 +64,12 @@ double ratio(double value, double scale) {
   return scale > 0.0 ? value / scale : value;
 }
 
+const Entry<Response>& reference_response() {
+  for (const Entry<Response>& entry : responses())
+    if (entry.make()->is_reference()) return entry;
+  throw InternalError("no response is a reference");
+}
+
 /// The larger of two histories, iteration by iteration; what has ended keeps its last value.
 void merge_history(std::vector<double>& into, const std::vector<double>& from) {
   if (from.empty()) return;
@@ -79,6 +85,9 @@ void merge_history(std::vector<double>& into, const std::vector<double>& from) {
 }  // namespace
 
 FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
+  const Entry<Response>& reference = reference_response();
+  const auto response = reference.make();
+  exact_response_ = reference.name;
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     const FrozenGroup& group = step.groups[g];
     ThawedGroup thawed = thaw(group, step.linear_solver);
@@ -89,13 +98,13 @@ FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
     std::string method, why = "no method reaches a finite residual";
     try {
       w_diagonal_.back() = w_diagonal(thawed);
-      method = solve_exactly(g, problem, thawed, exact);
+      method = solve_exactly(*response, g, problem, thawed, exact);
     } catch (const DivergenceError& error) {
       why = error.what();
     }
     if (method.empty() && unsolved_.empty()) unsolved_ = fmt::format("of group {}: {}", g, why);
     exact_.push_back(std::move(exact));
-    if (exact_method_.find(method) == std::string::npos) exact_method_ += (exact_method_.empty() ? "" : ", ") + method;
+    if (exact_solver_.find(method) == std::string::npos) exact_solver_ += (exact_solver_.empty() ? "" : ", ") + method;
     if (unsolved_.empty()) exact_norm_ += energy_product(group, exact_[g], exact_[g]);
   }
   exact_norm_ = unsolved_.empty() ? std::sqrt(exact_norm_) : std::numeric_limits<double>::quiet_NaN();
@@ -103,29 +112,27 @@ FrozenRuler::FrozenRuler(const FrozenStep& step) : step_(step) {
 
 /// The nearest of what there is; the first is near enough unless the problem is ill-posed or too large for it. Returns
 /// what came nearest, "" where nothing came to a finite residual.
-std::string FrozenRuler::solve_exactly(std::size_t g, const ConeProblem& problem, ThawedGroup& thawed,
-                                       GroupAnswer& exact) const {
-  const auto response = find_entry(responses(), "constraint_anticipation")->make();
+std::string FrozenRuler::solve_exactly(const Response& response, std::size_t g, const ConeProblem& problem,
+                                       ThawedGroup& thawed, GroupAnswer& exact) const {
   double best = std::numeric_limits<double>::infinity();
   std::string method;
   for (const bool warm : {true, false})
-    for (const char* name :
-         {"semismooth_newton", "pivoting", "nonsmooth_nonlinear_conjugate_gradient", "projected_gauss_seidel"}) {
-      const auto solver = find_entry(lcp_solvers(), name)->make();
+    for (const Entry<LcpSolver>* entry : reference_solvers()) {
+      const auto solver = entry->make();
       if (!solver->applies(problem).empty() || best <= kExact) continue;
       if (warm)
         thawed.system.lambda = step_.groups[g].system.lambda;
       else
         thawed.system.lambda.assign(problem.q.size(), Vec3::Zero());
-      ResponseSettings settings;
-      settings.lcp = {0.1 * kExact, kMostExactIterations};
-      response->solve(thawed.system, *solver, settings);
+      ResponseContext context;
+      context.lcp = {0.1 * kExact, kMostExactIterations};
+      response.solve(thawed.system, *solver, context);
       const GroupAnswer answer{thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
                                thawed.system.soft_delta};
       const double reached = residual(g, thawed.system);
       if (!(reached < best) || !is_finite(answer)) continue;
       best = reached;
-      method = name;
+      method = entry->name;
       exact = answer;
     }
   return method;
@@ -177,12 +184,12 @@ std::string FrozenRuler::applies(const LcpSolver& solver) const {
 }
 
 FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver,
-                           const ResponseSettings& settings, const FrozenRuler* ruler) {
+                           const ResponseContext& context, const FrozenRuler* ruler) {
   FrozenOutcome outcome;
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     ThawedGroup thawed = thaw(step.groups[g], step.linear_solver);
     WatchedSolver watched(solver);
-    ResponseSettings own = settings;
+    ResponseContext own = context;
     std::vector<double> of_solver, of_loop;
     if (ruler != nullptr) {
       own.lcp.history = &of_solver;

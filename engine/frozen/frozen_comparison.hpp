@@ -34,8 +34,8 @@ struct FrozenVerdict {
 
 class FrozenRuler {
  public:
-  /// Solves the step: constraint anticipation, semismooth Newton (or, where that does not apply or stays short of it,
-  /// what else comes nearest) to 1e-12. The step must outlive this.
+  /// Solves the step to 1e-12 by the reference response, with the first reference solver that gets there, or else with
+  /// the one that comes nearest. The step must outlive this.
   explicit FrozenRuler(const FrozenStep& step);
 
   FrozenVerdict judge(const std::vector<GroupAnswer>& answers) const;
@@ -45,18 +45,19 @@ class FrozenRuler {
   const std::vector<GroupAnswer>& exact() const { return exact_; }
   /// Of which group there is no exact solution, and why; "" if of none. Distances are not known then.
   const std::string& unsolved() const { return unsolved_; }
-  const std::string& exact_method() const { return exact_method_; }
+  const std::string& exact_response() const { return exact_response_; }
+  const std::string& exact_solver() const { return exact_solver_; }
   /// Why a cone solver can't solve every group of the step; "" if it can.
   std::string applies(const LcpSolver& solver) const;
 
  private:
-  std::string solve_exactly(std::size_t group, const ConeProblem& problem, ThawedGroup& thawed,
-                            GroupAnswer& exact) const;
+  std::string solve_exactly(const Response& response, std::size_t group, const ConeProblem& problem,
+                            ThawedGroup& thawed, GroupAnswer& exact) const;
   const std::vector<Mat3>* diagonal(std::size_t group) const;
 
   const FrozenStep& step_;
   std::vector<GroupAnswer> exact_;
-  std::string exact_method_, unsolved_;
+  std::string exact_response_, exact_solver_, unsolved_;
   std::vector<std::vector<Mat3>> w_diagonal_;  // by group and contact; none where W can't be had
   std::vector<double> scale_;                  // m/s, by group
   double exact_norm_ = 0.0;
@@ -64,6 +65,6 @@ class FrozenRuler {
 
 /// Starts each group from the λ that the run started from. `ruler`: if given, the history is taken, which costs time.
 FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, const LcpSolver& solver,
-                           const ResponseSettings& settings, const FrozenRuler* ruler = nullptr);
+                           const ResponseContext& context, const FrozenRuler* ruler = nullptr);
 
 }  // namespace impinge

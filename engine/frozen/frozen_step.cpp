@@ -5,10 +5,24 @@
 #include <cmath>
 
 namespace impinge {
+
 std::size_t FrozenStep::contacts() const {
   std::size_t sum = 0;
   for (const FrozenGroup& group : groups) sum += group.system.contacts.size();
   return sum;
+}
+
+std::string_view FrozenStep::setting(std::string_view path) const {
+  for (const auto& [known, value] : settings)
+    if (known == path) return value;
+  return "";
+}
+
+bool FrozenStep::is_block_diagonal() const {
+  return std::all_of(groups.begin(), groups.end(), [](const FrozenGroup& group) {
+    return std::all_of(group.system.soft.begin(), group.system.soft.end(),
+                       [](const SoftBlock& block) { return block.is_diagonal; });
+  });
 }
 
 bool is_finite(const GroupAnswer& answer) {
@@ -31,12 +45,12 @@ FrozenGroup freeze(const GroupSystem& system) {
   return frozen;
 }
 
-ThawedGroup thaw(const FrozenGroup& group, const std::string& linear_solver) {
+ThawedGroup thaw(const FrozenGroup& group, const LinearSolverChoice& linear_solver) {
   ThawedGroup thawed;
   thawed.system = group.system;
   for (std::size_t s = 0; s < group.matrices.size(); ++s) {
     const BlockMatrix& a = group.matrices[s];
-    thawed.solvers.push_back(make_linear_solver(linear_solver, a.rows(), kContactRightHandSides));
+    thawed.solvers.push_back(linear_solver.make(a.rows(), kContactRightHandSides));
     thawed.solvers.back()->analyze(*a.pattern);
     thawed.system.soft[s].a = &a;
     thawed.system.soft[s].solver = thawed.solvers.back().get();

@@ -32,16 +32,20 @@ struct FrozenGroup {
 };
 
 struct FrozenStep {
-  std::string scene;                                     ///< name of its file
-  int frame = 0;                                         ///< its last sub-step
-  double time = 0.0, time_step = 0.0;                    ///< s, at the sub-step's start; Δt
-  Vec3 gravity = Vec3::Zero();                           ///< m/s²
-  std::string integrator, linear_solver, response, lcp;  ///< registered names, or "automatic"
-  ResponseSettings settings;
-  std::vector<std::string> bodies;  ///< names, scene order
+  std::string scene;                   ///< name of its file
+  int frame = 0;                       ///< its last sub-step
+  double time = 0.0, time_step = 0.0;  ///< s, at the sub-step's start; Δt
+  Vec3 gravity = Vec3::Zero();         ///< m/s²
+  std::vector<RowText> settings;       ///< every parameter of the model by path, those of methods too
+  LinearSolverChoice linear_solver;    ///< of A, as the settings have it
+  std::vector<std::string> bodies;     ///< names, scene order
   std::vector<FrozenGroup> groups;
 
   std::size_t contacts() const;
+  /// The value of a setting as text, "" for a path that isn't there.
+  std::string_view setting(std::string_view path) const;
+  /// Whether A is block diagonal in every deformable body.
+  bool is_block_diagonal() const;
 };
 
 /// A group ready to be solved: the system refers to the frozen matrices, which must outlive it, and to solvers of its
@@ -53,8 +57,7 @@ struct ThawedGroup {
 
 /// Copies the system, matrices included.
 FrozenGroup freeze(const GroupSystem& system);
-/// `linear_solver`: a registered name or "automatic", the run's choice by number of unknowns.
-ThawedGroup thaw(const FrozenGroup& group, const std::string& linear_solver);
+ThawedGroup thaw(const FrozenGroup& group, const LinearSolverChoice& linear_solver);
 
 /// x^T A y over all bodies of the group, J: twice the kinetic (and, by the integrator, elastic) energy of a change of
 /// velocity.

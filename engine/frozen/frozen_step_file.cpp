@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -12,7 +13,7 @@ namespace impinge {
 namespace {
 
 constexpr std::string_view kMagic = "impinge frozen step\n";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3, kOldest = 2;
 constexpr std::size_t kHead = kMagic.size() + 24;
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
@@ -216,20 +217,57 @@ FrozenGroup read_group(Reader& in, std::int64_t bodies) {
   return group;
 }
 
-/// What responses with a law of their own were set to.
-void read_laws(Reader& in, ResponseSettings& s) {
-  constexpr std::int64_t kEnd = std::int64_t{1} << 31;
-  s.max_push_out = in.positive("the fastest recovery", true),
-  s.restitution_threshold = in.positive("the slowest bounce", true);
-  s.impulse_iterations = in.index("sweeps", 0, kEnd);
-  const std::size_t at = in.at();
-  s.penalty_form = in.text();
-  if (s.penalty_form != "implicit" && s.penalty_form != "explicit")
-    in.fail(at, fmt::format("form '{}'", s.penalty_form), "implicit or explicit is wanted");
-  s.penalty_stiffness = in.positive("a stiffness", true), s.penalty_damping = in.positive("a damping", true);
-  s.penalty_slip_speed = in.positive("the full friction's speed", false);
-  s.soft_frequency = in.positive("a frequency", false), s.soft_damping_ratio = in.positive("a damping ratio", true);
-  s.soft_iterations = in.index("sweeps", 0, kEnd), s.soft_relax_iterations = in.index("sweeps", 0, kEnd);
+bool is_path(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  });
+}
+
+/// Lines `path = value`. What a value may be is known where the rows are.
+std::vector<RowText> read_settings(Reader& in) {
+  std::vector<RowText> settings;
+  const std::size_t start = in.at();
+  const std::string text = in.text();
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    const std::size_t equals = line.find(" = ");
+    if (equals == std::string::npos || !is_path(std::string_view(line).substr(0, equals)))
+      in.fail(start + 4 + begin, "a setting of another form", "path = value is wanted");
+    settings.emplace_back(line.substr(0, equals), line.substr(equals + 3));
+    begin = end + 1;
+  }
+  return settings;
+}
+
+/// Of version 2, whose settings stood in an order of their own: by the paths that the rows had then.
+std::vector<RowText> read_settings_2(Reader& in) {
+  std::vector<RowText> settings;
+  const auto text = [&](const char* path) { settings.emplace_back(path, in.text()); };
+  const auto real = [&](const char* path) { settings.emplace_back(path, shortest(in.get<double>())); };
+  const auto whole = [&](const char* path) {
+    settings.emplace_back(path, std::to_string(in.index("a number of iterations", 0, std::int64_t{1} << 31)));
+  };
+  text("simulation.integrator"), text("simulation.linear_solver"), text("response.method"), text("response.form");
+  text("response.stop"), text("lcp.method"), real("lcp.tolerance"), whole("lcp.max_iterations");
+  whole("response.max_iterations"), real("contact.max_push_out"), real("contact.restitution_threshold");
+  whole("response.impulse_iterations"), text("response.penalty_form"), real("response.penalty_stiffness");
+  real("response.penalty_damping"), real("response.penalty_slip_speed"), real("response.soft_frequency");
+  real("response.soft_damping_ratio"), whole("response.soft_iterations"), whole("response.soft_relax_iterations");
+  return settings;
+}
+
+/// What is unknown to this build but one that others have gives way to the automatic one: the same answer to rounding.
+LinearSolverChoice linear_solver_of(Reader& in, std::size_t at, std::vector<RowText>& settings) {
+  for (auto& [path, value] : settings) {
+    if (path != "simulation.linear_solver") continue;
+    if (value == "cholmod" && find_entry(linear_solvers(), value) == nullptr) value = LinearSolverChoice().name();
+    const std::vector<std::string> known = LinearSolverChoice().names();
+    if (std::find(known.begin(), known.end(), value) == known.end())
+      in.fail(at, fmt::format("linear solver '{}'", value), "see impinge list linear_solvers");
+    return LinearSolverChoice(value);
+  }
+  return {};
 }
 
 }  // namespace
@@ -238,16 +276,9 @@ void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step
   LittleEndianWriter out, head;
   out.put_text(step.scene), out.put(std::int32_t{step.frame}), out.put(step.time), out.put(step.time_step),
       out.put(step.gravity);
-  out.put_text(step.integrator), out.put_text(step.linear_solver), out.put_text(step.response),
-      out.put_text(step.settings.form);
-  out.put_text(step.settings.stop), out.put_text(step.lcp), out.put(step.settings.lcp.tolerance);
-  out.put(std::int32_t{step.settings.lcp.max_iterations}), out.put(std::int32_t{step.settings.max_outer_iterations});
-  const ResponseSettings& s = step.settings;
-  out.put(s.max_push_out), out.put(s.restitution_threshold), out.put(std::int32_t{s.impulse_iterations}),
-      out.put_text(s.penalty_form);
-  out.put(s.penalty_stiffness), out.put(s.penalty_damping), out.put(s.penalty_slip_speed), out.put(s.soft_frequency),
-      out.put(s.soft_damping_ratio);
-  out.put(std::int32_t{s.soft_iterations}), out.put(std::int32_t{s.soft_relax_iterations});
+  std::string settings;
+  for (const auto& [path, value] : step.settings) settings += fmt::format("{} = {}\n", path, value);
+  out.put_text(settings);
   out.put_count(step.bodies.size());
   for (const std::string& name : step.bodies) out.put_text(name);
   out.put_count(step.groups.size());
@@ -262,9 +293,10 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   Reader in(path.string(), bytes, std::min(kMagic.size(), bytes.size()));
   if (std::string_view(bytes).substr(0, kMagic.size()) != kMagic)
     in.fail(0, "the file is no frozen step", "'impinge frozen step' is wanted at its beginning");
-  if (const auto version = in.get<std::uint32_t>(); version != kVersion)
+  const auto version = in.get<std::uint32_t>();
+  if (version != kVersion && version != kOldest)
     in.fail(kMagic.size(), fmt::format("version {} of the format", version),
-            fmt::format("version {} is wanted", kVersion));
+            fmt::format("version {} or {} is wanted", kOldest, kVersion));
   if (in.get<std::uint32_t>() != 0) in.fail(kMagic.size() + 4, "the file is damaged", "0 is wanted here");
   const auto length = in.get<std::uint64_t>(), checksum = in.get<std::uint64_t>();
   if (bytes.size() - kHead != length)
@@ -278,21 +310,9 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   FrozenStep step;
   step.scene = in.text(), step.frame = in.index("the frame", 0, std::int64_t{1} << 31), step.time = in.get<double>();
   step.time_step = in.positive("Δt", false), step.gravity = in.vec3();
-  step.integrator = in.text();
-  const std::size_t solver_at = in.at();
-  step.linear_solver = in.text();
-  // a solver that this build lacks: the automatic one gives the same answer to rounding
-  if (step.linear_solver != "automatic" && find_entry(linear_solvers(), step.linear_solver) == nullptr) {
-    if (step.linear_solver != "cholmod")
-      in.fail(solver_at, fmt::format("linear solver '{}'", step.linear_solver), "see impinge list parameters");
-    step.linear_solver = "automatic";
-  }
-  step.response = in.text(), step.settings.form = in.text(), step.settings.stop = in.text(), step.lcp = in.text();
-  step.settings.lcp.tolerance = in.positive("the tolerance", true);
-  step.settings.lcp.max_iterations = in.index("max_iterations", 0, std::int64_t{1} << 31);
-  step.settings.max_outer_iterations = in.index("max_iterations", 0, std::int64_t{1} << 31);
-  read_laws(in, step.settings);
-  step.settings.time_step = step.time_step;
+  const std::size_t settings_at = in.at();
+  step.settings = version == kVersion ? read_settings(in) : read_settings_2(in);
+  step.linear_solver = linear_solver_of(in, settings_at, step.settings);
   for (std::size_t n = in.count("bodies", 4); n > 0; --n) step.bodies.push_back(in.text());
   for (std::size_t n = in.count("groups", 12); n > 0; --n)
     step.groups.push_back(read_group(in, static_cast<std::int64_t>(step.bodies.size())));

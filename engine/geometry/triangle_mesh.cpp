@@ -49,6 +49,13 @@ MeshTopology make_topology(const TriangleMesh& mesh) {
   return topology;
 }
 
+MeshPointer make_surface(TriangleMesh mesh) {
+  auto surface = std::make_shared<SurfaceMesh>();
+  surface->mesh = std::move(mesh);
+  surface->topology = make_topology(surface->mesh);
+  return surface;
+}
+
 double mean_edge_length(const TriangleMesh& mesh) {
   double sum = 0.0;
   for (const Triangle& t : mesh.triangles)

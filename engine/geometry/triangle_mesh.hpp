@@ -1,6 +1,8 @@
 // A triangle surface and its connectivity.
 #pragma once
 
+#include <memory>
+
 #include "engine/core/types.hpp"
 
 namespace impinge {
@@ -28,6 +30,16 @@ struct MeshTopology {
 };
 
 MeshTopology make_topology(const TriangleMesh& mesh);
+
+/// A surface ready for contact, shared by all that are made from the same source.
+struct SurfaceMesh {
+  TriangleMesh mesh;
+  MeshTopology topology;
+};
+using MeshPointer = std::shared_ptr<const SurfaceMesh>;
+
+/// The mesh with its topology.
+MeshPointer make_surface(TriangleMesh mesh);
 
 /// Mean edge length over all triangles' edges, metres; 0 for no triangles.
 double mean_edge_length(const TriangleMesh& mesh);

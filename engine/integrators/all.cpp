@@ -1,16 +1,17 @@
-// The list of integrators: one line each.
+// The list of integrators: one line each. The first is the default.
 #include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
 
-Entry<DeformableIntegrator> deformable_linearly_implicit_euler();
-Entry<DeformableIntegrator> deformable_implicit_euler();
-Entry<DeformableIntegrator> deformable_newmark();
-Entry<DeformableIntegrator> deformable_symplectic_euler();
-
-const Registry<DeformableIntegrator>& deformable_integrators() {
-  static const Registry<DeformableIntegrator> list = {deformable_linearly_implicit_euler(), deformable_implicit_euler(),
-                                                      deformable_newmark(), deformable_symplectic_euler()};
+const Registry<DeformableIntegrator>& integrators() {
+  static const Registry<DeformableIntegrator> list = [] {
+    Registry<DeformableIntegrator> all;
+    IMPINGE_LIST(all, linearly_implicit_euler_integrator);
+    IMPINGE_LIST(all, implicit_euler_integrator);
+    IMPINGE_LIST(all, newmark_integrator);
+    IMPINGE_LIST(all, symplectic_euler_integrator);
+    return all;
+  }();
   return list;
 }
 

@@ -5,6 +5,13 @@
 
 namespace impinge {
 
+void NewtonSettings::declare(const Rows& rows) {
+  rows.add("tolerance", tolerance, {1e-15, 1.0, true}, "",
+           "Newton's method ends where the residual is this part of the momenta and impulses that make it up.");
+  rows.add("max_iterations", max_iterations, {1, 1000000, true}, "",
+           "Newton iterations at most, of a body by itself and of a group in contact, each sub-step.");
+}
+
 VecX applied_force(const DeformableBody& body, const Vec3& gravity) {
   VecX f = body.external_force;
   for (int i = 0; i < body.nodes(); ++i) f.segment<3>(3 * i) += body.fem.node_mass()[i] * gravity;
@@ -88,7 +95,7 @@ void DeformableIntegrator::linearize(DeformableBody& body, const VecX& v, Deform
 }
 
 void DeformableIntegrator::free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const {
-  newton_solve(body, step, solver, newton);
+  newton_solve(body, step, solver, *newton());
 }
 
 void DeformableIntegrator::advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const {

@@ -1,5 +1,6 @@
 // Time integration of deformable bodies: what the velocity of a sub-step has to satisfy, A v = b, and what it does to
-// the positions, Δq(v). [Haapaoja16 §2.1]
+// the positions, Δq(v). For rigid bodies, where A = M and b = M v + Δt f, all schemes are the same map (rigid_motion.hpp).
+// [Haapaoja16 §2.1]
 //
 // Every implicit scheme here is the root of one residual, over the nodes that aren't held:
 //   g(v) = M (v − v̂) + τ (D v − f(x₀ + Δq(v)) − f_ext),   Δq(v) = s v + d,   D = α M + β K(x₀)
@@ -11,6 +12,7 @@
 
 #include "engine/algebra/linear_solver.hpp"
 #include "engine/bodies/deformable_body.hpp"
+#include "engine/core/method.hpp"
 
 namespace impinge {
 
@@ -41,33 +43,32 @@ struct DeformableStep {
   VecX position(const VecX& v) const { return start + s * v + offset; }
 };
 
+/// Of the schemes that are solved to the root of g.
 struct NewtonSettings {
   double tolerance = 1e-6;  ///< on ‖g‖ relative to the forces and momenta that make it up
   int max_iterations = 50;
-  int max_line_search = 30;  ///< halvings of a step that doesn't lower the incremental potential
+
+  void declare(const Rows& rows);
 };
 
-class DeformableIntegrator {
+class DeformableIntegrator : public Method {
  public:
-  virtual ~DeformableIntegrator() = default;
   /// Opens a sub-step of h seconds: x₀, v̂, τ, s, d, and K(x₀) where it is needed. gravity: m/s².
   virtual void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const = 0;
   /// A and b at the velocity v of the free nodes.
   virtual void linearize(DeformableBody& body, const VecX& v, DeformableStep& step) const;
-  /// v* and the A and b it was last solved with. `solver` must have been analyzed with body.free_pattern().
+  /// v* and the A and b it was last solved with, by Newton's method unless overridden. `solver` must have been analyzed with body.free_pattern().
   virtual void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const;
   /// Closes the sub-step with the velocity v of the free nodes (v* or what contact made of it).
   virtual void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const;
-  /// Whether free_velocity iterates to the root of g, so that contact has to be solved in each of its iterations.
-  virtual bool is_newton() const { return false; }
+  /// Of a scheme whose free_velocity iterates to the root of g, so that contact has to be solved in each of its
+  /// iterations; null for others.
+  virtual const NewtonSettings* newton() const { return nullptr; }
   /// Whether A = M: with lumped mass its blocks stand alone.
   virtual bool is_explicit() const { return false; }
-
-  NewtonSettings newton;
-  double newmark_beta = 0.25, newmark_gamma = 0.5;
 };
 
-const Registry<DeformableIntegrator>& deformable_integrators();
+const Registry<DeformableIntegrator>& integrators();
 
 // What the schemes share.
 /// Sets x₀, f(x₀), K(x₀) where `with_stiffness`, and the motion of held nodes; the caller has set h, τ, s, v̂ and d.

@@ -11,6 +11,8 @@
 namespace impinge {
 namespace {
 
+constexpr int kHalvings = 30;  // of a step that does not lower the incremental potential, at most
+
 class IncrementalPotential {
  public:
   IncrementalPotential(DeformableBody& body, const DeformableStep& step)
@@ -90,7 +92,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
     bool lowered = false;
     VecX trial = v;
     double length = 1.0;
-    for (int i = 0; i <= settings.max_line_search && !lowered; ++i, length *= 0.5) {
+    for (int i = 0; i <= kHalvings && !lowered; ++i, length *= 0.5) {
       body.scatter_free(v_free + length * direction, trial);
       const double after = potential.value(trial);
       // close to the solution the fall is below the rounding of φ: then the full step is right

@@ -28,6 +28,7 @@ constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost besid
 
 class Automatic : public LcpSolver {
  public:
+  bool chooses_by_problem() const override { return true; }
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     const std::size_t n = lambda.size();

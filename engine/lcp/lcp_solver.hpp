@@ -1,6 +1,7 @@
 // A solver of the cone complementarity problem. No solver scores itself: residual.hpp is the judge.
 #pragma once
 
+#include "engine/core/method.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/lcp/residual.hpp"
 
@@ -30,15 +31,21 @@ struct LcpResult {
   bool solved() const { return reason == StopReason::converged || reason == StopReason::trivial; }
 };
 
-class LcpSolver {
+class LcpSolver : public Method {
  public:
-  virtual ~LcpSolver() = default;
   /// Improves `lambda` (in: start, out: answer, N·s; entry i lies in its cone).
   virtual LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const = 0;
   /// Why the method can't solve this problem; "" if it can. What it can't solve it refuses.
   virtual std::string applies(const ConeProblem&) const { return ""; }
+  /// Whether it only chooses among other methods, by what the problem is like.
+  virtual bool chooses_by_problem() const { return false; }
+  /// Where answers to rounding are wanted, such methods are tried in this order; 0: no such method.
+  virtual int reference_rank() const { return 0; }
 };
 
 const Registry<LcpSolver>& lcp_solvers();
+
+/// Those for answers to rounding, the best first.
+std::vector<const Entry<LcpSolver>*> reference_solvers();
 
 }  // namespace impinge

@@ -14,6 +14,7 @@ namespace {
 
 class NonsmoothNonlinearConjugateGradient : public LcpSolver {
  public:
+  int reference_rank() const override { return 3; }
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     const std::size_t n = lambda.size();

@@ -158,6 +158,7 @@ class Tableau {
 
 class Pivoting : public LcpSolver {
  public:
+  int reference_rank() const override { return 2; }
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     if (!applies(problem).empty()) return {0, StopReason::refused};

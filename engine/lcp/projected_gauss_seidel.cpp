@@ -10,6 +10,7 @@ namespace {
 
 class ProjectedGaussSeidel : public LcpSolver {
  public:
+  int reference_rank() const override { return 4; }
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     SweepStop stop(problem, settings);

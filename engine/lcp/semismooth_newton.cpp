@@ -168,6 +168,7 @@ class Search {
 
 class SemismoothNewton : public LcpSolver {
  public:
+  int reference_rank() const override { return 1; }
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     if (!applies(problem).empty()) return {0, StopReason::refused};

@@ -3,16 +3,17 @@
 
 namespace impinge {
 
-Entry<Material> linear_material();
-Entry<Material> corotational_material();
-Entry<Material> fixed_corotated_material();
-Entry<Material> stvk_material();
-Entry<Material> neo_hookean_material();
-Entry<Material> mass_spring_material();
-
 const Registry<Material>& materials() {
-  static const Registry<Material> list = {linear_material(), corotational_material(), fixed_corotated_material(),
-                                          stvk_material(),   neo_hookean_material(),  mass_spring_material()};
+  static const Registry<Material> list = [] {
+    Registry<Material> all;
+    IMPINGE_LIST(all, linear_material);
+    IMPINGE_LIST(all, corotational_material);
+    IMPINGE_LIST(all, fixed_corotated_material);
+    IMPINGE_LIST(all, stvk_material);
+    IMPINGE_LIST(all, neo_hookean_material);
+    IMPINGE_LIST(all, mass_spring_material);
+    return all;
+  }();
   return list;
 }
 

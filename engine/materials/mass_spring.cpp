@@ -18,14 +18,6 @@ namespace {
 
 class MassSpring : public Material {
  public:
-  void configure(const MaterialSettings& settings) override {
-    Material::configure(settings);
-    const bool volume_springs = settings.poisson > 0.25;
-    edge_modulus_ = volume_springs ? 2.5 * settings.mu() : settings.young;
-    volume_modulus_ = volume_springs ? settings.lambda() - settings.mu() : 0.0;
-  }
-  MassSpring() { configure(MaterialSettings{}); }
-
   double energy(const TetRest& rest, const Corners& x) const override {
     double sum = 0.0;
     for (int e = 0; e < 6; ++e) {
@@ -33,7 +25,7 @@ class MassSpring : public Material {
       sum += 0.5 * spring(rest, e) * stretch * stretch;
     }
     const double dj = deformation_gradient(rest, x).determinant() - 1.0;
-    return sum + 0.5 * volume_modulus_ * rest.volume * dj * dj;
+    return sum + 0.5 * volume_modulus() * rest.volume * dj * dj;
   }
 
   void force(const TetRest& rest, const Corners& x, ElementResponse& out) const override {
@@ -48,9 +40,9 @@ class MassSpring : public Material {
       out.force.col(a) -= pull;
       out.force.col(b) += pull;
     }
-    if (volume_modulus_ == 0.0) return;
+    if (volume_modulus() == 0.0) return;
     const Mat3 f = deformation_gradient(rest, x);
-    out.force.noalias() -= volume_modulus_ * rest.volume * (f.determinant() - 1.0) * (cofactor(f) * rest.gradient);
+    out.force.noalias() -= volume_modulus() * rest.volume * (f.determinant() - 1.0) * (cofactor(f) * rest.gradient);
   }
 
   void response(const TetRest& rest, const Corners& x, Tangent tangent, ElementResponse& out) const override {
@@ -77,10 +69,10 @@ class MassSpring : public Material {
         if (at_a && at_b) out.stiffness[i] += a == b ? block[e] : Mat3(-block[e]);
       }
     }
-    if (volume_modulus_ == 0.0) return;
+    if (volume_modulus() == 0.0) return;
     const Mat3 f = deformation_gradient(rest, x);
     const Corners g = cofactor(f) * rest.gradient;
-    const double scale = volume_modulus_ * rest.volume, dj = f.determinant() - 1.0;
+    const double scale = volume_modulus() * rest.volume, dj = f.determinant() - 1.0;
     for (int i = 0; i < 10; ++i) {
       const int a = kBlockRow[i], b = kBlockColumn[i];
       out.stiffness[i] += scale * g.col(a) * g.col(b).transpose();
@@ -91,9 +83,14 @@ class MassSpring : public Material {
   }
 
  private:
+  bool has_volume_springs() const { return settings().poisson > 0.25; }
+  /// C/6, Pa.
+  double edge_modulus() const { return has_volume_springs() ? 2.5 * settings().mu() : settings().young; }
+  /// λ − μ where springs alone don't reach it, Pa.
+  double volume_modulus() const { return has_volume_springs() ? settings().lambda() - settings().mu() : 0.0; }
   /// k = C V/(6 l²), N/m.
   double spring(const TetRest& rest, int e) const {
-    return edge_modulus_ * rest.volume / (rest.edge_length[e] * rest.edge_length[e]);
+    return edge_modulus() * rest.volume / (rest.edge_length[e] * rest.edge_length[e]);
   }
   /// ∂ det F/∂F.
   static Mat3 cofactor(const Mat3& f) {
@@ -108,9 +105,6 @@ class MassSpring : public Material {
     m << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
     return m;
   }
-
-  double edge_modulus_ = 0.0;    // C/6, Pa
-  double volume_modulus_ = 0.0;  // λ − μ where springs alone don't reach it, Pa
 };
 
 }  // namespace

@@ -2,6 +2,14 @@
 
 namespace impinge {
 
+void Material::declare(const Rows& rows) {
+  rows.add("young", settings_.young, {1e-3, 1e15, true}, "Pa", "Young's modulus.");
+  rows.add("poisson", settings_.poisson, {0.0, 0.4999}, "", "Poisson's ratio.");
+  rows.add("tangent", settings_.tangent,
+           {{Tangent::automatic, "automatic"}, {Tangent::exact, "exact"}, {Tangent::projected, "projected"}},
+           "Derivative of the force in linear systems: the material's own choice, exact, or never indefinite.");
+}
+
 TetRest make_tet_rest(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double fraction) {
   Mat3 edges;
   edges << b - a, c - a, d - a;

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "engine/core/method.hpp"
 #include "engine/core/registry.hpp"
 #include "engine/core/types.hpp"
 
@@ -30,10 +31,10 @@ enum class Tangent {
   projected   ///< the exact one with negative eigenvalues of the element set to zero (never indefinite)
 };
 
+/// What every material has; rows of its own a material adds in declare().
 struct MaterialSettings {
-  double young = 1e5;                ///< Young's modulus E, Pa
-  double poisson = 0.45;             ///< Poisson's ratio, in (−1, 0.5)
-  double extension_threshold = 0.1;  ///< neo_hookean: principal stretch below which ln is continued by its quadratic
+  double young = 1e5;                    ///< Young's modulus E, Pa
+  double poisson = 0.45;                 ///< Poisson's ratio, in (−1, 0.5)
   Tangent tangent = Tangent::automatic;  ///< what Tangent::automatic stands for, unless it is automatic itself
 
   double mu() const { return young / (2.0 * (1.0 + poisson)); }                                  ///< Lamé, Pa
@@ -50,11 +51,13 @@ struct ElementResponse {
 inline constexpr std::array<int, 10> kBlockRow = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
 inline constexpr std::array<int, 10> kBlockColumn = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
 
-class Material {
+class Material : public Method {
  public:
-  virtual ~Material() = default;
-  virtual void configure(const MaterialSettings& settings) { settings_ = settings; }
+  MaterialSettings& settings() { return settings_; }
   const MaterialSettings& settings() const { return settings_; }
+  /// Rows of settings(), then the material's own: keys of `material` in a scene, and `body.NAME.material.*`. What is
+  /// derived from settings is to be computed where it is used: rows change them while the body moves.
+  void declare(const Rows& rows) override;
 
   /// J.
   virtual double energy(const TetRest& rest, const Corners& x) const = 0;

@@ -22,6 +22,12 @@ namespace {
 
 class NeoHookean : public IsotropicMaterial {
  public:
+  void declare(const Rows& rows) override {
+    Material::declare(rows);
+    rows.add("extension_threshold", threshold_, {1e-3, 0.9}, "",
+             "neo_hookean: principal stretch below which the logarithm is continued by its quadratic.");
+  }
+
   bool unwinds() const override { return true; }
   double density(const Vec3& s) const override {
     const double log_j = logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2]);
@@ -51,28 +57,30 @@ class NeoHookean : public IsotropicMaterial {
     return settings().lambda() * (logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2])) - settings().mu();
   }
   double logarithm(double s) const {
-    const double e = settings().extension_threshold;
+    const double e = threshold_;
     if (s >= e) return std::log(s);
     const double d = s / e - 1.0;
     return std::log(e) + d - 0.5 * d * d;
   }
   double first(double s) const {
-    const double e = settings().extension_threshold;
+    const double e = threshold_;
     return s >= e ? 1.0 / s : (2.0 - s / e) / e;
   }
   double second(double s) const {
-    const double t = std::max(s, settings().extension_threshold);
+    const double t = std::max(s, threshold_);
     return -1.0 / (t * t);
   }
   /// (L'(a) − L'(b))/(a − b) without the subtraction.
   double slope_quotient(double a, double b) const {
-    const double e = settings().extension_threshold;
+    const double e = threshold_;
     if (a < b) std::swap(a, b);
     if (b >= e) return -1.0 / (a * b);
     if (a <= e) return -1.0 / (e * e);
     const double above = a - e, below = e - b;
     return -(above / (e * a) + below / (e * e)) / (above + below);
   }
+
+  double threshold_ = 0.1;
 };
 
 }  // namespace

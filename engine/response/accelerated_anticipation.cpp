@@ -11,8 +11,8 @@
 // without friction that is a majorise-minimise scheme on a convex problem. Two stacked 0.2 m cubes of 4³ and 3³ cells,
 // mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule alone 39 / 50 / 46 s,
 // factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have nodes, the
-// sweeps carry impulse along the null space of J: see follow_drift; where that stalls multiplier_newton.cpp ends it, or
-// where contacts are few conjugate_columns.cpp.
+// sweeps carry impulse along the null space of J: see follow_drift; where that stalls augmented_lagrangian.cpp ends it, or
+// where contacts are few delassus_columns.cpp.
 //
 // The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold:
 // a resting group is recognized, and no work is spent on a λ that is far off.
@@ -23,9 +23,9 @@
 
 #include "engine/contact/friction_cone.hpp"
 #include "engine/core/interrupt.hpp"
-#include "engine/response/conjugate_columns.hpp"
-#include "engine/response/multiplier_newton.hpp"
-#include "engine/response/operators/split_rows.hpp"
+#include "engine/response/augmented_lagrangian.hpp"
+#include "engine/response/delassus_columns.hpp"
+#include "engine/response/operators/splitting_delassus.hpp"
 
 namespace impinge {
 namespace {
@@ -53,17 +53,24 @@ double inner(const Vectors& a, const Vectors& b) {
 
 class Solver {
  public:
-  Solver(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver, const ResponseSettings& settings)
-      : group_(group), base_(base), solver_(solver), settings_(settings), scale_(velocity_scale(base)) {
+  Solver(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver, const AnticipationSettings& settings,
+         const ResponseContext& context)
+      : group_(group),
+        base_(base),
+        solver_(solver),
+        settings_(settings),
+        context_(context),
+        by_change_(settings.stop == AnticipationSettings::Stop::change && !context.recovers_overlap),
+        scale_(velocity_scale(base)) {
     for (const SoftBlock& block : group.soft) inverse_.emplace_back(block);
-    rows_ = std::make_unique<SplitRows>(group, inverse_, base.q);
+    rows_ = std::make_unique<SplittingDelassus>(group, inverse_, base.q);
     for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
       for (const SoftBlock& block : group.soft) v->push_back(VecX::Zero(block.velocity.size()));
   }
 
   ResponseResult run() {
     ResponseResult result;
-    const double tolerance = settings_.lcp.tolerance * scale_;
+    const double tolerance = context_.lcp.tolerance * scale_;
     rows_->move_rigid(group_.lambda);
     rows_->impulses(group_.lambda, f_);
     start(tolerance);
@@ -71,7 +78,7 @@ class Solver {
     double before = -1.0, momentum = momentum_residual();
     show();
     bool converged = momentum <= tolerance && rows_->natural_residual(group_.lambda, x_) <= tolerance;
-    while (!converged && result.outer_iterations < settings_.max_outer_iterations) {
+    while (!converged && result.outer_iterations < settings_.max_iterations) {
       for (std::size_t s = 0; s < x_.size(); ++s) {
         std::swap(last_[s], x_[s]);
         std::swap(a_last_[s], a_x_[s]);
@@ -95,7 +102,7 @@ class Solver {
       }
       momentum = momentum_residual();
       show();
-      if (settings_.stop == "change") {
+      if (by_change_) {
         const double size = momentum_norm();
         converged = size == 0.0 || (before >= 0.0 && std::abs(size - before) < kSeedChange * before);
         before = size;
@@ -105,13 +112,13 @@ class Solver {
       if (converged) break;
       if (is_stalled(std::max(momentum, change), result.outer_iterations)) {
         result.ended = StopReason::stagnated;
-        return settings_.stop == "change" ? finish(result) : finish_otherwise(result, tolerance);
+        return by_change_ ? finish(result) : finish_otherwise(result, tolerance);
       }
       drifting_ = momentum <= std::max(tolerance, 0.1 * change) ? drifting_ + 1 : 0;
       if (drifting_ == kDrift) follow_drift();
       choose_next(result.outer_iterations);
     }
-    if (!converged) result.ended = StopReason::iteration_cap, result.limit = kOuterLimit;
+    if (!converged) result.ended = StopReason::iteration_cap, result.limit = settings_.limit;
     return finish(result);
   }
 
@@ -127,7 +134,7 @@ class Solver {
     const GroupOperator a(group_);
     VecX x = a.load(group_);
     if (rows_of(base_).size() <= kFewRows) {
-      const ColumnsResult columns = solve_by_columns(a, base_, solver_, tolerance, group_, x);
+      const DelassusColumnsResult columns = solve_by_delassus_columns(a, base_, solver_, tolerance, group_, x);
       result.iterations += columns.iterations;
       result.outer_iterations += columns.solves;
       if (columns.converged) {
@@ -135,7 +142,7 @@ class Solver {
         return store(result, a, x);
       }
     }
-    const MultipliersResult rest = solve_by_multipliers(a, base_, tolerance, group_, x);
+    const AugmentedLagrangianResult rest = solve_by_augmented_lagrangian(a, base_, tolerance, group_, x);
     result.iterations += rest.newton_steps;
     result.outer_iterations += rest.multiplier_steps;
     result.ended = rest.converged ? StopReason::converged : StopReason::stagnated;
@@ -144,7 +151,7 @@ class Solver {
 
   ResponseResult store(ResponseResult result, const GroupOperator& a, const VecX& x) {
     a.store(x, group_);
-    if (settings_.observe) settings_.observe(group_);
+    if (context_.observe) context_.observe(group_);
     return result;
   }
 
@@ -180,9 +187,9 @@ class Solver {
   }
 
   void show() {
-    if (!settings_.observe) return;
+    if (!context_.observe) return;
     group_.soft_delta = x_;
-    settings_.observe(group_);
+    context_.observe(group_);
   }
 
   bool is_stalled(double error, int iteration) {
@@ -317,10 +324,12 @@ class Solver {
   GroupSystem& group_;
   const ConeProblem& base_;
   const LcpSolver& solver_;
-  const ResponseSettings& settings_;
-  const double scale_;  // m/s, what residuals are relative to
+  const AnticipationSettings& settings_;
+  const ResponseContext& context_;
+  const bool by_change_;  // stops by the seed's rule
+  const double scale_;    // m/s, what residuals are relative to
   std::vector<NodeInverse> inverse_;
-  std::unique_ptr<SplitRows> rows_;
+  std::unique_ptr<SplittingDelassus> rows_;
   Vectors x_, last_, y_, a_x_, a_last_, a_y_, f_, r_, step_;
   Vectors d_, a_d_;            // last step of y, and A times it
   std::vector<Vec3> earlier_;  // λ before the last sweeps
@@ -338,8 +347,8 @@ class Solver {
 }  // namespace
 
 ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver,
-                                 const ResponseSettings& settings) {
-  return Solver(group, base, solver, settings).run();
+                                 const AnticipationSettings& settings, const ResponseContext& context) {
+  return Solver(group, base, solver, settings, context).run();
 }
 
 }  // namespace impinge

@@ -5,10 +5,17 @@
 
 namespace impinge {
 
+struct AnticipationSettings {
+  enum class Form { accelerated, seed } form = Form::accelerated;
+  enum class Stop { residual, change } stop = Stop::residual;
+  int max_iterations = 2000;  ///< of the outer loop
+  std::string limit;          ///< the path of max_iterations
+};
+
 /// Fills group.lambda and the Δv; group.lambda holds the start. For groups with deformable bodies. `solver`: of the few
 /// rows that are left where the sweeps stall.
 ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver,
-                                 const ResponseSettings& settings);
+                                 const AnticipationSettings& settings, const ResponseContext& context);
 
 /// The parameter that bounds the outer iterations of either form.
 constexpr std::string_view kOuterLimit = "response.max_iterations";

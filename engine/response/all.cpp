@@ -1,22 +1,19 @@
-// The list of collision responses: one line each.
+// The list of collision responses: one line each. The first is the default.
 #include "engine/response/response.hpp"
 
 namespace impinge {
 
-Entry<Response> constraint_anticipation_response();
-Entry<Response> iterative_constraint_anticipation_response();
-Entry<Response> penalty_response();
-Entry<Response> sequential_impulse_response();
-Entry<Response> simultaneous_impulse_response();
-Entry<Response> soft_constraint_response();
-
 const Registry<Response>& responses() {
-  static const Registry<Response> list = {constraint_anticipation_response(),
-                                          iterative_constraint_anticipation_response(),
-                                          penalty_response(),
-                                          sequential_impulse_response(),
-                                          simultaneous_impulse_response(),
-                                          soft_constraint_response()};
+  static const Registry<Response> list = [] {
+    Registry<Response> all;
+    IMPINGE_LIST(all, constraint_anticipation_response);
+    IMPINGE_LIST(all, iterative_constraint_anticipation_response);
+    IMPINGE_LIST(all, penalty_response);
+    IMPINGE_LIST(all, sequential_impulse_response);
+    IMPINGE_LIST(all, simultaneous_impulse_response);
+    IMPINGE_LIST(all, soft_constraint_response);
+    return all;
+  }();
   return list;
 }
 

@@ -13,7 +13,10 @@ namespace {
 
 class ConstraintAnticipation : public Response {
  public:
-  ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const override {
+  bool uses_cone_solver() const override { return true; }
+  bool is_reference() const override { return true; }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseContext& context) const override {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
     // explicit schemes: A of a deformable body is one block a node, and W has factors as for rigid bodies
@@ -21,13 +24,13 @@ class ConstraintAnticipation : public Response {
       const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);
       FactoredDelassus w(group, &inverse);
       problem.w = &w;
-      const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
+      const LcpResult result = solver.solve(problem, context.lcp, group.lambda);
       w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps
       return result_of(result);
     }
     AssembledDelassus w(group);
     problem.w = &w;
-    const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
+    const LcpResult result = solver.solve(problem, context.lcp, group.lambda);
     apply_impulses(group);
     return result_of(result);
   }

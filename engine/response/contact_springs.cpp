@@ -6,7 +6,6 @@
 namespace impinge {
 namespace {
 
-constexpr int kNewtonIterations = 200;
 constexpr int kHalvings = 8;
 constexpr double kInnerTolerance = 1e-2;  // friction is followed step by step anyway: solving each exactly pays nothing
 
@@ -78,7 +77,7 @@ namespace {
 /// Newton's method on A Δv = J^T λ(u) with friction that follows the normal impulse: no potential has these forces, so
 /// steps are measured by what is left. False where none serves; ax and u stay at the best then.
 bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
-                          GroupSystem& group, VecX& ax, std::vector<Vec3>& u, int& steps) {
+                          int max_iterations, GroupSystem& group, VecX& ax, std::vector<Vec3>& u, int& steps) {
   const std::size_t m = law.size();
   std::vector<Vec3> along(m), trial(m);
   std::vector<Mat3> h(m);
@@ -93,7 +92,7 @@ bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& 
   VecX r = left(u, ax);
   double residual = a.norm(r);
   while (residual > tolerance * size) {
-    if (steps == kNewtonIterations) return false;
+    if (steps == max_iterations) return false;
     ++steps;
     for (std::size_t i = 0; i < m; ++i) h[i] = law[i].derivative(u[i]);
     VecX p = VecX::Zero(a.size());
@@ -118,7 +117,7 @@ bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& 
 }  // namespace
 
 SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
-                            GroupSystem& group) {
+                            int max_iterations, GroupSystem& group) {
   const std::size_t m = law.size();
   std::vector<Vec3> u, step(m);
   // what friction goes by: follows the normal impulses, by a part of the way once they swing
@@ -130,7 +129,7 @@ SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>
   SpringsResult result;
   if (std::any_of(law.begin(), law.end(),
                   [](const SpringLaw& l) { return l.kind == RowKind::contact && l.friction > 0.0; }) &&
-      newton_with_friction(a, law, tolerance, group, ax, u, result.iterations))
+      newton_with_friction(a, law, tolerance, max_iterations, group, ax, u, result.iterations))
     return {result.iterations, true};
   while (true) {
     VecX r = VecX::Zero(a.size()), change = VecX::Zero(a.size());
@@ -146,7 +145,7 @@ SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>
     r -= ax;
     const double residual = a.norm(r);
     result.converged = residual <= tolerance * size;
-    if (result.converged || result.iterations == kNewtonIterations) return result;
+    if (result.converged || result.iterations == max_iterations) return result;
     if (result.iterations > 1 && residual > before) part = std::max(0.5 * part, 0.1);
     before = residual;
     r += change;

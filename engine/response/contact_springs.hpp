@@ -33,7 +33,7 @@ struct SpringsResult {
 /// normal impulse of the iterate, so it is that of the answer at convergence: A Δv - J^T λ of `tolerance` times what
 /// the forces change.
 SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
-                            GroupSystem& group);
+                            int max_iterations, GroupSystem& group);
 
 /// Δv = A⁻¹ J^T λ of group.lambda as it stands, by conjugate gradients. False if they didn't get there.
 bool apply_springs(const GroupOperator& a, GroupSystem& group);

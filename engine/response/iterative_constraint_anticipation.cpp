@@ -11,6 +11,8 @@
 //
 // Rigid bodies, and deformable ones whose A is block diagonal, enter with Q = A: if there are no others one step is
 // exact.
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -43,12 +45,13 @@ Vec3 soft_velocity(const GroupSystem& group, const std::vector<VecX>& v, std::si
 }
 
 ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std::vector<std::vector<Mat3>>& inverse,
-                          const LcpSolver& solver, const ResponseSettings& settings) {
+                          const LcpSolver& solver, const AnticipationSettings& settings,
+                          const ResponseContext& context) {
   FactoredDelassus w(group, &inverse);
   ConeProblem problem = base;
   problem.w = &w;
   const double scale = velocity_scale(base);
-  const double tolerance = settings.lcp.tolerance * scale;
+  const double tolerance = context.lcp.tolerance * scale;
 
   std::vector<VecX> x, a_x, drift;  // Δv, A Δv and D⁻¹ (L + U) Δv
   for (const SoftBlock& block : group.soft) x.push_back(VecX::Zero(block.velocity.size()));
@@ -57,13 +60,13 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   bool converged = false;
   double before = -1.0;
   const auto show = [&] {
-    if (!settings.observe) return;
+    if (!context.observe) return;
     w.begin(group.lambda);
     group.soft_delta = x;
-    settings.observe(group);
+    context.observe(group);
   };
   show();
-  while (!converged && result.outer_iterations < settings.max_outer_iterations) {
+  while (!converged && result.outer_iterations < settings.max_iterations) {
     check_interrupt();
     for (std::size_t s = 0; s < x.size(); ++s)
       for (std::size_t i = 0; i < inverse[s].size(); ++i) {
@@ -71,7 +74,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
         drift[s].segment<3>(at) = x[s].segment<3>(at) - inverse[s][i] * a_x[s].segment<3>(at);
       }
     for (std::size_t i = 0; i < base.q.size(); ++i) problem.q[i] = base.q[i] + soft_velocity(group, drift, i);
-    result.iterations += solver.solve(problem, settings.lcp, group.lambda).iterations;
+    result.iterations += solver.solve(problem, context.lcp, group.lambda).iterations;
     ++result.outer_iterations;
 
     double norm = 0.0, momentum = 0.0;
@@ -86,7 +89,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
     }
     show();
     norm = std::sqrt(norm);
-    if (settings.stop == "change") {
+    if (settings.stop == AnticipationSettings::Stop::change) {
       converged = norm == 0.0 || (before >= 0.0 && std::abs(norm - before) < kSeedChange * before);
       before = norm;
     } else if (momentum <= tolerance) {
@@ -101,26 +104,63 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   }
   w.begin(group.lambda);
   group.soft_delta = x;
-  if (!converged) result.ended = StopReason::iteration_cap, result.limit = kOuterLimit;
+  if (!converged) result.ended = StopReason::iteration_cap, result.limit = settings.limit;
   return result;
 }
 
 class IterativeConstraintAnticipation : public Response {
+  using Settings = AnticipationSettings;
+
  public:
-  ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const override {
+  void declare(const Rows& rows) override {
+    rows.add("form", settings_.form, {{Settings::Form::accelerated, "accelerated"}, {Settings::Form::seed, "seed"}},
+             "The convergent form, or the one that the seed prints.")
+        .formerly("response.form");
+    rows.add("stop", settings_.stop, {{Settings::Stop::residual, "residual"}, {Settings::Stop::change, "change"}},
+             "Stop rule: a true residual (lcp.tolerance), or the seed's change of less than 5 %.")
+        .formerly("response.stop");
+    settings_.limit = rows.add("max_iterations", settings_.max_iterations, {1, 1000000, true}, "",
+                               "Outer iterations at most for a group and sub-step.")
+                          .formerly("response.max_iterations")
+                          .path();
+  }
+
+  bool uses_cone_solver() const override { return true; }
+  IterationSetting iteration_setting() override { return {&settings_.max_iterations}; }
+  std::string summary(const LcpSettings& lcp) const override {
+    return fmt::format("{}{}, tolerance {}, at most {} outer iterations",
+                       settings_.form == Settings::Form::seed ? "the seed's form" : "accelerated",
+                       settings_.stop == Settings::Stop::change ? ", 5 % rule" : "", shortest(lcp.tolerance),
+                       settings_.max_iterations);
+  }
+  /// The forms that this method is known in, where its loop has something to do: how far the printed one and its 5 %
+  /// rule are from the solution.
+  std::vector<ResponseVariant> variants(bool is_block_diagonal) const override {
+    if (is_block_diagonal) return {{"", {}}};
+    return {{"", {{"form", "accelerated"}, {"stop", "residual"}}},
+            {"_5_percent", {{"form", "accelerated"}, {"stop", "change"}}},
+            {"_seed", {{"form", "seed"}, {"stop", "residual"}}, true},
+            {"_seed_5_percent", {{"form", "seed"}, {"stop", "change"}}, true}};
+  }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseContext& context) const override {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
     const bool one_step =
         std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; });
-    if (!one_step && settings.form != "seed") return solve_accelerated(group, problem, solver, settings);
+    if (!one_step && (settings_.form != Settings::Form::seed || context.recovers_overlap))
+      return solve_accelerated(group, problem, solver, settings_, context);
     const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);
-    if (!one_step) return solve_seed(group, problem, inverse, solver, settings);
+    if (!one_step) return solve_seed(group, problem, inverse, solver, settings_, context);
     FactoredDelassus w(group, &inverse);
     problem.w = &w;
-    const LcpResult result = solver.solve(problem, settings.lcp, group.lambda);
+    const LcpResult result = solver.solve(problem, context.lcp, group.lambda);
     w.begin(group.lambda);
     return result_of(result, 1);
   }
+
+ private:
+  Settings settings_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace {
 constexpr double kSuspicion = 10.0;  // -q^T λ over λ^T W λ: 1 at an answer, without limit along a ray
 // of each row's own mobility; springs this stiff differ from their limit by less than shows
 constexpr double kCompliance = 1e-5;
+constexpr int kNewtonIterations = 200;
 
 /// J v* - bound along n against the impulses, and the energy norm of what they move.
 struct Work {
@@ -39,7 +40,7 @@ bool settle_contradiction(GroupSystem& group) {
     const double slope = mobility > 0.0 ? 1.0 / (kCompliance * mobility) : 0.0;
     law.push_back({group.contacts[i].kind, slope, slope * group.contacts[i].bound});
   }
-  const bool solved = solve_springs(a, law, 1e-8, softened).converged;
+  const bool solved = solve_springs(a, law, 1e-8, kNewtonIterations, softened).converged;
   if (!apply_springs(a, softened) || !solved) return false;
   // an answer exists where springs this stiff are hardly compressed: their work is small beside what they move
   const Work after = work_of(softened);

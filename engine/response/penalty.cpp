@@ -14,6 +14,8 @@
 // Friction is regularised: |λ_t| = mu λ_n f(|u_t|/ε), f(y) = 2 y - y² up to y = 1 and 1 beyond it. It lies in Coulomb's
 // cone but doesn't stick: what pulls with F_t < mu N creeps at ε (1 - √(1 - F_t/(mu N))). Restitution is what the
 // damper leaves of it. Attachments and sliding points hang on springs of the same stiffness.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,56 +32,92 @@ struct Spring {
   double stiffness, damping;
 };
 
-Spring spring_of(const ResponseSettings& s, double mass, double part) {
-  if (s.penalty_stiffness > 0.0) return {s.penalty_stiffness, s.penalty_damping};
-  const double k = part * mass / (s.time_step * s.time_step);
-  return {k, s.penalty_damping > 0.0 ? s.penalty_damping : 2.0 * std::sqrt(k * mass)};
+enum class Form { end_of_step, start_of_step };
+
+struct Settings {
+  Form form = Form::end_of_step;
+  double stiffness = 0.0;  // k, N/m, of one contact; 0: by the mass that it feels and Δt
+  double damping = 0.0;    // b, N·s/m; 0 beside an automatic stiffness: critical
+  double slip_speed = 1e-3;
+  int max_iterations = 200;
+};
+
+Spring spring_of(const Settings& s, double h, double mass, double part) {
+  if (s.stiffness > 0.0) return {s.stiffness, s.damping};
+  const double k = part * mass / (h * h);
+  return {k, s.damping > 0.0 ? s.damping : 2.0 * std::sqrt(k * mass)};
 }
 
 /// At the end of the sub-step. A gap closes first, and only what is left of the motion meets spring and damper.
-SpringLaw implicit_law(const ContactRows& rows, const Spring& spring, const ResponseSettings& s) {
-  const double h = s.time_step, slope = h * (spring.stiffness * h + spring.damping);
+SpringLaw implicit_law(const ContactRows& rows, const Spring& spring, double h, double slip_speed) {
+  const double slope = h * (spring.stiffness * h + spring.damping);
   const double offset = rows.kind != RowKind::contact ? slope * rows.bound
                         : rows.gap > 0.0              ? -slope * rows.gap / h
                                                       : -h * spring.stiffness * rows.gap;
-  return {rows.kind, slope, offset, rows.friction, s.penalty_slip_speed};
+  return {rows.kind, slope, offset, rows.friction, slip_speed};
 }
 
 /// At its start: a gap has no force yet. Attachments know their error as a velocity Δx/Δt in u.
-SpringLaw explicit_law(const ContactRows& rows, const Spring& spring, const ResponseSettings& s) {
-  if (rows.kind != RowKind::contact) return implicit_law(rows, spring, s);
-  const double h = s.time_step;
-  if (rows.gap >= 0.0) return {rows.kind, 0.0, 0.0, rows.friction, s.penalty_slip_speed};
-  return {rows.kind, h * spring.damping, -h * spring.stiffness * rows.gap, rows.friction, s.penalty_slip_speed};
+SpringLaw explicit_law(const ContactRows& rows, const Spring& spring, double h, double slip_speed) {
+  if (rows.kind != RowKind::contact) return implicit_law(rows, spring, h, slip_speed);
+  if (rows.gap >= 0.0) return {rows.kind, 0.0, 0.0, rows.friction, slip_speed};
+  return {rows.kind, h * spring.damping, -h * spring.stiffness * rows.gap, rows.friction, slip_speed};
 }
 
 class Penalty : public Response {
  public:
-  bool lives_on_overlap() const override { return true; }
+  void declare(const Rows& rows) override {
+    rows.add("form", settings_.form, {{Form::end_of_step, "implicit"}, {Form::start_of_step, "explicit"}},
+             "Forces of the end of the sub-step (implicit), or of its start, stable for short sub-steps only "
+             "(explicit).")
+        .formerly("response.penalty_form");
+    rows.add("stiffness", settings_.stiffness, {0.0, 1e15}, "N/m",
+             "Spring of each contact; 0: by the mass that the contact feels and the sub-step.")
+        .formerly("response.penalty_stiffness");
+    rows.add("damping", settings_.damping, {0.0, 1e15}, "N·s/m",
+             "Damper of each contact; 0 beside an automatic stiffness: critical damping.")
+        .formerly("response.penalty_damping");
+    rows.add("slip_speed", settings_.slip_speed, {0.0, 1e3, true}, "m/s",
+             "Friction is full from this sliding speed on, and less below it.")
+        .formerly("response.penalty_slip_speed");
+    limit_ = rows.add("max_iterations", settings_.max_iterations, {1, 1000000, true}, "",
+                      "implicit: Newton steps at most for a group and sub-step.")
+                 .path();
+  }
 
-  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
+  bool uses_cone_solver() const override { return false; }
+  bool lives_on_overlap() const override { return true; }
+  IterationSetting iteration_setting() override { return {&settings_.max_iterations}; }
+  std::string summary(const LcpSettings&) const override {
+    return fmt::format("{}, stiffness {}", settings_.form == Form::end_of_step ? "implicit" : "explicit",
+                       settings_.stiffness > 0.0 ? shortest(settings_.stiffness) + " N/m" : "by mass and sub-step");
+  }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
     group.clear_delta();
     const GroupOperator a(group);
     ResponseResult result;
-    if (settings.penalty_form == "implicit") {
+    const double h = context.time_step;
+    if (settings_.form == Form::end_of_step) {
       std::vector<SpringLaw> law;
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         const double mobility = a.block_mobility(i)(0, 0);
-        law.push_back(
-            implicit_law(group.contacts[i], spring_of(settings, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0), settings));
+        const Spring spring = spring_of(settings_, h, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0);
+        law.push_back(implicit_law(group.contacts[i], spring, h, settings_.slip_speed));
       }
-      const SpringsResult springs = solve_springs(a, law, std::max(1e-12, settings.lcp.tolerance), group);
+      const SpringsResult springs =
+          solve_springs(a, law, std::max(1e-12, context.lcp.tolerance), settings_.max_iterations, group);
       result.iterations = springs.iterations;
-      if (!springs.converged) result.ended = StopReason::iteration_cap, result.limit = "the Newton steps of penalty";
+      if (!springs.converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
     } else {
-      take_explicit(group, a, settings);
+      take_explicit(group, a, h);
     }
     if (!apply_springs(a, group)) result.ended = StopReason::stagnated;
     return result;
   }
 
  private:
-  static void take_explicit(GroupSystem& group, const GroupOperator& a, const ResponseSettings& settings) {
+  void take_explicit(GroupSystem& group, const GroupOperator& a, double h) const {
     std::vector<char> act;  // a gap has no spring yet, so there is nothing to share with it
     for (const ContactRows& rows : group.contacts) act.push_back(rows.kind != RowKind::contact || rows.gap < 0.0);
     const std::vector<Mat3> shared = a.shared_mobility(act);
@@ -89,7 +127,7 @@ class Penalty : public Response {
       const Mat3& mobility = shared[i];
       double mass = mobility(0, 0) > 0.0 ? 1.0 / mobility(0, 0) : 0.0;
       if (together > 0.0 && act[i]) mass = std::max(mass, 1.0 / (together * a.block_mobility(i)(0, 0)));
-      const SpringLaw law = explicit_law(rows, spring_of(settings, mass, kExplicitPart), settings);
+      const SpringLaw law = explicit_law(rows, spring_of(settings_, h, mass, kExplicitPart), h, settings_.slip_speed);
       Vec3 u = group.contact_velocity(i, false);
       if (rows.kind == RowKind::contact) u.x() = rows.velocity_before;
       Vec3& lambda = group.lambda[i] = law.impulse(u, law.normal(u));
@@ -100,6 +138,9 @@ class Penalty : public Response {
       if (rows.kind == RowKind::contact && size > most) lambda.tail<2>() *= most / size;
     }
   }
+
+  Settings settings_;
+  std::string limit_;
 };
 
 }  // namespace

@@ -4,40 +4,31 @@
 #include <functional>
 
 #include "engine/contact/group_system.hpp"
+#include "engine/core/method.hpp"
 #include "engine/lcp/lcp_solver.hpp"
 
 namespace impinge {
 
-struct ResponseSettings {
-  LcpSettings lcp;
-  // of responses with an outer loop
-  std::string form = "accelerated";  ///< or "seed": the printed scheme
-  std::string stop = "residual";     ///< or "change": the seed's 5 % rule
-  int max_outer_iterations = 2000;
-  // of responses that have a law of their own instead of complementarity, or a bounded number of sweeps
-  double time_step = 1.0 / 240.0;         ///< Δt of the sub-step, s
-  double max_push_out = 1.0;              ///< m/s
-  double restitution_threshold = 0.01;    ///< m/s
-  int impulse_iterations = 200;           ///< sweeps at most
-  std::string penalty_form = "implicit";  ///< or "explicit"
-  double penalty_stiffness = 0.0;         ///< k, N/m, of one contact; 0: by the mass that it feels and Δt
-  double penalty_damping = 0.0;           ///< b, N·s/m; 0 beside an automatic stiffness: critical
-  double penalty_slip_speed = 1e-3;       ///< ε_v, m/s: below it the regularised friction is not full
-  double soft_frequency = 30.0;           ///< Hz
-  double soft_damping_ratio = 10.0;
-  int soft_iterations = 2;        ///< sweeps of a sub-step
-  int soft_relax_iterations = 1;  ///< sweeps without recovery after them
+/// What a response is told of the sub-step, beside the settings of its own.
+struct ResponseContext {
+  LcpSettings lcp;                      ///< of cone problems; the tolerance holds for whatever else a method iterates
+  double time_step = 1.0 / 240.0;       ///< Δt, s
+  double max_push_out = 1.0;            ///< m/s, of recovery from overlap
+  double restitution_threshold = 0.01;  ///< m/s: slower impacts do not bounce
+  /// The rows ask for positions that no longer overlap, not for velocities: to be solved to its residual, in whatever
+  /// way of the method's does that.
+  bool recovers_overlap = false;
   /// If given, a response with a loop of its own shows it the group, with λ and Δv as they stand, before the first and
   /// after each of its iterations.
-  std::function<void(const GroupSystem&)> observe;
+  std::function<void(const GroupSystem&)> observe = {};
 };
 
 struct ResponseResult {
   int iterations = 0;        ///< of the LCP solver
   int outer_iterations = 0;  ///< of an outer loop, where the method has one
   StopReason ended = StopReason::converged;
-  /// of StopReason::iteration_cap: the limit that was met, by the path of the parameter that sets it, or in words where
-  /// none does
+  /// Of StopReason::iteration_cap: the limit that was met, by the path of the parameter that sets it, or in words where
+  /// none does. It lives as long as the method.
   std::string_view limit = {};
   bool converged() const { return ended == StopReason::converged || ended == StopReason::trivial; }
 };
@@ -45,14 +36,37 @@ struct ResponseResult {
 /// Of a response that leaves everything to one solve of the cone problem.
 ResponseResult result_of(const LcpResult& solve, int outer_iterations = 0);
 
-class Response {
+/// A method's own setting of how many iterations it makes.
+struct IterationSetting {
+  int* count = nullptr;   ///< null: it has none; what it leaves to a cone solver ends at lcp.max_iterations
+  bool is_exact = false;  ///< it makes so many in any case: they are part of the answer, not a limit
+};
+
+/// A way of running a response that comparisons show by itself.
+struct ResponseVariant {
+  std::string suffix;             ///< of its name there
+  std::vector<RowText> rows;      ///< own rows that make it
+  bool solves_in_a_loop = false;  ///< asks the cone solver in each of many iterations: dear to run with every solver
+};
+
+class Response : public Method {
  public:
-  virtual ~Response() = default;
   /// Fills group.lambda and the Δv of its bodies, Δv = A⁻¹ J^T λ, such that the rows' bounds hold (or the method's own
   /// law).
-  virtual ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseSettings& settings) const = 0;
+  virtual ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseContext& context) const = 0;
+
+  /// Whether the solver that solve() is given is asked for anything.
+  virtual bool uses_cone_solver() const = 0;
+  /// Whether the answer is that of Coulomb's law and complementarity to the cone solver's residual, with nothing of its
+  /// own to stop by: what references are made with.
+  virtual bool is_reference() const { return false; }
   /// Whether overlap is part of the method's own law (a spring's compression): nothing else may push it out then.
   virtual bool lives_on_overlap() const { return false; }
+  virtual IterationSetting iteration_setting() { return {}; }
+  /// What it is set to, in words that follow its name: "tolerance 1e-08, at most 200 sweeps".
+  virtual std::string summary(const LcpSettings& lcp) const;
+  /// The ways that differ where A is not block diagonal in every deformable body of the problem, or where it is.
+  virtual std::vector<ResponseVariant> variants(bool is_block_diagonal) const;
 };
 
 const Registry<Response>& responses();

@@ -4,10 +4,12 @@
 // Impacts come first, each as a collision of its own pair: a contact that bodies approach through gets the impulse that
 // returns -e times its approach, and so on until none approaches; a shot runs through Newton's cradle that way. What
 // contacts are pressed together with by forces is left to the sweeps, which bounce nothing.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "engine/core/interrupt.hpp"
-#include "engine/response/operators/contact_mobility.hpp"
+#include "engine/response/operators/delassus_by_contact.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {
@@ -15,40 +17,53 @@ namespace {
 
 class SequentialImpulse : public Response {
  public:
-  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
+  void declare(const Rows& rows) override {
+    limit_ =
+        rows.add("iterations", settings_.iterations, {1, 1000000, true}, "", "Sweeps at most for a group and sub-step.")
+            .formerly("response.impulse_iterations")
+            .path();
+  }
+
+  bool uses_cone_solver() const override { return false; }
+  IterationSetting iteration_setting() override { return {&settings_.iterations}; }
+  std::string summary(const LcpSettings& lcp) const override {
+    return fmt::format("tolerance {}, at most {} sweeps", shortest(lcp.tolerance), settings_.iterations);
+  }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
     const std::size_t m = group.contacts.size();
     const bool impacts =
         std::any_of(group.contacts.begin(), group.contacts.end(), [](const ContactRows& c) { return is_impact(c); });
     if (impacts) group.lambda.assign(m, Vec3::Zero());  // the impulses of a resting state say nothing about an impact
-    ContactMobility mobility(group);
+    DelassusByContact w(group);
     const double scale = velocity_scale(make_cone_problem(group));
 
     ResponseResult result;
     bool converged = false;
     std::vector<double> impact(m, 0.0), bound(m);
     for (std::size_t i = 0; i < m; ++i) bound[i] = group.contacts[i].bound;
-    if (impacts) collide(group, mobility, settings, result, impact, bound);
-    mobility.show(settings.observe);
-    while (!converged && result.iterations < settings.impulse_iterations) {
+    if (impacts) collide(group, w, context, result, impact, bound);
+    w.show(context.observe);
+    while (!converged && result.iterations < settings_.iterations) {
       check_interrupt();
       double largest = 0.0;
       for (std::size_t i = 0; i < m; ++i) {
-        Vec3 u = mobility.velocity(i);
+        Vec3 u = w.velocity(i);
         u.x() -= bound[i];
         Vec3 start = group.lambda[i];
         start.x() -= impact[i];  // what an impact gave is not taken back
-        Vec3 next = relaxed_normal_first(group.contacts[i], mobility.diagonal(i), u, start, impact[i]);
+        Vec3 next = relaxed_normal_first(group.contacts[i], w.diagonal(i), u, start, impact[i]);
         const Vec3 change = next - group.lambda[i];
         if (change.isZero(0.0)) continue;
-        mobility.change(i, change);
-        largest = std::max(largest, (mobility.diagonal(i) * change).norm());
+        w.change(i, change);
+        largest = std::max(largest, (w.diagonal(i) * change).norm());
       }
       ++result.iterations;
-      mobility.show(settings.observe);
-      converged = largest <= settings.lcp.tolerance * scale;
+      w.show(context.observe);
+      converged = largest <= context.lcp.tolerance * scale;
     }
-    if (!converged) result.ended = StopReason::iteration_cap, result.limit = "response.impulse_iterations";
-    if (!mobility.finish()) result.ended = StopReason::stagnated;
+    if (!converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
+    if (!w.finish()) result.ended = StopReason::stagnated;
     return result;
   }
 
@@ -71,8 +86,8 @@ class SequentialImpulse : public Response {
     return lambda;
   }
 
-  static void collide(GroupSystem& group, ContactMobility& mobility, const ResponseSettings& settings,
-                      ResponseResult& result, std::vector<double>& impact, std::vector<double>& bound) {
+  void collide(GroupSystem& group, DelassusByContact& w, const ResponseContext& context, ResponseResult& result,
+               std::vector<double>& impact, std::vector<double>& bound) const {
     const std::size_t m = group.contacts.size();
     std::vector<double> approach(m);  // what J v* holds beside the velocity before the sub-step: forces
     double fastest = 0.0;
@@ -81,34 +96,38 @@ class SequentialImpulse : public Response {
       fastest = std::max(fastest, -group.contacts[i].velocity_before);
     }
     const double slow = 1e-9 * fastest;  // what is left of rounding
-    for (bool more = true; more && result.iterations < settings.impulse_iterations; ++result.iterations) {
+    for (bool more = true; more && result.iterations < settings_.iterations; ++result.iterations) {
       check_interrupt();
       more = false;
       for (std::size_t i = 0; i < m; ++i) {
         const ContactRows& rows = group.contacts[i];
-        if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(mobility.diagonal(i)(0, 0) > 0.0)) continue;
-        const Vec3 u = mobility.velocity(i);
+        if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(w.diagonal(i)(0, 0) > 0.0)) continue;
+        const Vec3 u = w.velocity(i);
         const double closing = u.x() + approach[i];
-        if (!(closing < -std::max(slow, settings.restitution_threshold)) ||
-            rows.gap + settings.time_step * u.x() >= 0.0)
+        if (!(closing < -std::max(slow, context.restitution_threshold)) || rows.gap + context.time_step * u.x() >= 0.0)
           continue;
         Vec3 next = group.lambda[i];
-        next.x() -= (1.0 + rows.restitution) * closing / mobility.diagonal(i)(0, 0);
+        next.x() -= (1.0 + rows.restitution) * closing / w.diagonal(i)(0, 0);
         if (rows.friction > 0.0)
-          relax_friction(mobility.diagonal(i), u + mobility.diagonal(i).col(0) * (next.x() - group.lambda[i].x()),
-                         rows.friction, next);
-        mobility.change(i, next - group.lambda[i]);
+          relax_friction(w.diagonal(i), u + w.diagonal(i).col(0) * (next.x() - group.lambda[i].x()), rows.friction,
+                         next);
+        w.change(i, next - group.lambda[i]);
         impact[i] = next.x();
         // the bounce is done: from here on the contact may only not close
-        bound[i] = std::min(bound[i], closed_bound(rows, settings.time_step));
+        bound[i] = std::min(bound[i], closed_bound(rows, context.time_step));
         more = true;
       }
     }
     // a bound that asks for a bounce which no longer takes place, since another impact turned the bodies away
     for (std::size_t i = 0; i < m; ++i)
       if (is_impact(group.contacts[i]) && impact[i] == 0.0)
-        bound[i] = std::min(bound[i], closed_bound(group.contacts[i], settings.time_step));
+        bound[i] = std::min(bound[i], closed_bound(group.contacts[i], context.time_step));
   }
+
+  struct Settings {
+    int iterations = 200;
+  } settings_;
+  std::string limit_;
 };
 
 }  // namespace

@@ -6,11 +6,13 @@
 // - regularised: the normal law. At rest a lone contact sinks by W_ii λ/(Δt ω²), a ball by g/ω². A gap closes freely.
 // - not regularised: friction, which is the cone by projection, and restitution. Attachments are hard, too.
 // - not solved: a bounded number of sweeps, started from the last impulses, is all; nothing is said of convergence.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "engine/core/interrupt.hpp"
-#include "engine/response/operators/contact_mobility.hpp"
+#include "engine/response/operators/delassus_by_contact.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {
@@ -30,19 +32,38 @@ Softness softness(double hertz, double ratio, double h) {
 
 class SoftConstraint : public Response {
  public:
-  bool lives_on_overlap() const override { return true; }
+  void declare(const Rows& rows) override {
+    rows.add("frequency", settings_.frequency, {0.0, 1e6, true}, "Hz",
+             "Of each contact's spring; at most a quarter of the sub-steps' rate is used.")
+        .formerly("response.soft_frequency");
+    rows.add("damping_ratio", settings_.damping_ratio, {0.0, 1e6}, "", "Of each contact's spring, 1 is critical.")
+        .formerly("response.soft_damping_ratio");
+    rows.add("iterations", settings_.iterations, {1, 1000000, true}, "", "Sweeps for a group and sub-step.")
+        .formerly("response.soft_iterations");
+    rows.add("relax_iterations", settings_.relax_iterations, {0, 1000000}, "",
+             "Sweeps after the positions, which take out the velocity that recovery from overlap brought.")
+        .formerly("response.soft_relax_iterations");
+  }
 
-  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseSettings& settings) const override {
-    ContactMobility mobility(group);
-    const Softness soft = softness(settings.soft_frequency, settings.soft_damping_ratio, settings.time_step);
+  bool uses_cone_solver() const override { return false; }
+  bool lives_on_overlap() const override { return true; }
+  IterationSetting iteration_setting() override { return {&settings_.iterations, true}; }
+  std::string summary(const LcpSettings&) const override {
+    return fmt::format("{} Hz, damping ratio {}, {} sweeps", shortest(settings_.frequency),
+                       shortest(settings_.damping_ratio), settings_.iterations);
+  }
+
+  ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
+    DelassusByContact w(group);
+    const Softness soft = softness(settings_.frequency, settings_.damping_ratio, context.time_step);
     ResponseResult result;
-    for (; result.iterations < settings.soft_iterations; ++result.iterations)
-      sweep(group, mobility, [&](std::size_t i, const Vec3& u) {
-        return soft_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i], soft, settings);
+    for (; result.iterations < settings_.iterations; ++result.iterations)
+      sweep(group, w, [&](std::size_t i, const Vec3& u) {
+        return soft_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
       });
-    if (!mobility.finish()) result.ended = StopReason::stagnated;
+    if (!w.finish()) result.ended = StopReason::stagnated;
     // a deformable body's elastic forces count on positions that move by its velocities
-    if (settings.soft_relax_iterations == 0 || !group.soft.empty()) return result;
+    if (settings_.relax_iterations == 0 || !group.soft.empty()) return result;
     group.position_velocity = group.delta_velocity;
     group.position_angular_velocity = group.delta_angular_velocity;
     // overlap may not grow any more; what is apart still is kept as it was, or the next sub-step would have nothing to
@@ -50,17 +71,17 @@ class SoftConstraint : public Response {
     std::vector<double> bound(group.contacts.size());
     for (std::size_t i = 0; i < bound.size(); ++i) {
       const ContactRows& rows = group.contacts[i];
-      const double gap = rows.gap + settings.time_step * group.contact_velocity(i, true).x();
+      const double gap = rows.gap + context.time_step * group.contact_velocity(i, true).x();
       bound[i] = rows.kind != RowKind::contact || bounces(rows)
                      ? rows.bound
-                     : std::min(0.0, gap > 0.0 ? -rows.gap / settings.time_step : 0.0);
+                     : std::min(0.0, gap > 0.0 ? -rows.gap / context.time_step : 0.0);
     }
-    for (int k = 0; k < settings.soft_relax_iterations; ++k, ++result.iterations)
-      sweep(group, mobility, [&](std::size_t i, Vec3 u) {
+    for (int k = 0; k < settings_.relax_iterations; ++k, ++result.iterations)
+      sweep(group, w, [&](std::size_t i, Vec3 u) {
         u.x() -= bound[i];
-        return relaxed_impulse(group.contacts[i], mobility.diagonal(i), u, group.lambda[i]);
+        return relaxed_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i]);
       });
-    if (!mobility.finish()) result.ended = StopReason::stagnated;
+    if (!w.finish()) result.ended = StopReason::stagnated;
     for (std::size_t b = 0; b < group.bodies.size(); ++b) {
       group.position_velocity[b] -= group.delta_velocity[b];
       group.position_angular_velocity[b] -= group.delta_angular_velocity[b];
@@ -72,29 +93,36 @@ class SoftConstraint : public Response {
   static bool bounces(const ContactRows& rows) { return rows.restitution > 0.0 && rows.bound > 0.0; }
 
   template <class Next>
-  static void sweep(const GroupSystem& group, ContactMobility& mobility, const Next& next) {
+  static void sweep(const GroupSystem& group, DelassusByContact& w, const Next& next) {
     check_interrupt();
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-      const Vec3 change = next(i, mobility.velocity(i)) - group.lambda[i];
-      if (!change.isZero(0.0)) mobility.change(i, change);
+      const Vec3 change = next(i, w.velocity(i)) - group.lambda[i];
+      if (!change.isZero(0.0)) w.change(i, change);
     }
   }
 
   static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
-                           const ResponseSettings& settings) {
+                           const ResponseContext& context) {
     if (rows.kind != RowKind::contact || bounces(rows)) {
       u.x() -= rows.bound;
       return relaxed_impulse(rows, w, u, lambda);
     }
     if (!(w(0, 0) > 0.0)) return lambda;
     const double bias =
-        rows.gap > 0.0 ? rows.gap / settings.time_step : std::max(soft.bias_rate * rows.gap, -settings.max_push_out);
+        rows.gap > 0.0 ? rows.gap / context.time_step : std::max(soft.bias_rate * rows.gap, -context.max_push_out);
     const double before = lambda.x();
     lambda.x() = std::max(0.0, before - soft.mass_scale * (u.x() + bias) / w(0, 0) - soft.impulse_scale * before);
     if (rows.has_one_row()) return lambda;
     relax_friction(w, u + w.col(0) * (lambda.x() - before), rows.friction, lambda);
     return lambda;
   }
+
+  struct Settings {
+    double frequency = 30.0;  // Hz
+    double damping_ratio = 10.0;
+    int iterations = 2;        // sweeps of a sub-step
+    int relax_iterations = 1;  // sweeps without recovery after them
+  } settings_;
 };
 
 }  // namespace

@@ -1,56 +1,53 @@
 #include "engine/shapes/shape.hpp"
 
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/shapes/shape_entry.hpp"
+
 namespace impinge {
+namespace {
 
-const char* shape_name(const Shape& shape) {
-  static constexpr const char* kNames[] = {"plane", "sphere", "box", "capsule", "mesh"};
-  return kNames[shape.index()];
+constexpr double kDrawnEdges = 24.0;  // along the longest side
+
+class Point final : public ConvexSet {
+ public:
+  Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
+};
+
+}  // namespace
+
+Shape::Shape(std::string_view name, const SurfaceMesh* mesh) : type_(shape_type(name)), mesh_(mesh) {}
+
+std::string_view Shape::name() const { return shape_entries()[static_cast<std::size_t>(type_)].name; }
+
+SharedShape Shape::recentered(const Vec3& center) const {
+  IMPINGE_ASSERT(center.isZero(0.0));
+  return SharedShape(shared_from_this());
 }
 
-MeshPointer make_box_mesh(const Vec3& half) {
-  auto surface = std::make_shared<SurfaceMesh>();
-  for (int i = 0; i < 8; ++i)
-    surface->mesh.vertices.emplace_back((i & 1 ? 1 : -1) * half.x(), (i & 2 ? 1 : -1) * half.y(),
-                                        (i & 4 ? 1 : -1) * half.z());
-  surface->mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                             {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  surface->topology = make_topology(surface->mesh);
-  return surface;
+TriangleMesh Shape::drawn() const { return surface(bounds({}).extent().maxCoeff() / kDrawnEdges); }
+
+Aabb ConvexShape::bounds(const Pose& pose) const {
+  Aabb box;
+  for (int k = 0; k < 3; ++k)
+    for (const double sign : {-1.0, 1.0}) {
+      const Vec3 direction = sign * pose.rotation.row(k).transpose();
+      const double far = pose.rotation.row(k).dot(support(direction)) + pose.position[k] + sign * rounding();
+      (sign > 0.0 ? box.max : box.min)[k] = far;
+    }
+  return box;
 }
 
-Aabb shape_bounds(const Shape& shape, const Pose& pose) {
-  struct Bounds {
-    const Pose& pose;
-    Aabb operator()(const Plane& p) const {
-      const double inf = std::numeric_limits<double>::infinity();
-      Aabb box{Vec3::Constant(-inf), Vec3::Constant(inf)};
-      // the half-space behind an axis-aligned plane has a bound on that side
-      const Vec3 n = pose.rotation * p.normal;
-      const double offset = p.offset + n.dot(pose.position);
-      for (int k = 0; k < 3; ++k) {
-        if (n[k] == 1.0) box.max[k] = offset;
-        if (n[k] == -1.0) box.min[k] = -offset;
-      }
-      return box;
-    }
-    Aabb operator()(const Sphere& s) const {
-      return {pose.position - Vec3::Constant(s.radius), pose.position + Vec3::Constant(s.radius)};
-    }
-    Aabb operator()(const Box& b) const {
-      const Vec3 reach = pose.rotation.cwiseAbs() * b.half;
-      return {pose.position - reach, pose.position + reach};
-    }
-    Aabb operator()(const Capsule& c) const {
-      const Vec3 reach = (pose.rotation.col(1) * c.half_length).cwiseAbs() + Vec3::Constant(c.radius);
-      return {pose.position - reach, pose.position + reach};
-    }
-    Aabb operator()(const MeshPointer& m) const {
-      Aabb box;
-      for (const Vec3& v : m->mesh.vertices) box.include(pose.apply(v));
-      return box;
-    }
-  };
-  return std::visit(Bounds{pose}, shape);
+double ConvexShape::bounding_radius() const {
+  const Aabb box = bounds({});
+  return box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();
+}
+
+double ConvexShape::signed_distance(const Vec3& x) const {
+  const Point point;
+  return convex_gap({&point, {Mat3::Identity(), x}}, {this, {}}).gap;
 }
 
 }  // namespace impinge

@@ -77,25 +77,15 @@ void World::bind_bodies(ParameterSet& set) {
 void World::bind_soft_body(ParameterSet& set, int index, const std::string& path) {
   const auto soft = [this, index]() -> SoftBody& { return *bodies_[index].soft; };
   const auto changed = [this] { stages_->sleeping.wake_all(bodies_); };
-  const auto elastic = [&](const char* name, Range range, const char* unit, const char* doc,
-                           double MaterialSettings::*member) {
-    set.add({path + name,
-             ParameterKind::real,
-             unit,
-             range,
-             {},
-             doc,
-             soft().material->settings().*member,
-             [soft, member] { return ParameterValue(soft().material->settings().*member); },
-             [soft, member, changed](const ParameterValue& v) {
-               MaterialSettings settings = soft().material->settings();
-               settings.*member = std::get<double>(v);
-               soft().material->configure(settings);
-               changed();
-             }});
-  };
-  elastic("material.young", {1e-3, 1e15, true}, "Pa", "Young's modulus.", &MaterialSettings::young);
-  elastic("material.poisson", {0.0, 0.4999}, "", "Poisson's ratio.", &MaterialSettings::poisson);
+  ParameterSet of_material;
+  soft().material->declare(Rows(of_material, path + "material"));
+  for (Parameter row : of_material.all()) {
+    row.set = [set_value = row.set, changed](const ParameterValue& v) {
+      set_value(v);
+      changed();
+    };
+    set.add(std::move(row));
+  }
   const auto damping = [&](const char* name, double high, const char* unit, const char* doc,
                            double RayleighDamping::*member) {
     set.add({path + name,

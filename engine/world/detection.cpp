@@ -35,7 +35,6 @@ Aabb swept_bounds(const Collider& collider, double radius, double activation, do
 
 void Detection::run(std::span<const RigidBody> bodies, const Parameters& parameters, double time_step,
                     StageTimes& times) {
-  select(parameters);
   {
     const StageTimer timer(times.broad_ms);
     find_pairs(bodies, parameters, time_step);
@@ -45,26 +44,15 @@ void Detection::run(std::span<const RigidBody> bodies, const Parameters& paramet
   find_collisions(parameters, time_step);
 }
 
-void Detection::select(const Parameters& parameters) {
-  if (broad_name_ != parameters.broad_phase.method) {
-    broad_name_ = parameters.broad_phase.method;
-    broad_ = make_named(broad_phases(), broad_name_);
-  }
-  if (narrow_name_ != parameters.narrow_phase.method) {
-    narrow_name_ = parameters.narrow_phase.method;
-    narrow_ = make_named(narrow_phases(), narrow_name_);
-  }
-}
-
 void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& parameters, double time_step) {
-  const bool proximity = parameters.contact.points == "proximity";
+  const bool proximity = parameters.contact.points == ContactPoints::proximity;
   const double activation = proximity ? parameters.contact.activation_distance : 0.0;
   colliders_.resize(bodies.size());
   boxes_.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const RigidBody& body = bodies[i];
     Collider& c = colliders_[i];
-    c.shape = &body.shape;
+    c.shape = body.shape.get();
     c.pose = body.pose;
     c.vertices = body.world_vertices;
     c.bounds = body.bounds();
@@ -75,7 +63,7 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
     c.mean_edge = body.mean_edge;
     boxes_[i] = proximity ? swept_bounds(c, body.radius, activation, time_step) : c.bounds;
   }
-  broad_->find(boxes_, box_pairs_);
+  parameters.broad_phase.method->find(boxes_, box_pairs_);
   const auto speed = [&](std::size_t i) {
     double fastest = colliders_[i].velocity.norm() + colliders_[i].angular_velocity.norm() * bodies[i].radius;
     for (const Vec3& v : colliders_[i].vertex_velocities) fastest = std::max(fastest, v.norm());
@@ -103,13 +91,16 @@ void Detection::find_pairs(std::span<const RigidBody> bodies, const Parameters& 
 }
 
 void Detection::find_collisions(const Parameters& parameters, double time_step) {
-  const bool proximity = parameters.contact.points == "proximity";
+  const bool proximity = parameters.contact.points == ContactPoints::proximity;
   const ContactQuery query{proximity, parameters.contact.activation_distance, time_step};
+  const auto is_mesh_pair = [&](const BodyPair& pair) {
+    return colliders_[pair.a].shape->mesh() != nullptr && colliders_[pair.b].shape->mesh() != nullptr;
+  };
   std::vector<BodyPair> mesh_pairs;
   for (const BodyPair& pair : pairs)
-    if (is_mesh(*colliders_[pair.a].shape) && is_mesh(*colliders_[pair.b].shape)) mesh_pairs.push_back(pair);
+    if (is_mesh_pair(pair)) mesh_pairs.push_back(pair);
   triangle_pairs.clear();
-  if (!mesh_pairs.empty()) narrow_->find(colliders_, mesh_pairs, triangle_pairs);
+  if (!mesh_pairs.empty()) parameters.narrow_phase.method->find(colliders_, mesh_pairs, triangle_pairs);
   check_interrupt();
 
   found_.resize(std::max(found_.size(), pairs.size()));
@@ -117,7 +108,7 @@ void Detection::find_collisions(const Parameters& parameters, double time_step) 
     const BodyPair& pair = pairs[i];
     std::vector<Collision>& out = found_[i];
     out.clear();
-    if (!is_mesh(*colliders_[pair.a].shape) || !is_mesh(*colliders_[pair.b].shape)) {
+    if (!is_mesh_pair(pair)) {
       primitive_contacts(colliders_, pair, query, out);
       return;
     }

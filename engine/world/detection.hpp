@@ -22,13 +22,9 @@ class Detection {
   std::vector<Collision> collisions;         ///< in pair order
 
  private:
-  void select(const Parameters& parameters);
   void find_pairs(std::span<const RigidBody> bodies, const Parameters& parameters, double time_step);
   void find_collisions(const Parameters& parameters, double time_step);
 
-  std::string broad_name_, narrow_name_;
-  std::unique_ptr<BroadPhase> broad_;
-  std::unique_ptr<NarrowPhase> narrow_;
   std::vector<Collider> colliders_;
   std::vector<Aabb> boxes_;
   std::vector<BoxPair> box_pairs_;

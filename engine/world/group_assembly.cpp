@@ -21,7 +21,7 @@ double push_out_slop(const Parameters& parameters) { return 1e-6 * parameters.co
 
 double row_bound(double gap, double free_velocity, double velocity_before, double restitution,
                  const Parameters& parameters, double h) {
-  const bool split = parameters.contact.push_out == "split";
+  const bool split = parameters.contact.push_out == PushOut::split;
   const double bound = gap >= 0.0 ? -gap / h : (split ? 0.0 : std::min(-gap / h, parameters.contact.max_push_out));
   const bool closes = gap + h * free_velocity < 0.0;
   if (!closes || restitution == 0.0 || velocity_before > -parameters.contact.restitution_threshold) return bound;
@@ -38,7 +38,7 @@ double pair_friction(const RigidBody& a, const RigidBody& b, const Parameters& p
 }
 
 Vec3 triangle_weights(const RigidBody& body, int triangle, const Vec3& point) {
-  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
   const Vec3 &a = body.world_vertices[t[0]], &b = body.world_vertices[t[1]], &c = body.world_vertices[t[2]];
   const Vec3 e0 = b - a, e1 = c - a, x = closest_on_triangle(point, {a, b, c}).point - a;
   const double d00 = e0.dot(e0), d01 = e0.dot(e1), d11 = e1.dot(e1), d20 = x.dot(e0), d21 = x.dot(e1);
@@ -53,7 +53,7 @@ namespace {
 /// Nodes and weights of a point of a deformable surface, every node once.
 std::vector<NodeWeight> carrying_nodes(const RigidBody& body, int triangle, const Vec3& point) {
   const Vec3 corner = triangle_weights(body, triangle, point);
-  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
   std::vector<NodeWeight> list;
   for (int k = 0; k < 3; ++k) {
     if (corner[k] == 0.0) continue;
@@ -229,7 +229,7 @@ GroupSystem make_group_system(const SubstepView& view, CollisionGroup& group) {
 }
 
 bool needs_push_out(const GroupSystem& solved, const Parameters& parameters, double time_step) {
-  if (parameters.contact.push_out != "split" || parameters.contact.max_push_out <= 0.0) return false;
+  if (parameters.contact.push_out != PushOut::split || parameters.contact.max_push_out <= 0.0) return false;
   // rows whose positions move by Δt v leave no overlap that wasn't there; others (Newmark) are asked
   const bool all_move = std::all_of(solved.soft.begin(), solved.soft.end(),
                                     [](const SoftBlock& b) { return b.displacement_scale == 1.0; });

@@ -71,34 +71,14 @@ void World::Stages::freeze_geometry(std::span<const RigidBody> bodies, std::span
   }
 }
 
-ResponseSettings response_settings(const Parameters& p) {
-  ResponseSettings s;
-  s.lcp.tolerance = p.lcp.tolerance;
-  s.lcp.max_iterations = p.lcp.max_iterations;
-  s.form = p.response.form;
-  s.stop = p.response.stop;
-  s.max_outer_iterations = p.response.max_iterations;
-  s.time_step = p.simulation.time_step();
-  s.max_push_out = p.contact.max_push_out;
-  s.restitution_threshold = p.contact.restitution_threshold;
-  s.impulse_iterations = p.response.impulse_iterations;
-  s.penalty_stiffness = p.response.penalty_stiffness;
-  s.penalty_damping = p.response.penalty_damping;
-  s.penalty_form = p.response.penalty_form;
-  s.penalty_slip_speed = p.response.penalty_slip_speed;
-  s.soft_frequency = p.response.soft_frequency;
-  s.soft_damping_ratio = p.response.soft_damping_ratio;
-  s.soft_iterations = p.response.soft_iterations;
-  s.soft_relax_iterations = p.response.soft_relax_iterations;
-  return s;
-}
-
 GroupSystem World::solve_group(CollisionGroup& group, double h) {
   Stages& s = *stages_;
   StageTimes& times = s.frame_stats.times;
+  const DeformableIntegrator& integrator = *parameters.simulation.integrator;
+  const Response& response = *parameters.response.method;
   const SubstepView view{bodies_,      s.before,   s.soft, s.detection.collisions,
-                         attachments_, parameters, h,      s.integrator->is_explicit()};
-  const ResponseSettings settings = response_settings(parameters);
+                         attachments_, parameters, h,      integrator.is_explicit()};
+  const ResponseContext context = response_context(parameters);
   std::optional<FrozenGroup> frozen;
   GroupSystem system;
   std::vector<Vec3> start;
@@ -115,7 +95,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
     const StageTimer timer(times.response_ms);
     const ResponseResult solved = [&] {
       try {
-        return s.response->solve(system, *s.lcp, settings);
+        return response.solve(system, *parameters.lcp.method, context);
       } catch (const DivergenceError& error) {  // a response knows neither frame nor names
         std::string names;
         for (int b : group.bodies)
@@ -131,9 +111,9 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
   ResponseResult result = solve();
 
   // Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows
-  const NewtonSettings& newton = s.integrator->newton;
-  bool at_root = !s.integrator->is_newton() || system.soft.empty();
-  for (int iteration = 0; !at_root && iteration < newton.max_iterations; ++iteration) {
+  const NewtonSettings* newton = integrator.newton();
+  bool at_root = newton == nullptr || system.soft.empty();
+  for (int iteration = 0; !at_root && iteration < newton->max_iterations; ++iteration) {
     check_interrupt();
     {
       const StageTimer timer(times.assemble_ms);
@@ -142,11 +122,11 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
       for (int b : group.bodies) {
         if (!bodies_[b].soft) continue;
         const VecX v = s.soft[b]->step.v_star + system.soft_delta[k];
-        residual = std::max(
-            residual, s.soft[b]->relinearize(bodies_[b], *s.integrator, v, system.soft_impulse(k, system.lambda)));
+        residual = std::max(residual,
+                            s.soft[b]->relinearize(bodies_[b], integrator, v, system.soft_impulse(k, system.lambda)));
         ++k;
       }
-      at_root = residual <= newton.tolerance;
+      at_root = residual <= newton->tolerance;
       if (at_root) break;
       for (int b : group.bodies)
         if (bodies_[b].soft) s.soft[b]->resolve(bodies_[b], frame_);
@@ -154,7 +134,7 @@ GroupSystem World::solve_group(CollisionGroup& group, double h) {
     start = system.lambda;
     result = solve();
   }
-  const bool contradicts = !result.converged() && !s.response->lives_on_overlap() && settle_contradiction(system);
+  const bool contradicts = !result.converged() && !response.lives_on_overlap() && settle_contradiction(system);
   if (!result.converged() || !at_root) {
     ++s.frame_stats.unconverged;
     count_unsolved(s.frame_stats.unsolved, cause_of(result, contradicts));
@@ -187,16 +167,16 @@ void World::push_out(const GroupSystem& solved, const CollisionGroup& group, dou
     }
   };
   if (!solved.position_velocity.empty()) return move(solved.position_velocity, solved.position_angular_velocity, {});
-  if (s.response->lives_on_overlap() || !needs_push_out(solved, parameters, h)) return;
+  const Response& response = *parameters.response.method;
+  if (response.lives_on_overlap() || !needs_push_out(solved, parameters, h)) return;
   check_interrupt();
   const StageTimer timer(s.frame_stats.times.response_ms);
   GroupSystem recovery = make_push_out_system(solved, parameters, h);
   // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
-  ResponseSettings loose = response_settings(parameters);
+  ResponseContext loose = response_context(parameters);
   loose.lcp.tolerance = 1e-3;
-  loose.form = "accelerated";
-  loose.stop = "residual";
-  const ResponseResult result = s.response->solve(recovery, *s.lcp, loose);
+  loose.recovers_overlap = true;
+  const ResponseResult result = response.solve(recovery, *parameters.lcp.method, loose);
   s.frame_stats.lcp_iterations += result.iterations;
   s.frame_stats.outer_iterations += result.outer_iterations;
   if (!result.converged()) settle_contradiction(recovery);

@@ -7,64 +7,60 @@
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
+#include "engine/shapes/primitives.hpp"
+#include "engine/world/judge_convex.hpp"
 
 namespace impinge {
 namespace {
 
-/// Signed distance of a world point from an exact shape's surface, negative inside. Metres.
-double signed_distance(const RigidBody& body, const Vec3& world) {
-  const Vec3 x = body.pose.apply_inverse(world);
-  if (const auto* p = std::get_if<Plane>(&body.shape)) return p->normal.dot(x) - p->offset;
-  if (const auto* s = std::get_if<Sphere>(&body.shape)) return x.norm() - s->radius;
-  if (const auto* c = std::get_if<Capsule>(&body.shape))
-    return (x - Vec3(0, std::clamp(x.y(), -c->half_length, c->half_length), 0)).norm() - c->radius;
-  const Vec3 q = x.cwiseAbs() - std::get<Box>(body.shape).half;
-  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
-}
+/// A solid that the judge looks at by itself: a body, or a part of one that is a compound.
+struct Solid {
+  const Shape* shape = nullptr;
+  Pose pose;
+  std::span<const Vec3> vertices;  ///< of a mesh
+  Aabb bounds;
+};
 
-/// How deep two boxes overlap along the best of their 15 axes; 0 if one separates them. Metres.
-double box_overlap(const RigidBody& a, const RigidBody& b) {
-  const Vec3 half_a = std::get<Box>(a.shape).half, half_b = std::get<Box>(b.shape).half;
-  const Vec3 between = b.pose.position - a.pose.position;
-  double best = std::numeric_limits<double>::infinity();
-  const auto try_axis = [&](const Vec3& axis) {
-    const double length = axis.norm();
-    if (length < 1e-9) return;  // parallel edges: their axis is covered by the faces
-    const double reach = (a.pose.rotation.transpose() * axis).cwiseAbs().dot(half_a) +
-                         (b.pose.rotation.transpose() * axis).cwiseAbs().dot(half_b);
-    best = std::min(best, (reach - std::abs(axis.dot(between))) / length);
-  };
-  for (int i = 0; i < 3; ++i) {
-    try_axis(a.pose.rotation.col(i));
-    try_axis(b.pose.rotation.col(i));
-    for (int j = 0; j < 3; ++j) try_axis(a.pose.rotation.col(i).cross(b.pose.rotation.col(j)));
+std::vector<Solid> solids_of(const RigidBody& body) {
+  const std::vector<ShapePart>* parts = body.shape->parts();
+  if (parts == nullptr) return {{body.shape.get(), body.pose, body.world_vertices, body.bounds()}};
+  std::vector<Solid> list;
+  for (const ShapePart& part : *parts) {
+    const Pose pose{body.pose.rotation * part.pose.rotation, body.pose.apply(part.pose.position)};
+    list.push_back({part.shape.get(), pose, {}, part.shape->bounds(pose)});
   }
-  return std::max(0.0, best);
+  return list;
 }
 
-/// The segment inside a sphere (a point) or capsule, and its radius.
-bool centre_line(const RigidBody& body, Vec3& p, Vec3& q, double& radius) {
-  if (const auto* s = std::get_if<Sphere>(&body.shape)) {
-    p = q = body.pose.position;
+/// Of a solid that is neither plane nor mesh.
+const ConvexSet* convex_of(const Solid& solid) { return std::get<const ConvexSet*>(solid.shape->form()); }
+
+/// Signed distance of a world point from the surface of a solid that is no mesh, negative inside. Metres.
+double signed_distance(const Solid& solid, const Vec3& world) {
+  return solid.shape->signed_distance(solid.pose.apply_inverse(world));
+}
+
+/// The segment inside a sphere (a point) or capsule, and its radius. Others are judged without one.
+bool centre_line(const Solid& solid, Vec3& p, Vec3& q, double& radius) {
+  if (const auto* s = solid.shape->as<Sphere>()) {
+    p = q = solid.pose.position;
     radius = s->radius;
     return true;
   }
-  if (const auto* c = std::get_if<Capsule>(&body.shape)) {
-    p = body.pose.apply(Vec3(0, -c->half_length, 0));
-    q = body.pose.apply(Vec3(0, c->half_length, 0));
+  if (const auto* c = solid.shape->as<Capsule>()) {
+    p = solid.pose.apply(Vec3(0, -c->half_length, 0));
+    q = solid.pose.apply(Vec3(0, c->half_length, 0));
     radius = c->radius;
     return true;
   }
   return false;
 }
 
-std::span<const Triangle> triangles_of(const RigidBody& body) {
-  return std::get<MeshPointer>(body.shape)->mesh.triangles;
-}
+std::span<const Triangle> triangles_of(const Solid& mesh) { return mesh.shape->mesh()->mesh.triangles; }
 
-double depth_in_mesh(const RigidBody& mesh, const Vec3& x) {
-  if (winding_number(x, mesh.world_vertices, triangles_of(mesh)) < 0.5) return 0.0;
-  return distance_to_surface(x, mesh.world_vertices, triangles_of(mesh));
+double depth_in_mesh(const Solid& mesh, const Vec3& x) {
+  if (winding_number(x, mesh.vertices, triangles_of(mesh)) < 0.5) return 0.0;
+  return distance_to_surface(x, mesh.vertices, triangles_of(mesh));
 }
 
 /// Lowest value of a convex function on the segment pq (golden section).
@@ -82,80 +78,71 @@ double lowest_on_segment(const Vec3& p, const Vec3& q, Function f) {
   return std::min({f(Vec3(p + 0.5 * (low + high) * (q - p))), f(p), f(q)});
 }
 
-double vertices_in_mesh(const RigidBody& source, const RigidBody& mesh) {
-  const Aabb box = mesh.bounds();
+/// The deepest of some points inside a mesh.
+double points_in_mesh(std::span<const Vec3> points, const Solid& mesh) {
   std::vector<Vec3> inside_box;
-  for (const Vec3& v : source.world_vertices)
-    if (overlap(box, Aabb{v, v})) inside_box.push_back(v);
+  for (const Vec3& v : points)
+    if (overlap(mesh.bounds, Aabb{v, v})) inside_box.push_back(v);
   std::vector<double> depth(inside_box.size());
   parallel_for(inside_box.size(), 8, [&](std::size_t i) { depth[i] = depth_in_mesh(mesh, inside_box[i]); });
   return depth.empty() ? 0.0 : *std::max_element(depth.begin(), depth.end());
 }
 
-double mesh_with_shape(const RigidBody& mesh, const RigidBody& shape) {
+double mesh_with_shape(const Solid& mesh, const Solid& solid) {
   double depth = 0.0;
   check_interrupt();
-  for (const Vec3& v : mesh.world_vertices) depth = std::max(depth, -signed_distance(shape, v));
-  if (const auto* box = std::get_if<Box>(&shape.shape)) {
-    for (int i = 0; i < 8; ++i) {
-      const Vec3 corner((i & 1 ? 1 : -1) * box->half.x(), (i & 2 ? 1 : -1) * box->half.y(),
-                        (i & 4 ? 1 : -1) * box->half.z());
-      const Vec3 x = shape.pose.apply(corner);
-      if (overlap(mesh.bounds(), Aabb{x, x})) depth = std::max(depth, depth_in_mesh(mesh, x));
-    }
-  }
+  for (const Vec3& v : mesh.vertices) depth = std::max(depth, -signed_distance(solid, v));
   Vec3 p, q;
   double radius = 0.0;
-  if (centre_line(shape, p, q, radius)) {
+  if (centre_line(solid, p, q, radius)) {
     // the surface reaches `radius` beyond its centre line, which itself is sampled: a mesh's distance is not convex
     const int samples = (q - p).norm() > 0.0 ? 33 : 1;
     for (int i = 0; i < samples; ++i) {
       check_interrupt();
       const Vec3 x = p + (samples == 1 ? 0.0 : i / (samples - 1.0)) * (q - p);
-      const double distance = distance_to_surface(x, mesh.world_vertices, triangles_of(mesh));
-      const bool inside = winding_number(x, mesh.world_vertices, triangles_of(mesh)) > 0.5;
+      const double distance = distance_to_surface(x, mesh.vertices, triangles_of(mesh));
+      const bool inside = winding_number(x, mesh.vertices, triangles_of(mesh)) > 0.5;
       depth = std::max(depth, radius + (inside ? distance : -distance));
     }
+  } else if (solid.shape->as<Plane>() == nullptr) {
+    // corners of a polyhedron, points on the surface of anything else
+    std::vector<Vec3> points = solid.shape->drawn().vertices;
+    for (Vec3& x : points) x = solid.pose.apply(x);
+    depth = std::max(depth, points_in_mesh(points, mesh));
   }
   return depth;
 }
 
-double pair_penetration(const RigidBody& a, const RigidBody& b) {
-  const bool mesh_a = is_mesh(a.shape), mesh_b = is_mesh(b.shape);
-  if (mesh_a && mesh_b) return std::max(vertices_in_mesh(a, b), vertices_in_mesh(b, a));
+double pair_penetration(const Solid& a, const Solid& b) {
+  const bool mesh_a = a.shape->mesh() != nullptr, mesh_b = b.shape->mesh() != nullptr;
+  if (mesh_a && mesh_b) return std::max(points_in_mesh(a.vertices, b), points_in_mesh(b.vertices, a));
   if (mesh_a || mesh_b) return mesh_a ? mesh_with_shape(a, b) : mesh_with_shape(b, a);
   Vec3 p, q;
   double radius = 0.0;
   for (const auto& [line, other] : {std::pair(&a, &b), std::pair(&b, &a)})
     if (centre_line(*line, p, q, radius))
       return std::max(0.0, radius - lowest_on_segment(p, q, [&](const Vec3& x) { return signed_distance(*other, x); }));
-  const bool plane_a = std::holds_alternative<Plane>(a.shape), plane_b = std::holds_alternative<Plane>(b.shape);
-  if (plane_a && plane_b) return 0.0;
-  if (!plane_a && !plane_b) return box_overlap(a, b);
-  const RigidBody& box = plane_a ? b : a;
-  const Vec3 half = std::get<Box>(box.shape).half;
-  double depth = 0.0;
-  for (int i = 0; i < 8; ++i)
-    depth = std::max(depth, -signed_distance(plane_a ? a : b, box.pose.apply(Vec3((i & 1 ? 1 : -1) * half.x(),
-                                                                                  (i & 2 ? 1 : -1) * half.y(),
-                                                                                  (i & 4 ? 1 : -1) * half.z()))));
-  return depth;
+  const Plane *plane_a = a.shape->as<Plane>(), *plane_b = b.shape->as<Plane>();
+  if (plane_a != nullptr && plane_b != nullptr) return 0.0;
+  if (plane_a == nullptr && plane_b == nullptr) return least_overlap({convex_of(a), a.pose}, {convex_of(b), b.pose});
+  const Solid &plane = plane_a != nullptr ? a : b, &solid = plane_a != nullptr ? b : a;
+  const Vec3 down = solid.pose.rotation.transpose() * (plane.pose.rotation * -plane.shape->as<Plane>()->normal);
+  const ConvexSet& convex = *convex_of(solid);
+  const Vec3 lowest = convex.support(down) + convex.rounding() * down;
+  return std::max(0.0, -signed_distance(plane, solid.pose.apply(lowest)));
 }
 
-std::int64_t crossing_triangles(const RigidBody& a, const RigidBody& b) {
-  const auto corners = [](const RigidBody& body, const Triangle& t) {
-    return TriangleCorners{body.world_vertices[t[0]], body.world_vertices[t[1]], body.world_vertices[t[2]]};
-  };
-  const auto near = [&](const RigidBody& body, const Aabb& region) {
+std::int64_t crossing_triangles(const Solid& a, const Solid& b) {
+  const auto near = [&](const Solid& mesh, const Aabb& region) {
     std::vector<std::pair<Aabb, TriangleCorners>> list;
-    for (const Triangle& t : triangles_of(body)) {
-      const TriangleCorners c = corners(body, t);
+    for (const Triangle& t : triangles_of(mesh)) {
+      const TriangleCorners c{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
       const Aabb box = bounds_of(c[0], c[1], c[2]);
       if (overlap(box, region)) list.emplace_back(box, c);
     }
     return list;
   };
-  const auto list_a = near(a, b.bounds()), list_b = near(b, a.bounds());
+  const auto list_a = near(a, b.bounds), list_b = near(b, a.bounds);
   std::int64_t count = 0;
   InterruptPoll poll;
   for (const auto& [box_a, corners_a] : list_a)
@@ -169,18 +156,23 @@ std::int64_t crossing_triangles(const RigidBody& a, const RigidBody& b) {
 }  // namespace
 
 OverlapVerdict judge_overlap(std::span<const RigidBody> bodies) {
+  std::vector<std::vector<Solid>> solids;
+  for (const RigidBody& body : bodies) solids.push_back(solids_of(body));
   OverlapVerdict verdict;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      const RigidBody &a = bodies[i], &b = bodies[j];
-      if (!a.has_freedom() && !b.has_freedom()) continue;
-      if (!overlap(a.bounds(), b.bounds())) continue;
-      if (is_mesh(a.shape) && is_mesh(b.shape)) verdict.intersections += crossing_triangles(a, b);
-      const double depth = pair_penetration(a, b);
-      if (depth <= verdict.penetration) continue;
-      verdict.penetration = depth;
-      verdict.body_a = static_cast<int>(i);
-      verdict.body_b = static_cast<int>(j);
+      if (!bodies[i].has_freedom() && !bodies[j].has_freedom()) continue;
+      for (const Solid& a : solids[i])
+        for (const Solid& b : solids[j]) {
+          if (!overlap(a.bounds, b.bounds)) continue;
+          if (a.shape->mesh() != nullptr && b.shape->mesh() != nullptr)
+            verdict.intersections += crossing_triangles(a, b);
+          const double depth = pair_penetration(a, b);
+          if (depth <= verdict.penetration) continue;
+          verdict.penetration = depth;
+          verdict.body_a = static_cast<int>(i);
+          verdict.body_b = static_cast<int>(j);
+        }
     }
   return verdict;
 }

@@ -10,7 +10,8 @@ namespace impinge {
 
 struct OverlapVerdict {
   /// Metres. Deepest vertex of either closed surface inside the other; with an exact shape its signed distance decides
-  /// (sphere and capsule by their centre line, two boxes by their separating axes). 0 without overlap.
+  /// (sphere and capsule by their centre line, two other convex solids by the least motion that parts them, a compound
+  /// part by part). 0 without overlap.
   double penetration = 0.0;
   int body_a = -1, body_b = -1;    ///< where it is deepest
   std::int64_t intersections = 0;  ///< triangle pairs of different meshes that share a point

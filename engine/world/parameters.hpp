@@ -1,54 +1,61 @@
-// Every parameter of the model, declared once: member, path, unit, range, default, meaning (parameters.cpp).
+// Every parameter of the model, declared once: member, path, unit, range, default, meaning (parameters.cpp). What belongs
+// to one method is that method's own: it keeps and declares it, below its name.
 #pragma once
 
-#include "engine/core/parameter.hpp"
+#include "engine/core/method_set.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
+#include "engine/detection/triangles/narrow_phase.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
+#include "engine/response/response.hpp"
 
 namespace impinge {
+
+/// Where contacts come from.
+enum class ContactPoints {
+  intersection,  ///< triangles that intersect already
+  proximity      ///< features closer than the activation distance
+};
+std::string_view name_of(ContactPoints points);
+
+/// What recovery from overlap changes.
+enum class PushOut {
+  split,    ///< positions only
+  velocity  ///< velocities too, as in the seed
+};
 
 struct Parameters {
   struct Simulation {
     double frame_time = 1.0 / 60.0;
     int substeps = 4;
     Vec3 gravity{0.0, -9.81, 0.0};
-    std::string integrator = "linearly_implicit_euler";
+    MethodSet<DeformableIntegrator> integrator{integrators()};
     bool sleeping = true;
     double sleep_speed = 1e-4;
     double sleep_time = 0.5;
-    std::string linear_solver = "automatic";
+    LinearSolverChoice linear_solver;
     double time_step() const { return frame_time / substeps; }  ///< Δt of every formula
   } simulation;
   struct Contact {
-    std::string points = "proximity";
+    ContactPoints points = ContactPoints::proximity;
     double activation_distance = 1e-3;
     double friction = 0.3;
     double restitution = 0.0;
     double restitution_threshold = 0.01;
     double max_push_out = 1.0;
-    std::string push_out = "split";
+    PushOut push_out = PushOut::split;
     bool warm_start = true;
   } contact;
-  struct Named {
-    std::string method;
-  };
-  Named broad_phase{"sweep_and_prune"};
-  Named narrow_phase{"spatial_hash"};
-  struct Response {
-    std::string method = "constraint_anticipation";
-    std::string form = "accelerated";
-    std::string stop = "residual";
-    int max_iterations = 2000;
-    int impulse_iterations = 200;
-    std::string penalty_form = "implicit";
-    double penalty_stiffness = 0.0;
-    double penalty_damping = 0.0;
-    double penalty_slip_speed = 1e-3;
-    double soft_frequency = 30.0;
-    double soft_damping_ratio = 10.0;
-    int soft_iterations = 2;
-    int soft_relax_iterations = 1;
+  struct Broad {
+    MethodSet<BroadPhase> method{broad_phases()};
+  } broad_phase;
+  struct Narrow {
+    MethodSet<NarrowPhase> method{narrow_phases()};
+  } narrow_phase;
+  struct Responses {
+    MethodSet<Response> method{responses()};
   } response;
   struct Lcp {
-    std::string method = "automatic";
+    MethodSet<LcpSolver> method{lcp_solvers()};
     double tolerance = 1e-8;
     int max_iterations = 1000;
   } lcp;
@@ -56,5 +63,13 @@ struct Parameters {
   /// Declares the rows `simulation.*`, `contact.*`, `broad_phase.method`, … The set refers to this object.
   void bind(ParameterSet& set);
 };
+
+/// Values by path, former ones too, as a frozen step holds them. Paths that this program lacks are passed over: they are
+/// of methods that it can't run either. Throws InputError for a value that isn't allowed.
+void take_settings(std::span<const RowText> values, Parameters& parameters);
+
+/// What the parameters tell a cone solver, and a response.
+LcpSettings lcp_settings(const Parameters& parameters);
+ResponseContext response_context(const Parameters& parameters);
 
 }  // namespace impinge

@@ -47,7 +47,7 @@ Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world) {
 
 Vec3 carry_point(const RigidBody& body, int triangle, const Vec3& local) {
   if (!body.soft) return body.pose.apply(local);
-  const Triangle& t = std::get<MeshPointer>(body.shape)->mesh.triangles[triangle];
+  const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
   return local.x() * body.world_vertices[t[0]] + local.y() * body.world_vertices[t[1]] +
          local.z() * body.world_vertices[t[2]];
 }
@@ -70,7 +70,7 @@ void World::publish(bool solved) {
     BodyRecord r;
     r.name = body.name;
     r.kind = body.kind;
-    r.shape = &body.shape;
+    r.shape = body.shape.get();
     r.pose = body.pose;
     r.file_pose = body.file_pose();
     r.vertices = body.world_vertices;

@@ -52,7 +52,7 @@ void World::restore(ByteReader& in) {
   }
   stages_->cache.restore(in);
   stages_->sleeping.restore(in);
-  stages_->select(parameters);
+  stages_->choose_linear_solver(parameters.simulation.linear_solver);
   stages_->frame_stats = {};
   stages_->detection.collisions.clear();  // the record says what was found
   publish(false);

@@ -18,9 +18,9 @@ void check_solved(const DeformableStep& step, const RigidBody& body, int frame) 
 
 }  // namespace
 
-void SoftStep::choose_solvers(const DeformableBody& body, const std::string& name) {
-  iterative = make_linear_solver(name, body.dofs(), 1);
-  direct = make_linear_solver(name, body.dofs(), kContactRightHandSides);
+void SoftStep::choose_solvers(const DeformableBody& body, const LinearSolverChoice& choice) {
+  iterative = choice.make(body.dofs(), 1);
+  direct = choice.make(body.dofs(), kContactRightHandSides);
   iterative->analyze(*body.free_pattern());
   direct->analyze(*body.free_pattern());
 }

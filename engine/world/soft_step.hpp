@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/bodies/rigid_body.hpp"
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
 
 namespace impinge {
 
@@ -14,8 +14,8 @@ struct SoftStep {
   VecX velocity_before;                     ///< over all nodes, m/s
   VecX displacement_velocity;               ///< (s v* + d)/Δt over all nodes, m/s: what contact and detection see
 
-  /// Solvers by registered name, or "automatic", for this body's matrix.
-  void choose_solvers(const DeformableBody& body, const std::string& name);
+  /// Solvers for this body's matrix.
+  void choose_solvers(const DeformableBody& body, const LinearSolverChoice& choice);
   /// Opens the sub-step and solves A v* = b without contact. Throws DivergenceError naming frame and body.
   void begin(RigidBody& body, const DeformableIntegrator& integrator, const Vec3& gravity, double h, int frame);
   /// A and b at the velocity v of the free nodes, for one more Newton iteration. v* stays. Returns ‖A v - b - impulse‖

@@ -67,6 +67,7 @@ struct UnsolvedGroups {
 /// Adds to the entry of the same reason and limit, or a new one at the end.
 void count_unsolved(std::vector<UnsolvedGroups>& all, const UnsolvedGroups& more);
 
+/// A frame in numbers; what they mean: figures.cpp.
 struct FrameStats {
   int frame = 0;
   double time = 0.0;
@@ -81,6 +82,9 @@ struct FrameStats {
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
   StageTimes times;
   std::uint64_t state_hash = 0;
+  // Filled in by who asks the judge of overlap (judge.hpp).
+  double judged_penetration = 0.0;  ///< metres
+  std::int64_t judged_intersections = 0;
 };
 
 struct StepRecord {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/world/figures.hpp"
+
 namespace impinge {
 namespace {
 
@@ -17,19 +19,6 @@ int get_body(ByteReader& in, const StepRecord& record, int least) {
   if (body < least || body >= static_cast<int>(record.bodies.size()))
     throw InputError("snapshot: it names a body that the scene has not; remove it and run again");
   return body;
-}
-
-// all but the times, which differ from run to run
-template <class Archive, class Stats, class Field>
-void each_figure(Archive& archive, Stats& s, Field field) {
-  field(archive, s.frame), field(archive, s.time), field(archive, s.substeps), field(archive, s.bodies),
-      field(archive, s.dofs), field(archive, s.asleep);
-  field(archive, s.broad_pairs), field(archive, s.triangle_pairs), field(archive, s.contacts), field(archive, s.groups);
-  field(archive, s.max_penetration), field(archive, s.residual), field(archive, s.lcp_iterations),
-      field(archive, s.outer_iterations), field(archive, s.unconverged);
-  field(archive, s.kinetic), field(archive, s.potential), field(archive, s.elastic);
-  for (int k = 0; k < 3; ++k) field(archive, s.momentum[k]), field(archive, s.angular_momentum[k]);
-  field(archive, s.state_hash);
 }
 
 /// By pair of bodies, since there may be thousands of triangles of each.
@@ -82,7 +71,7 @@ ContactRecord get_contact(ByteReader& in, const StepRecord& record) {
 }  // namespace
 
 void put_record(ByteWriter& out, const StepRecord& record) {
-  each_figure(out, record.stats, [](ByteWriter& o, const auto& value) { o.put(value); });
+  put_figures(out, record.stats);
   out.put<std::uint64_t>(record.broad_pairs.size());
   for (const BodyPair& pair : record.broad_pairs) out.put(pair.a), out.put(pair.b), out.put(pair.margin);
   put_triangle_pairs(out, record.triangle_pairs);
@@ -98,8 +87,7 @@ void put_record(ByteWriter& out, const StepRecord& record) {
 }
 
 void get_record(ByteReader& in, StepRecord& record) {
-  each_figure(in, record.stats,
-              [](ByteReader& i, auto& value) { value = i.get<std::remove_reference_t<decltype(value)>>(); });
+  get_figures(in, record.stats);
   record.broad_pairs.resize(get_count(in, 16));
   for (BodyPair& pair : record.broad_pairs)
     pair.a = get_body(in, record, 0), pair.b = get_body(in, record, 0), pair.margin = in.get<double>();

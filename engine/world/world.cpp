@@ -7,9 +7,7 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
-#include "engine/detection/pairs/primitive.hpp"
 #include "engine/integrators/rigid_motion.hpp"
-#include "engine/world/tested_pairs.hpp"
 #include "engine/world/world_stages.hpp"
 
 namespace impinge {
@@ -88,15 +86,10 @@ RigidBody& World::add_body(const BodyDescription& description) {
   return bodies_.back();
 }
 
-void World::Stages::select(const Parameters& p) {
-  if (linear_solver_name != p.simulation.linear_solver) {
-    linear_solver_name = p.simulation.linear_solver;
-    soft.clear();  // solvers are made with the name
-  }
-  if (integrator_name != p.simulation.integrator)
-    integrator = make_named(integrators(), integrator_name = p.simulation.integrator);
-  if (response_name != p.response.method) response = make_named(responses(), response_name = p.response.method);
-  if (lcp_name != p.lcp.method) lcp = make_named(lcp_solvers(), lcp_name = p.lcp.method);
+void World::Stages::choose_linear_solver(const LinearSolverChoice& wanted) {
+  if (linear_solver == wanted) return;
+  linear_solver = wanted;
+  soft.clear();
 }
 
 void World::Stages::make_collision_groups(std::span<const RigidBody> bodies, std::span<const Attachment> attachments) {
@@ -120,12 +113,6 @@ void World::add_attachment(const AttachmentDescription& description) {
 }
 
 void World::start() {
-  if (const auto pair = first_untested_pair(bodies_, is_pair_supported)) {
-    const RigidBody &a = bodies_[pair->first], &b = bodies_[pair->second];
-    throw InputError(fmt::format(
-        "bodies '{}' ({}) and '{}' ({}) can meet, but this pair of shapes has no contact test; use other shapes",
-        a.name, shape_name(a.shape), b.name, shape_name(b.shape)));
-  }
   frame_ = 0;
   time_ = 0.0;
   stages_->frame_stats = {};
@@ -160,11 +147,10 @@ FrozenStep World::step_and_freeze() {
   frozen.time_step = parameters.simulation.time_step();
   frozen.time = time_ - frozen.time_step;
   frozen.gravity = parameters.simulation.gravity;
-  frozen.integrator = parameters.simulation.integrator;
   frozen.linear_solver = parameters.simulation.linear_solver;
-  frozen.response = parameters.response.method;
-  frozen.lcp = parameters.lcp.method;
-  frozen.settings = response_settings(parameters);
+  ParameterSet rows;
+  parameters.bind(rows);
+  for (const Parameter& row : rows.all()) frozen.settings.emplace_back(row.path, format_value(row.get()));
   for (const RigidBody& body : bodies_) frozen.bodies.push_back(body.name);
   return frozen;
 }
@@ -177,16 +163,16 @@ void World::free_velocity(int index, double h) {
   if (!body.soft) return apply_gravity(body, parameters.simulation.gravity, h);
   if (!s.soft[index]) {
     s.soft[index] = std::make_unique<SoftStep>();
-    s.soft[index]->choose_solvers(body.soft->fem, s.linear_solver_name);
+    s.soft[index]->choose_solvers(body.soft->fem, s.linear_solver);
   }
-  s.soft[index]->begin(body, *s.integrator, parameters.simulation.gravity, h, frame_);
+  s.soft[index]->begin(body, *parameters.simulation.integrator, parameters.simulation.gravity, h, frame_);
 }
 
 void World::substep(double h, int left) {
   Stages& s = *stages_;
   StageTimes& times = s.frame_stats.times;
   // 2 begin
-  s.select(parameters);
+  s.choose_linear_solver(parameters.simulation.linear_solver);
   drive_scripted(bodies_, time_, h);
   for (RigidBody& body : bodies_)
     if (body.soft) body.soft->drive_held(time_, h, 1.0 / left);
@@ -252,7 +238,7 @@ void World::integrate(double h) {
     if (body.is_dynamic()) advance_or_name(body, h, frame_, group_of[i]);
     if (!body.soft) continue;
     DeformableBody& fem = body.soft->fem;
-    s.integrator->advance(fem, s.soft[i]->step, s.soft[i]->step.v_star);
+    parameters.simulation.integrator->advance(fem, s.soft[i]->step, s.soft[i]->step.v_star);
     if (s.soft_push[i].size() > 0) {
       VecX displacement = VecX::Zero(fem.position.size());
       fem.scatter_free(s.soft_push[i], displacement);
@@ -309,7 +295,6 @@ void World::detect(double h) {
 }
 
 void World::parameters_changed() {
-  stages_->select(parameters);
   // only what the model reads counts: a change of the view must not wake a sleeper, or pictures would change states
   ByteWriter settings;
   ParameterSet rows;

@@ -35,8 +35,7 @@ class World {
   /// Declares the rows `body.NAME.*` of the bodies there are. The set refers to this object.
   void bind_bodies(ParameterSet& set);
 
-  /// Checks that every pair of shapes that can meet is supported and that every named algorithm exists (InputError),
-  /// then publishes frame 0: detection only, no solve. Throws DivergenceError as step() does.
+  /// Publishes frame 0: detection only, no solve. Throws DivergenceError as step() does.
   void start();
   /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body,
   /// or with frame, body and column where a figure is not finite; record() then has still the frame before. Throws

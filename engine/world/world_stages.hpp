@@ -4,7 +4,7 @@
 
 #include "engine/contact/contact_cache.hpp"
 #include "engine/frozen/frozen_step.hpp"
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
 #include "engine/response/response.hpp"
 #include "engine/world/detection.hpp"
 #include "engine/world/group_assembly.hpp"
@@ -30,13 +30,9 @@ struct World::Stages {
   Detection detection;
   ContactCache cache;
   Sleeping sleeping;
-  std::unique_ptr<DeformableIntegrator> integrator;
-  std::unique_ptr<Response> response;
-  std::unique_ptr<LcpSolver> lcp;
-  std::string integrator_name, response_name, lcp_name;
   std::vector<Twist> before;                    // velocities at the start of the sub-step
   std::vector<std::unique_ptr<SoftStep>> soft;  // a slot a body; null: not deformable
-  std::string linear_solver_name;
+  LinearSolverChoice linear_solver;             // that `soft` was made with
   std::vector<CollisionGroup> groups;
   std::vector<SolvedContact> contacts;
   std::vector<Vec3> attachment_impulse;       // on body A, N·s, of the last sub-step
@@ -50,7 +46,8 @@ struct World::Stages {
   FrozenStep* frozen = nullptr;               // if given, gets the groups of the frame's last sub-step
   bool freezing = false;                      // this is that sub-step
 
-  void select(const Parameters& parameters);
+  /// Solvers are made anew where another kind is wanted.
+  void choose_linear_solver(const LinearSolverChoice& wanted);
   /// Groups of what detection found last, and of the attachments.
   void make_collision_groups(std::span<const RigidBody> bodies, std::span<const Attachment> attachments);
   /// What the impulse of a group's contact is remembered by.
@@ -60,9 +57,6 @@ struct World::Stages {
                        const CollisionGroup& group, FrozenGroup& frozen) const;
   void warm_start(std::span<const Attachment> attachments, const CollisionGroup& group, GroupSystem& system) const;
 };
-
-/// What the parameters ask of a response.
-ResponseSettings response_settings(const Parameters& parameters);
 
 /// A point of a body's surface in coordinates that move with it, and back.
 Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world);

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/lcp/residual.hpp"
-#include "engine/response/conjugate_columns.hpp"
-#include "engine/response/multiplier_newton.hpp"
+#include "engine/response/augmented_lagrangian.hpp"
+#include "engine/response/delassus_columns.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/frozen_dragon.hpp"
 #include "tests/support/frozen_reference.hpp"
@@ -55,13 +55,13 @@ void check_friction(const FrozenStep& step, double tolerance) {
 }
 
 void check_routes(const FrozenGroup& group, bool dense) {
-  const MatX w = w_assembled(group, "automatic");
+  const MatX w = w_assembled(group, LinearSolverChoice("automatic"));
   const double size = w.norm();
   CHECK((w - w.transpose()).norm() <= 1e-13 * size);
-  const MatX solves = w_by_whole_solves(group, "automatic");
+  const MatX solves = w_by_whole_solves(group, LinearSolverChoice("automatic"));
   CHECK((solves - solves.transpose()).norm() <= 1e-12 * size);
   CHECK((w - solves).norm() <= 1e-12 * size);
-  CHECK((w - w_assembled(group, "simplicial_llt")).norm() <= 1e-12 * size);
+  CHECK((w - w_assembled(group, LinearSolverChoice("simplicial_llt"))).norm() <= 1e-12 * size);
   if (dense) CHECK((w - w_by_dense_inverse(group)).norm() <= 1e-12 * size);
 }
 
@@ -82,7 +82,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the method of multipliers, and columns by conjugate gradients, find the same velocities from nothing, with "
+    "the augmented Lagrangian, and columns by conjugate gradients, find the same velocities from nothing, with "
     "friction and without") {
   for (const double friction : {0.0, 0.4})
     for (const bool columns : {false, true}) {
@@ -95,10 +95,11 @@ TEST_CASE(
       const ConeProblem problem = make_cone_problem(group);
       const double tolerance = 1e-9 * velocity_scale(problem);
       VecX x = VecX::Zero(a.size());
-      const bool converged =
-          columns ? solve_by_columns(a, problem, *find_entry(lcp_solvers(), "automatic")->make(), tolerance, group, x)
-                        .converged
-                  : solve_by_multipliers(a, problem, tolerance, group, x).converged;
+      const bool converged = columns
+                                 ? solve_by_delassus_columns(
+                                       a, problem, *find_entry(lcp_solvers(), "automatic")->make(), tolerance, group, x)
+                                       .converged
+                                 : solve_by_augmented_lagrangian(a, problem, tolerance, group, x).converged;
       a.store(x, group);
       CAPTURE(friction, columns);
       CHECK(converged);

@@ -8,6 +8,7 @@
 #include "engine/response/least_violation.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/frozen_reference.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/response_worlds.hpp"
 #include "tests/support/soft_bodies.hpp"
@@ -18,9 +19,14 @@ using namespace impinge::test;
 
 namespace {
 
-ResponseResult solve(std::string_view name, GroupSystem& group, const ResponseSettings& settings,
+/// `iterations`: of the response's own, where it has a limit; 0: as it is.
+ResponseResult solve(std::string_view name, GroupSystem& group, const LcpSettings& settings, int iterations = 0,
                      const char* lcp = "projected_gauss_seidel") {
-  return find_entry(responses(), name)->make()->solve(group, *find_entry(lcp_solvers(), lcp)->make(), settings);
+  const auto response = make_response(name);
+  if (iterations > 0) allow_iterations(*response, iterations);
+  ResponseContext context;
+  context.lcp = settings;
+  return response->solve(group, *make_named(lcp_solvers(), lcp), context);
 }
 
 BodyBlock block_of(double mass, const Vec3& velocity) {
@@ -63,8 +69,8 @@ TEST_CASE("every interface of a ten-stack carries what stands on it") {
     World world;
     world.parameters.response.method = e.name;
     world.parameters.simulation.sleeping = false;
-    world.parameters.response.impulse_iterations = 1000;
-    world.parameters.response.soft_iterations = 20;
+    allow_iterations(world, 1000);
+    set(world, "response.soft_constraint.iterations", 20);
     world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
     for (int i = 0; i < 10; ++i) world.add_body(cube("box" + std::to_string(i), 0.5, Vec3(0, 0.5 * (i + 0.5), 0)));
     world.start();
@@ -113,23 +119,20 @@ TEST_CASE("sweeps of sequential impulses shrink a tower's error by r/(1+r), a di
   const double speed = kGravity / 60.0;
   for (const double ratio : {1.0, 10.0, 100.0}) {
     CAPTURE(ratio);
-    ResponseSettings settings;
-    settings.lcp.tolerance = 1e-15;
+    const LcpSettings settings{1e-15};
     const Vec2 exact((1.0 + ratio) * speed, ratio * speed);
     double before = 0.0;
     int needed = 0;
     for (const int sweeps : {5, 6}) {
       GroupSystem group = tower(ratio, speed);
-      settings.impulse_iterations = sweeps;
-      solve("sequential_impulse", group, settings);
+      solve("sequential_impulse", group, settings, sweeps);
       const double error = std::abs(group.lambda[1].x() - exact.y());
       if (sweeps == 6) CHECK(error / before == Approx(ratio / (1.0 + ratio)).epsilon(1e-6));
       before = error;
     }
     for (needed = 1; needed < 2000; ++needed) {
       GroupSystem group = tower(ratio, speed);
-      settings.impulse_iterations = needed;
-      solve("sequential_impulse", group, settings);
+      solve("sequential_impulse", group, settings, needed);
       if (std::abs(group.lambda[1].x() - exact.y()) <= 1e-3 * exact.y()) break;
     }
     CHECK(needed == static_cast<int>(std::ceil(std::log(1e-3) / std::log(ratio / (1.0 + ratio)))));
@@ -138,9 +141,7 @@ TEST_CASE("sweeps of sequential impulses shrink a tower's error by r/(1+r), a di
     for (const char* lcp : {"pivoting", "semismooth_newton"}) {
       CAPTURE(ratio, lcp);
       GroupSystem group = tower(ratio, speed);
-      ResponseSettings settings;
-      settings.lcp.tolerance = 1e-12;
-      const ResponseResult result = solve("constraint_anticipation", group, settings, lcp);
+      const ResponseResult result = solve("constraint_anticipation", group, {1e-12}, 0, lcp);
       CHECK(result.converged());
       if (lcp == std::string_view("pivoting")) CHECK(result.iterations <= 5);
       CHECK(group.lambda[1].x() == Approx(ratio * speed).epsilon(1e-9));
@@ -155,7 +156,8 @@ TEST_CASE("a heavy box on a light one") {
       world.parameters.response.method = e.name;
       world.parameters.simulation.sleeping = false;
       world.parameters.simulation.substeps = 1;
-      world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 20000;
+      world.parameters.lcp.max_iterations = 20000;
+      allow_iterations(world, 20000);
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
       for (int i = 0; i < 2; ++i) {
         BodyDescription box = cube("box" + std::to_string(i), 1.0, Vec3(0, i + 0.5, 0));
@@ -209,11 +211,9 @@ TEST_CASE("two stacked deformable cubes without friction: impulses find the velo
     const FrozenStep step =
         without_friction(frozen_of(make_soft_stack({.young = young, .cells = {3, 2}, .rigid_on_top = true}).group));
     const auto solved = [&](const char* name, const char* lcp) {
-      ResponseSettings settings;
-      settings.lcp = {1e-11, 100000};
-      settings.impulse_iterations = 100000;
-      return solve_frozen(step, *find_entry(responses(), name)->make(), *find_entry(lcp_solvers(), lcp)->make(),
-                          settings);
+      ResponseContext context;
+      context.lcp = {1e-11, 100000};
+      return solve_frozen(step, *patient_response(name, 100000), *make_named(lcp_solvers(), lcp), context);
     };
     const GroupAnswer exact = solved("constraint_anticipation", "semismooth_newton").answers[0];
     for (const char* name : {"sequential_impulse", "simultaneous_impulse"}) {
@@ -243,10 +243,7 @@ TEST_CASE("rows that depend on each other have an answer still: twelve contacts 
         group.contacts.back().friction = mu;
       }
       begin(group);
-      ResponseSettings settings;
-      settings.lcp = {1e-10, 100000};
-      settings.impulse_iterations = 100000;
-      CHECK(solve(e.name, group, settings).converged());
+      CHECK(solve(e.name, group, {1e-10, 100000}, 100000).converged());
       CHECK(judge_group(group).residual() < 1e-9);
     }
   }
@@ -266,7 +263,7 @@ TEST_CASE("two walls that close on a body: the velocity that violates both least
       group.contacts[1].surface.x() = -0.5;
       for (ContactRows& rows : group.contacts) rows.friction = mu;
       begin(group);
-      CHECK_FALSE(solve(e.name, group, ResponseSettings{}).converged());
+      CHECK_FALSE(solve(e.name, group, {}).converged());
       CHECK(settle_contradiction(group));
       CHECK(group.delta_velocity[0].allFinite());
       CHECK(0.2 + group.delta_velocity[0].y() == Approx(0.25).margin(1e-4));
@@ -279,9 +276,7 @@ TEST_CASE("rows that are solved slowly aren't taken for a contradiction") {
   for (const double ratio : {1.0, 1e2, 1e4}) {
     CAPTURE(ratio);
     GroupSystem group = tower(ratio, 0.2);
-    ResponseSettings settings;
-    settings.lcp = {1e-12, 20};
-    solve("constraint_anticipation", group, settings);
+    solve("constraint_anticipation", group, {1e-12, 20});
     const std::vector<Vec3> lambda = group.lambda;
     CHECK_FALSE(settle_contradiction(group));
     CHECK(group.lambda == lambda);
@@ -294,7 +289,8 @@ TEST_CASE("a ball and a deformable cube between closing walls: every response st
       CAPTURE(e.name, soft);
       World world;
       world.parameters.response.method = e.name;
-      world.parameters.lcp.max_iterations = world.parameters.response.max_iterations = 200;
+      world.parameters.lcp.max_iterations = 200;
+      allow_iterations(world, 200);
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
       for (const double side : {-1.0, 1.0}) {
         BodyDescription wall = dynamic_body(side < 0 ? "left" : "right", Box{Vec3(0.1, 0.5, 0.5)}, Vec3::Zero());
@@ -357,7 +353,8 @@ TEST_CASE("forty crates have the same hashes for 1, 2 and 4 threads under every 
       World world;
       world.parameters.response.method = e.name;
       world.parameters.lcp.tolerance = 1e-4;
-      world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 50;
+      world.parameters.lcp.max_iterations = 50;
+      allow_iterations(world, 50);
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
       Random random(40);
       for (int i = 0; i < 40; ++i) {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/support/methods.hpp"
 #include "tests/support/response_worlds.hpp"
 #include "tests/support/soft_bodies.hpp"
 
@@ -15,7 +16,7 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
   for (const auto& e : responses())
     for (const bool rod : {false, true}) {
       BodyDescription body =
-          dynamic_body("body", rod ? Shape(Capsule{radius, 0.3}) : Shape(Sphere{radius}), radius * normal);
+          dynamic_body("body", rod ? SharedShape(Capsule{radius, 0.3}) : SharedShape(Sphere{radius}), radius * normal);
       body.mass = 2.0;
       if (rod) body.rotation = Vec3(90, 0, 0);
       World probe;
@@ -28,7 +29,7 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
         World world;
         use(world, e.name);
         world.parameters.contact.friction = mu;
-        world.parameters.response.impulse_iterations = 2000;
+        allow_iterations(world, 2000);
         world.add_body(fixed_plane("slope", normal, 0.0));
         world.add_body(body);
         world.start();
@@ -57,7 +58,7 @@ TEST_CASE("a box is pushed over the floor, twenty-five balls roll on it") {
     use(world, e.name);
     world.parameters.simulation.frame_time = 1e-3;
     world.parameters.simulation.substeps = 1;
-    world.parameters.response.impulse_iterations = 4000;
+    allow_iterations(world, 4000);
     BodyDescription floor = fixed_plane("floor", Vec3::UnitY(), 0.0);
     floor.friction = 0.2;  // 0.4 is the geometric mean with the box
     world.add_body(floor);
@@ -112,10 +113,9 @@ TEST_CASE("three legs hold a torque up to µ m g R, and slip beyond it") {
       }
       group.lambda.assign(3, Vec3::Zero());
       group.clear_delta();
-      ResponseSettings settings;
-      settings.lcp = {1e-13, 100000};
-      settings.impulse_iterations = 100000;
-      CHECK(find_entry(responses(), e.name)->make()->solve(group, *lcp_solvers().front().make(), settings).converged());
+      ResponseContext context;
+      context.lcp = {1e-13, 100000};
+      CHECK(patient_response(e.name, 100000)->solve(group, *lcp_solvers().front().make(), context).converged());
       const double spin = torque * h / inertia + group.delta_angular_velocity[0].z();
       if (torque < 30.0)
         CHECK(std::abs(spin) < 1e-10);
@@ -182,7 +182,7 @@ TEST_CASE("three touching balls hit by one: responses that know one law for all 
     world.parameters.contact.restitution = 1.0;
     world.parameters.contact.friction = 0.0;
     world.parameters.lcp.tolerance = 1e-13;
-    world.parameters.response.impulse_iterations = 10000;
+    allow_iterations(world, 10000);
     for (int i = 0; i < 3; ++i) {
       BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {0.2 * i, 0, 0});
       if (i == 0) ball.velocity = Vec3(1, 0, 0);
@@ -203,8 +203,8 @@ TEST_CASE("a deformable pad slides with µ ΣN against it, and sticks below that
       World world;
       use(world, e.name);
       world.parameters.contact.friction = mu;
-      world.parameters.response.impulse_iterations = 4000;
-      world.parameters.response.soft_iterations = 50;
+      allow_iterations(world, 4000);
+      set(world, "response.soft_constraint.iterations", 50);
       world.parameters.simulation.frame_time = 1.0 / 240.0;
       world.parameters.simulation.substeps = 1;  // so that every force is in the record
       world.parameters.simulation.gravity = slips ? Vec3(4.0, -kGravity, 0) : Vec3(0.25 * kGravity, -kGravity, 0);
@@ -245,8 +245,8 @@ TEST_CASE("two deformable cubes that collide without friction and gravity: kinet
     world.parameters.simulation.linear_solver = "simplicial_llt";
     world.parameters.contact.friction = 0.0;
     world.parameters.lcp.tolerance = 1e-12;
-    world.parameters.lcp.max_iterations = world.parameters.response.impulse_iterations = 20000;
-    world.parameters.response.max_iterations = 20000;
+    world.parameters.lcp.max_iterations = 20000;
+    allow_iterations(world, 20000);
     for (const double side : {-1.0, 1.0}) {
       BodyDescription d =
           soft_cube(side < 0 ? "left" : "right", 0.2, side < 0 ? 1 : 2,

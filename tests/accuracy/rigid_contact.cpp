@@ -68,7 +68,7 @@ TEST_CASE("intersection contacts chatter by about g h², proximity contacts do n
   for (int proximity = 0; proximity < 2; ++proximity) {
     World world;
     world.parameters.simulation.sleeping = false;
-    world.parameters.contact.points = proximity ? "proximity" : "intersection";
+    world.parameters.contact.points = proximity ? ContactPoints::proximity : ContactPoints::intersection;
     world.parameters.simulation.substeps = 1;
     add_stack(world, 1, 1.0);
     world.bodies()[1].pose.position.y() += 1e-4;  // it has to find its own rest
@@ -222,7 +222,7 @@ TEST_CASE("collisions between free bodies keep linear and angular momentum") {
     world.parameters.simulation.gravity.setZero();
     world.parameters.contact.friction = trial % 3 == 0 ? 0.0 : 0.5;
     world.parameters.contact.restitution = trial % 2 ? 0.7 : 0.0;
-    const Shape shapes[] = {Sphere{0.3}, Box{Vec3(0.2, 0.3, 0.4)}, Capsule{0.2, 0.3}};
+    const SharedShape shapes[] = {Sphere{0.3}, Box{Vec3(0.2, 0.3, 0.4)}, Capsule{0.2, 0.3}};
     for (int i = 0; i < 6; ++i) {
       const Vec3 place = 1.2 * random.direction() * (1.0 + 0.8 * i);
       BodyDescription d = dynamic_body("body" + std::to_string(i), shapes[i % 3], place);

@@ -224,7 +224,7 @@ TEST_CASE("a symmetric body precesses about its momentum as the closed form says
 }
 
 TEST_CASE("a slender rod in free flight keeps its kinetic energy") {
-  for (const Shape& shape : {Shape{Capsule{0.008, 0.6}}, Shape{Box{Vec3(0.11, 0.004, 0.003)}}}) {
+  for (const SharedShape& shape : {SharedShape(Capsule(0.008, 0.6)), SharedShape(Box(Vec3(0.11, 0.004, 0.003)))}) {
     World world;
     world.parameters.simulation.gravity.setZero();
     world.parameters.simulation.frame_time = 1.0 / 240.0;

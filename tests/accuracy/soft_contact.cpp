@@ -1,7 +1,7 @@
 // Deformable bodies in contact against statics: rest, weight, attachments, moved nodes; every integrator.
 #include <catch2/catch.hpp>
 
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/soft_bodies.hpp"
 

@@ -20,11 +20,12 @@ constexpr double kTolerance = 1e-6;
 
 void print(const char* label, const FrozenRuler& ruler, const FrozenStep& step, const char* response,
            const char* solver, double megabytes) {
-  ResponseSettings settings = step.settings;
-  settings.lcp = {kTolerance, 2000};
-  settings.max_outer_iterations = 2000;
-  const FrozenOutcome o = solve_frozen(step, *find_entry(responses(), response)->make(),
-                                       *find_entry(lcp_solvers(), solver)->make(), settings);
+  Parameters settings;
+  take_settings(step.settings, settings);
+  ResponseContext context = response_context(settings);
+  context.lcp = {kTolerance, 2000};
+  const FrozenOutcome o =
+      solve_frozen(step, settings.response.method.at(response), settings.lcp.method.at(solver), context);
   const FrozenVerdict v = ruler.judge(o.answers);
   std::printf("  %-34s %9.1f ms  residual %.1e  distance %.1e  %6d sweeps or Newton steps %5d outer  %7.1f MB  %s\n",
               label, o.ms, v.residual, v.distance, o.iterations, o.outer_iterations, megabytes,

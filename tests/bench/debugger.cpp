@@ -9,7 +9,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "viewer/controller/debug_loop.hpp"
+#include "viewer/debugger/loop.hpp"
 
 using namespace impinge;
 
@@ -74,7 +74,7 @@ void measure(int dragons) {
   }
   std::size_t triangles = 0;
   for (const BodyRecord& body : debugger.model().record->bodies)
-    if (const auto* mesh = std::get_if<MeshPointer>(body.shape)) triangles += (*mesh)->mesh.triangles.size();
+    if (const SurfaceMesh* mesh = body.shape->mesh()) triangles += mesh->mesh.triangles.size();
   const double whole = median(orbit);
   fmt::print("{:>9} | {:>8} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f}\n", triangles,
              debugger.model().record->contacts.size(), whole, whole - median(panels) - median(read), median(panels),

@@ -17,7 +17,7 @@ DeformableBody lattice(int cells, std::string_view model, double poisson, int cl
   MaterialSettings settings;
   settings.young = 1e5;
   settings.poisson = poisson;
-  material->configure(settings);
+  material->settings() = settings;
   DeformableBody body(FemAssembly(make_tet_box(Vec3::Ones(), cells, cells, cells), {{material, 1000.0}}, mass));
   std::vector<int> held;
   for (int i = 0; i < body.nodes(); ++i)
@@ -33,7 +33,7 @@ void vega_steps() {
     for (const auto& entry : materials()) {
       DeformableBody body = lattice(cells, entry.name, 0.4, 0, MassKind::consistent);
       body.damping = {0.0, 0.01};
-      const auto scheme = find_entry(deformable_integrators(), "linearly_implicit_euler")->make();
+      const auto scheme = find_entry(integrators(), "linearly_implicit_euler")->make();
       const auto solver = make_linear_solver("conjugate_gradient");
       solver->tolerance = 1e-6;  // Vega's own
       solver->analyze(*body.free_pattern());

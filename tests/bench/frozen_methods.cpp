@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     const FrozenRuler smooth_ruler(smooth), ruler(step);
     std::vector<GroupAnswer> kkt;
     for (const FrozenGroup& group : smooth.groups) kkt.push_back(kkt_answer(group));
-    std::printf("  without friction: KKT against CA (%s) %.1e\n", smooth_ruler.exact_method().c_str(),
+    std::printf("  without friction: KKT against CA (%s) %.1e\n", smooth_ruler.exact_solver().c_str(),
                 difference(smooth, kkt, smooth_ruler.exact()));
     iterative(smooth, smooth_ruler);
     std::printf("  friction 0.3\n");

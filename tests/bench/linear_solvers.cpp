@@ -39,7 +39,7 @@ System lattice_system(int cells, double young) {
   MaterialSettings settings;
   settings.young = young;
   settings.poisson = 0.3;
-  material->configure(settings);
+  material->settings() = settings;
   DeformableBody body(
       FemAssembly(make_tet_box(Vec3::Ones(), cells, cells, cells), {{material, 1000.0}}, MassKind::lumped));
   std::vector<int> held;

@@ -7,8 +7,8 @@
 #include <chrono>
 
 #include "engine/core/parallel.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/hand_made_record.hpp"
-#include "viewer/draw/tessellation.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"
@@ -42,7 +42,7 @@ double median_ms(int repeats, const Body& body) {
 
 /// Spheres as meshes, side by side on a floor; 20 * 4^k triangles each.
 void add_spheres(test::HandMadeRecord& scene, int count, int divisions) {
-  TriangleMesh mesh = tessellate(Sphere{0.4});  // 1280 triangles
+  TriangleMesh mesh = Sphere{0.4}.drawn();  // 1280 triangles
   if (divisions < 3) {
     mesh.vertices = {{0.4, 0, 0}, {-0.4, 0, 0}, {0, 0.4, 0}, {0, -0.4, 0}, {0, 0, 0.4}, {0, 0, -0.4}};
     mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};

@@ -10,6 +10,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/response.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/soft_stack.hpp"
 
 using namespace impinge;
@@ -19,8 +20,9 @@ namespace {
 
 double now_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Method {
-  const char *label, *response, *form, *stop;
+struct Way {
+  const char *label, *response;
+  std::vector<RowText> rows;
 };
 
 double relative_error(const GroupSystem& group, const GroupSystem& truth) {
@@ -38,31 +40,31 @@ double relative_error(const GroupSystem& group, const GroupSystem& truth) {
 int main(int argc, char** argv) {
   set_thread_count(1);
   const int most = argc > 1 ? std::atoi(argv[1]) : 8;
-  const Method methods[] = {{"ca", "constraint_anticipation", "accelerated", "residual"},
-                            {"ica", "iterative_constraint_anticipation", "accelerated", "residual"},
-                            {"ica_5_percent", "iterative_constraint_anticipation", "accelerated", "change"},
-                            {"seed", "iterative_constraint_anticipation", "seed", "residual"},
-                            {"seed_5_percent", "iterative_constraint_anticipation", "seed", "change"}};
+  const char* iterative = "iterative_constraint_anticipation";
+  const Way methods[] = {{"ca", "constraint_anticipation", {}},
+                         {"ica", iterative, {}},
+                         {"ica_5_percent", iterative, {{"stop", "change"}}},
+                         {"seed", iterative, {{"form", "seed"}}},
+                         {"seed_5_percent", iterative, {{"form", "seed"}, {"stop", "change"}}}};
   const auto lcp = find_entry(lcp_solvers(), "projected_gauss_seidel")->make();
   std::printf("young_Pa,nodes,contacts,method,ms,to_ca,outer,sweeps,converged,residual_m_s,error,memory_MB\n");
   for (int cells = 4; cells <= most; cells += cells < 8 ? 2 : 4)
     for (const double young : {1e4, 1e5, 1e6}) {
       const SoftStack stack = make_soft_stack({.young = young, .friction = 0.5, .cells = {cells, cells - 1}});
       GroupSystem truth = stack.group;
-      ResponseSettings tight;
+      ResponseContext tight;
       tight.lcp = {1e-11, 100000};
-      find_entry(responses(), "constraint_anticipation")->make()->solve(truth, *lcp, tight);
+      make_response("constraint_anticipation")->solve(truth, *lcp, tight);
       Eigen::Index unknowns = 0;
       for (const SoftBlock& block : truth.soft) unknowns += block.velocity.size();
       double exact_ms = 0.0;
-      for (const Method& method : methods) {
+      for (const Way& method : methods) {
         GroupSystem group = stack.group;
-        ResponseSettings settings;
-        settings.lcp.max_iterations = 20000;
-        settings.form = method.form;
-        settings.stop = method.stop;
+        ResponseContext context;
+        context.lcp.max_iterations = 20000;
+        const auto response = make_response(method.response, method.rows);
         const double start = now_ms();
-        const ResponseResult result = find_entry(responses(), method.response)->make()->solve(group, *lcp, settings);
+        const ResponseResult result = response->solve(group, *lcp, context);
         const double ms = now_ms() - start;
         if (exact_ms == 0.0) exact_ms = ms;
         const double numbers = method.label == methods[0].label

@@ -81,7 +81,8 @@ int main(int argc, char** argv) {
       {"CA", {"response.method=constraint_anticipation"}, {}},
       {"ICA accelerated", {"response.method=iterative_constraint_anticipation"}, {}},
       {"ICA seed, 5 % rule",
-       {"response.method=iterative_constraint_anticipation", "response.form=seed", "response.stop=change"},
+       {"response.method=iterative_constraint_anticipation", "response.iterative_constraint_anticipation.form=seed",
+        "response.iterative_constraint_anticipation.stop=change"},
        {}}};
   for (Course& c : courses) {
     Session session(kScenes / "dragon_spheres.toml", c.overrides, {});

@@ -37,25 +37,28 @@ std::string note_of(bool soft, std::vector<std::string> settings) {
 
 void check_names(const std::string& note, const std::string& parameter) {
   INFO(note);
-  for (const char* path : {"lcp.max_iterations", "response.max_iterations", "response.impulse_iterations"})
+  for (const char* path : {"lcp.max_iterations", "response.iterative_constraint_anticipation.max_iterations",
+                           "response.sequential_impulse.iterations", "response.simultaneous_impulse.iterations"})
     CHECK((note.find(path) != std::string::npos) == (path == parameter));
 }
 
 }  // namespace
 
 TEST_CASE("the note at a run's end names the parameter that stopped the solves, and no other") {
-  for (const char* method : {"sequential_impulse", "simultaneous_impulse"})
-    check_names(note_of(false, {std::string("response.method=") + method, "response.impulse_iterations=1"}),
-                "response.impulse_iterations");
+  for (const std::string method : {"sequential_impulse", "simultaneous_impulse"}) {
+    const std::string path = "response." + method + ".iterations";
+    check_names(note_of(false, {"response.method=" + method, path + "=1"}), path);
+  }
   check_names(note_of(false, {"lcp.method=projected_gauss_seidel", "lcp.max_iterations=1"}), "lcp.max_iterations");
-  for (const char* form : {"accelerated", "seed"})
-    check_names(note_of(true, {"response.method=iterative_constraint_anticipation",
-                               std::string("response.form=") + form, "response.max_iterations=1"}),
-                "response.max_iterations");
+  const std::string iterative = "response.iterative_constraint_anticipation";
+  for (const std::string form : {"accelerated", "seed"})
+    check_names(note_of(true, {"response.method=iterative_constraint_anticipation", iterative + ".form=" + form,
+                               iterative + ".max_iterations=1"}),
+                iterative + ".max_iterations");
   // what was named is what helps
-  CHECK(
-      note_of(false, {"response.method=sequential_impulse", "response.impulse_iterations=100000", "lcp.tolerance=1e-6"})
-          .empty());
+  CHECK(note_of(false, {"response.method=sequential_impulse", "response.sequential_impulse.iterations=100000",
+                        "lcp.tolerance=1e-6"})
+            .empty());
 }
 
 TEST_CASE("the note counts each cause for itself where there are several") {

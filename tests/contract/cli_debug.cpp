@@ -7,7 +7,7 @@
 
 #include "engine/core/archive.hpp"
 #include "tests/support/debug_session.hpp"
-#include "viewer/controller/debugger.hpp"
+#include "viewer/debugger/debugger.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -115,11 +115,12 @@ TEST_CASE("a suite of tests on a full disk ends at once, and its XML tells so") 
   const std::string xml = slurp(files.folder / "junit.xml");
   CHECK(xml.find("tests=\"1\" failures=\"0\" errors=\"1\"") != std::string::npos);
   CHECK(xml.find("the tests after this one were not run") != std::string::npos);
-  // no room for the XML either: none is left that could pass for a good one
+  // no room for the XML either, or hardly any: none is left that could pass for a good one
   std::vector<std::string> both = words;
   both.back() = "disk/junit.xml";
   files.refused(both);
-  CHECK_FALSE(fs::exists(files.folder / "disk/junit.xml"));
+  if (fs::exists(files.folder / "disk/junit.xml"))
+    CHECK(slurp(files.folder / "disk/junit.xml").find("the tests after this one were not run") != std::string::npos);
   REQUIRE(disk.resize("16m"));
   CHECK(files.run(words, 0).out.find("2 tests: 2 ok, 0 failed") != std::string::npos);
 }

@@ -326,6 +326,27 @@ TEST_CASE("a finished run can be continued to more frames") {
   CHECK(timeless(files.folder / "whole/stats.csv") == timeless(files.folder / "parts/stats.csv"));
 }
 
+TEST_CASE("a run is not resumed from states that another version wrote, and what is there stays") {
+  const Files files;
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"run", "s.toml", "--out", "a", "--no-images", "--frames", "9", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return impinge_run(files.folder.path(), words);
+  };
+  REQUIRE(run({}).code == 0);
+  for (const auto& entry : fs::directory_iterator(files.folder / "a/snapshots")) {
+    std::string bytes = slurp(entry.path());
+    REQUIRE(bytes.rfind("impinge snapshot ", 0) == 0);
+    std::ofstream(entry.path(), std::ios::binary) << bytes.replace(17, bytes.find('\n') - 17, "1");
+  }
+  const std::string before = slurp(files.folder / "a/stats.csv");
+  const Outcome refused = run({"--resume"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("is a snapshot of version 1; one of version ") != std::string::npos);
+  CHECK(slurp(files.folder / "a/stats.csv") == before);
+  CHECK(run({}).code == 0);
+}
+
 TEST_CASE("a run that is killed at any moment resumes to the same bits") {
   const Files files;
   // enough frames for the signals to fall inside
@@ -442,7 +463,7 @@ TEST_CASE("a full disk stops the run with a message, and what is there can be re
   CHECK(timeless(files.folder / "out/stats.csv") == timeless(files.folder / "whole/stats.csv"));
 }
 
-TEST_CASE("the judge's columns come last and are there only when asked for") {
+TEST_CASE("the judge's columns are there only when asked for") {
   const Files files;
   files.folder.write("j.toml", R"([simulation]
 gravity = [0, 0, 0]
@@ -462,7 +483,7 @@ position = [1.75, 0, 0]
               .code == 0);
   const std::string stats = slurp(files.folder / "j/stats.csv");
   CHECK(stats.substr(0, stats.find('\n'))
-            .ends_with(",state_hash,unconverged,asleep,judged_penetration_m,judged_intersections"));
+            .find(",state_hash,unconverged,asleep,judged_penetration_m,judged_intersections") != std::string::npos);
   CHECK(std::stod(table(files.folder / "j/stats.csv")[0].at("judged_penetration_m")) == Approx(0.25).epsilon(1e-12));
   CHECK(impinge_run(files.folder.path(), {"replay", "j"}).code == 0);
   CHECK(impinge_run(files.folder.path(), {"check", "j.toml", "--script", "j.script"}).code == 0);
@@ -470,4 +491,6 @@ position = [1.75, 0, 0]
       files.folder.path(), {"run", "j.toml", "--script", "j.script", "--out", "k", "--frames", "3", "--no-images"});
   CHECK(without.code == 2);
   CHECK(without.err.find("unknown figure 'judged_penetration_m'") != std::string::npos);
+  REQUIRE(impinge_run(files.folder.path(), {"run", "j.toml", "--out", "k", "--frames", "1", "--no-images"}).code == 0);
+  CHECK(slurp(files.folder / "k/stats.csv").find("judged") == std::string::npos);
 }

@@ -35,32 +35,40 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/io", 1},
                                                  {"engine/algebra", 1},
                                                  {"engine/geometry", 2},
-                                                 {"engine/io/meshes", 3},
-                                                 {"engine/io/tets", 3},
-                                                 {"engine/shapes", 3},
-                                                 {"engine/materials", 3},
-                                                 {"engine/bodies", 4},
-                                                 {"engine/integrators", 5},
-                                                 {"engine/detection", 5},
-                                                 {"engine/detection/broadphase", 6},
-                                                 {"engine/detection/triangles", 6},
-                                                 {"engine/detection/contacts", 7},
-                                                 {"engine/detection/pairs", 8},
-                                                 {"engine/contact", 9},
-                                                 {"engine/lcp", 10},
-                                                 {"engine/response/operators", 11},
-                                                 {"engine/response", 12},
-                                                 {"engine/frozen", 13},
-                                                 {"engine/world", 14},
-                                                 {"engine/io/scene", 15},
+                                                 {"engine/geometry/convex", 3},
+                                                 {"engine/io/meshes", 4},
+                                                 {"engine/io/tets", 4},
+                                                 {"engine/shapes", 4},
+                                                 {"engine/materials", 4},
+                                                 {"engine/bodies", 5},
+                                                 {"engine/integrators", 6},
+                                                 {"engine/detection", 6},
+                                                 {"engine/detection/broadphase", 7},
+                                                 {"engine/detection/triangles", 7},
+                                                 {"engine/detection/contacts", 8},
+                                                 {"engine/detection/pairs", 9},
+                                                 {"engine/contact", 10},
+                                                 {"engine/lcp", 11},
+                                                 {"engine/response/operators", 12},
+                                                 {"engine/response", 13},
+                                                 {"engine/frozen", 14},
+                                                 {"engine/world", 15},
+                                                 {"engine/io/scene", 16},
                                                  {"viewer/image", 20},
                                                  {"viewer/draw", 20},
                                                  {"viewer/gl", 21},
+                                                 {"viewer/state", 21},
                                                  {"viewer/layers", 22},
-                                                 {"viewer/panels", 23},
+                                                 {"viewer/panels/overlay", 23},
+                                                 {"viewer/panels/debug", 23},
                                                  {"viewer/present", 24},
                                                  {"viewer/controller", 25},
-                                                 {"viewer/app", 26}};
+                                                 {"viewer/debugger", 26},
+                                                 {"viewer/study", 26},
+                                                 {"viewer/sweep", 26},
+                                                 {"viewer/report", 27},
+                                                 {"viewer/compare", 28},
+                                                 {"viewer/app", 29}};
   return map;
 }
 
@@ -118,23 +126,53 @@ TEST_CASE("what lies at a path is asked of engine/io/paths, which tells why it c
   }
 }
 
-TEST_CASE("every registered algorithm's file is named in its folder's list") {
-  for (const char* folder : {"engine/detection/broadphase", "engine/detection/triangles", "engine/integrators",
-                             "engine/lcp", "engine/response", "viewer/layers"}) {
-    const std::string list = text_of(kRoot / folder / "all.cpp");
-    int entries = 0;
-    for (const auto& e : fs::directory_iterator(kRoot / folder)) {
-      if (e.path().extension() != ".cpp" || e.path().filename() == "all.cpp") continue;
-      const std::string text = text_of(e.path());
+TEST_CASE("a folder's list names every file that makes an entry, by its stem, and nothing else") {
+  struct List {
+    const char *folder, *file, *suffix;
+  };
+  for (const List& list :
+       {List{"engine/algebra", "linear_solver.cpp", "_solver"},
+        List{"engine/detection/broadphase", "all.cpp", "_broad_phase"},
+        List{"engine/detection/triangles", "all.cpp", "_narrow_phase"},
+        List{"engine/integrators", "all.cpp", "_integrator"}, List{"engine/lcp", "all.cpp", "_solver"},
+        List{"engine/materials", "all.cpp", "_material"}, List{"engine/response", "all.cpp", "_response"},
+        List{"viewer/layers", "all.cpp", "_layer"}}) {
+    CAPTURE(list.folder);
+    const auto names_in = [&](const std::string& text, const std::string& form) {
+      std::set<std::string> names;
+      const std::regex pattern(form);
+      for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) names.insert((*it)[1]);
+      return names;
+    };
+    const std::set<std::string> listed = names_in(text_of(kRoot / list.folder / list.file),
+                                                  R"(IMPINGE_LIST\(all, (\w+))" + std::string(list.suffix) + R"(\);)");
+    std::set<std::string> made;
+    for (const auto& e : fs::directory_iterator(kRoot / list.folder)) {
+      if (e.path().extension() != ".cpp") continue;
       const std::string stem = e.path().stem().string();
-      // a file that declares an entry is named like it
-      if (text.find("Entry<") == std::string::npos && text.find("Layer " + stem) == std::string::npos) continue;
-      CAPTURE(folder, stem);
-      CHECK(list.find(stem) != std::string::npos);
-      ++entries;
+      for (const std::string& name :
+           names_in(text_of(e.path()), R"(\n(?:Entry<\w+>|Layer) (\w+))" + std::string(list.suffix) + R"(\(\) \{)")) {
+        CAPTURE(stem, name);
+        CHECK(name == stem);
+        made.insert(name);
+      }
     }
+    CHECK(made.size() > 1);
+    CHECK(listed == made);
+  }
+}
+
+TEST_CASE("a folder holds at most 40 files") {
+  std::map<std::string, int> files;
+  for (const fs::path& file : sources()) ++files[fs::relative(file.parent_path(), kRoot).generic_string()];
+  for (const auto& [folder, count] : files) {
     CAPTURE(folder);
-    CHECK(entries > 0);
+    CHECK(count <= 40);
+    CHECK(floors().count(folder) == 1);
+  }
+  for (const auto& [folder, floor] : floors()) {
+    CAPTURE(folder);
+    CHECK(files.count(folder) == 1);
   }
 }
 

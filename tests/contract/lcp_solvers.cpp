@@ -8,6 +8,7 @@
 #include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/dense_delassus.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
@@ -59,7 +60,7 @@ bool by_enumeration(const MatX& w, const VecX& q, VecX& lambda) {
 
 }  // namespace
 
-TEST_CASE("every LCP solver: the frictionless problem equals enumeration of active sets") {
+TEST_CASE("every LCP solver: the frictionless problem equals enumeration of active sets", "[methods]") {
   for (const auto& e : lcp_solvers()) {
     CAPTURE(e.name);
     const auto solver = e.make();
@@ -85,7 +86,7 @@ TEST_CASE("every LCP solver: the frictionless problem equals enumeration of acti
   }
 }
 
-TEST_CASE("every LCP solver: with friction the judge agrees with every claim of convergence") {
+TEST_CASE("every LCP solver: with friction the judge agrees with every claim of convergence", "[methods]") {
   for (const FrictionLaw law : {FrictionLaw::cone, FrictionLaw::pyramid}) {
     int open = 0, stick = 0, slip = 0;
     for (const auto& e : lcp_solvers()) {
@@ -121,7 +122,8 @@ TEST_CASE("every LCP solver: with friction the judge agrees with every claim of 
   }
 }
 
-TEST_CASE("every LCP solver: honest at the cap, at ease with nothing and with redundant contacts, the same twice") {
+TEST_CASE("every LCP solver: honest at the cap, at ease with nothing and with redundant contacts, the same twice",
+          "[methods]") {
   for (const auto& e : lcp_solvers()) {
     CAPTURE(e.name);
     const auto solver = e.make();
@@ -150,7 +152,8 @@ TEST_CASE("every LCP solver: honest at the cap, at ease with nothing and with re
   }
 }
 
-TEST_CASE("every LCP solver: contradicting constraints end in a flagged, finite answer of least violation") {
+TEST_CASE("every LCP solver: contradicting constraints end in a flagged, finite answer of least violation",
+          "[methods]") {
   // a body of mass 1 between two walls that close at 1 m/s each: u_1 = v - 1, u_2 = -v - 1 can't both be >= 0
   MatX w = MatX::Zero(6, 6);
   w(0, 0) = w(3, 3) = 1.0;
@@ -167,7 +170,7 @@ TEST_CASE("every LCP solver: contradicting constraints end in a flagged, finite 
   }
 }
 
-TEST_CASE("every LCP solver: attachments and sliding constraints hold as equations beside contacts") {
+TEST_CASE("every LCP solver: attachments and sliding constraints hold as equations beside contacts", "[methods]") {
   for (const auto& e : lcp_solvers()) {
     CAPTURE(e.name);
     const auto solver = e.make();
@@ -195,7 +198,8 @@ TEST_CASE("every LCP solver: attachments and sliding constraints hold as equatio
   }
 }
 
-TEST_CASE("every LCP solver: the history holds the relative residual before the first and after each iteration") {
+TEST_CASE("every LCP solver: the history holds the relative residual before the first and after each iteration",
+          "[methods]") {
   for (const auto& e : lcp_solvers()) {
     CAPTURE(e.name);
     Random random(25);
@@ -303,11 +307,10 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
   for (const auto& e : responses()) {
     GroupSystem copy = group;
     CAPTURE(e.name);
-    const auto response = e.make();
-    ResponseSettings settings;
-    settings.lcp = {1e-12, 100000};
-    settings.impulse_iterations = 100000;
-    CHECK(response->solve(copy, *lcp_solvers().front().make(), settings).converged());
+    const auto response = patient_response(e.name, 100000);
+    ResponseContext context;
+    context.lcp = {1e-12, 100000};
+    CHECK(response->solve(copy, *lcp_solvers().front().make(), context).converged());
     const GroupVerdict verdict = judge_group(copy);
     if (!response->lives_on_overlap()) CHECK(verdict.natural_map < 1e-10);
     CHECK(verdict.momentum < 1e-13);

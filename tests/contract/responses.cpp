@@ -5,6 +5,7 @@
 #include "engine/geometry/tet_mesh.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/response.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
@@ -105,17 +106,16 @@ struct Case {
 constexpr Case kCases[] = {{4, 0, false, 9},  {0, 2, false, 8}, {0, 2, true, 8},
                            {3, 1, false, 10}, {2, 2, true, 12}, {1, 0, false, 1}};
 
-ResponseSettings patient() {
-  ResponseSettings settings;
-  settings.lcp = {1e-11, 100000};
-  settings.impulse_iterations = 100000;
-  settings.max_outer_iterations = 20000;
-  return settings;
+ResponseContext patient() {
+  ResponseContext context;
+  context.lcp = {1e-11, 100000};
+  return context;
 }
+constexpr int kMost = 100000;
 
 }  // namespace
 
-TEST_CASE("every response: Δv belongs to λ, no contact pulls, friction stays in its cone") {
+TEST_CASE("every response: Δv belongs to λ, no contact pulls, friction stays in its cone", "[methods]") {
   for (const auto& e : responses())
     for (const Case& c : kCases)
       for (std::uint64_t seed = 1; seed <= 4; ++seed)
@@ -123,12 +123,12 @@ TEST_CASE("every response: Δv belongs to λ, no contact pulls, friction stays i
           if (!implicit && e.name != "penalty") continue;
           CAPTURE(e.name, c.rigid, c.soft, c.lumped, seed, implicit);
           RandomGroup group(seed, c.rigid, c.soft, c.lumped, c.contacts);
-          ResponseSettings settings = patient();
-          settings.penalty_form = implicit ? "implicit" : "explicit";
-          settings.penalty_stiffness = implicit ? 1e5 : 1e3;
-          settings.penalty_damping = implicit ? 10.0 : 0.1;
-          const auto response = e.make();
-          const ResponseResult result = response->solve(group.system, *lcp_solvers().front().make(), settings);
+          std::vector<RowText> rows;
+          if (e.name == "penalty")
+            rows = implicit ? std::vector<RowText>{{"stiffness", "1e5"}, {"damping", "10"}}
+                            : std::vector<RowText>{{"form", "explicit"}, {"stiffness", "1e3"}, {"damping", "0.1"}};
+          const auto response = patient_response(e.name, kMost, rows);
+          const ResponseResult result = response->solve(group.system, *lcp_solvers().front().make(), patient());
           CHECK(result.converged());
           const GroupVerdict verdict = judge_group(group.system);
           CHECK(verdict.momentum < 1e-9);
@@ -148,13 +148,13 @@ TEST_CASE("every response: Δv belongs to λ, no contact pulls, friction stays i
         }
 }
 
-TEST_CASE("every response gives the same bits again") {
+TEST_CASE("every response gives the same bits again", "[methods]") {
   for (const auto& e : responses()) {
     CAPTURE(e.name);
     std::vector<Vec3> first;
     for (int run = 0; run < 2; ++run) {
       RandomGroup group(9, 3, 2, false, 12);
-      e.make()->solve(group.system, *lcp_solvers().front().make(), ResponseSettings{});
+      e.make()->solve(group.system, *lcp_solvers().front().make(), ResponseContext{});
       if (run == 0) first = group.system.lambda;
       CHECK(first == group.system.lambda);
     }
@@ -164,13 +164,11 @@ TEST_CASE("every response gives the same bits again") {
 TEST_CASE("without friction impulses and constraint anticipation move bodies alike") {
   for (std::uint64_t seed = 20; seed < 26; ++seed) {
     RandomGroup exact(seed, 2, 2, false, 12, true);
-    find_entry(responses(), "constraint_anticipation")
-        ->make()
-        ->solve(exact.system, *lcp_solvers().front().make(), patient());
+    make_response("constraint_anticipation")->solve(exact.system, *lcp_solvers().front().make(), patient());
     for (const char* name : {"sequential_impulse", "simultaneous_impulse"}) {
       CAPTURE(seed, name);
       RandomGroup group(seed, 2, 2, false, 12, true);
-      find_entry(responses(), name)->make()->solve(group.system, *lcp_solvers().front().make(), patient());
+      patient_response(name, kMost)->solve(group.system, *lcp_solvers().front().make(), patient());
       for (std::size_t b = 0; b < 2; ++b) {
         CHECK((group.system.delta_velocity[b] - exact.system.delta_velocity[b]).norm() < 1e-7);
         CHECK((group.system.soft_delta[b] - exact.system.soft_delta[b]).lpNorm<Eigen::Infinity>() < 1e-7);
@@ -183,22 +181,21 @@ TEST_CASE("the implicit penalty obeys its own law: λ of the velocities that it 
   for (std::uint64_t seed = 40; seed < 48; ++seed) {
     CAPTURE(seed);
     RandomGroup group(seed, 2, 1, false, 10);
-    ResponseSettings settings;
-    settings.lcp.tolerance = 1e-11;
-    settings.penalty_stiffness = 1e5;
-    settings.penalty_damping = 20.0;
-    const ResponseResult result =
-        find_entry(responses(), "penalty")->make()->solve(group.system, *lcp_solvers().front().make(), settings);
+    constexpr double kStiffness = 1e5, kDamping = 20.0, kSlipSpeed = 1e-3;
+    ResponseContext context;
+    context.lcp.tolerance = 1e-11;
+    const auto penalty = make_response("penalty", {{"stiffness", "1e5"}, {"damping", "20"}, {"slip_speed", "1e-3"}});
+    const ResponseResult result = penalty->solve(group.system, *lcp_solvers().front().make(), context);
     REQUIRE(result.converged());
-    const double h = settings.time_step, slope = h * (h * settings.penalty_stiffness + settings.penalty_damping);
+    const double h = context.time_step, slope = h * (h * kStiffness + kDamping);
     for (std::size_t i = 0; i < group.system.contacts.size(); ++i) {
       const ContactRows& rows = group.system.contacts[i];
       if (rows.kind != RowKind::contact) continue;
       const Vec3 u = group.system.contact_velocity(i, true), lambda = group.system.lambda[i];
-      const double normal = std::max(0.0, rows.gap > 0.0 ? -slope * (u.x() + rows.gap / h)
-                                                         : -h * settings.penalty_stiffness * rows.gap - slope * u.x());
+      const double normal =
+          std::max(0.0, rows.gap > 0.0 ? -slope * (u.x() + rows.gap / h) : -h * kStiffness * rows.gap - slope * u.x());
       CHECK(lambda.x() == Approx(normal).margin(1e-7));
-      const double y = std::min(1.0, u.tail<2>().norm() / settings.penalty_slip_speed);
+      const double y = std::min(1.0, u.tail<2>().norm() / kSlipSpeed);
       CHECK(lambda.tail<2>().norm() == Approx(rows.friction * normal * (2 * y - y * y)).margin(1e-6));
       if (rows.friction > 0.0 && normal > 1e-6) CHECK(lambda.tail<2>().dot(u.tail<2>()) <= 0.0);
     }

@@ -8,10 +8,11 @@
 #include <cstdlib>
 #include <map>
 
+#include "engine/core/rows.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/sweep_results.hpp"
-#include "viewer/app/report_parts.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/report/parts.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -91,7 +92,7 @@ TEST_CASE("a sweep without reference, pictures and a second parameter has a repo
 TEST_CASE("the report takes whatever columns the table has, and nothing in it can end the page's data") {
   ParameterSet rows;
   double friction = 0.3;
-  rows.add("contact.friction", friction, {0.0, 100.0}, "", "Coulomb coefficient.");
+  Rows(rows).add("contact.friction", friction, {0.0, 100.0}, "", "Coulomb coefficient.");
   const std::string csv =
       "hash,contact.friction,status,reason,step_ms,spread_step_ms,error_rms_m,my_force_N,note,wall_ms\n"
       "aa,0,done,,10,1,1e-3,5,x,20\n"

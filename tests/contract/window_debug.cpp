@@ -14,7 +14,7 @@
 
 #include "tests/support/program.hpp"
 #include "tests/support/temp_folder.hpp"
-#include "viewer/controller/debug_loop.hpp"
+#include "viewer/debugger/loop.hpp"
 #include "viewer/image/png.hpp"
 
 using namespace impinge;

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "engine/core/types.hpp"
-#include "viewer/controller/debug_loop.hpp"
+#include "viewer/debugger/loop.hpp"
 #include "viewer/draw/palette.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
@@ -80,9 +80,9 @@ void check_baseline(const std::string& name, const Image& now, std::uintmax_t mo
 }
 
 std::vector<std::pair<std::string, UiArea>> areas(const DebugLayout& l) {
-  return {{"view", l.view},           {"layers", l.layers},     {"parameters", l.parameters},
-          {"inspector", l.inspector}, {"contacts", l.contacts}, {"stages", l.stages},
-          {"transport", l.transport}, {"timeline", l.timeline}, {"console", l.console}};
+  std::vector<std::pair<std::string, UiArea>> all = {{"view", l.view}};
+  for (std::size_t i = 0; i < panels().size(); ++i) all.emplace_back(panels()[i].name, l.panels[i]);
+  return all;
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ TEST_CASE("the debugger's panels are those of the baselines") {
                  crop(help, {layout.view.x + 0.2f * layout.view.width, layout.view.y + 0.2f * layout.view.height,
                              0.6f * layout.view.width, 0.6f * layout.view.height}),
                  60'000);
-  check_baseline("inspector_of_a_body", crop(help, layout.inspector), 60'000);
+  check_baseline("inspector_of_a_body", crop(help, layout.area("inspector")), 60'000);
 }
 
 TEST_CASE("a frame that is gone back to looks as it did") {
@@ -114,6 +114,22 @@ TEST_CASE("a frame that is gone back to looks as it did") {
     CAPTURE(name);
     const bool tells_of_the_past = name == "transport" || name == "timeline" || name == "console";
     CHECK((crop(first, area).rgb == crop(again, area).rgb) != tells_of_the_past);
+  }
+}
+
+TEST_CASE("what is typed into one window and not entered shows in no other") {
+  const Image fresh = PanelSession(960, 600).loop.picture();
+  const auto key = [](PanelSession& session, UiEvent::Kind kind, const char* name) {
+    const auto it = std::find(key_names().begin(), key_names().end(), name);
+    session.window.ui().add({kind, 0, 0, static_cast<int>(it - key_names().begin())});
+  };
+  PanelSession console(960, 600), slider(960, 600);
+  console.run({"ui click console/line", "ui text quit", "ui click transport/frame"});
+  key(slider, UiEvent::key_down, "ctrl");  // and a click: a field for the value takes the slider's place
+  slider.run({"ui click parameters/contact.friction"});
+  for (PanelSession* typed : {&console, &slider}) {
+    CHECK(typed->loop.picture().rgb != fresh.rgb);
+    CHECK(PanelSession(960, 600).loop.picture().rgb == fresh.rgb);
   }
 }
 

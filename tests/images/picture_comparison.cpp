@@ -8,9 +8,9 @@
 #include "tests/support/pictures.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/view_scenes.hpp"
-#include "viewer/app/html_text.hpp"
-#include "viewer/app/picture_comparison.hpp"
+#include "viewer/compare/picture_comparison.hpp"
 #include "viewer/present/frame_painter.hpp"
+#include "viewer/report/html.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/easel.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
-#include "viewer/draw/tessellation.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -17,7 +17,7 @@ ShadedSurfacePointer shaded(const TriangleMesh& mesh) {
   return std::make_shared<ShadedSurface>(make_shaded_surface(mesh, make_topology(mesh), 40.0));
 }
 
-ShadedSurfacePointer shaded(const Shape& shape) { return shaded(tessellate(shape)); }
+ShadedSurfacePointer shaded(const SharedShape& shape) { return shaded(shape->drawn()); }
 
 Camera front_camera(double distance = 4.0) {
   Camera camera;

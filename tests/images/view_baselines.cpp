@@ -78,7 +78,7 @@ const std::vector<Baseline>& baselines() {
       {"tetrahedra_shrunk",
        [] {
          ViewSettings settings = settings_with({"meshes", "tetrahedra"});
-         settings.tetrahedra_style = "shrunk";
+         set(settings, "view.tetrahedra.style", "shrunk");
          return painted(soft_record(), settings);
        }},
       {"stress",
@@ -90,8 +90,8 @@ const std::vector<Baseline>& baselines() {
       {"strain_of_tetrahedra",
        [] {
          ViewSettings settings = settings_with({"meshes", "tetrahedra", "strain"});
-         settings.tetrahedra_style = "shrunk";
-         settings.strain_max = 0.4;
+         set(settings, "view.tetrahedra.style", "shrunk");
+         set(settings, "view.strain.max", "0.4");
          return painted(soft_record(), settings);
        }},
       {"fixed_nodes",
@@ -115,7 +115,7 @@ const std::vector<Baseline>& baselines() {
       {"backs_only",
        [] {
          ViewSettings settings = settings_with({"meshes"});
-         settings.backfaces = "only";
+         settings.backs = Backs::only;
          return painted(soft_record(), settings);
        }},
       {"soft_panels",

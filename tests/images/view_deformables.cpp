@@ -109,7 +109,7 @@ TEST_CASE("what is turned inside out is not left out of the picture") {
   };
   for (const char* style : {"wire", "shrunk"}) {
     CAPTURE(style);
-    tetrahedra.tetrahedra_style = style;
+    set(tetrahedra, "view.tetrahedra.style", style);
     CHECK(red(painted(everted.record(), tetrahedra)) > 300);
     CHECK(red(painted(upright.record(), tetrahedra)) == 0);
   }
@@ -167,9 +167,9 @@ TEST_CASE("with backs only, a closed body covers the same pixels with its inside
   ViewSettings settings = settings_with({"meshes"});
   settings.antialiasing = false;
   const Image fronts = painted(scene.record(), settings);
-  settings.backfaces = "hidden";
+  settings.backs = Backs::hidden;
   CHECK(painted(scene.record(), settings) == fronts);
-  settings.backfaces = "only";
+  settings.backs = Backs::only;
   const Image backs = painted(scene.record(), settings);
   CHECK(covered(backs) == Approx(covered(fronts)).margin(4));
   CHECK(count_unlike(fronts, backs, 10) > 0.9 * covered(fronts));
@@ -192,7 +192,7 @@ TEST_CASE("a heated surface has the colour of its value, in the light and in the
   std::vector<double> lightness;
   const Image nothing = painted(StepRecord{}, settings);
   for (const double high : {1.0, 0.2, 0.1, 0.06}) {
-    settings.strain_max = high;
+    set(settings, "view.strain.max", shortest(high));
     const Image image = painted(scene.record(), settings);
     double sum = 0.0;
     int count = 0;

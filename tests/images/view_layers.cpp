@@ -35,7 +35,7 @@ int changed_near(const Image& a, const Image& b, const Camera& camera, const Vec
 
 }  // namespace
 
-TEST_CASE("layers have distinct names and each says what it draws") {
+TEST_CASE("layers have distinct names and each says what it draws", "[methods]") {
   std::set<std::string_view> names;
   for (const Layer& layer : layers()) {
     CHECK(names.insert(layer.name).second);
@@ -47,7 +47,7 @@ TEST_CASE("layers have distinct names and each says what it draws") {
     CHECK(names.count(name) == 1);
 }
 
-TEST_CASE("every layer changes the picture, and no two in the same way") {
+TEST_CASE("every layer changes the picture, and no two in the same way", "[methods]") {
   // of rigid bodies beside one of deformable ones
   const auto both = [](const std::vector<std::string>& names) {
     Image image = painted(sample_record(), settings_with(names)), soft = painted(soft_record(), settings_with(names));
@@ -90,7 +90,7 @@ TEST_CASE("marks appear where their bodies and contacts are, and nowhere else") 
   const Image boxes = painted(sample_record(), settings_with({"meshes", "aabbs"}));
   for (const BodyRecord& body : sample_record().bodies) {
     const bool moves = body.kind != BodyKind::fixed;
-    if (std::holds_alternative<Plane>(*body.shape)) continue;
+    if (body.shape->as<Plane>() != nullptr) continue;
     CAPTURE(std::string(body.name));
     if (moves) CHECK(changed_near(base, boxes, plain.camera, body.bounds.max, 2) > 2);
   }

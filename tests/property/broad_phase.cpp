@@ -62,7 +62,7 @@ constexpr int kKinds = 10;
 
 }  // namespace
 
-TEST_CASE("broad phases agree with brute force on random scenes") {
+TEST_CASE("broad phases agree with brute force on random scenes", "[methods]") {
   for (const auto& phase : broad_phases()) {
     Random r(21);
     std::vector<BoxPair> pairs;
@@ -76,7 +76,7 @@ TEST_CASE("broad phases agree with brute force on random scenes") {
   }
 }
 
-TEST_CASE("broad phases agree with brute force on moving scenes") {
+TEST_CASE("broad phases agree with brute force on moving scenes", "[methods]") {
   for (const auto& phase : broad_phases())
     for (int kind = 0; kind < kKinds; ++kind)
       for (double speed : {0.0, 1e-3, 0.05, 2.0}) {
@@ -102,7 +102,7 @@ TEST_CASE("broad phases agree with brute force on moving scenes") {
       }
 }
 
-TEST_CASE("touching boxes overlap, also when they come to touch or leave") {
+TEST_CASE("touching boxes overlap, also when they come to touch or leave", "[methods]") {
   for (const auto& phase : broad_phases()) {
     const auto broad = phase.make();
     std::vector<BoxPair> pairs;
@@ -122,7 +122,7 @@ TEST_CASE("touching boxes overlap, also when they come to touch or leave") {
   }
 }
 
-TEST_CASE("broad phases survive all ends inverted, changing counts, empty scenes and empty boxes") {
+TEST_CASE("broad phases survive all ends inverted, changing counts, empty scenes and empty boxes", "[methods]") {
   for (const auto& phase : broad_phases()) {
     const auto broad = phase.make();
     std::vector<BoxPair> pairs;

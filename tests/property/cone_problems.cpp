@@ -122,6 +122,6 @@ void check_problems(int count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a sample of random problems, every LCP solver") { check_problems(60, 38); }
+TEST_CASE("a sample of random problems, every LCP solver", "[methods]") { check_problems(60, 38); }
 
 TEST_CASE("2,000 random problems, every LCP solver", "[long]") { check_problems(2000, 3838); }

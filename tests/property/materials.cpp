@@ -48,7 +48,8 @@ void check_derivatives(const Material& material, const Element& element, const C
 
 }  // namespace
 
-TEST_CASE("force and exact tangent are the derivatives of the energy, for moderate and strong deformation") {
+TEST_CASE("force and exact tangent are the derivatives of the energy, for moderate and strong deformation",
+          "[methods]") {
   for (const auto& entry : materials())
     for (const double poisson : {0.1, 0.3, 0.49}) {
       test::Random random(21);
@@ -67,7 +68,7 @@ TEST_CASE("force and exact tangent are the derivatives of the energy, for modera
     }
 }
 
-TEST_CASE("derivatives at equal stretches, at rest and under rotation") {
+TEST_CASE("derivatives at equal stretches, at rest and under rotation", "[methods]") {
   for (const auto& entry : materials()) {
     test::Random random(22);
     const auto material = test::make_material(entry.name);
@@ -78,7 +79,7 @@ TEST_CASE("derivatives at equal stretches, at rest and under rotation") {
   }
 }
 
-TEST_CASE("derivatives of inverted elements") {
+TEST_CASE("derivatives of inverted elements", "[methods]") {
   // stvk knows σ² only and linear knows no inversion; those whose energy tells the sign apart have a kink where two
   // stretches of opposite sign are equal in size, so the stretches here stay away from that
   for (const auto& entry : materials()) {
@@ -102,10 +103,8 @@ TEST_CASE("derivatives of inverted elements") {
 TEST_CASE("neo_hookean: derivatives below, across and above its extension threshold") {
   test::Random random(24);
   for (const double threshold : {0.1, 0.6}) {
-    MaterialSettings settings;
-    settings.extension_threshold = threshold;
-    const auto material = test::make_material("neo_hookean");
-    material->configure(settings);
+    const auto material = test::make_material("neo_hookean", 1e5, 0.45);
+    configure(*material, std::vector<RowText>{{"extension_threshold", shortest(threshold)}});
     for (int i = 0; i < 20; ++i) {
       const Element e = test::random_element(random);
       const double a = random.in(0.2, 3.0) * threshold, b = random.in(0.2, 3.0) * threshold;
@@ -133,7 +132,7 @@ TEST_CASE("neo_hookean is twice differentiable at its threshold and matches the 
         1e-6 * isotropic.density_hessian(above).principal.norm());
 }
 
-TEST_CASE("warped and projected tangents are positive semidefinite") {
+TEST_CASE("warped and projected tangents are positive semidefinite", "[methods]") {
   for (const auto& entry : materials()) {
     test::Random random(25);
     const auto material = test::make_material(entry.name, 1e5, 0.45);
@@ -156,7 +155,7 @@ TEST_CASE("warped and projected tangents are positive semidefinite") {
   }
 }
 
-TEST_CASE("the projected tangent is the exact one with its negative eigenvalues at zero") {
+TEST_CASE("the projected tangent is the exact one with its negative eigenvalues at zero", "[methods]") {
   for (const auto& entry : materials()) {
     const auto material = test::make_material(entry.name);
     const auto* isotropic = dynamic_cast<const IsotropicMaterial*>(material.get());
@@ -177,7 +176,7 @@ TEST_CASE("the projected tangent is the exact one with its negative eigenvalues 
   }
 }
 
-TEST_CASE("a rotation costs nothing, except with linear elasticity") {
+TEST_CASE("a rotation costs nothing, except with linear elasticity", "[methods]") {
   for (const auto& entry : materials()) {
     test::Random random(27);
     const auto material = test::make_material(entry.name);
@@ -197,7 +196,7 @@ TEST_CASE("a rotation costs nothing, except with linear elasticity") {
   }
 }
 
-TEST_CASE("six rigid motions are in the kernel of the tangent at rest") {
+TEST_CASE("six rigid motions are in the kernel of the tangent at rest", "[methods]") {
   for (const auto& entry : materials()) {
     test::Random random(28);
     const auto material = test::make_material(entry.name);
@@ -216,7 +215,7 @@ TEST_CASE("six rigid motions are in the kernel of the tangent at rest") {
   }
 }
 
-TEST_CASE("all materials but springs agree with Hooke's law for small strains") {
+TEST_CASE("all materials but springs agree with Hooke's law for small strains", "[methods]") {
   test::Random random(29);
   for (const auto& entry : materials()) {
     if (entry.name == "mass_spring") continue;

@@ -86,7 +86,8 @@ void check_poses(Phases& phases, const MeshPointer& a, const MeshPointer& b, int
 
 }  // namespace
 
-TEST_CASE("narrow phases equal the reference on random poses of spheres, bumpy spheres and tori", "[narrow_phase]") {
+TEST_CASE("narrow phases equal the reference on random poses of spheres, bumpy spheres and tori",
+          "[narrow_phase][methods]") {
   Phases phases;
   const MeshPointer sphere = surface(icosphere(2)), torus = surface(bumpy_torus(24, 12)),
                     stone = surface(bumpy_sphere(2));
@@ -95,7 +96,7 @@ TEST_CASE("narrow phases equal the reference on random poses of spheres, bumpy s
   check_poses(phases, torus, torus, 100, 3003);
 }
 
-TEST_CASE("narrow phases equal the reference on random poses of scans", "[narrow_phase]") {
+TEST_CASE("narrow phases equal the reference on random poses of scans", "[narrow_phase][methods]") {
   const std::string dragon = shared_file("meshes/dragon/dragon_5k.off"), human = shared_file("meshes/human.off");
   if (dragon.empty() || human.empty()) {
     WARN("skipped: the shared data folder is absent (IMPINGE_SHARED_DATA)");
@@ -127,7 +128,8 @@ TEST_CASE("narrow phases find the published pair counts of two icospheres", "[na
     }
 }
 
-TEST_CASE("narrow phases equal the reference on boxes that touch, lie in one plane and share edges", "[narrow_phase]") {
+TEST_CASE("narrow phases equal the reference on boxes that touch, lie in one plane and share edges",
+          "[narrow_phase][methods]") {
   Phases phases;
   Random random(3005);
   std::size_t total = 0;
@@ -150,7 +152,8 @@ TEST_CASE("narrow phases equal the reference on boxes that touch, lie in one pla
   CHECK(total > 5000);
 }
 
-TEST_CASE("narrow phases equal the reference on slivers, triangles of no area and huge ones", "[narrow_phase]") {
+TEST_CASE("narrow phases equal the reference on slivers, triangles of no area and huge ones",
+          "[narrow_phase][methods]") {
   Phases phases;
   Random random(3006);
   std::size_t total = 0;
@@ -190,7 +193,7 @@ TEST_CASE("narrow phases equal the reference on slivers, triangles of no area an
   CHECK(total > 2000);
 }
 
-TEST_CASE("narrow phases equal the reference on a mesh over a floor of two huge triangles", "[narrow_phase]") {
+TEST_CASE("narrow phases equal the reference on a mesh over a floor of two huge triangles", "[narrow_phase][methods]") {
   Phases phases;
   ColliderSet set;
   set.add(surface(sheet(1e4, 1)));
@@ -200,7 +203,7 @@ TEST_CASE("narrow phases equal the reference on a mesh over a floor of two huge 
 }
 
 TEST_CASE("narrow phases equal the reference on many bodies, each pair with its own margin, and on self-collision",
-          "[narrow_phase]") {
+          "[narrow_phase][methods]") {
   Phases phases;
   Random random(3007);
   ColliderSet set;
@@ -223,7 +226,7 @@ TEST_CASE("narrow phases equal the reference on many bodies, each pair with its 
   CHECK(phases.check(set, {}) == 0);
 }
 
-TEST_CASE("narrow phases follow bodies that move, deform and part", "[narrow_phase]") {
+TEST_CASE("narrow phases follow bodies that move, deform and part", "[narrow_phase][methods]") {
   Phases phases;
   ColliderSet set;
   const MeshPointer mesh = surface(icosphere(2));

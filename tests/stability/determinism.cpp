@@ -29,7 +29,7 @@ void fill(World& world) {
   paddle.motion = {{0.0, Vec3(0, 0.06, 0.3), Vec3::Zero()}, {0.6, Vec3(0, 0.06, 0), Vec3(0, 60, 0)}};
   world.add_body(paddle);
   Random random(99);
-  const Shape shapes[] = {bunny, Sphere{0.05}, Box{Vec3(0.06, 0.04, 0.05)}, Capsule{0.03, 0.05}};
+  const SharedShape shapes[] = {bunny, Sphere{0.05}, Box{Vec3(0.06, 0.04, 0.05)}, Capsule{0.03, 0.05}};
   for (int i = 0; i < 12; ++i) {
     BodyDescription d = dynamic_body("body" + std::to_string(i), shapes[i % 4],
                                      Vec3(0.15 * random.sym(), 0.15 + 0.1 * i, 0.15 * random.sym()));

@@ -3,8 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/deformable_integrator.hpp"
 #include "engine/response/response.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/soft_bodies.hpp"
 
 using namespace impinge;
@@ -15,10 +16,10 @@ namespace {
 /// A soft cube falls on another, beside a rigid ball, with an attachment and moved nodes.
 void fill(World& world) {
   // damping in proportion to stiffness bounds an explicit scheme's step more than the stiffness does
-  const double beta = world.parameters.simulation.integrator == "symplectic_euler" ? 1e-5 : 0.01;
+  const double beta = world.parameters.simulation.integrator->is_explicit() ? 1e-5 : 0.01;
   world.parameters.lcp.tolerance = 1e-6;
   world.parameters.lcp.max_iterations = 100;
-  world.parameters.response.max_iterations = 200;
+  set(world, "response.iterative_constraint_anticipation.max_iterations", 200);
   world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
   world.add_body(soft_cube("lower", 0.2, 3, {0, 0.005, 0}, {5e4, 0.4, 1000.0, beta}));
   world.add_body(soft_cube("upper", 0.2, 2, {0.03, 0.22, 0.02}, {2e5, 0.45, 1000.0, beta}));

@@ -34,7 +34,7 @@ inline std::unique_ptr<Material> make_material(std::string_view name, double you
   settings.young = young;
   settings.poisson = poisson;
   settings.tangent = tangent;
-  material->configure(settings);
+  material->settings() = settings;
   return material;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/frozen/frozen_comparison.hpp"
+#include "tests/support/methods.hpp"
 #include "viewer/controller/session.hpp"
 
 namespace impinge::test {
@@ -28,11 +29,9 @@ inline FrozenStep hardest_frame(const std::vector<std::string>& overrides, int f
 
 /// Solved far beyond what a run asks for.
 inline FrozenOutcome solved(const FrozenStep& step, const char* response, const char* solver, double tolerance) {
-  ResponseSettings settings;
-  settings.lcp = {tolerance, 20000};
-  settings.max_outer_iterations = 20000;
-  return solve_frozen(step, *find_entry(responses(), response)->make(), *find_entry(lcp_solvers(), solver)->make(),
-                      settings);
+  ResponseContext context;
+  context.lcp = {tolerance, 20000};
+  return solve_frozen(step, *patient_response(response, 20000), *make_named(lcp_solvers(), solver), context);
 }
 
 }  // namespace impinge::test

@@ -72,8 +72,6 @@ MatX columns_on(const Sparse& j, int from, int count) { return MatX(j.middleCols
 FrozenStep frozen_of(const GroupSystem& group) {
   FrozenStep step;
   step.scene = "test", step.time_step = 0.01;
-  step.integrator = "linearly_implicit_euler", step.linear_solver = "automatic",
-  step.response = "constraint_anticipation", step.lcp = "projected_gauss_seidel";
   step.groups.push_back(freeze(group));
   return step;
 }
@@ -145,12 +143,12 @@ GroupAnswer kkt_answer(const FrozenGroup& group) {
   return answer;
 }
 
-MatX w_assembled(const FrozenGroup& group, const std::string& linear_solver) {
+MatX w_assembled(const FrozenGroup& group, const LinearSolverChoice& linear_solver) {
   ThawedGroup thawed = thaw(group, linear_solver);
   return AssembledDelassus(thawed.system).matrix();
 }
 
-MatX w_by_whole_solves(const FrozenGroup& group, const std::string& linear_solver) {
+MatX w_by_whole_solves(const FrozenGroup& group, const LinearSolverChoice& linear_solver) {
   const Sparse j = jacobian(group);
   MatX w = MatX::Zero(j.rows(), j.rows());
   for (std::size_t b = 0; b < group.system.bodies.size(); ++b) {

@@ -17,9 +17,9 @@ GroupAnswer kkt_answer(const FrozenGroup& group);
 
 /// W = J A⁻¹ J^T.
 /// as constraint anticipation does: half solves
-MatX w_assembled(const FrozenGroup& group, const std::string& linear_solver);
+MatX w_assembled(const FrozenGroup& group, const LinearSolverChoice& linear_solver);
 /// J (A⁻¹ J^T), not made symmetric
-MatX w_by_whole_solves(const FrozenGroup& group, const std::string& linear_solver);
+MatX w_by_whole_solves(const FrozenGroup& group, const LinearSolverChoice& linear_solver);
 MatX w_by_dense_inverse(const FrozenGroup& group);  ///< A⁻¹ written out, body by body
 
 }  // namespace impinge::test

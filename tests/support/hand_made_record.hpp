@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "engine/shapes/primitives.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge::test {
@@ -20,7 +21,7 @@ class HandMadeRecord {
   HandMadeRecord& operator=(const HandMadeRecord&) = delete;
 
   /// Returns the body's index. Stays valid for ever: bodies are never moved.
-  int add(const std::string& name, BodyKind kind, Shape shape, const Vec3& position,
+  int add(const std::string& name, BodyKind kind, SharedShape shape, const Vec3& position,
           const Mat3& rotation = Mat3::Identity()) {
     names_.push_back(name);
     shapes_.push_back(std::move(shape));
@@ -28,15 +29,15 @@ class HandMadeRecord {
     BodyRecord body;
     body.name = names_.back();
     body.kind = kind;
-    body.shape = &shapes_.back();
+    body.shape = shapes_.back().get();
     body.pose = body.file_pose = {rotation, position};
     body.mass = kind == BodyKind::dynamic ? 1.0 : 0.0;
-    if (const auto* mesh = std::get_if<MeshPointer>(body.shape)) {
-      for (const Vec3& v : (*mesh)->mesh.vertices) vertices_.back().push_back(body.pose.apply(v));
+    if (const SurfaceMesh* mesh = body.shape->mesh()) {
+      for (const Vec3& v : mesh->mesh.vertices) vertices_.back().push_back(body.pose.apply(v));
       body.vertices = vertices_.back();
       for (const Vec3& v : vertices_.back()) body.bounds.include(v);
     } else {
-      body.bounds = shape_bounds(*body.shape, body.pose);
+      body.bounds = body.shape->bounds(body.pose);
     }
     record_.bodies.push_back(body);
     record_.stats.bodies = static_cast<int>(record_.bodies.size());
@@ -48,7 +49,6 @@ class HandMadeRecord {
                const std::function<Vec3(const Vec3&)>& place, const std::vector<int>& held = {},
                std::string_view material = "corotational") {
     std::shared_ptr<Material> elastic = find_entry(materials(), material)->make();
-    elastic->configure({});
     DeformableBody& soft = soft_.emplace_back(FemAssembly(mesh, {{elastic, 1000.0}}, MassKind::lumped));
     soft.hold(held);
     for (int i = 0; i < soft.nodes(); ++i)
@@ -87,7 +87,7 @@ class HandMadeRecord {
 
  private:
   std::deque<std::string> names_;
-  std::deque<Shape> shapes_;
+  std::deque<SharedShape> shapes_;
   std::deque<std::vector<Vec3>> vertices_;
   std::deque<DeformableBody> soft_;
   std::deque<Embedding> embeddings_;

@@ -170,7 +170,7 @@ int ColliderSet::add(MeshPointer mesh, const Pose& pose) {
   vertices_.emplace_back();
   colliders_.push_back(c);
   const int body = static_cast<int>(colliders_.size()) - 1;
-  colliders_[body].shape = &shapes_.back();
+  colliders_[body].shape = shapes_.back().get();
   place(body, pose);
   return body;
 }

@@ -43,7 +43,7 @@ class ColliderSet {
   std::span<const Collider> all() const { return colliders_; }
 
  private:
-  std::deque<Shape> shapes_;
+  std::deque<SharedShape> shapes_;
   std::deque<std::vector<Vec3>> vertices_;
   std::vector<Collider> colliders_;
 };

@@ -51,8 +51,8 @@ bool can_lose_rights() {
 }
 
 RunningProgram::RunningProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                               const Surroundings& surroundings) {
-  std::vector<const char*> words = {IMPINGE_PROGRAM};
+                               const Surroundings& surroundings, const std::filesystem::path& program) {
+  std::vector<const char*> words = {program.c_str()};
   for (const std::string& argument : arguments) words.push_back(argument.c_str());
   words.push_back(nullptr);
   const std::filesystem::path out = surroundings.out.empty() ? streams_ / "out" : surroundings.out,
@@ -89,6 +89,11 @@ Outcome RunningProgram::wait() {
   ended_ = true;
   return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_), slurp(streams_ / "out"),
           slurp(streams_ / "err")};
+}
+
+Outcome program_run(const std::filesystem::path& program, const std::filesystem::path& folder,
+                    const std::vector<std::string>& arguments) {
+  return RunningProgram(folder, arguments, {}, program).wait();
 }
 
 Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments,

@@ -28,11 +28,11 @@ struct Surroundings {
 /// Whether a program without_rights meets permissions here: as any user but root, or as root who may give rights up.
 bool can_lose_rights();
 
-/// impinge at work; killed at the end if it still is.
+/// impinge, or another program, at work; killed at the end if it still is.
 class RunningProgram {
  public:
   RunningProgram(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                 const Surroundings& surroundings = {});
+                 const Surroundings& surroundings = {}, const std::filesystem::path& program = IMPINGE_PROGRAM);
   ~RunningProgram();
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
@@ -51,6 +51,9 @@ class RunningProgram {
   int status_ = 0;
 };
 
+/// Runs a program in `folder` and waits for its end.
+Outcome program_run(const std::filesystem::path& program, const std::filesystem::path& folder,
+                    const std::vector<std::string>& arguments);
 /// Runs impinge in `folder` and waits for its end.
 Outcome impinge_run(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                     const Surroundings& surroundings = {});

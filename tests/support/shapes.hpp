@@ -6,6 +6,7 @@
 #include "engine/detection/collider.hpp"
 #include "engine/detection/collision.hpp"
 #include "engine/detection/pairs/primitive.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 
@@ -15,10 +16,10 @@ namespace impinge::test {
 class Bodies {
  public:
   // poses by value: they may be those of a collider that moves in memory
-  Collider& add(const Shape& shape, Pose pose = {}) {
+  Collider& add(const SharedShape& shape, Pose pose = {}) {
     shapes_.push_back(shape);
     Collider c;
-    c.shape = &shapes_.back();
+    c.shape = shapes_.back().get();
     colliders_.push_back(c);
     vertices_.emplace_back();
     place(static_cast<int>(colliders_.size()) - 1, pose);
@@ -27,8 +28,8 @@ class Bodies {
   void place(int i, Pose pose) {
     Collider& c = colliders_[i];
     c.pose = pose;
-    c.bounds = shape_bounds(*c.shape, pose);
-    if (!is_mesh(*c.shape)) return;
+    c.bounds = c.shape->bounds(pose);
+    if (c.shape->mesh() == nullptr) return;
     vertices_[i].clear();
     for (const Vec3& v : c.mesh().mesh.vertices) vertices_[i].push_back(pose.apply(v));
     c.vertices = vertices_[i];
@@ -43,7 +44,7 @@ class Bodies {
   }
 
  private:
-  std::deque<Shape> shapes_;
+  std::deque<SharedShape> shapes_;
   std::deque<std::vector<Vec3>> vertices_;
   std::vector<Collider> colliders_;
 };

@@ -43,13 +43,13 @@ void add_contact(SoftStack& stack, ContactSide a, ContactSide b, double friction
 
 SoftStack make_soft_stack(const StackOptions& o) {
   SoftStack stack;
-  const auto scheme = find_entry(deformable_integrators(), "linearly_implicit_euler")->make();
+  const auto scheme = find_entry(integrators(), "linearly_implicit_euler")->make();
   for (int level = 0; level < static_cast<int>(o.cells.size()); ++level) {
     std::shared_ptr<Material> material = find_entry(materials(), "corotational")->make();
     MaterialSettings settings;
     settings.young = o.young;
     settings.poisson = o.poisson;
-    material->configure(settings);
+    material->settings() = settings;
     TetMesh mesh = make_tet_box(Vec3::Constant(kSize), o.cells[level], o.cells[level], o.cells[level]);
     for (Vec3& v : mesh.vertices) v += corner_of(level);
     auto made = std::make_unique<SoftStack::Body>();

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "engine/core/error.hpp"
 #include "engine/geometry/tet_cage.hpp"
 #include "tests/support/meshes.hpp"
 #include "viewer/layers/layer.hpp"
@@ -116,6 +117,14 @@ const StepRecord& other_record() {
   return scene->record();
 }
 
+void set(ViewSettings& settings, const std::string& path, const std::string& value) {
+  ParameterSet rows;
+  settings.bind(rows);
+  const Parameter* row = rows.find(path);
+  if (row == nullptr) throw InternalError("no row " + path);
+  row->set(parse_value(*row, value));
+}
+
 ViewSettings settings_with(const std::vector<std::string>& layers) {
   ViewSettings settings = make_view_settings();
   for (LayerSwitch& layer : settings.layers) layer.on = false;
@@ -124,7 +133,7 @@ ViewSettings settings_with(const std::vector<std::string>& layers) {
   settings.camera.look_at({1.4, 1.7, 3.2}, {0.0, 0.2, 0.0});
   settings.camera.fov_deg = 36.0;
   settings.camera_given = true;
-  settings.backdrop = "flat";
+  settings.backdrop = BackdropStyle::flat;
   return settings;
 }
 

@@ -20,6 +20,8 @@ const StepRecord& other_record();
 /// a vertex outside its tetrahedra; contacts with both, an attachment between the two.
 const StepRecord& soft_record();
 
+/// A row of the view by its path, in the words of a scene.
+void set(ViewSettings& settings, const std::string& path, const std::string& value);
 /// Settings with exactly these layers, no panels, a fixed camera.
 ViewSettings settings_with(const std::vector<std::string>& layers);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/archive.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "engine/world/world.hpp"
 
 namespace impinge::test {
@@ -14,7 +15,7 @@ inline BodyDescription fixed_plane(const char* name, const Vec3& normal, double 
   return d;
 }
 
-inline BodyDescription dynamic_body(const std::string& name, const Shape& shape, const Vec3& position) {
+inline BodyDescription dynamic_body(const std::string& name, const SharedShape& shape, const Vec3& position) {
   BodyDescription d;
   d.name = name;
   d.shape = shape;

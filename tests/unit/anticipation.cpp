@@ -7,6 +7,7 @@
 #include "engine/response/group_judge.hpp"
 #include "engine/response/operators/assembled_delassus.hpp"
 #include "engine/response/response.hpp"
+#include "tests/support/methods.hpp"
 #include "tests/support/soft_stack.hpp"
 
 using namespace impinge;
@@ -123,23 +124,17 @@ double largest_speed(const Dense& d) {
   return scale;
 }
 
-ResponseResult respond(const char* name, GroupSystem& group, ResponseSettings settings) {
-  settings.lcp.max_iterations = 200000;
-  settings.max_outer_iterations = std::min(settings.max_outer_iterations, 20000);
-  return find_entry(responses(), name)
-      ->make()
-      ->solve(group, *find_entry(lcp_solvers(), "projected_gauss_seidel")->make(), settings);
+ResponseResult respond(const Response& response, GroupSystem& group, double tolerance) {
+  ResponseContext context;
+  context.lcp = {tolerance, 200000};
+  return response.solve(group, *make_named(lcp_solvers(), "projected_gauss_seidel"), context);
+}
+ResponseResult respond(const char* name, GroupSystem& group, double tolerance) {
+  return respond(*patient_response(name, 20000), group, tolerance);
 }
 
 constexpr const char* kExact = "constraint_anticipation";
 constexpr const char* kIterative = "iterative_constraint_anticipation";
-
-ResponseSettings accuracy(double tolerance) {
-  ResponseSettings settings;
-  settings.lcp.tolerance = tolerance;
-  settings.max_outer_iterations = 20000;
-  return settings;
-}
 
 }  // namespace
 
@@ -167,8 +162,8 @@ TEST_CASE("without friction both anticipations find the minimum that an interior
       const Dense d = dense(stack.group);
       const VecX truth = frictionless_reference(d);
       GroupSystem exact = stack.group, iterative = stack.group;
-      CHECK(respond(kExact, exact, accuracy(1e-11)).converged());
-      CHECK(respond(kIterative, iterative, accuracy(1e-11)).converged());
+      CHECK(respond(kExact, exact, 1e-11).converged());
+      CHECK(respond(kIterative, iterative, 1e-11).converged());
       CHECK(relative_error(d.a, delta_of(exact), truth) < 1e-7);
       CHECK(relative_error(d.a, delta_of(iterative), truth) < 1e-7);
     }
@@ -180,8 +175,8 @@ TEST_CASE("two stacked cubes: the iterative form meets the exact one to a millio
     const SoftStack stack = make_soft_stack({.young = young, .cells = {5, 4}});
     const Dense d = dense(stack.group);
     GroupSystem exact = stack.group, iterative = stack.group;
-    CHECK(respond(kExact, exact, accuracy(1e-10)).converged());
-    const ResponseResult result = respond(kIterative, iterative, accuracy(1e-9));
+    CHECK(respond(kExact, exact, 1e-10).converged());
+    const ResponseResult result = respond(kIterative, iterative, 1e-9);
     CHECK(result.converged());
     CHECK(result.outer_iterations < 1000);
     CHECK(relative_error(d.a, delta_of(iterative), delta_of(exact)) < 1e-6);
@@ -195,8 +190,8 @@ TEST_CASE("with friction both anticipations reach the natural map they were aske
           make_soft_stack({.young = young, .friction = 0.4, .cells = {4, 3}, .rigid_on_top = rigid});
       const Dense d = dense(stack.group);
       GroupSystem exact = stack.group, iterative = stack.group;
-      CHECK(respond(kExact, exact, accuracy(1e-9)).converged());
-      CHECK(respond(kIterative, iterative, accuracy(1e-9)).converged());
+      CHECK(respond(kExact, exact, 1e-9).converged());
+      CHECK(respond(kIterative, iterative, 1e-9).converged());
       const double difference = relative_error(d.a, delta_of(iterative), delta_of(exact));
       CAPTURE(young, rigid, difference);
       const double allowed = 1e-8 * largest_speed(d);
@@ -223,7 +218,7 @@ TEST_CASE("attachments and sliding rows are equations to both anticipations") {
   for (const char* name : {kExact, kIterative}) {
     CAPTURE(name);
     GroupSystem group = stack.group;
-    CHECK(respond(name, group, accuracy(1e-9)).converged());
+    CHECK(respond(name, group, 1e-9).converged());
     const VecX u = d.j * delta_of(group) + d.q;
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
       const Vec3 at = u.segment<3>(static_cast<Eigen::Index>(3 * i));
@@ -241,23 +236,22 @@ TEST_CASE("the seed's form is honest: its 5 % rule stops far away, and a cap is 
   const SoftStack soft = make_soft_stack({.young = 1e4, .cells = {3, 2}}),
                   stiff = make_soft_stack({.young = 1e6, .cells = {3, 2}});
   const Dense d = dense(soft.group), d_stiff = dense(stiff.group);
-  ResponseSettings seed = accuracy(1e-9);
-  seed.form = "seed";
+  const auto seed = patient_response(kIterative, 20000, {{"form", "seed"}});
   {
     GroupSystem group = soft.group;  // soft and without friction it does get there
-    CHECK(respond(kIterative, group, seed).converged());
+    CHECK(respond(*seed, group, 1e-9).converged());
     CHECK(relative_error(d.a, delta_of(group), frictionless_reference(d)) < 1e-6);
   }
   {
     GroupSystem group = stiff.group;
-    seed.max_outer_iterations = 100;
-    const ResponseResult result = respond(kIterative, group, seed);
+    allow_iterations(*seed, 100);
+    const ResponseResult result = respond(*seed, group, 1e-9);
     CHECK_FALSE(result.converged());
     CHECK(result.outer_iterations == 100);
   }
   GroupSystem group = stiff.group;
-  seed.stop = "change";
-  const ResponseResult result = respond(kIterative, group, seed);
+  configure(*seed, std::vector<RowText>{{"stop", "change"}});
+  const ResponseResult result = respond(*seed, group, 1e-9);
   CHECK(result.converged());
   CHECK(result.outer_iterations < 100);
   CHECK(relative_error(d_stiff.a, delta_of(group), frictionless_reference(d_stiff)) > 1e-2);
@@ -281,7 +275,7 @@ TEST_CASE("bodies whose matrix is block diagonal take one outer step and no fact
   for (const char* name : {kExact, kIterative}) {
     CAPTURE(name);
     GroupSystem group = stack.group;
-    const ResponseResult result = respond(name, group, accuracy(1e-10));
+    const ResponseResult result = respond(name, group, 1e-10);
     CHECK(result.converged());
     CHECK(result.outer_iterations == (name == kIterative ? 1 : 0));
     CHECK(judge_group(group).residual() < 1e-9 * largest_speed(dense(group)));
@@ -291,10 +285,10 @@ TEST_CASE("bodies whose matrix is block diagonal take one outer step and no fact
 TEST_CASE("a start near the answer shortens both anticipations") {
   const SoftStack stack = make_soft_stack({.young = 1e5, .friction = 0.4, .cells = {4, 3}});
   GroupSystem cold = stack.group;
-  const ResponseResult first = respond(kIterative, cold, accuracy(1e-8));
+  const ResponseResult first = respond(kIterative, cold, 1e-8);
   GroupSystem warm = stack.group;
   warm.lambda = cold.lambda;
-  const ResponseResult second = respond(kIterative, warm, accuracy(1e-8));
+  const ResponseResult second = respond(kIterative, warm, 1e-8);
   CHECK(second.converged());
   CHECK(2 * second.outer_iterations < first.outer_iterations);
 }

@@ -2,7 +2,7 @@
 
 #include "engine/core/types.hpp"
 #include "viewer/draw/color_map.hpp"
-#include "viewer/panels/debug_panels.hpp"
+#include "viewer/draw/palette.hpp"
 
 using namespace impinge;
 

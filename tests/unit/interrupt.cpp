@@ -112,7 +112,8 @@ std::vector<std::uint64_t> stepped(World& world, bool interrupts, int& interrupt
 }
 
 struct Methods {
-  const char *response, *integrator, *points;
+  const char *response, *integrator;
+  ContactPoints points;
 };
 
 void fill(World& world, const Methods& methods) {
@@ -134,13 +135,13 @@ void fill(World& world, const Methods& methods) {
 }  // namespace
 
 TEST_CASE("a step that was interrupted and taken back comes out the same bit for bit") {
-  const Methods all[] = {{"constraint_anticipation", "linearly_implicit_euler", "proximity"},
-                         {"iterative_constraint_anticipation", "implicit_euler", "proximity"},
-                         {"iterative_constraint_anticipation", "newmark", "intersection"},
-                         {"sequential_impulse", "linearly_implicit_euler", "proximity"},
-                         {"simultaneous_impulse", "linearly_implicit_euler", "proximity"},
-                         {"penalty", "linearly_implicit_euler", "proximity"},
-                         {"soft_constraint", "linearly_implicit_euler", "intersection"}};
+  const Methods all[] = {{"constraint_anticipation", "linearly_implicit_euler", ContactPoints::proximity},
+                         {"iterative_constraint_anticipation", "implicit_euler", ContactPoints::proximity},
+                         {"iterative_constraint_anticipation", "newmark", ContactPoints::intersection},
+                         {"sequential_impulse", "linearly_implicit_euler", ContactPoints::proximity},
+                         {"simultaneous_impulse", "linearly_implicit_euler", ContactPoints::proximity},
+                         {"penalty", "linearly_implicit_euler", ContactPoints::proximity},
+                         {"soft_constraint", "linearly_implicit_euler", ContactPoints::intersection}};
   for (const Methods& methods : all) {
     CAPTURE(methods.response, methods.integrator, methods.points);
     int interrupted = 0, none = 0;

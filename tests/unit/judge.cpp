@@ -10,11 +10,11 @@ using namespace impinge::test;
 
 namespace {
 
-double penetration(const Shape& a, const Vec3& xa, const Vec3& ra, const Shape& b, const Vec3& xb,
+double penetration(const SharedShape& a, const Vec3& xa, const Vec3& ra, const SharedShape& b, const Vec3& xb,
                    std::int64_t* crossings = nullptr) {
   BodyDescription da = dynamic_body("a", a, xa), db = dynamic_body("b", b, xb);
   da.rotation = ra;
-  if (std::holds_alternative<Plane>(b)) db.kind = BodyKind::fixed;
+  if (b->as<Plane>() != nullptr) db.kind = BodyKind::fixed;
   std::vector<RigidBody> bodies;
   bodies.push_back(make_rigid_body(da));
   bodies.push_back(make_rigid_body(db));
@@ -42,8 +42,8 @@ TEST_CASE("the overlap judge agrees with formulas for every pair of exact shapes
   CHECK(penetration(capsule, {0.35, 0.2, 0}, o, capsule, o) == Approx(0.05));
   CHECK(penetration(unit, {0.9, 0.3, 0.2}, o, unit, o) == Approx(0.1));
   CHECK(penetration(unit, {0.5 + std::sqrt(0.5) - 0.02, 0, 0}, {0, 45, 0}, unit, o) == Approx(0.02));
-  for (const Shape& s : {Shape(Sphere{0.5}), Shape(unit), Shape(capsule)})
-    for (const Shape& t : {Shape(Sphere{0.5}), Shape(unit), Shape(capsule)})
+  for (const SharedShape& s : {SharedShape(Sphere{0.5}), SharedShape(unit), SharedShape(capsule)})
+    for (const SharedShape& t : {SharedShape(Sphere{0.5}), SharedShape(unit), SharedShape(capsule)})
       CHECK(penetration(s, {2.1, 0, 0}, {10, 20, 30}, t, o) == 0.0);
 }
 

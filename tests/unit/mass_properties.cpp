@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/mesh_checks.hpp"
-#include "engine/shapes/shape_mass.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/random.hpp"
 
@@ -27,9 +27,9 @@ TEST_CASE("a box's mesh has the box's mass, centre and inertia") {
     CHECK(mesh.center.norm() < 1e-13);
     CHECK((mesh.inertia - exact.inertia).norm() < 1e-13 * exact.inertia.norm());
   }
-  CHECK(shape_mass(Shape{Box{half}}, 500.0).mass == exact.mass);
-  CHECK(shape_mass(Shape{make_box_mesh(half)}, 500.0).mass == Approx(exact.mass).epsilon(1e-13));
-  CHECK(shape_mass(Shape{Plane{}}, 500.0).mass == 0.0);
+  CHECK(SharedShape(Box{half})->mass(500.0).mass == exact.mass);
+  CHECK(SharedShape(make_box_mesh(half))->mass(500.0).mass == Approx(exact.mass).epsilon(1e-13));
+  CHECK(SharedShape(Plane{})->mass(500.0).mass == 0.0);
 }
 
 TEST_CASE("icospheres converge to the sphere with the square of the edge") {

@@ -1,4 +1,4 @@
-#include "engine/core/parameter.hpp"
+#include "engine/core/rows.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -15,18 +15,20 @@ struct Example {
   int count = 4;
   double size = 0.5;
   Vec3 pull{0, -9.81, 0};
-  std::string title = "drop", method = "fast";
+  std::string title = "drop";
+  enum class Way { fast, exact } way = Way::fast;
   std::vector<std::string> layers{"meshes"};
   ParameterSet set;
 
   Example() {
-    set.add("a.on", on, "switch");
-    set.add("a.count", count, {1, 100}, "", "how many");
-    set.add("contact.size", size, {0.0, 10.0}, "m", "how large");
-    set.add("a.pull", pull, {-1e3, 1e3}, "m/s²", "which way");
-    set.add("a.title", title, "words");
-    set.add("response.method", method, {"fast", "exact"}, "which");
-    set.add("view.layers", layers, "which layers");
+    const Rows all(set), a = all.below("a");
+    a.add("on", on, "switch");
+    a.add("count", count, {1, 100}, "", "how many").formerly("a.number");
+    all.add("contact.size", size, {0.0, 10.0}, "m", "how large").formerly("size").formerly("a.both");
+    a.add("pull", pull, {-1e3, 1e3}, "m/s²", "which way");
+    a.add("title", title, "words").formerly("a.both");
+    all.add("response.method", way, {{Way::fast, "fast"}, {Way::exact, "exact"}}, "which");
+    all.add("view.layers", layers, "which layers");
   }
   void put(const char* path, std::string_view text) { set.find(path)->set(parse_value(*set.find(path), text)); }
   std::string message(const char* path, std::string_view text) {
@@ -55,7 +57,9 @@ TEST_CASE("a bound row reads and writes its variable") {
   CHECK(e.size == 3.0);
   CHECK(e.pull == Vec3(1, -2.5, 0.3));
   CHECK(e.title == "two words");
-  CHECK(e.method == "exact");
+  CHECK(e.way == Example::Way::exact);
+  CHECK(format_value(e.set.find("response.method")->get()) == "exact");
+  CHECK(format_value(e.set.find("response.method")->initial) == "fast");
   CHECK(e.layers == std::vector<std::string>{"meshes", "normals"});
   CHECK(std::get<double>(e.set.find("contact.size")->initial) == 0.5);
   e.put("a.pull", "0 -20 0");
@@ -124,5 +128,21 @@ TEST_CASE("what is written reads back exactly") {
 
 TEST_CASE("a path can be declared once only") {
   Example e;
-  CHECK_THROWS_AS(e.set.add("a.on", e.on, "again"), InternalError);
+  CHECK_THROWS_AS(Rows(e.set).add("a.on", e.on, "again"), InternalError);
+  CHECK_THROWS_AS(Rows(e.set).add("a.other", e.on, "again").formerly("a.on"), InternalError);
+  CHECK_THROWS_AS(Rows(e.set).add("a.number", e.on, "again"), InternalError);  // a former path is no present one
+}
+
+TEST_CASE("a former path leads to the present ones, and is none itself") {
+  const Example e;
+  CHECK(e.set.find("a.number") == nullptr);
+  REQUIRE(e.set.renamed("a.number") != nullptr);
+  CHECK(*e.set.renamed("a.number") == std::vector<std::string>{"a.count"});
+  CHECK(*e.set.renamed("a.both") == std::vector<std::string>{"contact.size", "a.title"});
+  CHECK(e.set.renamed("a.count") == nullptr);
+  CHECK(e.set.nearest("a.numbr") == "");  // what is proposed is present
+  for (const Parameter& row : e.set.all()) CHECK(e.set.renamed(row.path) == nullptr);
+  CHECK(e.set.note_of_former({}) == "");
+  CHECK(e.set.note_of_former({"a.number", "a.both", "a.number"}) ==
+        "parameters have new paths: write contact.size and a.title for a.both, a.count for a.number");
 }

@@ -209,9 +209,10 @@ TEST_CASE("a capsule lies on a box") {
 
 TEST_CASE("degenerate overlaps give finite unit normals") {
   Bodies bodies;
-  const Shape shapes[] = {Sphere{0.5}, Box{Vec3(0.5, 0.5, 0.5)}, Capsule{0.2, 0.5}, Sphere{0.0}, Capsule{0.2, 0.0}};
-  for (const Shape& a : shapes)
-    for (const Shape& b : shapes)
+  const SharedShape shapes[] = {Sphere{0.5}, Box{Vec3(0.5, 0.5, 0.5)}, Capsule{0.2, 0.5}, Sphere{0.0},
+                                Capsule{0.2, 0.0}};
+  for (const SharedShape& a : shapes)
+    for (const SharedShape& b : shapes)
       for (const Vec3& offset :
            {Vec3(0, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0), Vec3(1e-17, 0, -1e-200)}) {
         Bodies pair;
@@ -220,7 +221,7 @@ TEST_CASE("degenerate overlaps give finite unit normals") {
         pair.add(a);
         pair.add(b, pose);
         const auto contacts = pair.contacts(0, 1, {true, 2.0, 0.0});
-        INFO(shape_name(a) << " " << shape_name(b) << " " << offset.transpose());
+        INFO(a->name() << " " << b->name() << " " << offset.transpose());
         REQUIRE(!contacts.empty());
         for (const Collision& c : contacts) {
           CHECK(c.normal.norm() == Approx(1.0).epsilon(1e-12));

@@ -63,13 +63,13 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
     chord = std::max(chord, radius - std::abs((b - a).cross(c - a).normalized().dot(a)));
   }
   REQUIRE(chord < 2e-3);
-  const Shape others[] = {Plane{r.direction(), -0.45}, Sphere{0.3}, Capsule{0.2, 0.4}, Box{Vec3(0.3, 0.2, 0.4)}};
-  for (const Shape& other : others) {
+  const SharedShape others[] = {Plane{r.direction(), -0.45}, Sphere{0.3}, Capsule{0.2, 0.4}, Box{Vec3(0.3, 0.2, 0.4)}};
+  for (const SharedShape& other : others) {
     int compared = 0;
     for (int i = 0; i < 300; ++i) {
       Bodies bodies;
       const Pose pose = random_pose(r, 0.8);
-      const bool plane = std::holds_alternative<Plane>(other);
+      const bool plane = other->as<Plane>() != nullptr;
       bodies.add(other, plane ? Pose{} : pose);
       bodies.add(ball, at(0.4 * r.vector()));
       bodies.add(Sphere{radius}, bodies[1].pose);
@@ -78,16 +78,16 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
       const double gap = smallest_gap(exact);
       // deep inside each other a sphere and its mesh may leave on different ways; two polyhedra already where they
       // overlap by more than a fraction of an edge
-      const double deepest = std::holds_alternative<Box>(other) ? -0.02 : -0.05;
+      const double deepest = other->as<Box>() != nullptr ? -0.02 : -0.05;
       if (!(gap > deepest && gap < 0.1 - 2.0 * chord)) continue;
-      INFO(shape_name(other) << " case " << i << " gap " << gap);
+      INFO(other->name() << " case " << i << " gap " << gap);
       ++compared;
       REQUIRE(!mesh.empty());
       // two polyhedra that overlap have a depth for each pair of crossing edges, which differ by the same error
-      REQUIRE(smallest_gap(mesh) > gap - (std::holds_alternative<Box>(other) && gap < 0.0 ? chord : 1e-9));
+      REQUIRE(smallest_gap(mesh) > gap - ((other->as<Box>() != nullptr) && gap < 0.0 ? chord : 1e-9));
       REQUIRE(smallest_gap(mesh) < gap + chord + 1e-9);
     }
-    INFO(shape_name(other));
+    INFO(other->name());
     REQUIRE(compared > 10);
   }
 }
@@ -95,7 +95,7 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
 TEST_CASE("capsules and boxes rest on a tessellated plane as on the plane") {
   Random r(9);
   Bodies bodies;
-  const Shape ground = surface(box({2.0, 0.5, 2.0}, {9, 1, 9}));
+  const SharedShape ground = surface(box({2.0, 0.5, 2.0}, {9, 1, 9}));
   bodies.add(Capsule{0.1, 0.4});
   bodies.add(Box{Vec3(0.3, 0.2, 0.4)});
   bodies.add(ground, at({0, -0.5, 0}));
@@ -171,7 +171,7 @@ TEST_CASE("bodies deep inside a mesh are pushed out the nearest way") {
   const double expected[] = {0.25, 0.3, 0.25};  // the capsule's lower cap, at 0.25, is the deepest
   for (int i = 0; i < 3; ++i) {
     const auto contacts = bodies.contacts(i, 3, {true, 1e-3, 0.0});
-    INFO(shape_name(*bodies[i].shape));
+    INFO(bodies[i].shape->name());
     REQUIRE(!contacts.empty());
     CHECK(smallest_gap(contacts) == Approx(-expected[i]));
     for (const Collision& c : contacts) CHECK((c.normal - Vec3::UnitY()).norm() < 1e-12);

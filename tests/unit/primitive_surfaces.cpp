@@ -1,5 +1,5 @@
 // Tessellated exact shapes and the regular lattice of a box, against formulas.
-#include "engine/shapes/primitive_surfaces.hpp"
+#include "engine/shapes/primitives.hpp"
 
 #include <catch2/catch.hpp>
 

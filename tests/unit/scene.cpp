@@ -4,6 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/scene/toml.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -65,7 +66,7 @@ TEST_CASE("a scene's parameters and bodies arrive in SI") {
   REQUIRE(s.world.bodies().size() == 3);
 
   // n·x = offset with n as written: y = 1.5, doubled by the scale
-  const Plane& plane = std::get<Plane>(s.world.bodies()[0].shape);
+  const Plane& plane = *s.world.bodies()[0].shape->as<Plane>();
   CHECK(plane.normal == Vec3(0, 1, 0));
   CHECK(plane.offset == Approx(3.0));
 
@@ -81,7 +82,7 @@ TEST_CASE("a scene's parameters and bodies arrive in SI") {
     CHECK((tetra.world_vertices[v] - (turn * (2.0 * tetrahedron().vertices[v]) + Vec3(1, 2, 3))).norm() < 1e-12);
 
   const RigidBody& pill = s.world.bodies()[2];
-  CHECK(std::get<Capsule>(pill.shape).half_length == Approx(0.3));
+  CHECK(pill.shape->as<Capsule>()->half_length == Approx(0.3));
   CHECK((pill.motion.at(0.0).position - Vec3(0, 9, 0)).norm() < 1e-15);  // a key without position has the body's
   CHECK((pill.motion.at(5.0).position - Vec3(1, 9, 0)).norm() < 1e-15);
   CHECK(s.scene.surfaces.size() == 1);
@@ -98,8 +99,8 @@ TEST_CASE("overrides replace what the scene says, bodies by name") {
        "contact.points=intersection", "simulation.sleeping=false", "contact.friction=0.5", "contact.friction=0.75"});
   CHECK(s.world.parameters.simulation.gravity == Vec3(0, -20, 0));
   CHECK(s.world.bodies()[1].mass == Approx(7.0));
-  CHECK(std::get<Capsule>(s.world.bodies()[2].shape).radius == 0.2);
-  CHECK(s.world.parameters.contact.points == "intersection");
+  CHECK(s.world.bodies()[2].shape->as<Capsule>()->radius == 0.2);
+  CHECK(s.world.parameters.contact.points == ContactPoints::intersection);
   CHECK_FALSE(s.world.parameters.simulation.sleeping);
   CHECK(s.world.parameters.contact.friction == 0.75);
 }
@@ -134,7 +135,7 @@ TEST_CASE("seams are welded, in the order of first appearance") {
   REQUIRE(s.scene.surfaces.size() == 1);
   CHECK(s.scene.surfaces[0].welded == 8);
   CHECK(s.scene.surfaces[0].vertices == 4);
-  const TriangleMesh& mesh = std::get<MeshPointer>(s.world.bodies()[0].shape)->mesh;
+  const TriangleMesh& mesh = s.world.bodies()[0].shape->mesh()->mesh;
   CHECK(mesh.triangles[0] == Triangle{0, 1, 2});
 }
 

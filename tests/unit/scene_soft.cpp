@@ -3,7 +3,7 @@
 
 #include "engine/geometry/mass_properties.hpp"
 #include "engine/io/scene/scene.hpp"
-#include "engine/shapes/primitive_surfaces.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"
@@ -64,7 +64,7 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
     CHECK(body.mass == Approx(1000.0 * c.volume).epsilon(c.tolerance));
     CHECK(s.soft().embedding.outside == 0);
     // the surface that collides is the shape's, moved by nothing yet
-    const TriangleMesh& surface = std::get<MeshPointer>(body.shape)->mesh;
+    const TriangleMesh& surface = body.shape->mesh()->mesh;
     REQUIRE(body.world_vertices.size() == surface.vertices.size());
     for (std::size_t v = 0; v < surface.vertices.size(); ++v)
       CHECK((body.world_vertices[v] - surface.vertices[v]).norm() < 1e-12);
@@ -98,7 +98,7 @@ TEST_CASE("volume files of every format give the same body") {
     for (int i = 0; i < 27; ++i)
       CHECK((Vec3(s.soft().fem.position.segment<3>(3 * i)) - (turn * (2.0 * mesh.vertices[i]) + Vec3(1, 2, 3))).norm() <
             1e-12);
-    const TriangleMesh& boundary = std::get<MeshPointer>(s.body().shape)->mesh;
+    const TriangleMesh& boundary = s.body().shape->mesh()->mesh;
     CHECK(boundary.vertices.size() == 26);
     CHECK(signed_volume(boundary) == Approx(8 * 6e-3));
     REQUIRE(s.scene.surfaces.size() == 1);
@@ -151,7 +151,7 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
           body_text(shape +
                     "material = { model = \"neo_hookean\", extension_threshold = 0.2, tangent = \"exact\" }\n")),
       {"body.a.material.young=7e3"});
-  CHECK(s.soft().material->settings().extension_threshold == 0.2);
+  CHECK(std::get<double>(s.rows.find("body.a.material.extension_threshold")->get()) == 0.2);
   CHECK(s.soft().material->settings().tangent == Tangent::exact);
   CHECK(s.soft().material->settings().young == 7e3);
 }

@@ -3,23 +3,26 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/error.hpp"
+#include "engine/core/rows.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
 
 namespace {
 
-struct Rows {
+struct Known {
   double friction = 0.3;
-  int sweeps = 10;
+  int sweeps = 10, other_sweeps = 10;
   Vec3 gravity{0, -10, 0};
   bool fixed = false;
   std::vector<std::string> layers{"meshes"};
   ParameterSet set;
-  Rows() {
-    set.add("contact.friction", friction, {0, 10}, "", "");
-    set.add("lcp.sweeps", sweeps, {0, 1000}, "", "");
-    set.add("simulation.gravity", gravity, {-100, 100}, "m/s²", "");
+  Known() {
+    const Rows rows(set);
+    rows.add("contact.friction", friction, {0, 10}, "", "");
+    rows.add("lcp.sweeps", sweeps, {0, 1000}, "", "").formerly("lcp.rounds").formerly("both");
+    rows.add("lcp.other_sweeps", other_sweeps, {0, 1000}, "", "").formerly("both");
+    rows.add("simulation.gravity", gravity, {-100, 100}, "m/s²", "");
     Parameter row;
     row.path = "start.only";
     row.kind = ParameterKind::boolean;
@@ -39,7 +42,7 @@ struct Rows {
 
 const std::vector<std::string> kFigures = {"a", "b", "contacts"};
 
-Script script(const Rows& rows, const std::vector<std::string>& lines) {
+Script script(const Known& rows, const std::vector<std::string>& lines) {
   return Script("t.script", "", lines, rows.set, kFigures);
 }
 
@@ -61,7 +64,7 @@ bool refused(const std::string& text) {
 }  // namespace
 
 TEST_CASE("commands come with their frame, in the order of the lines") {
-  const Rows rows;
+  const Known rows;
   const Script s = script(rows, {"at 2 set contact.friction 0.5 # why", "", "at 0 layer +contacts -meshes",
                                  "at 2 camera eye [1, 2, 3]", "at 2 camera fit", "at 0 set start.only true"});
   CHECK(s.commands_at(1).empty());
@@ -75,7 +78,7 @@ TEST_CASE("commands come with their frame, in the order of the lines") {
 }
 
 TEST_CASE("a ramp is linear and reaches both ends exactly") {
-  const Rows rows;
+  const Known rows;
   const Script s =
       script(rows, {"from 5 to 12 ramp contact.friction 0.1 0.7", "from 5 to 7 ramp simulation.gravity 0 -10 0 1 -20 3",
                     "from 3 to 7 ramp lcp.sweeps 10 15", "from 9 to 9 ramp contact.friction 1 2"});
@@ -91,6 +94,23 @@ TEST_CASE("a ramp is linear and reaches both ends exactly") {
   CHECK(std::get<std::int64_t>(value(7, 2)) == 15);
   CHECK(std::get<double>(value(9, 1)) == 2.0);
   CHECK(s.commands_at(13).empty());
+}
+
+TEST_CASE("a former path is read as the present ones, and known to have been used") {
+  const Known rows;
+  const Script s = script(rows, {"at 1 set lcp.rounds 7", "at 2 set both 8", "from 3 to 4 ramp both 0 10"});
+  const auto lines = [&](int frame) {
+    std::string all;
+    for (const Command& command : s.commands_at(frame)) all += format_command(command) + "; ";
+    return all;
+  };
+  CHECK(lines(1) == "set lcp.sweeps 7; ");
+  CHECK(lines(2) == "set lcp.sweeps 8; set lcp.other_sweeps 8; ");
+  CHECK(lines(4) == "set lcp.sweeps 10; set lcp.other_sweeps 10; ");
+  CHECK(rows.set.note_of_former(s.former_paths()) ==
+        "parameters have new paths: write lcp.sweeps and lcp.other_sweeps for both, lcp.sweeps for lcp.rounds");
+  CHECK(script(rows, {"at 1 set lcp.sweeps 7"}).former_paths().empty());
+  CHECK_THROWS_AS(script(rows, {"at 1 set lcp.rounds 1001"}), InputError);
 }
 
 TEST_CASE("conditions follow the usual rules of precedence") {
@@ -115,7 +135,7 @@ TEST_CASE("conditions follow the usual rules of precedence") {
 }
 
 TEST_CASE("damaged scripts are refused or read, never more") {
-  const Rows rows;
+  const Known rows;
   const std::string lines[] = {"from 5 to 12 ramp contact.friction 0.1 0.7",
                                "at 2 set simulation.gravity [0, -10, 0]",
                                "at 2 camera orbit 30 -5.5",

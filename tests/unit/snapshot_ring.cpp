@@ -4,7 +4,7 @@
 #include <map>
 
 #include "tests/support/random.hpp"
-#include "viewer/controller/snapshot_ring.hpp"
+#include "viewer/debugger/snapshot_ring.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

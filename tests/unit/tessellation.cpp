@@ -2,8 +2,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/geometry/mass_properties.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/draw/shaded_surface.hpp"
-#include "viewer/draw/tessellation.hpp"
 
 using namespace impinge;
 
@@ -27,29 +27,30 @@ TEST_CASE("exact shapes become closed outward surfaces inscribed in them") {
   const Sphere sphere{r};
   const Capsule capsule{r, h};
   const Box box{{0.2, 0.5, 0.9}};
-  for (const Shape& shape : {Shape(sphere), Shape(capsule), Shape(box), Shape(Capsule{r, 0.0})}) {
-    const TriangleMesh mesh = tessellate(shape);
+  for (const SharedShape& shape :
+       {SharedShape(sphere), SharedShape(capsule), SharedShape(box), SharedShape(Capsule{r, 0.0})}) {
+    const TriangleMesh mesh = shape->drawn();
     CHECK(make_topology(mesh).is_closed());
     CHECK(volume(mesh) > 0.0);
-    CHECK(tessellate(shape).vertices == mesh.vertices);
-    CHECK(tessellate(shape).triangles == mesh.triangles);
+    CHECK(shape->drawn().vertices == mesh.vertices);
+    CHECK(shape->drawn().triangles == mesh.triangles);
   }
-  for (const Vec3& v : tessellate(sphere).vertices) CHECK(v.norm() == Approx(r).epsilon(1e-12));
-  for (const Vec3& v : tessellate(capsule).vertices) CHECK(distance_to_surface(capsule, v) < 1e-12);
-  CHECK(volume(tessellate(sphere)) == Approx(4.0 / 3.0 * M_PI * r * r * r).epsilon(0.01));
-  CHECK(volume(tessellate(capsule)) == Approx(4.0 / 3.0 * M_PI * r * r * r + 2.0 * h * M_PI * r * r).epsilon(0.015));
-  CHECK(volume(tessellate(box)) == Approx(8.0 * 0.2 * 0.5 * 0.9).epsilon(1e-12));
-  CHECK_THROWS_AS(tessellate(Plane{}), InternalError);
+  for (const Vec3& v : sphere.drawn().vertices) CHECK(v.norm() == Approx(r).epsilon(1e-12));
+  for (const Vec3& v : capsule.drawn().vertices) CHECK(distance_to_surface(capsule, v) < 1e-12);
+  CHECK(volume(sphere.drawn()) == Approx(4.0 / 3.0 * M_PI * r * r * r).epsilon(0.01));
+  CHECK(volume(capsule.drawn()) == Approx(4.0 / 3.0 * M_PI * r * r * r + 2.0 * h * M_PI * r * r).epsilon(0.015));
+  CHECK(volume(box.drawn()) == Approx(8.0 * 0.2 * 0.5 * 0.9).epsilon(1e-12));
+  CHECK_THROWS_AS(Plane{}.drawn(), InternalError);
 }
 
 TEST_CASE("corners are smooth on round surfaces and sharp on boxes") {
-  const TriangleMesh ball = tessellate(Sphere{2.0});
+  const TriangleMesh ball = Sphere{2.0}.drawn();
   const ShadedSurface round = make_shaded_surface(ball, make_topology(ball), 50.0);
   CHECK(round.positions.size() == ball.vertices.size());  // nothing was split
   for (std::size_t i = 0; i < round.positions.size(); ++i)
     CHECK(round.normals[i].dot(round.positions[i].normalized()) > 0.999f);
 
-  const TriangleMesh crate = tessellate(Box{{1, 2, 3}});
+  const TriangleMesh crate = Box{{1, 2, 3}}.drawn();
   const ShadedSurface sharp = make_shaded_surface(crate, make_topology(crate), 50.0);
   CHECK(sharp.positions.size() == 24);  // three normals a corner
   CHECK(sharp.edges.size() == 18);

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "engine/core/error.hpp"
-#include "engine/shapes/primitive_surfaces.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"
 

@@ -7,6 +7,7 @@
 #include "tests/support/fem.hpp"
 #include "tests/support/hand_made_record.hpp"
 #include "tests/support/meshes.hpp"
+#include "tests/support/view_scenes.hpp"
 #include "viewer/draw/moved_surface.hpp"
 #include "viewer/draw/tet_shapes.hpp"
 #include "viewer/layers/body_style.hpp"
@@ -153,7 +154,7 @@ TEST_CASE("the colour bar ends at a round number that covers what is shown, or w
     CHECK(stress == Approx(1300.0).epsilon(0.02));
   CHECK(heat_high(scene.record(), settings, HeatQuantity::stress) == Approx(2000.0).epsilon(1e-12));
   CHECK(heat_high(scene.record(), settings, HeatQuantity::strain) == Approx(0.02).epsilon(1e-9));
-  settings.stress_max = 4321.0;
+  set(settings, "view.stress.max", "4321");
   CHECK(heat_high(scene.record(), settings, HeatQuantity::stress) == 4321.0);
   const ColorBar bar = make_color_bar(HeatQuantity::stress, 2e5);
   CHECK(bar.unit == "kPa");
@@ -216,7 +217,8 @@ TEST_CASE("contact forces are drawn as long as their share of the weight") {
     SurfaceCache surfaces;
     DrawList list;
     for (const Layer& layer : layers())
-      if (layer.name == "contact_forces") layer.draw({scene.record(), settings, settings.camera, surfaces}, list);
+      if (layer.name == "contact_forces")
+        layer.draw({scene.record(), settings, settings.camera, surfaces, layer.name}, list);
     return list.arrows;
   };
   ViewSettings settings = make_view_settings();
@@ -229,7 +231,7 @@ TEST_CASE("contact forces are drawn as long as their share of the weight") {
       CHECK((arrow.direction - Vec3::UnitY()).norm() < 1e-12);
     }
   }
-  settings.force_unit = weight / 20.0;  // each of the forty carries half of that
+  set(settings, "view.contact_forces.unit", shortest(weight / 20.0));  // each of the forty carries half of that
   for (const DrawArrow& arrow : arrows(settings)) CHECK(arrow.length_px == Approx(0.5 * settings.arrow_length));
 }
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "engine/geometry/tet_cage.hpp"
-#include "engine/shapes/primitive_surfaces.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "tests/support/temp_folder.hpp"
 
 using namespace impinge;

@@ -12,43 +12,10 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
-#include "engine/core/parallel.hpp"
-#include "viewer/app/commands.hpp"
-#include "viewer/app/interrupt.hpp"
+#include "viewer/app/sub_command.hpp"
+#include "viewer/controller/interrupt.hpp"
 
 namespace {
-
-int dispatch(const impinge::Arguments& arguments) {
-  using impinge::Arguments;
-  switch (arguments.kind) {
-    case Arguments::run:
-      return impinge::run_command(arguments);
-    case Arguments::replay:
-      return impinge::replay_command(arguments);
-    case Arguments::diff:
-      return impinge::diff_command(arguments);
-    case Arguments::check:
-      return impinge::check_command(arguments);
-    case Arguments::info:
-      return impinge::info_command(arguments);
-    case Arguments::list:
-      return impinge::list_command(arguments);
-    case Arguments::step:
-      return impinge::step_command(arguments);
-    case Arguments::sweep:
-      return impinge::sweep_command(arguments);
-    case Arguments::debug:
-      return impinge::debug_command(arguments);
-    case Arguments::test:
-      return impinge::test_command(arguments);
-    case Arguments::compare:
-      return impinge::compare_command(arguments);
-    case Arguments::print:
-      std::fputs(arguments.text.c_str(), stdout);
-      return 0;
-  }
-  return 4;
-}
 
 int fail(int code, const char* kind, const std::string& what) {
   std::fflush(stdout);
@@ -80,9 +47,7 @@ int run_program(int count, char** words) {
   try {
     impinge::watch_for_interrupt();
     const impinge::InterruptScope scope(&impinge::interrupted());
-    const impinge::Arguments arguments = impinge::parse_arguments(count, words);
-    impinge::set_thread_count(arguments.threads);
-    return dispatch(arguments);
+    return impinge::run_command_line(count, words);
   } catch (const impinge::Interrupted&) {
     return 130;  // the line that answered the signal said it
   } catch (const impinge::InputError& error) {

@@ -31,18 +31,19 @@ std::string remedy(const std::string& near, const char* otherwise) {
   return near.empty() ? otherwise : fmt::format("did you mean '{}'?", near);
 }
 
-Command parse_set(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
+std::vector<Command> parse_set(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
   if (words.size() < 3)
     words[0].refuse("'set' without a path and a value", "set PATH VALUE is wanted", "write set contact.friction 0.5");
-  const Parameter& row = find_row(words[1], rows, first_frame);
+  std::vector<Command> commands;
   const PlacedText& first = words[2];
   const char* end = words.back().text.data() + words.back().text.size();
-  try {
-    return SetCommand{row.path,
-                      parse_value(row, {first.text.data(), static_cast<std::size_t>(end - first.text.data())})};
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}; change the value", first.place(), error.what()));
-  }
+  for (const Parameter* row : find_rows(words[1], rows, first_frame)) try {
+      commands.push_back(SetCommand{
+          row->path, parse_value(*row, {first.text.data(), static_cast<std::size_t>(end - first.text.data())})});
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}; change the value", first.place(), error.what()));
+    }
+  return commands;
 }
 
 Command parse_layer(std::span<const PlacedText> words, const ParameterSet& rows) {
@@ -124,22 +125,27 @@ struct Formatter {
 
 }  // namespace
 
-const Parameter& find_row(const PlacedText& word, const ParameterSet& rows, bool first_frame) {
-  const Parameter* row = rows.find(word.text);
-  if (row == nullptr)
-    word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is",
-                remedy(rows.nearest(word.text), "use one of them"));
-  if (!row->live && !first_frame)
-    word.refuse(fmt::format("'{}' can't change while running", word.text), "it may be set at frame 0",
-                "write at 0, or set it in the scene");
-  return *row;
+std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterSet& rows, bool first_frame) {
+  const std::vector<std::string>* renamed = rows.renamed(word.text);
+  std::vector<const Parameter*> found;
+  for (const std::string& path : renamed == nullptr ? std::vector<std::string>{std::string(word.text)} : *renamed) {
+    const Parameter* row = rows.find(path);
+    if (row == nullptr)
+      word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is",
+                  remedy(rows.nearest(word.text), "use one of them"));
+    if (!row->live && !first_frame)
+      word.refuse(fmt::format("'{}' can't change while running", word.text), "it may be set at frame 0",
+                  "write at 0, or set it in the scene");
+    found.push_back(row);
+  }
+  return found;
 }
 
-Command parse_command(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
+std::vector<Command> parse_command(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
   const PlacedText& verb = words[0];
   if (verb.text == "set") return parse_set(words, rows, first_frame);
-  if (verb.text == "layer") return parse_layer(words, rows);
-  if (verb.text == "camera") return parse_camera(words);
+  if (verb.text == "layer") return {parse_layer(words, rows)};
+  if (verb.text == "camera") return {parse_camera(words)};
   verb.refuse(fmt::format("unknown command '{}'", verb.text), "set, layer or camera is wanted",
               remedy(nearest_word(verb.text, {"set", "layer", "camera"}), "use one of them"));
 }

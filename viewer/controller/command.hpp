@@ -27,14 +27,16 @@ struct CameraCommand {
 };
 using Command = std::variant<SetCommand, LayerCommand, CameraCommand>;
 
-/// Reads a command from the words of a line and checks every name and value against the rows. Throws InputError at the
-/// word that is wrong. `first_frame`: the command takes effect with frame 0, when every parameter may still be set.
-Command parse_command(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame);
+/// Reads a command from the words of a line and checks every name and value against the rows: one, but for a former path
+/// that stands for several parameters. Throws InputError at the word that is wrong. `first_frame`: the command takes
+/// effect with frame 0, when every parameter may still be set.
+std::vector<Command> parse_command(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame);
 
 /// The command as a line that parse_command reads back exactly.
 std::string format_command(const Command& command);
 
-/// The row of a parameter that a script names, or an error at the word with the nearest name.
-const Parameter& find_row(const PlacedText& word, const ParameterSet& rows, bool first_frame);
+/// The row of a parameter that a script names, or an error at the word with the nearest name. Several for a former path
+/// that stands for them.
+std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterSet& rows, bool first_frame);
 
 }  // namespace impinge

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/world/figures.hpp"
 #include "viewer/controller/frame_view.hpp"
-#include "viewer/controller/stats_table.hpp"
 
 namespace impinge {
 

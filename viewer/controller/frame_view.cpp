@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "engine/core/archive.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 Aabb bounds_of(const StepRecord& record) {
   Aabb moving, all;
   for (const BodyRecord& body : record.bodies) {
-    if (std::holds_alternative<Plane>(*body.shape)) continue;
+    if (body.shape->as<Plane>() != nullptr) continue;
     all.include(body.bounds);
     if (body.kind != BodyKind::fixed) moving.include(body.bounds);
   }

@@ -56,6 +56,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume,
                    options.snapshot_megabytes << 20);
 
+  if (const std::string note = session.note_of_former_paths(); !note.empty() && watcher.message)
+    watcher.message("note: " + note);
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = session.is_judged();
@@ -83,28 +85,28 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const auto make_frame = [&] {
     std::vector<Command> commands;
     FrozenStep frozen;
-    FrameExtras extras;
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
     commands = session.advance(freezes ? &frozen : nullptr);
+    FrameStats stats = session.record().stats;
     if (judged) {
       const OverlapVerdict verdict = judge_overlap(session.world().bodies());
-      extras.judged_penetration = verdict.penetration;
-      extras.judged_intersections = verdict.intersections;
+      stats.judged_penetration = verdict.penetration;
+      stats.judged_intersections = verdict.intersections;
     }
-    check_figures(session.record().stats, extras, judged);
+    check_figures(stats, judged);
     const int frame = session.frame();
-    extras.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
+    stats.times.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
     if (freezes) {
       folder.add_frozen_step(frozen);
       result.frozen_step = folder.frozen_step(frame);
       result.frozen_contacts = frozen.contacts();
       result.frozen_groups = frozen.groups.size();
     }
-    folder.add_frame(session.record(), commands, extras);
+    folder.add_frame(session.record(), commands, stats);
     result.last_frame = frame;
-    if (watcher.frame) watcher.frame(session.record().stats, last_frame);
+    if (watcher.frame) watcher.frame(stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
-    stop = judge(frame, figure_values(session.record().stats, extras, judged));
+    stop = judge(frame, figure_values(stats, judged));
     folder.add_snapshot(session);
   };
   try {

@@ -75,38 +75,19 @@ bool is_our_number(const fs::path& path, const char* ending) {
 
 }  // namespace
 
-std::vector<StatsLine> whole_rows(const std::string& text, bool judged) {
-  std::vector<StatsLine> rows;
-  std::size_t begin = text.find('\n');
-  if (begin == std::string::npos || text.substr(0, begin) != stats_header(judged)) return rows;
-  for (++begin; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;
-    try {
-      const StatsLine row = parse_stats_row(std::string_view(text).substr(begin, end - begin), judged);
-      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 ||
-          row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos)
-        break;
-      rows.push_back(row);
-    } catch (const InputError&) {
-      break;
-    }
-    begin = end + 1;
-  }
-  return rows;
-}
-
 RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
                      std::uint64_t snapshot_bytes)
-    : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes) {
+    : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes), columns_(run.judge) {
   check_new(resume, run_toml);  // before anything is written, the lock's file among it
   make_folder(folder_);
   lock_ = FolderLock::take(folder_);
   check_new(resume, run_toml);  // what another process may have made of it until it gave the lock back
   clear_leftovers();
   if (resume) {
-    kept_ = whole_rows(read_if_there(folder_ / "stats.csv"), run_.judge);
+    const std::string text = read_if_there(folder_ / "stats.csv");
+    kept_ = whole_rows(text, run_.judge);
     kept_.resize(static_cast<std::size_t>(last_resumable(kept_) + 1));
+    if (!kept_.empty()) columns_ = StatsColumns(std::string_view(text).substr(0, text.find('\n')), run_.judge);
   }
   write_file(folder_ / "run.toml", run_toml);
   clear_markers();
@@ -118,7 +99,7 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   commands_ = AppendFile(folder_ / "commands.log",
                          resume_frame() < 0 ? 0 : bytes_up_to(log, resume_frame(), false, frame_of_command));
   if (run_.contacts) contacts_ = open_table(folder_ / "contacts.csv", resume_frame(), contacts_header());
-  stats_ = open_table(folder_ / "stats.csv", resume_frame(), stats_header(run_.judge));
+  stats_ = open_table(folder_ / "stats.csv", resume_frame(), columns_.header());
 }
 
 void RunFolder::check_new(bool resume, const std::string& run_toml) const {
@@ -157,6 +138,7 @@ int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
   }
   for (int frame = pictures - 1; frame >= 0; --frame)
     if (is_valid_snapshot(snapshot(frame))) return frame;
+  for (int frame = pictures - 1; frame >= 0; --frame) refuse_other_version(snapshot(frame));
   return -1;
 }
 
@@ -195,7 +177,7 @@ fs::path RunFolder::id_picture(int frame) const { return folder_ / "ids" / (six_
 
 fs::path RunFolder::frozen_step(int frame) const { return folder_ / "frozen" / (six_digits(frame) + ".step"); }
 
-void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras) {
+void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats) {
   const int frame = record.stats.frame;
   if (run_.export_ply) {
     const fs::path surfaces = folder_ / "surfaces" / six_digits(frame);
@@ -206,7 +188,7 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
   for (const Command& command : commands) log += fmt::format("at {} {}\n", frame, format_command(command));
   commands_.append(log);
   if (run_.contacts) contacts_.append(contacts_rows(record));
-  stats_.append(stats_row(record.stats, extras, run_.judge) + "\n");
+  stats_.append(columns_.row(stats) + "\n");
 }
 
 void RunFolder::add_snapshot(const Session& session) {

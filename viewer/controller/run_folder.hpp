@@ -20,7 +20,8 @@ namespace impinge {
 class RunFolder {
  public:
   /// Throws InputError, with nothing written, if the folder can't be taken, because another process writes into it for
-  /// one; otherwise it holds run.toml and the files that grow, cut back to the last frame from which the run can go on.
+  /// one, or resumed since another version wrote its states; otherwise it holds run.toml and the files that grow, cut
+  /// back to the last frame from which the run can go on.
   RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
             std::uint64_t snapshot_bytes);
 
@@ -33,8 +34,9 @@ class RunFolder {
   std::filesystem::path frozen_step(int frame) const;
   const std::filesystem::path& path() const { return folder_; }
 
-  /// Everything of a frame but its picture; the row of stats.csv comes last.
-  void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameExtras& extras);
+  /// Everything of a frame but its picture; the row of stats.csv comes last. `stats`: the record's, with what was
+  /// measured since.
+  void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats);
   /// Of every frame, until they fill their room: then every second one is given up, and so on. The last one always
   /// stays.
   void add_snapshot(const Session& session);
@@ -58,10 +60,8 @@ class RunFolder {
   std::uint64_t most_snapshot_bytes_, snapshot_bytes_ = 0;  // room for them, and taken
   std::map<int, std::uint64_t> snapshots_;                  // bytes by frame
   int spacing_ = 1;                                         // frames from one that stays to the next
+  StatsColumns columns_;  // of stats.csv: a run that goes on keeps those it began with
   AppendFile stats_, contacts_, commands_;
 };
-
-/// Leading rows of a stats.csv's text that are whole and belong to frames 0, 1, 2, ...
-std::vector<StatsLine> whole_rows(const std::string& text, bool judged);
 
 }  // namespace impinge

@@ -100,13 +100,16 @@ void Script::read_line(const PlacedText& line, const std::filesystem::path& fold
                        const std::vector<std::string>& figures) {
   const std::vector<PlacedText> words = split_words(line);
   if (words.empty()) return;
+  for (const PlacedText& word : words)
+    if (rows.renamed(word.text) != nullptr) former_paths_.emplace_back(word.text);
   const PlacedText& first = words[0];
   if (first.text == "at") {
     if (words.size() < 3)
       first.refuse("'at' without a frame and a command", "at K COMMAND is wanted",
                    "write at 40 set contact.friction 0.5");
     const int frame = read_frame(words[1]);
-    timed_.push_back({frame, frame, parse_command(std::span(words).subspan(2), rows, frame == 0), false, {}, {}});
+    for (Command& command : parse_command(std::span(words).subspan(2), rows, frame == 0))
+      timed_.push_back({frame, frame, std::move(command), false, {}, {}});
   } else if (first.text == "from") {
     read_ramp(words, rows);
   } else if (first.text == "expect") {
@@ -135,7 +138,8 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
   if (last < first)
     words[3].refuse(fmt::format("frame {} after frame {}", last, first), "a ramp ends at or after its start",
                     "swap the frames");
-  const Parameter& row = find_row(words[5], rows, first == 0 && last == 0);
+  const std::vector<const Parameter*> found = find_rows(words[5], rows, first == 0 && last == 0);
+  const Parameter& row = *found.front();
   if (row.kind != ParameterKind::real && row.kind != ParameterKind::integer && row.kind != ParameterKind::vector3)
     words[5].refuse(fmt::format("'{}' is no number", row.path), "numbers and vectors can be ramped", "use set");
   // two values, or the six numbers of two vectors
@@ -155,8 +159,8 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
       throw InputError(fmt::format("{}: {}; change the value", rest[begin].place(), error.what()));
     }
   };
-  Timed ramp{first, last, SetCommand{row.path, {}}, true, value(0), value(each)};
-  timed_.push_back(std::move(ramp));
+  for (const Parameter* each_row : found)
+    timed_.push_back({first, last, SetCommand{each_row->path, {}}, true, value(0), value(each)});
 }
 
 void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,

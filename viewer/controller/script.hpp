@@ -43,6 +43,9 @@ class Script {
   std::vector<Command> commands_at(int frame) const;
   int last_frame() const { return last_frame_; }  ///< the largest frame named, -1 for none
 
+  /// Former paths of parameters that its lines name.
+  const std::vector<std::string>& former_paths() const { return former_paths_; }
+
   const std::vector<Expectation>& expectations() const { return expectations_; }
   const std::vector<ImageExpectation>& images() const { return images_; }
   const std::vector<Break>& breaks() const { return breaks_; }
@@ -65,6 +68,7 @@ class Script {
   std::vector<Expectation> expectations_;
   std::vector<ImageExpectation> images_;
   std::vector<Break> breaks_;
+  std::vector<std::string> former_paths_;
   int last_frame_ = -1;
   bool pictures_may_be_missing_ = false;
 };

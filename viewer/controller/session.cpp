@@ -8,7 +8,7 @@
 #include "engine/core/utf8.hpp"
 #include "engine/frozen/frozen_step.hpp"
 #include "engine/io/paths.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "engine/world/figures.hpp"
 
 namespace impinge {
 
@@ -148,6 +148,12 @@ void Session::apply(const Command& command) {
 
 int Session::default_last_frame() const {
   return scene_.run ? scene_.run->frames : std::max(kDefaultLastFrame, script_.last_frame());
+}
+
+std::string Session::note_of_former_paths() const {
+  std::vector<std::string> used = scene_.former_paths;
+  used.insert(used.end(), script_.former_paths().begin(), script_.former_paths().end());
+  return rows_.note_of_former(used);
 }
 
 RunRecord Session::run_record() const {

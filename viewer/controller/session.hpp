@@ -51,6 +51,8 @@ class Session {
   const Script& script() const { return script_; }
   FrameView& view() { return view_; }
   const FrameView& view() const { return view_; }
+  /// Which present paths to write for the former ones that scene, overrides and script name; "" if they name none.
+  std::string note_of_former_paths() const;
   bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
   /// The scene's, script's and program's part of run.toml.
   RunRecord run_record() const;

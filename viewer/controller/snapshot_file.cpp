@@ -1,5 +1,7 @@
 #include "viewer/controller/snapshot_file.hpp"
 
+#include <fmt/format.h>
+
 #include "engine/core/archive.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
@@ -8,7 +10,7 @@ namespace impinge {
 
 namespace {
 
-constexpr std::string_view kHead = "impinge snapshot 2\n";
+constexpr std::string_view kName = "impinge snapshot ", kHead = "impinge snapshot 3\n";
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
 // the state between head and checksum; empty if the file is damaged
@@ -34,6 +36,19 @@ bool is_valid_snapshot(const std::filesystem::path& path) {
   std::error_code error;
   if (!is_file(path)) return false;
   return !body_of(read_file(path, kMostBytes)).empty();
+}
+
+void refuse_other_version(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  const std::string bytes = read_file(path, kMostBytes);
+  const std::string_view head = std::string_view(bytes).substr(0, bytes.find('\n') + 1);
+  if (head.starts_with(kName) && head != kHead)
+    throw InputError(
+        fmt::format("{}: is a snapshot of version {}; one of version {} is wanted; run the scene again "
+                    "without --resume, or resume it with the program that wrote it",
+                    path.string(), head.substr(kName.size(), head.size() - kName.size() - 1),
+                    kHead.substr(kName.size(), kHead.size() - kName.size() - 1)));
 }
 
 void restore_snapshot(const std::filesystem::path& path, Session& session) {

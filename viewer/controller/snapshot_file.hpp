@@ -13,6 +13,9 @@ std::size_t write_snapshot(const std::filesystem::path& path, const Session& ses
 /// Whether the file is whole: right head, right checksum.
 bool is_valid_snapshot(const std::filesystem::path& path);
 
+/// Throws InputError if the file is there and of the form that another version of this program writes.
+void refuse_other_version(const std::filesystem::path& path);
+
 /// Throws InputError if the file is damaged or belongs to another scene.
 void restore_snapshot(const std::filesystem::path& path, Session& session);
 

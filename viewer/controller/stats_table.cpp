@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <span>
+#include <limits>
 
-#include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
 
@@ -14,120 +14,134 @@ namespace impinge {
 
 namespace {
 
-struct Column {
-  const char* name;
-  double (*value)(const FrameStats&, const FrameExtras&);
-  bool whole;
-};
+// the first line, without its end; all of a text without one
+std::string_view first_line(std::string_view text) { return text.substr(0, text.find('\n')); }
 
-// the order is a contract; new columns go to the end
-constexpr Column kColumns[] = {
-    {"frame", [](const FrameStats& s, const FrameExtras&) { return double(s.frame); }, true},
-    {"time_s", [](const FrameStats& s, const FrameExtras&) { return s.time; }, false},
-    {"substeps", [](const FrameStats& s, const FrameExtras&) { return double(s.substeps); }, true},
-    {"bodies", [](const FrameStats& s, const FrameExtras&) { return double(s.bodies); }, true},
-    {"dofs", [](const FrameStats& s, const FrameExtras&) { return double(s.dofs); }, true},
-    {"broad_pairs", [](const FrameStats& s, const FrameExtras&) { return double(s.broad_pairs); }, true},
-    {"triangle_pairs", [](const FrameStats& s, const FrameExtras&) { return double(s.triangle_pairs); }, true},
-    {"contacts", [](const FrameStats& s, const FrameExtras&) { return double(s.contacts); }, true},
-    {"groups", [](const FrameStats& s, const FrameExtras&) { return double(s.groups); }, true},
-    {"max_penetration_m", [](const FrameStats& s, const FrameExtras&) { return s.max_penetration; }, false},
-    {"residual", [](const FrameStats& s, const FrameExtras&) { return s.residual; }, false},
-    {"lcp_iterations", [](const FrameStats& s, const FrameExtras&) { return double(s.lcp_iterations); }, true},
-    {"outer_iterations", [](const FrameStats& s, const FrameExtras&) { return double(s.outer_iterations); }, true},
-    {"kinetic_J", [](const FrameStats& s, const FrameExtras&) { return s.kinetic; }, false},
-    {"potential_J", [](const FrameStats& s, const FrameExtras&) { return s.potential; }, false},
-    {"elastic_J", [](const FrameStats& s, const FrameExtras&) { return s.elastic; }, false},
-    {"momentum_x", [](const FrameStats& s, const FrameExtras&) { return s.momentum.x(); }, false},
-    {"momentum_y", [](const FrameStats& s, const FrameExtras&) { return s.momentum.y(); }, false},
-    {"momentum_z", [](const FrameStats& s, const FrameExtras&) { return s.momentum.z(); }, false},
-    {"angular_momentum_x", [](const FrameStats& s, const FrameExtras&) { return s.angular_momentum.x(); }, false},
-    {"angular_momentum_y", [](const FrameStats& s, const FrameExtras&) { return s.angular_momentum.y(); }, false},
-    {"angular_momentum_z", [](const FrameStats& s, const FrameExtras&) { return s.angular_momentum.z(); }, false},
-    {"broad_ms", [](const FrameStats& s, const FrameExtras&) { return s.times.broad_ms; }, false},
-    {"narrow_ms", [](const FrameStats& s, const FrameExtras&) { return s.times.narrow_ms; }, false},
-    {"assemble_ms", [](const FrameStats& s, const FrameExtras&) { return s.times.assemble_ms; }, false},
-    {"response_ms", [](const FrameStats& s, const FrameExtras&) { return s.times.response_ms; }, false},
-    {"integrate_ms", [](const FrameStats& s, const FrameExtras&) { return s.times.integrate_ms; }, false},
-    {"step_ms", [](const FrameStats& s, const FrameExtras&) { return s.times.step_ms; }, false},
-    {"render_ms", [](const FrameStats&, const FrameExtras& e) { return e.render_ms; }, false},
-    {"state_hash", nullptr, false},
-    {"unconverged", [](const FrameStats& s, const FrameExtras&) { return double(s.unconverged); }, true},
-    {"asleep", [](const FrameStats& s, const FrameExtras&) { return double(s.asleep); }, true},
-    {"judged_penetration_m", [](const FrameStats&, const FrameExtras& e) { return e.judged_penetration; }, false},
-    {"judged_intersections", [](const FrameStats&, const FrameExtras& e) { return double(e.judged_intersections); },
-     true},
-};
+std::string_view take_cell(std::string_view& line) {
+  const std::string_view cell = line.substr(0, line.find(','));
+  line.remove_prefix(std::min(cell.size() + 1, line.size()));
+  return cell;
+}
 
-std::span<const Column> columns(bool judged) {
-  return std::span(kColumns).first(std::size(kColumns) - (judged ? 0 : 2));
+[[noreturn]] void refuse_header() {
+  throw InputError("another header; the columns of this version are wanted; run the scene again");
 }
 
 }  // namespace
 
-std::string stats_header(bool judged) {
+StatsColumns::StatsColumns(bool judged) : judged_(judged) {
+  for (const Figure& figure : figures())
+    if (judged || figure.kind != FigureKind::judged) add(figure);
+}
+
+StatsColumns::StatsColumns(std::string_view header, bool judged) : judged_(judged) {
+  while (!header.empty()) {
+    const Figure* figure = find_figure(take_cell(header));
+    if (figure == nullptr || has(*figure) || (figure->kind == FigureKind::judged && !judged)) refuse_header();
+    add(*figure);
+  }
+  // those up to the hash are as old as the file's form
+  const std::span<const Figure> oldest = figures().first(1 + (find_figure("state_hash") - figures().data()));
+  const bool is_ours =
+      columns_.size() >= oldest.size() &&
+      std::equal(oldest.begin(), oldest.end(), columns_.begin(),
+                 [](const Figure& figure, const Column& column) { return &figure == column.figure; }) &&
+      (!judged || has(*find_figure("judged_penetration_m")));
+  if (!is_ours) refuse_header();
+}
+
+void StatsColumns::add(const Figure& figure) {
+  columns_.push_back({&figure, figure.is_hash() ? 0 : figure_index(figure.name, judged_)});
+}
+
+bool StatsColumns::has(const Figure& figure) const {
+  return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.figure == &figure; });
+}
+
+std::string StatsColumns::header() const {
   std::string line;
-  for (const Column& column : columns(judged)) line += (line.empty() ? "" : ",") + std::string(column.name);
+  for (const Column& column : columns_) line += (line.empty() ? "" : ",") + std::string(column.figure->name);
   return line;
 }
 
-std::string stats_row(const FrameStats& stats, const FrameExtras& extras, bool judged) {
+std::string StatsColumns::row(const FrameStats& stats) const {
   std::string line;
-  for (const Column& column : columns(judged)) {
-    if (&column != kColumns) line += ',';
-    if (column.value == nullptr)
+  for (const auto& [figure, place] : columns_) {
+    if (!line.empty()) line += ',';
+    if (figure->is_hash())
       line += hex64(stats.state_hash);
-    else if (column.whole)
-      line += std::to_string(static_cast<std::int64_t>(column.value(stats, extras)));
+    else if (figure->is_whole())
+      line += std::to_string(static_cast<std::int64_t>(figure->value(stats)));
     else
-      line += shortest(column.value(stats, extras));
+      line += shortest(figure->value(stats));
   }
   return line;
 }
 
-const std::vector<std::string>& figure_names(bool judged) {
-  const auto names = [](bool with) {
-    std::vector<std::string> list;
-    for (const Column& column : columns(with))
-      if (column.value != nullptr) list.emplace_back(column.name);
-    return list;
-  };
-  static const std::vector<std::string> plain = names(false), all = names(true);
-  return judged ? all : plain;
-}
-
-std::vector<double> figure_values(const FrameStats& stats, const FrameExtras& extras, bool judged) {
-  std::vector<double> values;
-  for (const Column& column : columns(judged))
-    if (column.value != nullptr) values.push_back(column.value(stats, extras));
-  return values;
-}
-
-void check_figures(const FrameStats& stats, const FrameExtras& extras, bool judged) {
-  for (const Column& column : columns(judged))
-    if (column.value != nullptr && !std::isfinite(column.value(stats, extras)))
+void check_figures(const FrameStats& stats, bool judged) {
+  for (const Figure& figure : figures())
+    if (!figure.is_hash() && (judged || figure.kind != FigureKind::judged) && !std::isfinite(figure.value(stats)))
       throw DivergenceError(fmt::format("frame {}: {} is {}, and every figure must be finite; use more sub-steps",
-                                        stats.frame, column.name, column.value(stats, extras)));
+                                        stats.frame, figure.name, figure.value(stats)));
 }
 
-StatsLine parse_stats_row(std::string_view line, bool judged) {
+StatsLine StatsColumns::parse(std::string_view line) const {
   StatsLine row;
-  for (const Column& column : columns(judged)) {
-    const std::size_t end = std::min(line.find(','), line.size());
-    const std::string_view word = line.substr(0, end);
-    if (column.value == nullptr) {
+  row.figures.assign(figure_names(judged_).size(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& [figure, place] : columns_) {
+    const std::string_view word = take_cell(line);
+    if (figure->is_hash()) {
       row.state_hash = std::string(word);
-    } else {
-      double value = 0.0;
-      const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || stop != word.data() + word.size())
-        throw InputError(
-            fmt::format("stats.csv: '{}' in column {}; a number is wanted; run the scene again", word, column.name));
-      row.figures.push_back(value);
+      continue;
     }
-    line.remove_prefix(std::min(end + 1, line.size()));
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), row.figures[place]);
+    if (error != std::errc() || stop != word.data() + word.size())
+      throw InputError(fmt::format("'{}' in column {}; a number is wanted; run the scene again", word, figure->name));
   }
+  if (!line.empty())
+    throw InputError(
+        fmt::format("'{}' after column {}; a cell for each column of the header is wanted; run the scene again", line,
+                    columns_.back().figure->name));
   return row;
+}
+
+StatsReader::StatsReader(std::string_view text, bool judged, const std::string& file)
+    : rest_(text), file_(file), columns_(judged) {
+  try {
+    columns_ = StatsColumns(first_line(text), judged);
+    if (first_line(text).size() == text.size()) refuse_header();  // cut off within it
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}:1:1: {}", file_, error.what()));
+  }
+  rest_.remove_prefix(first_line(text).size() + 1);
+}
+
+bool StatsReader::next(StatsLine& row) {
+  const std::string_view line = first_line(rest_);
+  if (line.size() == rest_.size()) return false;
+  ++line_;
+  try {
+    row = columns_.parse(line);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}:{}:1: {}", file_, line_, error.what()));
+  }
+  rest_.remove_prefix(line.size() + 1);
+  return true;
+}
+
+std::vector<StatsLine> whole_rows(std::string_view text, bool judged) {
+  std::vector<StatsLine> rows;
+  try {
+    const std::string file = "stats.csv";
+    StatsReader reader(text, judged, file);
+    for (StatsLine row; reader.next(row); rows.push_back(row))
+      if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 ||
+          row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos)
+        break;
+  } catch (const InputError&) {
+    // what comes before it is whole
+  }
+  return rows;
 }
 
 }  // namespace impinge

@@ -1,38 +1,69 @@
-// stats.csv: its columns, and the same figures as numbers for `expect` and `break`.
+// stats.csv: one row a frame, its columns those of the table of figures (engine/world/figures.hpp).
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/world/step_record.hpp"
+#include "engine/world/figures.hpp"
 
 namespace impinge {
 
-/// What a frame's row says beside the model's own figures.
-struct FrameExtras {
-  double render_ms = 0.0;
-  double judged_penetration = 0.0;  ///< metres; with --judge, as is the next
-  std::int64_t judged_intersections = 0;
-};
-
-/// The header line, without line end; `judged`: with the columns of --judge, which come last.
-std::string stats_header(bool judged);
-/// A frame's line, without line end; numbers in their shortest form that reads back exactly.
-std::string stats_row(const FrameStats& stats, const FrameExtras& extras, bool judged);
-
-/// The columns that are numbers (all but state_hash), in order, and a frame's values for them.
-const std::vector<std::string>& figure_names(bool judged);
-std::vector<double> figure_values(const FrameStats& stats, const FrameExtras& extras, bool judged);
-
 /// Throws DivergenceError with frame and column where a figure is not finite: such a row is not written.
-void check_figures(const FrameStats& stats, const FrameExtras& extras, bool judged);
+void check_figures(const FrameStats& stats, bool judged);
 
 /// What a line of stats.csv says. Throws InputError on a line of another shape.
 struct StatsLine {
+  /// in the order of figure_names(); not a number where the file, an older version's, has no such column
   std::vector<double> figures;
   std::string state_hash;
 };
-StatsLine parse_stats_row(std::string_view line, bool judged);
+
+/// The columns of one file.
+class StatsColumns {
+ public:
+  /// All of this version; `judged`: with those of --judge.
+  explicit StatsColumns(bool judged);
+  /// Those that a file's header names, which may lack columns that have come later. Throws InputError (without a place)
+  /// for a header that no version wrote with or without --judge.
+  StatsColumns(std::string_view header, bool judged);
+
+  /// The header line, without line end.
+  std::string header() const;
+  /// A frame's line, without line end; numbers in their shortest form that reads back exactly.
+  std::string row(const FrameStats& stats) const;
+  /// Throws InputError (without a place) for a line of another shape.
+  StatsLine parse(std::string_view line) const;
+
+ private:
+  struct Column {
+    const Figure* figure;
+    std::size_t place;  // among the numbers; of the hash none
+  };
+  void add(const Figure& figure);
+  bool has(const Figure& figure) const;
+
+  std::vector<Column> columns_;
+  bool judged_;
+};
+
+/// The rows of a stats.csv's text, one after another. What an interrupted run left of its last line is no row.
+class StatsReader {
+ public:
+  /// Throws InputError at the header if it is another one. `file`, for messages, and `text` must outlive this.
+  StatsReader(std::string_view text, bool judged, const std::string& file);
+  const StatsColumns& columns() const { return columns_; }
+  /// False at the end. Throws InputError at the line if it is no row.
+  bool next(StatsLine& row);
+
+ private:
+  std::string_view rest_;
+  const std::string& file_;
+  int line_ = 1;
+  StatsColumns columns_;
+};
+
+/// Leading rows of a stats.csv's text that are whole and belong to frames 0, 1, 2, ...
+std::vector<StatsLine> whole_rows(std::string_view text, bool judged);
 
 }  // namespace impinge

@@ -41,4 +41,7 @@ constexpr Color kAxisX = hex(0xe8604c), kAxisY = hex(0x5fbf4a), kAxisZ = hex(0x4
 constexpr Color kOutline = hex(0x0d1014), kInk = hex(0xf2f4f7);
 }  // namespace role
 
+/// Of the plots in the timeline, which take turns; apart for colour-blind eyes too.
+constexpr std::uint32_t kPlotInks[] = {0x56b4e9, 0xe69f00, 0x2fbf93, 0xf0e442, 0xcc79a7, 0xd9dee6};
+
 }  // namespace impinge

@@ -1,7 +1,5 @@
 #include "viewer/draw/surface_cache.hpp"
 
-#include "viewer/draw/tessellation.hpp"
-
 namespace impinge {
 namespace {
 
@@ -10,22 +8,18 @@ constexpr double kCreaseDeg = 50.0;  // scans look smooth, machine parts keep th
 }  // namespace
 
 ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) {
-  Key key{static_cast<int>(shape.index()), nullptr, 0.0, 0.0, 0.0};
-  MeshPointer source;
-  if (const auto* s = std::get_if<Sphere>(&shape)) std::get<2>(key) = s->radius;
-  if (const auto* s = std::get_if<Capsule>(&shape)) std::get<2>(key) = s->radius, std::get<3>(key) = s->half_length;
-  if (const auto* s = std::get_if<Box>(&shape))
-    std::tie(std::get<2>(key), std::get<3>(key), std::get<4>(key)) = std::tie(s->half.x(), s->half.y(), s->half.z());
-  if (const auto* s = std::get_if<MeshPointer>(&shape)) source = *s, std::get<1>(key) = s->get();
+  // shapes with equal numbers share their triangles; one that has none is itself
+  Key key{shape.type(), nullptr, shape.dimensions()};
+  if (std::get<2>(key).empty()) std::get<1>(key) = &shape;
   const auto [place, is_new] = kept_.try_emplace(key);
   Kept& kept = place->second;
   kept.used = true;
   if (is_new) {
-    kept.source = source;
-    if (source) {
+    kept.source = shape.shared_from_this();
+    if (const SurfaceMesh* source = shape.mesh()) {
       kept.surface = std::make_shared<ShadedSurface>(make_shaded_surface(source->mesh, source->topology, kCreaseDeg));
     } else {
-      const TriangleMesh mesh = tessellate(shape);
+      const TriangleMesh mesh = shape.drawn();
       kept.surface = std::make_shared<ShadedSurface>(make_shaded_surface(mesh, make_topology(mesh), kCreaseDeg));
     }
   }

@@ -12,7 +12,7 @@ namespace impinge {
 
 class SurfaceCache {
  public:
-  /// The surface of a sphere, box, capsule or mesh in the body's frame. What it returns depends on the shape alone.
+  /// The surface of a shape that has bounds, in the body's frame. What it returns depends on the shape alone.
   ShadedSurfacePointer surface_of(const Shape& shape);
   /// Where a deformable body's surface is now, made once between two calls of forget_unused; null for other bodies.
   MovedSurfacePointer moved_of(const BodyRecord& body);
@@ -23,7 +23,7 @@ class SurfaceCache {
 
  private:
   struct Kept {
-    MeshPointer source;  // of a mesh: kept, so that its address stays its own
+    std::shared_ptr<const Shape> source;  // kept, so that its address stays its own
     ShadedSurfacePointer surface;
     bool used = true;
   };
@@ -32,7 +32,7 @@ class SurfaceCache {
     TetEdges edges;
     bool used = true;
   };
-  using Key = std::tuple<int, const SurfaceMesh*, double, double, double>;  // kind, mesh, dimensions
+  using Key = std::tuple<int, const Shape*, std::vector<double>>;  // type, the shape itself or null, dimensions
 
   std::map<Key, Kept> kept_;
   std::map<const BlockPattern*, KeptEdges> edges_;

@@ -53,14 +53,17 @@ std::vector<std::string> ViewSettings::layers_on() const {
   return names;
 }
 
-Backs ViewSettings::backs() const {
-  return backfaces == "only" ? Backs::only : backfaces == "hidden" ? Backs::hidden : Backs::shown;
+const LayerSwitch& ViewSettings::layer(std::string_view name) const {
+  const auto it = std::find_if(layers.begin(), layers.end(), [&](const LayerSwitch& l) { return l.name == name; });
+  if (it == layers.end()) throw InternalError("no layer is named '" + std::string(name) + "'");
+  return *it;
 }
 
-void ViewSettings::bind(ParameterSet& rows) {
-  rows.add(vector_row(*this, "view.camera.eye", &Camera::eye,
-                      "Where the camera is; without eye and target it is fitted to the scene."));
-  rows.add(vector_row(*this, "view.camera.target", &Camera::target, "What the camera looks at."));
+void ViewSettings::bind(ParameterSet& set) {
+  const Rows all(set), rows = all.below("view");
+  all.add(vector_row(*this, "view.camera.eye", &Camera::eye,
+                     "Where the camera is; without eye and target it is fitted to the scene."));
+  all.add(vector_row(*this, "view.camera.target", &Camera::target, "What the camera looks at."));
   Parameter distance;
   distance.path = "view.camera.distance";
   distance.kind = ParameterKind::real;
@@ -75,8 +78,8 @@ void ViewSettings::bind(ParameterSet& rows) {
     camera.eye = camera.target + (camera.eye - camera.target) * (wanted / now);
     camera_given = true;
   };
-  rows.add(std::move(distance));
-  rows.add("view.camera.fov", camera.fov_deg, {1.0, 170.0}, "deg", "Vertical angle of view.");
+  all.add(std::move(distance));
+  rows.add("camera.fov", camera.fov_deg, {1.0, 170.0}, "deg", "Vertical angle of view.");
 
   Parameter list;
   list.path = "view.layers";
@@ -89,41 +92,32 @@ void ViewSettings::bind(ParameterSet& rows) {
     for (LayerSwitch& layer : layers) layer.on = false;
     for (const std::string& name : std::get<std::vector<std::string>>(value)) switch_layer(name, true);
   };
-  rows.add(std::move(list));
-  for (LayerSwitch& layer : layers) rows.add("view.layer." + layer.name, layer.on, layer.doc);
+  all.add(std::move(list));
+  for (LayerSwitch& layer : layers) rows.below("layer").add(layer.name, layer.on, layer.doc);
+  for (LayerSwitch& layer : layers) layer.settings.declare(rows.below(layer.name));
 
-  rows.add("view.point_size", point_size, {1.0, 100.0}, "px",
+  rows.add("point_size", point_size, {1.0, 100.0}, "px",
            "Diameter of a contact point, in pixels of a picture 720 high.");
-  rows.add("view.arrow_length", arrow_length, {1.0, 1000.0}, "px",
+  rows.add("arrow_length", arrow_length, {1.0, 1000.0}, "px",
            "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
-  rows.add("view.line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
-  rows.add("view.force_unit", force_unit, {0.0, 1e15, true}, "N",
-           "The contact force that is drawn view.arrow_length long; 0 chooses by the bodies' weights.");
-  rows.add("view.antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
-  rows.add("view.backdrop", backdrop, std::vector<std::string>{"dark", "light", "flat"},
+  rows.add("line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
+  rows.add("antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
+  rows.add("backdrop", backdrop,
+           {{BackdropStyle::dark, "dark"}, {BackdropStyle::light, "light"}, {BackdropStyle::flat, "flat"}},
            "What stands behind the scene; flat is one colour, for pictures that are compared.");
-  rows.add("view.clip.enabled", clip.enabled,
+  rows.add("clip.enabled", clip.enabled,
            "Cut surfaces and tetrahedra by a plane, to see into bodies; marks are never cut.");
-  rows.add("view.clip.normal", clip.normal, {-1e9, 1e9}, "",
+  rows.add("clip.normal", clip.normal, {-1e9, 1e9}, "",
            "Towards the side of the clip plane that is left out; of any length but zero.");
-  rows.add("view.clip.offset", clip.offset, {-1e9, 1e9}, "m",
+  rows.add("clip.offset", clip.offset, {-1e9, 1e9}, "m",
            "Distance of the clip plane from the origin along its normal.");
-  rows.add("view.backfaces", backfaces, std::vector<std::string>{"shown", "hidden", "only"},
+  rows.add("backfaces", backs, {{Backs::shown, "shown"}, {Backs::hidden, "hidden"}, {Backs::only, "only"}},
            "Backs of surfaces; only leaves the fronts out, so that bodies are seen from inside.");
-  rows.add("view.tetrahedra.style", tetrahedra_style, std::vector<std::string>{"wire", "shrunk"},
-           "Tetrahedra as edges, or as solids with gaps between them inside a see-through surface.");
-  rows.add("view.tetrahedra.shrink", tetrahedra_shrink, {0.05, 1.0}, "",
-           "Size of a solid tetrahedron as a share of its true size.");
-  rows.add("view.stress.max", stress_max, {0.0, 1e15, true}, "Pa",
-           "Stress of the brightest colour; 0 chooses by the frame's own stresses.");
-  rows.add("view.strain.max", strain_max, {0.0, 1e6, true}, "",
-           "Strain of the brightest colour; 0 chooses by the frame's own strains.");
-  rows.add("view.panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
-  rows.add("view.panel.legend", show_legend,
-           "What the marks of the visible layers mean, left out where there is no room.");
-  rows.add("view.panel.timings", show_timings,
+  rows.add("panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
+  rows.add("panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
+  rows.add("panel.timings", show_timings,
            "Times of the stages among the figures; pictures then differ from run to run.");
-  rows.add("view.panel.scale", panel_scale, {0, 16}, "",
+  rows.add("panel.scale", panel_scale, {0, 16}, "",
            "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
 }
 

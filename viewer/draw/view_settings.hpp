@@ -1,16 +1,23 @@
-// How the view looks at a record: camera, layers, sizes, panels. Declared once as parameter rows `view.*`.
+// How the view looks at a record: camera, layers, sizes, panels. Declared once as parameter rows `view.*`; what
+// belongs to one layer is that layer's own, below `view.NAME`.
 #pragma once
 
 #include "engine/core/parameter.hpp"
 #include "viewer/draw/camera.hpp"
 #include "viewer/draw/clip_plane.hpp"
+#include "viewer/draw/layer_settings.hpp"
 
 namespace impinge {
 
+/// A layer as a view has it.
 struct LayerSwitch {
   std::string name, doc;
   bool on = false;
+  LayerSettings settings = {};
 };
+
+/// What stands behind the scene.
+enum class BackdropStyle { dark, light, flat };
 
 struct ViewSettings {
   Camera camera;
@@ -20,26 +27,29 @@ struct ViewSettings {
   double point_size = 9.0;     ///< diameter of a contact, pixels of a picture 720 high
   double arrow_length = 36.0;  ///< of a normal, and of the largest force or velocity, same pixels
   double line_width = 1.4;     ///< same pixels
-  double force_unit = 0.0;     ///< N: the force that is drawn as long as a normal; 0: by the bodies' weights
   bool show_figures = true, show_legend = true, show_timings = false;
   int panel_scale = 0;  ///< text size in steps of 13 pixels; 0: by the picture's height
   bool antialiasing = true;
-  std::string backdrop = "dark";
+  BackdropStyle backdrop = BackdropStyle::dark;
 
   ClipPlane clip;
-  std::string backfaces = "shown";
-  std::string tetrahedra_style = "wire";
-  double tetrahedra_shrink = 0.75;            ///< of a tetrahedron drawn solid, about its centre
-  double stress_max = 0.0, strain_max = 0.0;  ///< Pa and 1: upper ends of the colour bars; 0: by the frame
+  Backs backs = Backs::shown;
 
   bool is_on(std::string_view layer) const;
   /// Throws InputError with the nearest name for a layer that is not there.
   void switch_layer(std::string_view layer, bool on);
   std::vector<std::string> layers_on() const;
-  Backs backs() const;
+  /// What a layer is set to, of the type that its file gives it.
+  template <class Settings>
+  const Settings& of_layer(std::string_view name) const {
+    return layer(name).settings.template as<Settings>();
+  }
 
   /// Declares the rows. The set refers to this object, which must outlive it and stay where it is.
-  void bind(ParameterSet& rows);
+  void bind(ParameterSet& set);
+
+ private:
+  const LayerSwitch& layer(std::string_view name) const;
 };
 
 }  // namespace impinge

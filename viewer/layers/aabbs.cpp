@@ -1,12 +1,13 @@
 // The axis-aligned boxes that the broad phase compares, of every body that can move.
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
-  const Color color = context.settings.backdrop == "light" ? with_alpha(mix(role::kAabb, role::kOutline, 0.55f), 0.8f)
-                                                           : with_alpha(role::kAabb, 0.75f);
+  const Color color = context.settings.backdrop == BackdropStyle::light
+                          ? with_alpha(mix(role::kAabb, role::kOutline, 0.55f), 0.8f)
+                          : with_alpha(role::kAabb, 0.75f);
   const float width = static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];

@@ -1,6 +1,6 @@
 // Attachments: the two points that are held together, and the line between them where they are apart.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

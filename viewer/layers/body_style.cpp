@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/shapes/primitives.hpp"
+
 namespace impinge {
 namespace {
 
 /// The axis of a box across which it is thin, or -1.
 int thin_axis(const BodyRecord& body) {
-  const auto* box = std::get_if<Box>(body.shape);
+  const auto* box = body.shape->as<Box>();
   if (box == nullptr || body.kind != BodyKind::fixed) return -1;
   int axis = 0;
   const double thinnest = box->half.minCoeff(&axis);
@@ -43,9 +45,8 @@ std::vector<Color> body_colors(const StepRecord& record) {
 
 bool has_fixed(const StepRecord& record) {
   // a plane is drawn as a floor
-  return any_body(record, [](const BodyRecord& b) {
-    return b.kind == BodyKind::fixed && !std::holds_alternative<Plane>(*b.shape);
-  });
+  return any_body(record,
+                  [](const BodyRecord& b) { return b.kind == BodyKind::fixed && b.shape->as<Plane>() == nullptr; });
 }
 bool has_scripted(const StepRecord& record) {
   return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::scripted; });
@@ -86,7 +87,7 @@ bool is_wall(const BodyRecord& body) { return thin_axis(body) >= 0; }
 bool is_wall_in_the_way(const BodyRecord& body, const Camera& camera) {
   const int axis = thin_axis(body);
   if (axis < 0) return false;
-  const double half = std::get<Box>(*body.shape).half[axis];
+  const double half = body.shape->as<Box>()->half[axis];
   const double eye = body.pose.apply_inverse(camera.eye)[axis], target = body.pose.apply_inverse(camera.target)[axis];
   return (eye > half && target < half) || (eye < -half && target > -half);
 }

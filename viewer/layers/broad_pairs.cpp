@@ -1,11 +1,12 @@
 // The pairs that the broad phase let through: from box middle to box middle, to a plane along its normal.
-#include "viewer/layers/all.hpp"
+#include "engine/shapes/primitives.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
 
 Vec3 end_of(const BodyRecord& body, const BodyRecord& other) {
-  const auto* plane = std::get_if<Plane>(body.shape);
+  const auto* plane = body.shape->as<Plane>();
   if (plane == nullptr) return body.bounds.center();
   const Vec3 n = body.pose.rotation * plane->normal, from = other.bounds.center();
   return from - n * (n.dot(from - body.pose.position) - plane->offset);

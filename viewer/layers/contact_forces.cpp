@@ -3,8 +3,8 @@
 // without gravity the frame's largest force is.
 #include <algorithm>
 
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
@@ -31,11 +31,22 @@ double force_unit(const StepRecord& record) {
   return mass / count * record.gravity.norm() / std::max(1.0, contacts / bodies);
 }
 
+struct Settings {
+  double unit = 0.0;  // N
+
+  void declare(const Rows& rows) {
+    rows.add("unit", unit, {0.0, 1e15, true}, "N",
+             "The contact force that is drawn view.arrow_length long; 0 chooses by the bodies' weights.")
+        .formerly("view.force_unit");
+  }
+};
+
 void draw(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const double step = record.frame_time / std::max(1, record.stats.substeps);
   if (!(step > 0.0)) return;
-  double unit = context.settings.force_unit > 0.0 ? context.settings.force_unit : force_unit(record);
+  const double given = context.own<Settings>().unit;
+  double unit = given > 0.0 ? given : force_unit(record);
   if (unit <= 0.0)
     for (const ContactRecord& c : record.contacts) unit = std::max(unit, c.lambda.norm() / step);
   if (unit <= 0.0) return;
@@ -60,7 +71,8 @@ Layer contact_forces_layer() {
           "that carry one.",
           false,
           draw,
-          {{LegendRow::arrow, role::kForce, "contact force (on A, if it can move)"}}};
+          {{LegendRow::arrow, role::kForce, "contact force (on A, if it can move)"}},
+          Settings{}};
 }
 
 }  // namespace impinge

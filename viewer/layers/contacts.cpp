@@ -1,5 +1,5 @@
 // Contact points by what they do.
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

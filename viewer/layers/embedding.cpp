@@ -1,7 +1,7 @@
 // How surfaces hang on tetrahedra: from some of a surface's vertices to the four nodes that carry each. A vertex
 // outside of all tetrahedra is carried by the nearest one and marked.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

@@ -1,3 +1,4 @@
+#include "engine/shapes/primitives.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
@@ -15,7 +16,7 @@ Camera fitted_camera(const StepRecord& record, const Camera& like, double aspect
     const Aabb moving = box;
     for (const BodyRecord& body : record.bodies) {
       if (body.kind != BodyKind::fixed) continue;
-      if (const auto* plane = std::get_if<Plane>(body.shape)) {
+      if (const auto* plane = body.shape->as<Plane>()) {
         // where they would land
         const Vec3 n = body.pose.rotation * plane->normal;
         const double height = n.dot(middle - body.pose.position) - plane->offset;
@@ -26,7 +27,7 @@ Camera fitted_camera(const StepRecord& record, const Camera& like, double aspect
     }
   } else {
     for (const BodyRecord& body : record.bodies)
-      if (!std::holds_alternative<Plane>(*body.shape)) box.include(body.bounds);
+      if (body.shape->as<Plane>() == nullptr) box.include(body.bounds);
   }
   if (box.is_empty()) return like;
   camera.fit(box, aspect);

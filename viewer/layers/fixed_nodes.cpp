@@ -1,7 +1,7 @@
 // The nodes of deformable bodies that are held: rings, which contacts are not; those being moved are orange and show
 // where they go.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

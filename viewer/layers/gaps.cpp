@@ -1,5 +1,5 @@
 // The two points of every contact and the line between them, whose length along the normal is the gap.
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

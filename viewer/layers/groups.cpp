@@ -1,7 +1,7 @@
 // Colours the surfaces by collision group instead of by body. A group has the colour of its first body, so that it
 // keeps its colour while it lasts.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

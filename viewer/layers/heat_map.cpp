@@ -7,9 +7,15 @@
 
 namespace impinge {
 
+namespace {
+
+const char* layer_of(HeatQuantity quantity) { return quantity == HeatQuantity::stress ? "stress" : "strain"; }
+
+}  // namespace
+
 std::optional<HeatQuantity> heat_shown(const ViewSettings& settings) {
-  if (settings.is_on("strain")) return HeatQuantity::strain;
-  if (settings.is_on("stress")) return HeatQuantity::stress;
+  for (const HeatQuantity quantity : {HeatQuantity::strain, HeatQuantity::stress})
+    if (settings.is_on(layer_of(quantity))) return quantity;
   return std::nullopt;
 }
 
@@ -25,8 +31,8 @@ double rounded_up(double value) {
 }
 
 double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity) {
-  const double given = quantity == HeatQuantity::stress ? settings.stress_max : settings.strain_max;
-  if (given > 0.0) return given;
+  const HeatSettings& own = settings.of_layer<HeatSettings>(layer_of(quantity));
+  if (own.max > 0.0) return own.max;
   std::vector<double> all;
   for (const BodyRecord& body : record.bodies) {
     if (body.soft == nullptr) continue;

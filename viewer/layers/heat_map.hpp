@@ -8,6 +8,15 @@ namespace impinge {
 
 enum class HeatQuantity { stress, strain };
 
+/// Of either layer.
+struct HeatSettings {
+  Range range;
+  std::string unit, doc;
+  double max = 0.0;  ///< upper end of the colour bar; 0: by the frame
+
+  void declare(const Rows& rows) { rows.add("max", max, range, unit, doc); }
+};
+
 /// What is shown by colours: strain wins over stress; none if neither layer is on.
 std::optional<HeatQuantity> heat_shown(const ViewSettings& settings);
 

@@ -1,5 +1,5 @@
 // The moving bodies' names, in their middle: above it a name would stand on the next body of a stack.
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

@@ -1,4 +1,5 @@
-// A debug layer: reads the record, writes marks into the draw list. One file a layer and one line in all.cpp.
+// A debug layer: reads the record, writes marks into the draw list. One file a layer, with its settings, and one line
+// in all.cpp.
 #pragma once
 
 #include "engine/world/step_record.hpp"
@@ -13,6 +14,13 @@ struct LayerContext {
   const ViewSettings& settings;
   const Camera& camera;  ///< the one in use, fitted if none was given
   SurfaceCache& surfaces;
+  std::string_view layer = {};  ///< the one that is being drawn
+
+  /// What it is set to, of the type that its file gives it.
+  template <class Settings>
+  const Settings& own() const {
+    return settings.of_layer<Settings>(layer);
+  }
 };
 
 /// What one of a layer's marks means.
@@ -29,6 +37,9 @@ struct Layer {
   bool on;  ///< where nothing says otherwise
   void (*draw)(const LayerContext& context, DrawList& list);
   std::vector<LegendRow> legend;
+  /// A struct of the layer's own; its rows stand below `view.NAME`, so a layer with any is not called like a table of
+  /// view.*.
+  LayerSettings settings = {};
 };
 
 /// Every layer, in the order they are drawn.

@@ -1,6 +1,6 @@
 // Centres of mass and the axes of the bodies' frames: x red, y green, z blue.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

@@ -1,8 +1,9 @@
 // The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls in the way: see-through.
 #include <algorithm>
 
-#include "viewer/layers/all.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
@@ -11,10 +12,11 @@ void draw(const LayerContext& context, DrawList& list) {
   const std::vector<Color> colors = body_colors(context.record);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
-    if (const auto* plane = std::get_if<Plane>(body.shape)) {
+    if (const auto* plane = body.shape->as<Plane>()) {
       const Vec3 normal = body.pose.rotation * plane->normal;
       list.planes.push_back({normal, plane->offset + normal.dot(body.pose.position),
-                             context.settings.backdrop == "light" ? role::kLightFloor : role::kFloor, body_pick(i)});
+                             context.settings.backdrop == BackdropStyle::light ? role::kLightFloor : role::kFloor,
+                             body_pick(i)});
       continue;
     }
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};
@@ -24,7 +26,7 @@ void draw(const LayerContext& context, DrawList& list) {
     item.see_through = is_wall_in_the_way(body, context.camera);
     list.surfaces.push_back(std::move(item));
     if (is_wall(body)) {
-      const Vec3 half = std::get<Box>(*body.shape).half;
+      const Vec3 half = body.shape->as<Box>()->half;
       const auto first = static_cast<std::ptrdiff_t>(list.lines.size());
       list.add_box(body.pose, -half, half, with_alpha(role::kWallEdge, 0.55f), 1.0f, Depth::tested, body_pick(i));
       const auto gone = [&](DrawLine& line) { return !context.settings.clip.trim(line.a, line.b); };

@@ -1,5 +1,5 @@
 // The normal of every contact, from body B towards body A, of constant length on the screen; fainter where it is open.
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

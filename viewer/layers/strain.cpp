@@ -1,6 +1,6 @@
 // The equivalent strain on the surfaces of deformable bodies: of their tetrahedra, averaged at the nodes.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/heat_map.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
@@ -14,7 +14,8 @@ Layer strain_layer() {
           "Surfaces of deformable bodies coloured by equivalent strain; the colour bar gives its range.",
           false,
           draw,
-          {}};
+          {},
+          HeatSettings{{0.0, 1e6, true}, "", "Strain of the brightest colour; 0 chooses by the frame's own strains."}};
 }
 
 }  // namespace impinge

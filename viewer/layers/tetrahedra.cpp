@@ -2,12 +2,23 @@
 // red. Where the view is cut, whole tetrahedra are left out.
 #include <algorithm>
 
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/heat_map.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
+
+struct Settings {
+  enum class Style { wire, shrunk } style = Style::wire;
+  double shrink = 0.75;
+
+  void declare(const Rows& rows) {
+    rows.add("style", style, {{Style::wire, "wire"}, {Style::shrunk, "shrunk"}},
+             "Tetrahedra as edges, or as solids with gaps between them inside a see-through surface.");
+    rows.add("shrink", shrink, {0.05, 1.0}, "", "Size of a solid tetrahedron as a share of its true size.");
+  }
+};
 
 Vec3 node(const DeformableBody& body, int i) { return body.position.segment<3>(3 * i); }
 
@@ -52,7 +63,7 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
   const Vec3 origin = record.bounds.is_empty() ? body.center_of_mass() : record.bounds.center();
   const auto add = [&](const std::vector<int>& which, Color ink) -> DrawSurface& {
     auto solids = std::make_shared<ShadedSurface>(
-        shrunk_tets(mesh, body.position, which, context.settings.tetrahedra_shrink, origin));
+        shrunk_tets(mesh, body.position, which, context.own<Settings>().shrink, origin));
     DrawSurface item{std::move(solids), {Mat3::Identity(), origin}, ink, false, false, body_pick(index)};
     item.clipped = false;
     list.surfaces.push_back(std::move(item));
@@ -74,7 +85,7 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
 
 void draw(const LayerContext& context, DrawList& list) {
   const std::vector<Color> colors = body_colors(context.record);
-  const bool wire = context.settings.tetrahedra_style == "wire";
+  const bool wire = context.own<Settings>().style == Settings::Style::wire;
   const bool over_surfaces = context.settings.is_on("meshes");
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     if (context.record.bodies[i].soft == nullptr) continue;
@@ -93,7 +104,8 @@ Layer tetrahedra_layer() {
           false,
           draw,
           {{LegendRow::line, role::kTetrahedron, "tetrahedra", has_deformable},
-           {LegendRow::line, role::kOverlap, "tetrahedron, inside out", has_everted}}};
+           {LegendRow::line, role::kOverlap, "tetrahedron, inside out", has_everted}},
+          Settings{}};
 }
 
 }  // namespace impinge

@@ -1,7 +1,7 @@
 // The triangles that the narrow phase found to touch or to be near, each once; faint where something hides them.
 #include <map>
 
-#include "viewer/layers/all.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
@@ -12,21 +12,13 @@ void draw(const LayerContext& context, DrawList& list) {
     if (pair.triangle_a >= 0) found[{pair.a, pair.triangle_a}] |= pair.intersecting;
     if (pair.triangle_b >= 0) found[{pair.b, pair.triangle_b}] |= pair.intersecting;
   }
-  std::map<int, MeshPointer> boxes;  // a box meets a mesh as twelve triangles
   for (const auto& [key, intersecting] : found) {
     const BodyRecord& body = context.record.bodies[key.first];
+    const SurfaceMesh* mesh = body.shape->mesh();
+    if (mesh == nullptr) continue;
     std::array<Vec3, 3> corners;
-    if (const auto* mesh = std::get_if<MeshPointer>(body.shape)) {
-      const Triangle& t = (*mesh)->mesh.triangles[key.second];
-      for (int k = 0; k < 3; ++k) corners[k] = body.vertices[t[k]];
-    } else if (const auto* box = std::get_if<Box>(body.shape)) {
-      MeshPointer& made = boxes[key.first];
-      if (!made) made = make_box_mesh(box->half);
-      const Triangle& t = made->mesh.triangles[key.second];
-      for (int k = 0; k < 3; ++k) corners[k] = body.pose.apply(made->mesh.vertices[t[k]]);
-    } else {
-      continue;
-    }
+    const Triangle& t = mesh->mesh.triangles[key.second];
+    for (int k = 0; k < 3; ++k) corners[k] = body.vertices[t[k]];
     const Color color = intersecting ? role::kTriangle : role::kNearTriangle;
     list.triangles.push_back(
         {corners, with_alpha(color, 0.75f), Depth::both, body_pick(static_cast<std::size_t>(key.first))});

@@ -1,7 +1,7 @@
 // Where the moving bodies' centres of mass (points of deformable surfaces) would be some frames later, and the axes
 // about which they turn.
-#include "viewer/layers/all.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {

@@ -1,6 +1,7 @@
 // Every edge of every surface: dark over drawn surfaces, in the bodies' colours where surfaces are not shown.
-#include "viewer/layers/all.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
@@ -11,7 +12,7 @@ void draw(const LayerContext& context, DrawList& list) {
   const float width = 0.7f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
-    if (std::holds_alternative<Plane>(*body.shape)) continue;
+    if (body.shape->as<Plane>() != nullptr) continue;
     const ShadedSurfacePointer surface = context.surfaces.surface_of(*body.shape);
     std::vector<Vec3> world;
     world.reserve(surface->positions.size());

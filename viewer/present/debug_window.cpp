@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "engine/shapes/primitives.hpp"
+#include "viewer/panels/debug/keys.hpp"
+
 namespace impinge {
 namespace {
 
@@ -48,19 +51,10 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   CommandLines lines;
   ui_.begin(width(), height());
   keys_to_lines(ui_, model, lines);
-  draw_layers_panel(ui_, model, layout_.layers, lines);
-  draw_parameters_panel(ui_, model, layout_.parameters, lines);
-  draw_inspector_panel(ui_, model, layout_.inspector, lines);
-  draw_contacts_panel(ui_, model, layout_.contacts, lines);
-  draw_stages_panel(ui_, model, layout_.stages, lines);
-  draw_transport_panel(ui_, model, layout_.transport, lines);
-  draw_timeline_panel(ui_, model, layout_.timeline, lines);
-  draw_console_panel(ui_, model, layout_.console, lines);
-  draw_help_panel(ui_, model, layout_.view);
+  for (std::size_t i = 0; i < panels().size(); ++i) draw_panel(panels()[i], layout_.panels[i], ui_, model, lines);
+  draw_help(model, layout_.view);
   use_mouse(model, lines);
-  const UiArea areas[] = {layout_.layers, layout_.parameters, layout_.inspector, layout_.contacts,
-                          layout_.stages, layout_.transport,  layout_.timeline,  layout_.console};
-  const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), areas);
+  const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), layout_.panels);
   has_changed_ = is_new || !changed || !changed->empty();
   if (!changed) window_.clear(kBetweenPanels);
   if (!changed || is_new)
@@ -142,11 +136,11 @@ void DebugWindow::mark_selection(const DebugModel& model, DrawList& list) const 
     return;
   }
   const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
-  if (!body.bounds.is_empty() && !std::holds_alternative<Plane>(*body.shape))
+  if (!body.bounds.is_empty() && body.shape->as<Plane>() == nullptr)
     list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
-  const auto* mesh = std::get_if<MeshPointer>(body.shape);
-  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>((*mesh)->mesh.triangles.size())) return;
-  const auto& t = (*mesh)->mesh.triangles[static_cast<std::size_t>(s.triangle)];
+  const SurfaceMesh* mesh = body.shape->mesh();
+  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>(mesh->mesh.triangles.size())) return;
+  const auto& t = mesh->mesh.triangles[static_cast<std::size_t>(s.triangle)];
   list.triangles.push_back(
       {{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])],
         body.vertices[static_cast<std::size_t>(t[2])]},

@@ -4,8 +4,8 @@
 
 #include "viewer/gl/context.hpp"
 #include "viewer/image/image.hpp"
-#include "viewer/panels/debug_panels.hpp"
-#include "viewer/panels/panel_changes.hpp"
+#include "viewer/panels/debug/layout.hpp"
+#include "viewer/panels/debug/panel_changes.hpp"
 #include "viewer/present/scene_painter.hpp"
 
 namespace impinge {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "viewer/image/image.hpp"
-#include "viewer/panels/heat_table.hpp"
-#include "viewer/panels/plot.hpp"
+#include "viewer/panels/overlay/heat_table.hpp"
+#include "viewer/panels/overlay/plot.hpp"
 
 namespace impinge {
 

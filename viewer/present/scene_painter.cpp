@@ -9,8 +9,8 @@ namespace impinge {
 namespace {
 
 Backdrop backdrop_of(const ViewSettings& settings) {
-  if (settings.backdrop == "light") return {hex(0xf7f8fa), hex(0xdfe3e8)};
-  if (settings.backdrop == "flat") return {hex(0x3f4650), hex(0x3f4650)};
+  if (settings.backdrop == BackdropStyle::light) return {hex(0xf7f8fa), hex(0xdfe3e8)};
+  if (settings.backdrop == BackdropStyle::flat) return {hex(0x3f4650), hex(0x3f4650)};
   return {hex(0x5a6472), hex(0x23272e)};
 }
 
@@ -22,7 +22,7 @@ int text_scale(const ViewSettings& settings, int height) {
 }
 
 RenderStyle style_of(const ViewSettings& settings, int height) {
-  return {backdrop_of(settings), settings.antialiasing, pixel_scale(height), settings.clip, settings.backs()};
+  return {backdrop_of(settings), settings.antialiasing, pixel_scale(height), settings.clip, settings.backs};
 }
 
 Camera camera_of(const StepRecord& record, const ViewSettings& settings, int width, int height) {
@@ -58,9 +58,11 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
                                        const std::function<void(DrawList&)>& more) {
   const Camera camera = camera_of(record, settings, width(), height());
   list_.clear();
-  const LayerContext context{record, settings, camera, surfaces_};
-  for (const Layer& layer : layers())
-    if (settings.is_on(layer.name)) layer.draw(context, list_), list_.end_layer(layer.name);
+  for (const Layer& layer : layers()) {
+    if (!settings.is_on(layer.name)) continue;
+    layer.draw({record, settings, camera, surfaces_, layer.name}, list_);
+    list_.end_layer(layer.name);
+  }
   if (more) more(list_), list_.end_layer("selection");
   surfaces_.forget_unused();
 

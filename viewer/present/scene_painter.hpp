@@ -5,7 +5,7 @@
 
 #include "viewer/gl/id_buffer.hpp"
 #include "viewer/gl/renderer.hpp"
-#include "viewer/panels/panels.hpp"
+#include "viewer/panels/overlay/picture_panels.hpp"
 
 namespace impinge {
 

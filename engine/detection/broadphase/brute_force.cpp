@@ -7,6 +7,7 @@ namespace {
 
 class BruteForce : public BroadPhase {
  public:
+  bool tests_every_pair() const override { return true; }
   void find(std::span<const Aabb> boxes, std::vector<BoxPair>& pairs) override {
     pairs.clear();
     const int count = static_cast<int>(boxes.size());

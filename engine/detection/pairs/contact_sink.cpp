@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
 
 /// A bound on how fast any two points of the colliders that are near each other approach, m/s.
 double approach_speed(const Collider& a, const Collider& b) {
-  const Collider& bounded = std::holds_alternative<Plane>(*b.shape) ? a : b;
+  const Collider& bounded = b.shape->as<Plane>() != nullptr ? a : b;
   const Vec3 center = bounded.bounds.center();
   // the points of a contact lie within the bounded collider or a gap away from it; twice its radius covers what matters
   const double radius = bounded.bounds.extent().norm();

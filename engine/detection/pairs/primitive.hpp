@@ -1,4 +1,5 @@
-// Contacts of pairs in which at least one body is an exact shape (or a box, which is a polyhedron): by formula.
+// Contacts of pairs of which at least one body is no mesh: by the test of its own that the pair has (all.cpp), else by
+// the forms of the two shapes.
 #pragma once
 
 #include "engine/detection/collider.hpp"
@@ -13,11 +14,9 @@ struct ContactQuery {
   double time_step = 0.0;    ///< seconds: features farther than `activation` count if they would meet within it
 };
 
-/// Appends the contacts of body pair (a, b), at least one of which is not a mesh.
+/// Appends the contacts of body pair (a, b). Two meshes are the triangle search's, and not handed in here; every other
+/// pair of shapes has an answer.
 void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pair, const ContactQuery& query,
                         std::vector<Collision>& contacts);
-
-/// Whether primitive_contacts (or, for two meshes, the narrow phase) handles these two shapes.
-bool is_pair_supported(const Shape& a, const Shape& b);
 
 }  // namespace impinge

@@ -213,7 +213,7 @@ void box_capsule(ContactSink& sink) {
   const Vec3 p0 = box.to_local(axis.p0);
   const BoxSegment test{sink,
                         box,
-                        std::get<Capsule>(*sink.second().shape).radius,
+                        shape_of<Capsule>(sink.second()).radius,
                         p0,
                         box.to_local(axis.p1) - p0,
                         box.half.sum() + (axis.p1 - axis.p0).norm()};
@@ -228,8 +228,7 @@ void box_capsule(ContactSink& sink) {
 
 void capsule_capsule(ContactSink& sink) {
   const WorldSegment a = world_axis(sink.first()), b = world_axis(sink.second());
-  const double radius_a = std::get<Capsule>(*sink.first().shape).radius,
-               radius_b = std::get<Capsule>(*sink.second().shape).radius;
+  const double radius_a = shape_of<Capsule>(sink.first()).radius, radius_b = shape_of<Capsule>(sink.second()).radius;
   const Vec3 u = a.p1 - a.p0, v = b.p1 - b.p0;
   const SegmentSegment closest = closest_between_segments(a.p0, a.p1, b.p0, b.p1);
   const double size = u.norm() + v.norm() + radius_a + radius_b;

@@ -22,10 +22,7 @@ void sort_unique(std::vector<int>& list) {
 class CylinderTest {
  public:
   CylinderTest(ContactSink& sink, const SurfaceView& mesh)
-      : sink_(sink),
-        mesh_(mesh),
-        axis_(world_axis(sink.first())),
-        radius_(std::get<Capsule>(*sink.first().shape).radius) {
+      : sink_(sink), mesh_(mesh), axis_(world_axis(sink.first())), radius_(shape_of<Capsule>(sink.first()).radius) {
     Aabb box;
     box.include(axis_.p0);
     box.include(axis_.p1);
@@ -118,13 +115,13 @@ class CylinderTest {
 
 void sphere_mesh(ContactSink& sink) {
   add_ball_contacts(sink, view_of(sink),
-                    {sink.first().pose.position, std::get<Sphere>(*sink.first().shape).radius, Feature::shape, 0});
+                    {sink.first().pose.position, shape_of<Sphere>(sink.first()).radius, Feature::shape, 0});
 }
 
 void capsule_mesh(ContactSink& sink) {
   const SurfaceView mesh = view_of(sink);
   const WorldSegment axis = world_axis(sink.first());
-  const double radius = std::get<Capsule>(*sink.first().shape).radius;
+  const double radius = shape_of<Capsule>(sink.first()).radius;
   const bool inside0 = add_ball_contacts(sink, mesh, {axis.p0, radius, Feature::vertex, 0});
   const bool inside1 = add_ball_contacts(sink, mesh, {axis.p1, radius, Feature::vertex, 1});
   CylinderTest cylinder(sink, mesh);

@@ -18,7 +18,7 @@ Candidate against_plane(const WorldPlane& plane, const Vec3& x) {
 
 void plane_sphere(ContactSink& sink) {
   const WorldPlane plane = world_plane(sink.first());
-  const double radius = std::get<Sphere>(*sink.second().shape).radius;
+  const double radius = shape_of<Sphere>(sink.second()).radius;
   sink.add(against_plane(plane, sink.second().pose.position - radius * plane.normal));
 }
 
@@ -36,7 +36,7 @@ void plane_box(ContactSink& sink) {
 void plane_capsule(ContactSink& sink) {
   const WorldPlane plane = world_plane(sink.first());
   const WorldSegment axis = world_axis(sink.second());
-  const double radius = std::get<Capsule>(*sink.second().shape).radius;
+  const double radius = shape_of<Capsule>(sink.second()).radius;
   for (int i = 0; i < 2; ++i) {
     Candidate c = against_plane(plane, (i == 0 ? axis.p0 : axis.p1) - radius * plane.normal);
     c.kind_second = Feature::vertex;

@@ -7,8 +7,7 @@ namespace impinge {
 
 void sphere_sphere(ContactSink& sink) {
   const Vec3 &a = sink.first().pose.position, &b = sink.second().pose.position;
-  const double radius_a = std::get<Sphere>(*sink.first().shape).radius,
-               radius_b = std::get<Sphere>(*sink.second().shape).radius;
+  const double radius_a = shape_of<Sphere>(sink.first()).radius, radius_b = shape_of<Sphere>(sink.second()).radius;
   Candidate c;
   const Vec3 offset = a - b;
   const double distance = offset.stableNorm();
@@ -20,7 +19,7 @@ void sphere_sphere(ContactSink& sink) {
 
 void sphere_box(ContactSink& sink) {
   const Vec3& center = sink.first().pose.position;
-  const double radius = std::get<Sphere>(*sink.first().shape).radius;
+  const double radius = shape_of<Sphere>(sink.first()).radius;
   const NearestOnBox nearest = nearest_on_box(world_box(sink.second()), center);
   Candidate c;
   c.normal = nearest.normal;
@@ -32,8 +31,8 @@ void sphere_box(ContactSink& sink) {
 
 void sphere_capsule(ContactSink& sink) {
   const Vec3& center = sink.first().pose.position;
-  const double radius_a = std::get<Sphere>(*sink.first().shape).radius;
-  const double radius_b = std::get<Capsule>(*sink.second().shape).radius;
+  const double radius_a = shape_of<Sphere>(sink.first()).radius;
+  const double radius_b = shape_of<Capsule>(sink.second()).radius;
   const WorldSegment axis = world_axis(sink.second());
   const Vec3 nearest = closest_on_segment(center, axis.p0, axis.p1).point;
   Candidate c;

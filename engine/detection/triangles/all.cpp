@@ -3,11 +3,13 @@
 
 namespace impinge {
 
-Entry<NarrowPhase> brute_force_narrow_phase();
-Entry<NarrowPhase> spatial_hash_narrow_phase();
-
 const Registry<NarrowPhase>& narrow_phases() {
-  static const Registry<NarrowPhase> list = {spatial_hash_narrow_phase(), brute_force_narrow_phase()};
+  static const Registry<NarrowPhase> list = [] {
+    Registry<NarrowPhase> all;
+    IMPINGE_LIST(all, spatial_hash_narrow_phase);
+    IMPINGE_LIST(all, brute_force_narrow_phase);
+    return all;
+  }();
   return list;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 class BruteForce final : public NarrowPhase {
  public:
+  bool tests_every_pair() const override { return true; }
   void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
             std::vector<TrianglePair>& found) override {
     found.clear();

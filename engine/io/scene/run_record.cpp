@@ -16,11 +16,17 @@ const std::vector<std::string> kKeys = {"version", "scene",    "folder", "script
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
-// long lists on lines of their own: the length of a line is limited
+// long lists on lines of their own, in tables too: the length of a line is limited
 std::string format_lines(const TomlNode& node) {
+  if (node.kind == TomlNode::table && !node.entries.empty()) {
+    std::vector<std::string> parts;
+    for (const TomlEntry& entry : node.entries)
+      parts.push_back(fmt::format("{} = {}", entry.key, format_lines(entry.value)));
+    return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+  }
   if (node.kind != TomlNode::array || node.items.size() <= 4) return format_toml(node);
   std::string out = "[\n";
-  for (const TomlNode& item : node.items) out += fmt::format("  {},\n", format_toml(item));
+  for (const TomlNode& item : node.items) out += fmt::format("  {},\n", format_lines(item));
   return out + "]";
 }
 

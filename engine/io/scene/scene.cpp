@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/run_record.hpp"
 #include "engine/io/scene/scene_attachments.hpp"
 #include "engine/io/scene/scene_body.hpp"
@@ -125,9 +126,9 @@ bool Scene::has(std::string_view parameter) const {
 Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides, World& world, ParameterSet& rows) {
   const std::string name = path.string();
   TomlNode root = parse_toml(name, read_file(path, std::uint64_t{1} << 30));
-  apply_overrides(root, overrides);
-
   Scene scene;
+  scene.former_paths = rename_former_paths(root, rows);
+  apply_overrides(root, renamed_overrides(overrides, rows, scene.former_paths));
   scene.path = path;
   scene.folder = path.parent_path();
   if (const TomlEntry* run = root.find("run")) {

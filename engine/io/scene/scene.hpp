@@ -29,7 +29,9 @@ struct Scene {
   std::vector<TomlNode> attachments;  ///< as given
   std::vector<SurfaceFile> surfaces;
   std::vector<std::string> given;  ///< paths of the parameters that the file or an override names
-  std::optional<RunRecord> run;    ///< of a run.toml
+  /// Former paths of parameters that the file or an override names, as often as they do.
+  std::vector<std::string> former_paths;
+  std::optional<RunRecord> run;  ///< of a run.toml
   bool has(std::string_view parameter) const;
 };
 

@@ -7,9 +7,11 @@
 #include "engine/core/error.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/scene/scene_motion.hpp"
+#include "engine/io/scene/scene_shape.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_soft.hpp"
 #include "engine/io/scene/scene_values.hpp"
+#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 
@@ -38,34 +40,11 @@ BodyKind read_kind(const TomlNode& table, const std::string& what) {
          near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
 }
 
-Plane read_plane(const TomlNode& table, const std::string& what, double scale) {
-  check_keys(table, what, {"normal", "offset"});
-  const TomlEntry *normal = table.find("normal"), *offset = table.find("offset");
-  if (normal == nullptr)
-    refuse(table.place, what + " has no normal", "plane = { normal = [x, y, z], offset = d } is wanted", "add it");
-  const Vec3 n = scene_vector(normal->value, what + ".normal", kLength);
-  if (!(n.norm() > 1e-9))
-    refuse(normal->value.place, what + ".normal has no length", "a direction is wanted", "use [0, 1, 0] for a floor");
-  // n·x = offset is taken with n as written, so that normal and offset scale together; a unit normal keeps its bits
-  const double d = offset == nullptr ? 0.0 : scene_real(offset->value, what + ".offset", kLength), length = n.norm();
-  if (length == 1.0) return {n, scale * d};
-  return {n / length, scale * d / length};
-}
-
-double read_size(const TomlNode& table, const char* key, const std::string& what, double scale) {
-  const TomlEntry* entry = table.find(key);
-  if (entry == nullptr)
-    refuse(table.place, fmt::format("{} has no {}", what, key), fmt::format("{} = a length in metres is wanted", key),
-           "add it");
-  return scene_size(entry->value, what + "." + key, scale);
-}
-
 void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
   scene_table(node, what);
   if (body.kind == BodyKind::deformable) return;  // scene_soft.cpp
-  for (const char* key :
-       {"model", "young", "poisson", "damping", "damping_alpha", "damping_beta", "mass", "extension_threshold"})
-    if (const TomlEntry* entry = node.find(key))
+  for (const std::string& key : deformable_material_keys())
+    if (const TomlEntry* entry = node.find(key); entry != nullptr && key != "density")
       refuse(entry->place,
              fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
              "allowed: density", "make it deformable, or remove it");
@@ -91,41 +70,12 @@ void check_kind(const TomlNode& table, const std::string& what, const BodyDescri
                "dynamic and deformable bodies have one", "make it dynamic, or remove it");
     }
   }
-  if (body.kind == BodyKind::dynamic && std::holds_alternative<Plane>(body.shape))
+  if (body.kind == BodyKind::dynamic && body.shape && body.shape->as<Plane>() != nullptr)
     refuse(table.find("shape")->value.place, what + " is dynamic and a plane, which has no mass",
            "a plane is static or scripted", "use a box");
 }
 
 }  // namespace
-
-Shape read_shape(const TomlNode& node, const std::string& what, double scale) {
-  scene_table(node, what);
-  const std::vector<std::string> words = {"sphere", "box", "capsule", "plane"};
-  check_keys(node, what, words);
-  if (node.entries.size() != 1)
-    refuse(node.place, fmt::format("{} names {} shapes", what, node.entries.size()),
-           "one of sphere, box, capsule, plane is wanted", "keep one");
-  const std::string& word = node.entries[0].key;
-  const std::string name = what + "." + word;
-  const TomlNode& table = scene_table(node.entries[0].value, name);
-  if (word == "plane") return read_plane(table, name, scale);
-  if (word == "sphere") {
-    check_keys(table, name, {"radius"});
-    return Sphere{read_size(table, "radius", name, scale)};
-  }
-  if (word == "capsule") {
-    check_keys(table, name, {"radius", "length"});
-    return Capsule{read_size(table, "radius", name, scale), 0.5 * read_size(table, "length", name, scale)};
-  }
-  check_keys(table, name, {"size"});
-  const TomlEntry* size = table.find("size");
-  if (size == nullptr) refuse(table.place, name + " has no size", "size = [x, y, z] in metres is wanted", "add it");
-  if (size->value.kind != TomlNode::array || size->value.items.size() != 3)
-    scene_vector(size->value, name + ".size", kLength);  // which says what is wanted
-  Vec3 half;
-  for (int i = 0; i < 3; ++i) half[i] = 0.5 * scene_size(size->value.items[i], name + ".size", scale);
-  return Box{half};
-}
 
 // a body's own, or nothing by the word that `set` and --set give it back to the scene with
 std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, double high) {
@@ -196,7 +146,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
     refuse(table.place, what + " has no shape", "shape = { ... } or surface = \"file\" is wanted", "add one");
   if (shape != nullptr && surface != nullptr)
     refuse(surface->place, what + " has a shape and a surface", "one of them is wanted", "remove one");
-  if (shape != nullptr) body.shape = read_shape(shape->value, what + ".shape", scale);
+  if (shape != nullptr) body.shape = read_shape(shape->value, what + ".shape", scale, surfaces);
   with("motion", [&](const TomlNode& node, const std::string& key) {
     body.motion = read_motion(node, key, body.position, body.rotation);
   });
@@ -204,7 +154,6 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
     check_kind(table, what, body);
     return body;
   }
-  body.shape = MeshPointer();
   check_kind(table, what, body);
   body.shape = surfaces.load(surface->value, what + ".surface", scale);
   body.surface_file = surface->value.string;

@@ -9,9 +9,6 @@ namespace impinge {
 /// Throws InputError, located, at the first key or value that can't be taken.
 BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces);
 
-/// The one exact shape that the table names, its lengths times `scale`.
-Shape read_shape(const TomlNode& node, const std::string& what, double scale);
-
 /// Most letters of a name: it is part of the names of files.
 inline constexpr std::size_t kMostNameLetters = 128;
 

@@ -15,9 +15,8 @@ namespace {
 
 constexpr Range kLength{-1e6, 1e6};
 
-const std::vector<std::string> kMaterialKeys = {
-    "model",  "young", "poisson", "density", "damping", "damping_alpha", "damping_beta", "mass", "extension_threshold",
-    "tangent"};
+/// Of `material` beside the rows of materials.
+const std::vector<std::string> kMaterialKeys = {"model", "density", "damping", "damping_alpha", "damping_beta", "mass"};
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
@@ -50,30 +49,30 @@ void read_damping(const TomlNode& table, const std::string& what, RayleighDampin
 }
 
 void read_elastic(const TomlNode& table, const std::string& what, SoftDescription& soft) {
-  check_keys(scene_table(table, what), what, kMaterialKeys);
+  check_keys(scene_table(table, what), what, deformable_material_keys());
   const auto with = [&](const char* key, auto&& read) {
     if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
   };
   with("model", [&](const TomlNode& node, const std::string& key) { soft.model = choice(node, key, model_names()); });
-  with("young",
-       [&](const TomlNode& node, const std::string& key) { soft.material.young = scene_positive(node, key, 1e15); });
-  with("poisson", [&](const TomlNode& node, const std::string& key) {
-    soft.material.poisson = scene_real(node, key, {0.0, 0.4999});
-  });
   with("density", [&](const TomlNode& node, const std::string& key) { soft.density = scene_positive(node, key, 1e9); });
-  with("extension_threshold", [&](const TomlNode& node, const std::string& key) {
-    soft.material.extension_threshold = scene_real(node, key, {1e-3, 0.9});
-  });
   with("mass", [&](const TomlNode& node, const std::string& key) {
-    soft.mass = choice(node, key, {"lumped", "consistent"}) == "lumped" ? MassKind::lumped : MassKind::consistent;
-  });
-  with("tangent", [&](const TomlNode& node, const std::string& key) {
-    const std::string word = choice(node, key, {"automatic", "exact", "projected"});
-    soft.material.tangent = word == "exact"       ? Tangent::exact
-                            : word == "projected" ? Tangent::projected
-                                                  : Tangent::automatic;
+    ParameterSet rows;
+    Rows(rows).add(key, soft.mass, {{MassKind::lumped, "lumped"}, {MassKind::consistent, "consistent"}}, "");
+    rows.find(key)->set(scene_value(*rows.find(key), node));
   });
   read_damping(table, what, soft.damping);
+
+  // a scene may have settings of materials that it doesn't use at present, as it may of other methods
+  for (const Entry<Material>& entry : materials()) {
+    ParameterSet rows;
+    const std::unique_ptr<Material> material = entry.make();
+    material->declare(Rows(rows, what));
+    for (const TomlEntry& given : table.entries)
+      if (const Parameter* row = rows.find(what + "." + given.key)) {
+        const ParameterValue value = scene_value(*row, given.value);
+        if (entry.name == soft.model) soft.settings.emplace_back(given.key, format_value(value));
+      }
+  }
 }
 
 NodeRegion read_region(const TomlNode& node, const std::string& what) {
@@ -191,6 +190,18 @@ void check_fixed(const Regions& regions, const std::string& what, const SoftDesc
 }
 
 }  // namespace
+
+std::vector<std::string> deformable_material_keys() {
+  std::vector<std::string> keys = kMaterialKeys;
+  for (const Entry<Material>& entry : materials()) {
+    ParameterSet rows;
+    const std::unique_ptr<Material> material = entry.make();
+    material->declare(Rows(rows));
+    for (const Parameter& row : rows.all())
+      if (std::find(keys.begin(), keys.end(), row.path) == keys.end()) keys.push_back(row.path);
+  }
+  return keys;
+}
 
 void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
                     BodyDescription& body) {

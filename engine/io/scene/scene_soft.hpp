@@ -11,4 +11,7 @@ namespace impinge {
 void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
                     BodyDescription& body);
 
+/// The keys of such a body's `material`: density, which all bodies have, and what only deformable ones can use.
+std::vector<std::string> deformable_material_keys();
+
 }  // namespace impinge

@@ -107,6 +107,26 @@ std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, c
   return volume;
 }
 
+std::vector<Vec3> SurfaceFiles::load_points(const TomlNode& node, const std::string& what) {
+  const fs::path path = find(node, what);
+  const auto [place, is_new] = points_.try_emplace(node.string);
+  if (is_new) {
+    SurfaceFile file;
+    file.name = node.string;
+    file.hash = hash_bytes(read_file(path, kLargestFile));
+    const TriangleMesh mesh = read_mesh(path);
+    for (const Vec3& x : mesh.vertices)
+      if (!x.allFinite())
+        throw InputError(fmt::format("{}: surface {} has a vertex that is not a finite number; mend the file",
+                                     node.place, toml_string(node.string)));
+    file.vertices = mesh.vertices.size();
+    file.triangles = mesh.triangles.size();
+    files_.push_back(std::move(file));
+    place->second = mesh.vertices;
+  }
+  return place->second;
+}
+
 MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, double scale) {
   const fs::path path = find(node, what);
   MeshPointer& surface = unscaled_[node.string];

@@ -31,6 +31,12 @@ class SurfaceFiles {
   /// at the node, or in the file where its text is at fault.
   MeshPointer load(const TomlNode& node, const std::string& what, double scale);
 
+  /// The vertices of the mesh file that `node` names, whatever its triangles are like.
+  std::vector<Vec3> load_points(const TomlNode& node, const std::string& what);
+
+  /// Shapes that were made of the same text with the same scale are one.
+  std::map<std::pair<std::string, double>, SharedShape>& made_shapes() { return shapes_; }
+
   /// The volume mesh of the file that `node` names, unscaled.
   std::shared_ptr<const TetFile> load_volume(const TomlNode& node, const std::string& what);
 
@@ -50,6 +56,8 @@ class SurfaceFiles {
   std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
   std::map<std::string, MeshPointer> unscaled_;                   // by name
   std::map<std::pair<std::string, double>, MeshPointer> scaled_;  // by name and scale
+  std::map<std::string, std::vector<Vec3>> points_;               // by name
+  std::map<std::pair<std::string, double>, SharedShape> shapes_;
 };
 
 }  // namespace impinge

@@ -10,12 +10,13 @@
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/mesh_checks.hpp"
 #include "engine/geometry/tet_cage.hpp"
-#include "engine/io/scene/scene_body.hpp"
+#include "engine/io/scene/scene_shape.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "engine/io/scene/volume_memory.hpp"
 #include "engine/io/tets/tetrahedralize.hpp"
-#include "engine/shapes/primitive_surfaces.hpp"
+#include "engine/shapes/primitives.hpp"
+#include "engine/shapes/shape_entry.hpp"
 
 namespace impinge {
 namespace {
@@ -67,36 +68,15 @@ TriangleMesh boundary_of(const TetMesh& volume) {
   return mesh;
 }
 
-Eigen::Vector3i cells_of_box(const Vec3& half, double cells) {
-  return (half / half.maxCoeff() * cells).array().round().max(1.0).matrix().cast<int>();
-}
-
 /// An exact shape as triangles whose edges are about `edge` metres long.
 MeshPointer shape_surface(const TomlNode& node, const std::string& what, const Shape& shape, double edge) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    int k = 1;  // an icosphere's edges are about 1.1 r / 2^k long
-    while (k < 5 && 1.1 * sphere->radius / (1 << k) > edge) ++k;
-    return checked_surface(sphere_surface(sphere->radius, k), node, what);
-  }
-  if (const auto* box = std::get_if<Box>(&shape))
-    return checked_surface(box_surface(box->half, cells_of_box(box->half, 2.0 * box->half.maxCoeff() / edge)), node,
-                           what);
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-    // half as long: ten to a ring would cut off 8 % of it
-    const double around = std::ceil(2.0 * 6.2832 * capsule->radius / edge);
-    return checked_surface(
-        capsule_surface(capsule->radius, capsule->half_length, std::clamp(static_cast<int>(around), 8, 256)), node,
-        what);
-  }
-  refuse(node.place, what + " is a plane and the body deformable",
-         "sphere, box, capsule and any closed surface file can be deformable", "use another shape");
-}
-
-double longest_side(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return 2.0 * sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return 2.0 * box->half.maxCoeff();
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) return 2.0 * (capsule->radius + capsule->half_length);
-  return 1.0;
+  const ShapeEntry& entry = shape_entries()[static_cast<std::size_t>(shape.type())];
+  if (entry.not_deformable.empty()) return checked_surface(shape.surface(edge), node, what);
+  std::vector<std::string_view> others;
+  for (const ShapeEntry& e : shape_entries())
+    if (e.make != nullptr && e.not_deformable.empty()) others.push_back(e.name);
+  refuse(node.place, fmt::format("{} is a {} and the body deformable: it {}", what, entry.name, entry.not_deformable),
+         fmt::format("{} and any closed surface file can be deformable", fmt::join(others, ", ")), "use another shape");
 }
 
 /// The surface that collides and is drawn: a file's, or an exact shape's with edges of `edge` metres, or of its longest
@@ -108,10 +88,10 @@ MeshPointer outer_surface(const TomlNode& table, const std::string& what, double
     return files.load(surface->value, what + ".surface", scale);
   }
   const TomlEntry* entry = table.find("shape");
-  const Shape shape = read_shape(entry->value, what + ".shape", scale);
+  const SharedShape shape = read_shape(entry->value, what + ".shape", scale, files);
   // an edge too short is refused by the caller, once the surface is there: no finer than is ever taken
-  const double longest = longest_side(shape);
-  return shape_surface(entry->value, what + ".shape", shape,
+  const double longest = shape->bounds({}).extent().maxCoeff();
+  return shape_surface(entry->value, what + ".shape", *shape,
                        cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
 }
 
@@ -215,13 +195,14 @@ void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& w
 }
 
 void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
-                  SoftDescription& soft, BodyDescription& body) {
+                  SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume.lattice";
   const int cells = read_cells(way.value, name);
   const TomlEntry* shape = table.find("shape");
   if (shape == nullptr || shape->value.find("box") == nullptr)
     refuse(way.place, name + " is of a body that is not a box", "shape = { box = { size } } can be one", "use a cage");
-  const Vec3 half = std::get<Box>(read_shape(shape->value, what + ".shape", scale)).half;
+  const SharedShape box = read_shape(shape->value, what + ".shape", scale, files);
+  const Vec3 half = box->as<Box>()->half;
   const Eigen::Vector3i n = cells_of_box(half, cells);
   const Vec3 count = n.cast<double>();
   const double faces = count.x() * count.y() + count.y() * count.z() + count.z() * count.x();
@@ -294,10 +275,9 @@ void read_volume(const TomlNode& table, const std::string& what, double scale, S
   const TomlEntry& way = volume.entries[0];
   scene_table(way.value, name + "." + way.key);
   if (shape == nullptr && surface == nullptr)
-    refuse(table.place, what + " has no surface",
-           "surface = \"file\", or shape = { sphere, box or capsule }, is wanted", "add one");
+    refuse(table.place, what + " has no surface", "surface = \"file\", or shape = { ... }, is wanted", "add one");
   if (way.key == "cage") return read_cage(table, way, what, scale, files, soft, body);
-  if (way.key == "lattice") return read_lattice(table, way, what, scale, soft, body);
+  if (way.key == "lattice") return read_lattice(table, way, what, scale, files, soft, body);
   read_tetrahedralize(table, way, what, scale, files, soft, body);
 }
 

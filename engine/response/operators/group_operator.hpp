@@ -30,7 +30,7 @@ class GroupOperator {
   /// Conjugate gradients with the diagonal blocks as preconditioner; ends at ‖r‖ <= tolerance ‖b‖ in the
   /// preconditioner's norm. False if it didn't get there.
   bool solve(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const;
-  /// The same for any H, by stabilised bi-conjugate gradients [vanderVorst92]: sliding friction follows the normal
+  /// The same for any H, by stabilised bi-conjugate gradients [VanDerVorst92]: sliding friction follows the normal
   /// impulse, not the other way about. Ends at ‖r‖ <= tolerance ‖b‖ as they stand.
   bool solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const;
   /// max over nodes and rigid bodies of |D⁻¹ b|, m/s and rad/s.

@@ -1,0 +1,138 @@
+#include "engine/detection/pairs/polyhedron_mesh.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/pairs/ball_against_mesh.hpp"
+#include "engine/detection/triangles/triangle_pair_test.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr std::uint64_t kIndex = 0x3fffffffu;  // of a feature key: the index's bits
+
+/// A feature key whose first feature is of the polyhedron's triangles, in terms of its faces: the triangles of a face
+/// and the diagonals between them are one, so that no contact changes its name when it crosses a diagonal.
+std::uint64_t with_face(std::uint64_t key, const PolyhedronView& solid) {
+  const MeshTopology& topology = solid.surface->topology;
+  Feature kind = static_cast<Feature>(key >> 62);
+  int index = static_cast<int>(key >> 32 & kIndex);
+  if (kind == Feature::edge &&
+      solid.face(topology.edges[index].triangle0) == solid.face(topology.edges[index].triangle1)) {
+    kind = Feature::face;
+    index = topology.edges[index].triangle0;
+  }
+  if (kind == Feature::face) index = solid.face(index);
+  return feature_key(kind, index, static_cast<Feature>(key >> 30 & 3u), static_cast<int>(key & kIndex));
+}
+
+Candidate candidate_of(const Collision& f) {
+  Candidate c;
+  c.point_first = f.point_a;
+  c.point_second = f.point_b;
+  c.normal = f.normal;
+  c.owner = f.normal_owner == 0 ? NormalOwner::first : f.normal_owner == 1 ? NormalOwner::second : NormalOwner::neither;
+  c.kind_first = static_cast<Feature>(f.feature >> 62);
+  c.index_first = static_cast<int>(f.feature >> 32 & kIndex);
+  c.kind_second = static_cast<Feature>(f.feature >> 30 & 3u);
+  c.index_second = static_cast<int>(f.feature & kIndex);
+  c.triangle_second = f.triangle_b;
+  return c;
+}
+
+/// The mesh's triangles that reach into the polyhedron's frame, grown by the margin.
+std::vector<int> triangles_in_frame(const SurfaceView& view, const OrientedBox& frame, double margin, int count) {
+  // wider by rounding: triangles that touch must not be lost
+  const Vec3 reach = frame.half + Vec3::Constant(margin + 1e-9 * (margin + frame.half.sum()));
+  const Vec3 extent = frame.axes.cwiseAbs() * reach;
+  std::vector<int> near;
+  for (int t : triangles_near(view, count, {frame.center - extent, frame.center + extent})) {
+    const TriangleCorners c = view.corners(t);
+    if (overlap(bounds_of(frame.to_local(c[0]), frame.to_local(c[1]), frame.to_local(c[2])), Aabb{-reach, reach}))
+      near.push_back(t);
+  }
+  return near;
+}
+
+}  // namespace
+
+bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<double(const Vec3&)>& reach_against) {
+  ContactQuery all = sink.query();
+  all.activation = 0.0;
+  all.time_step = 0.0;
+  const Collider local[2] = {sink.first(), sink.second()};
+  std::vector<Collision> out;
+  ContactSink way_out(local, {0, 1, 0.0}, false, all, out);
+  if (!add_ball_contacts(way_out, SurfaceView(sink.second(), 1), {center, 0.0, Feature::shape, 0})) return false;
+  for (const Collision& found : out) {
+    Candidate c;
+    c.normal = found.normal;
+    c.point_first = center - reach_against(found.normal) * found.normal;
+    c.point_second = found.point_b;
+    c.triangle_second = found.triangle_b;
+    c.kind_second = Feature::face;
+    c.index_second = found.triangle_b;
+    sink.add(c);
+  }
+  return true;
+}
+
+void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
+  const Collider& mesh = sink.second();
+  const ContactQuery& query = sink.query();
+  // as for two meshes, fast bodies widen the search by one edge length at most
+  const double margin =
+      query.activation + std::min(sink.reach(), std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge));
+  const SurfaceView view(mesh, 1);
+  const std::vector<int> near =
+      triangles_in_frame(view, solid.frame, margin, static_cast<int>(mesh.mesh().mesh.triangles.size()));
+  if (near.empty()) {
+    add_enclosed(sink, solid.frame.center, solid.reach_against);
+    return;
+  }
+
+  Collider own = sink.first();
+  own.surface = solid.surface;
+  std::vector<Vec3> corners;
+  for (const Vec3& v : solid.surface->mesh.vertices) corners.push_back(own.pose.apply(v));
+  own.vertices = corners;
+  own.mean_edge = mean_edge_length(solid.surface->mesh);
+  const Collider local[2] = {own, mesh};
+  const BodyPair pair{0, 1, margin};
+  const int count = static_cast<int>(solid.surface->mesh.triangles.size());
+  std::vector<Aabb> boxes;
+  for (int k = 0; k < count; ++k) boxes.push_back(search_box(corners_of(own, k), margin));
+  std::vector<TrianglePair> triangles;
+  for (int t : near) {
+    const TriangleCorners c = view.corners(t);
+    const Aabb box = search_box(c, margin);
+    for (int k = 0; k < count; ++k) {
+      if (!overlap(boxes[k], box)) continue;
+      const PairState state = test_triangles(corners_of(own, k), c, margin);
+      if (state != PairState::apart) triangles.push_back({0, 1, k, t, state == PairState::intersecting});
+    }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  std::vector<Collision> found;
+  // asked for intersections only, the sink keeps what overlaps
+  proximity_contacts(local, pair, triangles, query.activation, query.proximity ? query.time_step : 0.0, found);
+  for (Collision& f : found) f.feature = with_face(f.feature, solid);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Collision& l, const Collision& r) { return l.feature < r.feature; });
+  // A vertex of the mesh that lies below a side but beside the polyhedron is not in it: the crossing of edges there
+  // tells the depth, and only if there is nothing else does the shallowest such vertex stand for the overlap.
+  std::optional<Candidate> beside;
+  bool overlaps = false;
+  for (const Collision& f : found) {
+    Candidate c = candidate_of(f);
+    if (c.kind_first == Feature::face && f.normal_owner == 0 && solid.place_on_face(c) && f.gap < 0.0) {
+      if (!beside || f.gap > beside->normal.dot(beside->point_first - beside->point_second)) beside = c;
+      continue;
+    }
+    overlaps = (sink.add_new(c) && f.gap < 0.0) || overlaps;
+  }
+  if (beside && !overlaps) sink.add_new(*beside);
+}
+
+}  // namespace impinge

@@ -1,0 +1,54 @@
+// Any convex solid against a half-space and against any other convex solid.
+#include "engine/detection/pairs/convex_manifold.hpp"
+#include "engine/detection/pairs/primitive_pairs.hpp"
+
+namespace impinge {
+namespace {
+
+PlacedConvex placed(const Collider& c) { return {std::get<const ConvexSet*>(c.shape->form()), c.pose}; }
+
+}  // namespace
+
+void convex_convex(ContactSink& sink) {
+  for (const Candidate& c : convex_candidates(placed(sink.first()), placed(sink.second()), sink.reach()))
+    sink.add_new(c);
+}
+
+void plane_convex(ContactSink& sink) {
+  const WorldPlane plane = world_plane(sink.first());
+  const PlacedConvex solid = placed(sink.second());
+  const Vec3 down = solid.pose.rotation.transpose() * -plane.normal;
+  const auto against = [&](const Vec3& x) {
+    Candidate c;
+    c.point_second = x;
+    c.point_first = x - plane.normal * (plane.normal.dot(x) - plane.offset);
+    c.normal = -plane.normal;
+    c.owner = NormalOwner::first;
+    return c;
+  };
+  const auto height = [&](const Candidate& c) { return plane.normal.dot(c.point_second) - plane.offset; };
+  // the farthest point of all, wherever it lies
+  const Candidate own = against(solid.pose.apply(solid.set->support(down) + solid.set->rounding() * down));
+  if (height(own) > sink.reach()) return;
+  std::vector<Candidate> points;
+  const auto add = [&](const Vec3& local, int vertex) {
+    Candidate c = against(solid.pose.apply(local));
+    c.kind_second = Feature::vertex;
+    c.index_second = vertex;
+    if (height(c) <= sink.reach()) points.push_back(c);
+  };
+  if (const ConvexPolyhedron* polyhedron = solid.set->polyhedron()) {
+    for (std::size_t v = 0; v < polyhedron->vertices().size(); ++v) add(polyhedron->vertices()[v], static_cast<int>(v));
+  } else {
+    const ContactFace face = solid.set->facing(down);
+    for (int i = 0; i < face.count && face.count > 1; ++i) add(face.point[i], face.vertex[i]);
+  }
+  const double size = sink.second().bounds.extent().norm();
+  reduce_candidates(points, solid.pose, 1e-6 * size);
+  double lowest = 1e300;
+  for (const Candidate& c : points) lowest = std::min(lowest, height(c));
+  if (lowest > height(own) + 1e-9 * size) points.push_back(own);
+  for (const Candidate& c : points) sink.add_new(c);
+}
+
+}  // namespace impinge

@@ -1,0 +1,252 @@
+// A convex solid with a curved surface against a mesh. Its contacts are local minima of the distance of the two
+// surfaces, seen from each feature of the mesh: below a face lies the solid's farthest point against the face's normal
+// (with the corners of what it rests on there); an edge or a corner that stands out of the mesh is a segment or a point
+// against the solid, and its direction has to leave the mesh there.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/detection/contacts/edge_cone.hpp"
+#include "engine/detection/pairs/ball_against_mesh.hpp"
+#include "engine/detection/pairs/convex_manifold.hpp"
+#include "engine/detection/pairs/polyhedron_mesh.hpp"
+#include "engine/detection/pairs/primitive_pairs.hpp"
+#include "engine/geometry/triangle_intersection.hpp"
+
+namespace impinge {
+namespace {
+
+/// A way out of the mesh counts if nothing else of its surface is nearer than this part of its depth.
+constexpr double kNearestExit = 0.5;
+
+class Segment final : public ConvexSet {
+ public:
+  Segment(const Vec3& p, const Vec3& q) : p_(p), q_(q) {}
+  Vec3 support(const Vec3& d) const override { return d.dot(q_ - p_) > 0.0 ? q_ : p_; }
+  ContactFace facing(const Vec3& d) const override {
+    const Vec3 along = q_ - p_;
+    ContactFace face;
+    face.add(support(d));
+    if (std::abs(along.dot(d)) < 0.25 * along.norm()) {
+      face.count = 0;
+      face.add(p_);
+      face.add(q_);
+    }
+    return face;
+  }
+
+ private:
+  Vec3 p_, q_;
+};
+
+class CurvedTest {
+ public:
+  explicit CurvedTest(ContactSink& sink)
+      : sink_(sink),
+        mesh_(sink.second(), 1),
+        solid_{std::get<const ConvexSet*>(sink.first().shape->form()), sink.first().pose},
+        bounds_(sink.first().bounds),
+        touch_(1e-9 * (bounds_.extent().norm() + sink.second().mean_edge)) {
+    const int count = static_cast<int>(sink.second().mesh().mesh.triangles.size());
+    near_ = triangles_near(mesh_, count, bounds_.inflated(sink.reach() + touch_));
+  }
+
+  void run() {
+    if (near_.empty()) {
+      leave();
+      return;
+    }
+    for (int t : near_) add_face(t);
+    add_edges();
+    add_corners();
+    look_ahead();
+    if (found_.empty()) leave();
+    for (const Candidate& c : found_) sink_.add_new(c);
+  }
+
+ private:
+  Vec3 center() const { return solid_.pose.position; }
+  Vec3 farthest(const Vec3& direction) const {
+    const Vec3 local = solid_.pose.rotation.transpose() * direction;
+    return solid_.pose.apply(solid_.set->support(local) + solid_.set->rounding() * local);
+  }
+  bool is_in_reach(const Vec3& point) const {
+    const double limit = sink_.first().shape->bounding_radius() + sink_.reach();
+    return (point - center()).squaredNorm() <= limit * limit;
+  }
+
+  /// Unless there is one at the same place: a point over the border of two triangles in one plane.
+  void keep(const Candidate& c) {
+    const auto is_same = [&](const Candidate& k) {
+      return k.normal.dot(c.normal) > 1.0 - 1e-9 && (k.point_first - c.point_first).norm() <= touch_;
+    };
+    if (std::none_of(found_.begin(), found_.end(), is_same)) found_.push_back(c);
+  }
+
+  /// Where the solid is lowest over the face, and the corners of what it rests on.
+  void add_face(int t) {
+    const Vec3 n = mesh_.face_normal(t);
+    if (n.isZero(0.0)) return;
+    const TriangleCorners corners = mesh_.corners(t);
+    const auto height = [&](const Vec3& x) { return n.dot(x - corners[0]); };
+    const Vec3 lowest = farthest(-n);
+    if (height(lowest) > sink_.reach()) return;
+    std::vector<Candidate> points;
+    const auto try_point = [&](const Vec3& x, Feature kind, int index) {
+      const double h = height(x);
+      const Vec3 foot = x - h * n;
+      if (h > sink_.reach() || closest_on_triangle(foot, corners).squared_distance > touch_ * touch_) return;
+      Candidate c;
+      c.normal = n;
+      c.point_first = x;
+      c.point_second = foot;
+      c.owner = NormalOwner::second;
+      c.kind_first = kind;
+      c.index_first = index;
+      c.kind_second = Feature::face;
+      c.index_second = c.triangle_second = t;
+      points.push_back(c);
+    };
+    const ContactFace face = world_face(solid_.set->facing(solid_.pose.rotation.transpose() * -n), solid_.pose);
+    double least = 1e300;
+    for (int i = 0; i < face.count && face.count > 1; ++i) {
+      try_point(face.point[i], Feature::vertex, face.vertex[i]);
+      least = std::min(least, height(face.point[i]));
+    }
+    if (least > height(lowest) + touch_) try_point(lowest, Feature::shape, 0);
+    // a solid may be far behind the plane of a face it has nothing to do with
+    if (height(lowest) < -touch_ && std::none_of(points.begin(), points.end(), [&](const Candidate& c) {
+          return is_way_out(c.point_first, c.normal.dot(c.point_first - c.point_second));
+        }))
+      return;
+    for (const Candidate& c : points) keep(c);
+  }
+
+  /// Whether a point at a height below a face is inside the mesh, and that face about the nearest way out.
+  bool is_way_out(const Vec3& x, double height) const {
+    if (height >= -touch_) return false;
+    double nearest_sq = 1e300;
+    Vec3 point = Vec3::Zero();
+    SurfaceFeature feature;
+    for (int t : near_) {
+      const PointTriangle p = closest_on_triangle(x, mesh_.corners(t));
+      if (p.squared_distance >= nearest_sq) continue;
+      nearest_sq = p.squared_distance;
+      point = p.point;
+      feature = mesh_.feature(t, p.feature);
+    }
+    return (x - point).dot(mesh_.normal(feature)) < 0.0 && std::sqrt(nearest_sq) >= -kNearestExit * height;
+  }
+
+  /// Edges that stand out, each as a segment.
+  void add_edges() {
+    std::vector<int> edges;
+    for (int t : near_) edges.insert(edges.end(), mesh_.triangle_edges(t).begin(), mesh_.triangle_edges(t).end());
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    for (int e : edges) {
+      const Vec3 &p = mesh_.vertex(mesh_.edge(e).v0), &q = mesh_.vertex(mesh_.edge(e).v1);
+      if (!is_in_reach(closest_on_segment(center(), p, q).point)) continue;
+      const std::optional<EdgeCone> cone = make_edge_cone(mesh_, e);
+      if (!cone) continue;
+      const Vec3 middle = 0.5 * (p + q);
+      const Segment segment(p - middle, q - middle);
+      for (Candidate c : convex_candidates(solid_, {&segment, {Mat3::Identity(), middle}}, sink_.reach())) {
+        const double t = closest_on_segment(c.point_second, p, q).t;
+        // an end is a corner's, and what leaves into a face is that face's
+        if (t <= 0.0 || t >= 1.0 || !cone->is_outward(c.normal)) continue;
+        const int place = c.kind_second == Feature::vertex ? c.index_second : 2;
+        c.kind_second = Feature::edge;
+        c.index_second = e;
+        c.index_first += 4096 * place;  // two points on one edge have two names
+        c.triangle_second = mesh_.edge(e).triangle0;
+        c.owner = c.owner == NormalOwner::first ? NormalOwner::first : NormalOwner::neither;
+        keep(c);
+      }
+    }
+  }
+
+  /// Corners that stand out, each as a point.
+  void add_corners() {
+    std::vector<int> corners;
+    for (int t : near_) corners.insert(corners.end(), mesh_.triangle(t).begin(), mesh_.triangle(t).end());
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    const Segment point(Vec3::Zero(), Vec3::Zero());
+    std::vector<Vec3> star;
+    for (int v : corners) {
+      if (!is_in_reach(mesh_.vertex(v))) continue;
+      const ConvexGap gap = convex_gap(solid_, {&point, {Mat3::Identity(), mesh_.vertex(v)}}, sink_.reach());
+      if (!gap.is_within_reach) continue;
+      mesh_.star({Feature::vertex, v}, star);
+      double highest = -1.0, lowest = 1.0;
+      for (const Vec3& e : star) {
+        highest = std::max(highest, e.dot(gap.normal));
+        lowest = std::min(lowest, e.dot(gap.normal));
+      }
+      // a peak: the surface falls away from it, and not only by rounding
+      if (highest > 1e-9 || lowest >= -1e-5 || gap.normal.dot(mesh_.normal({Feature::vertex, v})) <= 0.0) continue;
+      Candidate c;
+      c.normal = gap.normal;
+      c.point_first = gap.point_a;
+      c.point_second = mesh_.vertex(v);
+      c.kind_second = Feature::vertex;
+      c.index_second = v;
+      c.triangle_second = mesh_.triangle_of({Feature::vertex, v});
+      keep(c);
+    }
+  }
+
+  /// A solid that crosses in one step what it isn't near yet: the plane of the triangle that its foremost point meets.
+  void look_ahead() {
+    const ContactQuery& query = sink_.query();
+    if (!query.proximity || !(query.time_step > 0.0)) return;
+    const Vec3 way = query.time_step * (sink_.first().velocity_at(center()) - sink_.second().velocity_at(center()));
+    if (way.norm() <= query.activation) return;
+    for (const Vec3& from : {center(), farthest(way.normalized())}) {
+      double first = 1.0;
+      int hit = -1;
+      for (int t : near_) {
+        if (mesh_.face_normal(t).dot(way) >= 0.0) continue;
+        const std::optional<RayHit> ray = intersect_line(from, way, mesh_.corners(t), 1e-9);
+        if (!ray || ray->t < 0.0 || ray->t > first || (hit >= 0 && ray->t == first)) continue;
+        first = ray->t;
+        hit = t;
+      }
+      if (hit < 0) continue;
+      const auto is_known = [&](const Candidate& c) { return c.triangle_second == hit; };
+      if (std::any_of(found_.begin(), found_.end(), is_known)) continue;
+      Candidate c;
+      c.normal = mesh_.face_normal(hit);
+      c.point_first = farthest(-c.normal);
+      // the height over the plane, wherever the way crosses it
+      c.point_second = c.point_first - c.normal.dot(c.point_first - mesh_.corners(hit)[0]) * c.normal;
+      c.owner = NormalOwner::second;
+      c.kind_second = Feature::face;
+      c.index_second = c.triangle_second = hit;
+      keep(c);
+    }
+  }
+
+  void leave() {
+    add_enclosed(sink_, center(), [&](const Vec3& n) { return (farthest(-n) - center()).dot(-n); });
+  }
+
+  ContactSink& sink_;
+  const SurfaceView mesh_;
+  PlacedConvex solid_;
+  Aabb bounds_;
+  double touch_;  ///< metres: closer is the same place
+  std::vector<int> near_;
+  std::vector<Candidate> found_;
+};
+
+}  // namespace
+
+void convex_mesh(ContactSink& sink) {
+  if (std::get<const ConvexSet*>(sink.first().shape->form())->polyhedron() != nullptr)
+    hull_mesh(sink);
+  else
+    CurvedTest(sink).run();
+}
+
+}  // namespace impinge

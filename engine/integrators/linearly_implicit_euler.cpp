@@ -1,0 +1,50 @@
+// The seed's scheme: backward Euler with one Newton iteration [Haapaoja16 §2.1],
+//   A v = b,  A = M − Δt ∂f/∂v − Δt² ∂f/∂q,  b = Δt f(q₀, v₀) + (M − Δt ∂f/∂v) v₀.
+// With Rayleigh damping ∂f/∂v = −D and f(q₀, v₀) = f(q₀) − D v₀, so D v₀ cancels: b = M v₀ + Δt (f(q₀) + f_ext).
+#include "engine/integrators/deformable_integrator.hpp"
+
+namespace impinge {
+namespace {
+
+class LinearlyImplicitEuler : public DeformableIntegrator {
+ public:
+  void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
+    step.time_step = step.tau = step.s = h;
+    step.gravity = gravity;
+    step.offset.setZero(3 * body.nodes());
+    step.v_hat = body.velocity;
+    begin_step(body, true, step);
+  }
+
+  /// A and b belong to x₀; the velocity they are asked for doesn't matter.
+  void linearize(DeformableBody& body, const VecX&, DeformableStep& step) const override {
+    const double h = step.time_step;
+    const RayleighDamping& d = body.damping;
+    const double mass = 1.0 + h * d.alpha, stiffness = h * (d.beta + h);
+    fill_system(body, mass, stiffness, 0.0, nullptr, step);
+    VecX b;
+    body.fem.multiply_mass(step.v_hat, b);
+    b += h * (step.force + applied_force(body, step.gravity));
+    if (!body.held_velocity().isZero(0.0)) {
+      // columns of the held nodes, whose velocity is known
+      VecX part;
+      body.fem.multiply_mass(body.held_velocity(), part);
+      b -= mass * part + stiffness * (step.stiffness * body.held_velocity());
+    }
+    step.b = body.gather_free(b);
+  }
+
+  void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override {
+    linearize(body, {}, step);
+    solve_free_velocity(body, step, solver);
+  }
+};
+
+}  // namespace
+
+Entry<DeformableIntegrator> linearly_implicit_euler_integrator() {
+  return entry<DeformableIntegrator, LinearlyImplicitEuler>(
+      "linearly_implicit_euler", "backward Euler with one Newton iteration (the seed's scheme)");
+}
+
+}  // namespace impinge

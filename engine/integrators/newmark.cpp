@@ -1,0 +1,71 @@
+// Newmark's scheme [Newmark59]: x₁ = x₀ + h v₀ + h² ((½ − β) a₀ + β a₁), v₁ = v₀ + h ((1 − γ) a₀ + γ a₁), solved for v₁
+// by Newton's method. β = ¼, γ = ½ (constant average acceleration): second order, no damping of its own in linear
+// problems.
+#include "engine/integrators/deformable_integrator.hpp"
+
+namespace impinge {
+namespace {
+
+class Newmark : public DeformableIntegrator {
+ public:
+  void declare(const Rows& rows) override {
+    newton_.declare(rows);
+    rows.add("beta", settings_.beta, {0.05, 0.5}, "", "How much of the end's acceleration enters the positions.");
+    rows.add("gamma", settings_.gamma, {0.5, 1.0}, "", "How much of it enters the velocities; above 1/2 it damps.");
+  }
+
+  void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
+    const auto [beta, gamma] = settings_;
+    step.time_step = h;
+    step.tau = gamma * h;
+    step.s = h * beta / gamma;
+    step.gravity = gravity;
+    step.offset.setZero(3 * body.nodes());
+    begin_step(body, body.damping.beta != 0.0, step);
+    if (!body.acceleration_known) accelerate(body, step);
+    step.v_hat = body.velocity + (1.0 - gamma) * h * body.acceleration;
+    const VecX d = (h - step.s) * body.velocity + h * h * (0.5 - beta / gamma) * body.acceleration;
+    for (const int i : body.free_node()) step.offset.segment<3>(3 * i) = d.segment<3>(3 * i);
+  }
+
+  void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const override {
+    const double gamma = settings_.gamma;
+    const VecX before = body.velocity;
+    DeformableIntegrator::advance(body, step, v);
+    body.acceleration = (body.velocity - before) / (gamma * step.time_step) - (1.0 - gamma) / gamma * body.acceleration;
+    for (int i = 0; i < body.nodes(); ++i)
+      if (body.is_held(i)) body.acceleration.segment<3>(3 * i).setZero();
+    body.acceleration_known = true;
+  }
+  const NewtonSettings* newton() const override { return &newton_; }
+
+ private:
+  struct Settings {
+    double beta = 0.25, gamma = 0.5;
+  };
+
+  /// M a₀ = f(x₀) + f_ext − D v₀, once: later accelerations follow from the velocities.
+  static void accelerate(DeformableBody& body, DeformableStep& step) {
+    fill_system(body, 1.0, 0.0, 0.0, nullptr, step);
+    const VecX force = step.force + applied_force(body, step.gravity) - damping_force(body, step, body.velocity);
+    const std::unique_ptr<LinearSolver> solver = make_linear_solver("conjugate_gradient");
+    solver->tolerance = 1e-13;
+    solver->analyze(*body.free_pattern());
+    VecX a = VecX::Zero(body.dofs());
+    if (solver->factorize(step.a) == SolveStatus::ok) solver->solve(body.gather_free(force), a);
+    body.acceleration.setZero();
+    body.scatter_free(a, body.acceleration);
+    body.acceleration_known = true;
+  }
+
+  NewtonSettings newton_;
+  Settings settings_;
+};
+
+}  // namespace
+
+Entry<DeformableIntegrator> newmark_integrator() {
+  return entry<DeformableIntegrator, Newmark>("newmark", "Newmark's scheme, Newton's method with line search");
+}
+
+}  // namespace impinge

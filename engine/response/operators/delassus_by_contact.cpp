@@ -1,0 +1,191 @@
+#include "engine/response/operators/delassus_by_contact.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+
+namespace impinge {
+namespace {
+
+/// W_ii of one rigid side.
+Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const BodyBlock& block) {
+  Mat3 turn;
+  for (int k = 0; k < 3; ++k) turn.row(k) = side.arm.cross(rows.directions.row(k).transpose()).transpose();
+  return block.inverse_mass * rows.directions * rows.directions.transpose() +
+         turn * block.inverse_inertia * turn.transpose();
+}
+
+}  // namespace
+
+DelassusByContact::DelassusByContact(GroupSystem& group)
+    : group_(group),
+      node_inverse_(group.soft.size()),
+      coupled_(group.soft.size()),
+      place_(group.contacts.size(), {-1, -1}),
+      coupled_velocity_(group.contacts.size(), Vec3::Zero()),
+      diagonal_(group.contacts.size(), Mat3::Zero()),
+      split_(group.contacts.size(), Mat3::Zero()) {
+  group_.clear_delta();
+  std::vector<int> rigid_contacts(group.bodies.size(), 0);
+  std::vector<std::vector<int>> node_contacts(group.soft.size());
+  for (std::size_t s = 0; s < group.soft.size(); ++s) {
+    if (!group.soft[s].is_diagonal) continue;
+    const BlockMatrix& a = *group.soft[s].a;
+    for (int i = 0; i < a.pattern->rows; ++i) node_inverse_[s].push_back(a.values[a.pattern->diagonal[i]].inverse());
+    node_contacts[s].assign(a.pattern->rows, 0);
+  }
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const std::array<const ContactSide*, 2> sides{&group.contacts[i].a, &group.contacts[i].b};
+    for (int k = 0; k < 2; ++k) {
+      if (sides[k]->rigid >= 0) ++rigid_contacts[sides[k]->rigid];
+      if (sides[k]->nodes.empty()) continue;
+      if (group.soft[sides[k]->soft].is_diagonal) {
+        for (const NodeWeight& n : sides[k]->nodes) ++node_contacts[sides[k]->soft][n.node];
+      } else {
+        std::vector<std::size_t>& list = coupled_[sides[k]->soft].contacts;
+        place_[i][k] = static_cast<int>(list.size());
+        list.push_back(i);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const ContactRows& rows = group.contacts[i];
+    for (const ContactSide* side : {&rows.a, &rows.b}) {
+      if (side->rigid >= 0) {
+        const Mat3 w = rigid_block(rows, *side, group.bodies[side->rigid]);
+        diagonal_[i] += w;
+        split_[i] += rigid_contacts[side->rigid] * w;
+      }
+      if (side->nodes.empty() || !group.soft[side->soft].is_diagonal) continue;
+      for (const NodeWeight& n : side->nodes) {
+        const Mat3 w =
+            n.weight * n.weight * rows.directions * node_inverse_[side->soft][n.node] * rows.directions.transpose();
+        diagonal_[i] += w;
+        split_[i] += node_contacts[side->soft][n.node] * w;
+      }
+    }
+  }
+  for (int s = 0; s < static_cast<int>(group.soft.size()); ++s)
+    if (!coupled_[s].contacts.empty()) add_coupled(s);
+  for (std::size_t i = 0; i < group.contacts.size(); ++i)
+    if (!group.lambda[i].isZero(0.0)) add_impulse(i, group.lambda[i]);
+}
+
+void DelassusByContact::add_coupled(int s) {
+  const SoftBlock& block = group_.soft[s];
+  Coupled& coupled = coupled_[s];
+  const int m = static_cast<int>(coupled.contacts.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int c = 0; c < m; ++c) {
+    const ContactRows& rows = group_.contacts[coupled.contacts[c]];
+    for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)}) {
+      if (side->soft != s) continue;
+      for (const NodeWeight& n : side->nodes)
+        for (int r = 0; r < 3; ++r)
+          for (int k = 0; k < 3; ++k)
+            entries.emplace_back(3 * n.node + k, 3 * c + r, sign * n.weight * rows.directions(r, k));
+    }
+  }
+  SparseColumns columns(block.velocity.size(), 3 * m);
+  columns.setFromTriplets(entries.begin(), entries.end());
+  check_interrupt();
+  if (block.solver->factorize(*block.a) != SolveStatus::ok ||
+      block.solver->gram(columns, coupled.w).status != SolveStatus::ok)
+    throw DivergenceError("the system matrix of a deformable body is not positive definite");
+  for (int c = 0; c < m; ++c) {
+    check_interrupt();
+    const Mat3 own = coupled.w.block<3, 3>(3 * c, 3 * c);
+    double others = 0.0;
+    for (int d = 0; d < m; ++d)
+      if (d != c) others += coupled.w.block<3, 3>(3 * c, 3 * d).norm();
+    diagonal_[coupled.contacts[c]] += own;
+    split_[coupled.contacts[c]] += own + others * Mat3::Identity();
+  }
+}
+
+Vec3 DelassusByContact::velocity(std::size_t i) const {
+  return group_.contact_velocity(i, true) + coupled_velocity_[i];
+}
+
+void DelassusByContact::add_impulse(std::size_t i, const Vec3& delta) {
+  const ContactRows& rows = group_.contacts[i];
+  const Vec3 force = rows.directions.transpose() * delta;
+  const std::array<const ContactSide*, 2> sides{&rows.a, &rows.b};
+  for (int k = 0; k < 2; ++k) {
+    const ContactSide& side = *sides[k];
+    const double sign = k == 0 ? 1.0 : -1.0;
+    if (side.rigid >= 0) {
+      const BodyBlock& block = group_.bodies[side.rigid];
+      group_.delta_velocity[side.rigid] += sign * block.inverse_mass * force;
+      group_.delta_angular_velocity[side.rigid] += sign * (block.inverse_inertia * side.arm.cross(force));
+    }
+    if (side.nodes.empty()) continue;
+    if (place_[i][k] < 0) {
+      for (const NodeWeight& n : side.nodes)
+        group_.soft_delta[side.soft].segment<3>(3 * n.node) +=
+            node_inverse_[side.soft][n.node] * (sign * n.weight * force);
+    } else {
+      const Coupled& coupled = coupled_[side.soft];
+      for (std::size_t c = 0; c < coupled.contacts.size(); ++c)
+        coupled_velocity_[coupled.contacts[c]] += coupled.w.block<3, 3>(3 * c, 3 * place_[i][k]) * delta;
+    }
+  }
+}
+
+void DelassusByContact::change(std::size_t i, const Vec3& delta) {
+  group_.lambda[i] += delta;
+  add_impulse(i, delta);
+}
+
+void DelassusByContact::show(const std::function<void(const GroupSystem&)>& observe) {
+  if (!observe) return;
+  finish();
+  observe(group_);
+  for (std::size_t s = 0; s < coupled_.size(); ++s)
+    // while impulses change, coupled_velocity_ says it
+    if (!coupled_[s].contacts.empty()) group_.soft_delta[s].setZero();
+}
+
+bool DelassusByContact::finish() {
+  group_.clear_delta();
+  std::fill(coupled_velocity_.begin(), coupled_velocity_.end(), Vec3::Zero());
+  for (std::size_t i = 0; i < group_.contacts.size(); ++i)
+    if (!group_.lambda[i].isZero(0.0)) add_impulse(i, group_.lambda[i]);
+  for (int s = 0; s < static_cast<int>(group_.soft.size()); ++s) {
+    if (coupled_[s].contacts.empty() || !solved_) continue;
+    solved_ = group_.soft[s].solver->solve(group_.soft_impulse(s, group_.lambda), group_.soft_delta[s]).status ==
+              SolveStatus::ok;
+  }
+  return solved_;
+}
+
+void relax_friction(const Mat3& mobility, const Vec3& u, double friction, Vec3& lambda) {
+  // the largest eigenvalue of the tangential block: one factor for both directions, or the disc's projection would turn
+  // slip
+  const double mean = 0.5 * (mobility(1, 1) + mobility(2, 2)), half = 0.5 * (mobility(1, 1) - mobility(2, 2));
+  const double largest = mean + std::hypot(half, mobility(1, 2));
+  if (!(largest > 0.0)) return;
+  Vec2 t = lambda.tail<2>() - u.tail<2>() / largest;
+  const double size = t.norm(), limit = friction * lambda.x();
+  if (size > limit) t *= limit / size;
+  lambda.tail<2>() = t;
+}
+
+Vec3 relaxed_impulse(const ContactRows& rows, const Mat3& mobility, Vec3 u, Vec3 lambda) {
+  if (rows.kind == RowKind::attachment) return lambda - mobility.ldlt().solve(u);
+  if (!(mobility(0, 0) > 0.0)) return lambda;
+  const double before = lambda.x();
+  lambda.x() -= u.x() / mobility(0, 0);
+  if (rows.kind == RowKind::sliding) return lambda;
+  lambda.x() = std::max(0.0, lambda.x());
+  if (rows.has_one_row()) return lambda;
+  u += mobility.col(0) * (lambda.x() - before);
+  relax_friction(mobility, u, rows.friction, lambda);
+  return lambda;
+}
+
+}  // namespace impinge

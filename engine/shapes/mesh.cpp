@@ -1,0 +1,50 @@
+// What a closed triangle surface encloses.
+#include <algorithm>
+
+#include "engine/geometry/inside.hpp"
+#include "engine/shapes/shape_entry.hpp"
+
+namespace impinge {
+namespace {
+
+class MeshShape final : public Shape {
+ public:
+  explicit MeshShape(MeshPointer surface) : Shape("mesh", surface.get()), surface_(std::move(surface)) {}
+
+  ShapeForm form() const override { return surface_.get(); }
+  Aabb bounds(const Pose& pose) const override {
+    Aabb box;
+    for (const Vec3& v : surface_->mesh.vertices) box.include(pose.apply(v));
+    return box;
+  }
+  double bounding_radius() const override {
+    double reach = 0.0;
+    for (const Vec3& v : surface_->mesh.vertices) reach = std::max(reach, v.norm());
+    return reach;
+  }
+  MassProperties mass(double density) const override { return mesh_mass(surface_->mesh, density); }
+  SharedShape recentered(const Vec3& center) const override {
+    auto moved = std::make_shared<SurfaceMesh>(*surface_);
+    for (Vec3& v : moved->mesh.vertices) v -= center;
+    return MeshPointer(std::move(moved));
+  }
+  double signed_distance(const Vec3& x) const override {
+    const double distance = distance_to_surface(x, surface_->mesh.vertices, surface_->mesh.triangles);
+    return winding_number(x, surface_->mesh.vertices, surface_->mesh.triangles) > 0.5 ? -distance : distance;
+  }
+  TriangleMesh surface(double) const override { return surface_->mesh; }
+  TriangleMesh drawn() const override { return surface_->mesh; }
+
+ private:
+  MeshPointer surface_;
+};
+
+}  // namespace
+
+SharedShape::SharedShape(MeshPointer surface) : SharedShape(MeshShape(std::move(surface))) {}
+
+ShapeEntry mesh_shape() {
+  return {"mesh", "What a closed triangle surface encloses: the body's key `surface`.", {}, nullptr};
+}
+
+}  // namespace impinge

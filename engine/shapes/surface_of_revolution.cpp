@@ -1,0 +1,29 @@
+#include "engine/shapes/surface_of_revolution.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace impinge {
+
+TriangleMesh surface_of_revolution(const std::vector<Vec2>& profile, double y_below, double y_above, int around) {
+  TriangleMesh mesh;
+  mesh.vertices.emplace_back(0.0, y_below, 0.0);
+  for (const Vec2& ring : profile)
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / around;
+      mesh.vertices.emplace_back(ring.x() * std::cos(angle), ring.y(), -ring.x() * std::sin(angle));
+    }
+  const int top = static_cast<int>(mesh.vertices.size()), rings = static_cast<int>(profile.size());
+  mesh.vertices.emplace_back(0.0, y_above, 0.0);
+  const auto at = [&](int ring, int k) { return 1 + ring * around + k % around; };
+  for (int k = 0; k < around; ++k) {
+    mesh.triangles.push_back({0, at(0, k + 1), at(0, k)});
+    for (int r = 0; r + 1 < rings; ++r)
+      mesh.triangles.insert(mesh.triangles.end(),
+                            {{at(r, k), at(r, k + 1), at(r + 1, k + 1)}, {at(r, k), at(r + 1, k + 1), at(r + 1, k)}});
+    mesh.triangles.push_back({at(rings - 1, k), at(rings - 1, k + 1), top});
+  }
+  return mesh;
+}
+
+}  // namespace impinge

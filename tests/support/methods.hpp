@@ -1,0 +1,43 @@
+// Methods with settings, as tests want them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "engine/core/error.hpp"
+#include "engine/response/response.hpp"
+#include "engine/world/world.hpp"
+
+namespace impinge::test {
+
+/// A parameter of the model, by its path and in the words of a scene.
+inline void set(World& world, const std::string& path, const std::string& value) {
+  ParameterSet rows;
+  world.parameters.bind(rows);
+  const Parameter* row = rows.find(path);
+  if (row == nullptr) throw InternalError("no row " + path);
+  row->set(parse_value(*row, value));
+}
+inline void set(World& world, const std::string& path, double value) { set(world, path, shortest(value)); }
+
+/// Where a response has a limit of its own on iterations.
+inline void allow_iterations(Response& response, int most) {
+  const IterationSetting own = response.iteration_setting();
+  if (own.count != nullptr && !own.is_exact) *own.count = most;
+}
+/// Of the response in use.
+inline void allow_iterations(World& world, int most) { allow_iterations(*world.parameters.response.method, most); }
+
+inline std::unique_ptr<Response> make_response(std::string_view name, const std::vector<RowText>& rows = {}) {
+  auto response = make_named(responses(), name);
+  configure(*response, rows);
+  return response;
+}
+/// The same, with as many iterations of its own as it may need.
+inline std::unique_ptr<Response> patient_response(std::string_view name, int most,
+                                                  const std::vector<RowText>& rows = {}) {
+  auto response = make_response(name, rows);
+  allow_iterations(*response, most);
+  return response;
+}
+
+}  // namespace impinge::test

@@ -1,0 +1,236 @@
+// impinge debug
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+#include "engine/core/utf8.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
+#include "viewer/app/frame_progress.hpp"
+#include "viewer/app/shared_options.hpp"
+#include "viewer/controller/interrupt.hpp"
+#include "viewer/debugger/window_loop.hpp"
+#include "viewer/present/window.hpp"
+
+namespace impinge {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A script may hold both: lines by frame (at, from, expect, break), and lines to be done one after another.
+struct DebugScript {
+  std::string name;
+  bool has_timed = false;
+  std::vector<std::string> timed, lines;  // as long as the file, with empty lines where the other has one
+};
+
+DebugScript read_script(const fs::path& path) {
+  DebugScript script;
+  if (path.empty()) return script;
+  script.name = path.string();
+  for (std::string& line : read_lines(path)) {
+    const std::string bare = line.substr(0, line.find('#'));
+    const std::vector<PlacedText> words = split_words({bare, &script.name, 1, 1});
+    const bool timed = !words.empty() && (words[0].text == "at" || words[0].text == "from" ||
+                                          words[0].text == "expect" || words[0].text == "break");
+    script.has_timed |= timed;
+    script.timed.push_back(timed ? line : "");
+    script.lines.push_back(words.empty() || timed ? "" : bare.substr(0, bare.find_last_not_of(" \t\r") + 1));
+  }
+  return script;
+}
+
+struct Source {
+  fs::path scene, run_folder;
+};
+
+/// What the command line says.
+struct Given {
+  fs::path scene, script, out, record;
+  std::vector<std::string> overrides;
+  bool window = false, headless = false, quiet = false;
+  int width = 1280, height = 720;  // pixels
+  int scale = 0;                   // of text; 0: by the height
+  int memory = 256;                // megabytes
+};
+
+Source source_of(const Given& options) {
+  if (!is_folder(options.scene)) return {options.scene, {}};
+  for (const char* name : {"run.toml", "stats.csv"})
+    if (!is_there(options.scene / name))
+      throw InputError(
+          fmt::format("{}: this folder is no run's, it has no {}; a scene file, or a folder that impinge run has "
+                      "written is wanted; choose one",
+                      options.scene.string(), name));
+  if (!options.overrides.empty())
+    throw InputError(
+        "command line: --set with a finished run; its settings are in its run.toml; leave --set out, or debug the "
+        "scene");
+  return {options.scene / "run.toml", options.scene};
+}
+
+/// What a recording is to be played with.
+std::string command_of(const Given& options) {
+  std::string text = fmt::format("# impinge debug {}", options.scene.string());
+  for (const std::string& set : options.overrides) text += fmt::format(" --set '{}'", set);
+  text += fmt::format(" --size {}x{}", options.width, options.height);
+  if (options.scale > 0) text += fmt::format(" --scale {}", options.scale);
+  if (options.memory != Given().memory) text += fmt::format(" --memory {}", options.memory);
+  return text + fmt::format(" --script {}\n", options.record.string());
+}
+
+/// A recording may take the place of an older one, and of nothing else.
+void check_recording(const Given& options) {
+  const fs::path& path = options.record;
+  if (path.empty()) return;
+  check_utf8_name(absolute_path(path).string());
+  std::error_code error;
+  if (fs::equivalent(path, options.script, error))
+    throw InputError(fmt::format("command line: --record is the script itself, {}; another file is wanted; choose one",
+                                 path.string()));
+  if (is_file(path) && fs::file_size(path, error) > 0 &&
+      !read_file(path, std::uint64_t{1} << 30).starts_with("# impinge debug "))
+    throw InputError(
+        fmt::format("command line: --record is {}, which is there and no recording; a new file is wanted; choose "
+                    "another or remove it",
+                    path.string()));
+  try {
+    write_file(path, "");  // better now than when there is something to lose
+  } catch (const OutputError& error) {
+    throw InputError(
+        fmt::format("command line: --record is {}, which can't be written ({}); a file in a folder that may be written "
+                    "to is wanted; choose another",
+                    path.string(), error.reason));
+  }
+}
+
+int debug(const Given& options) {
+  if (options.window && options.headless)
+    refuse_option("--window and --headless", "one of them is allowed", "leave one out");
+  const bool windowed = options.window || (!options.headless && has_screen());
+  if (!windowed && options.script.empty())
+    throw InputError(
+        "command line: debug without a screen and without --script; one of them is wanted; set DISPLAY, or write "
+        "--script FILE");
+  if (options.window && !has_screen())
+    throw InputError(
+        "command line: --window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
+  const int scale = options.scale > 0 ? options.scale : debug_scale(options.height);
+  if (options.width < scale * kLeastWidth || options.height < scale * kLeastHeight)
+    throw InputError(fmt::format(
+        "command line: --size is {}x{}; the panels want {}x{} at least with text of scale {}; choose a larger one{}",
+        options.width, options.height, scale * kLeastWidth, scale * kLeastHeight, scale,
+        scale > 1 ? ", or a smaller --scale" : ""));
+  const Source source = source_of(options);
+  const DebugScript script = read_script(options.script);
+  if (!source.run_folder.empty() && script.has_timed)
+    throw InputError(
+        fmt::format("{}: lines by frame (at, from, expect, break) with a finished run, which has its own; lines done "
+                    "one after another are wanted; debug the scene instead",
+                    script.name));
+  check_recording(options);
+
+  std::unique_ptr<DebugWindow> window;
+  try {
+    window = std::make_unique<DebugWindow>(options.width, options.height, scale);
+  } catch (const InternalError& error) {
+    throw InputError(fmt::format("window of {}x{}: {}; a smaller one is wanted; change --size", options.width,
+                                 options.height, error.what()));
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("window: {}; OpenGL through OSMesa is wanted; install libosmesa6", error.what()));
+  }
+  DebuggerOptions debugged;
+  debugged.session.height = options.height;
+  // what the camera is fitted to is the view
+  debugged.session.width = static_cast<int>(options.height * window->view_aspect());
+  if (script.has_timed) debugged.session.script_lines = script.timed;
+  debugged.most_bytes = static_cast<std::size_t>(options.memory) << 20;
+  debugged.run_folder = source.run_folder;
+  debugged.interrupted = &interrupted();
+  explain_interrupt("going back to the last whole frame and ending, within 2 s");
+  FrameProgress progress;
+  if (!options.quiet && isatty(STDERR_FILENO))
+    debugged.progress = [&](int frame, int last) {
+      if (frame < last)
+        progress.show(frame, last);
+      else
+        progress.clear();
+    };
+  // without: a finished run's own
+  Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debugged);
+  DebugLoop loop(debugger, *window, options.out);
+
+  std::string saved;
+  const auto save_recording = [&] {
+    if (options.record.empty()) return;
+    std::string text = command_of(options);
+    for (const std::string& line : script.timed)
+      if (!line.empty()) text += line + "\n";
+    for (const std::string& line : debugger.recording(loop.pointer())) text += line + "\n";
+    if (text != saved) write_file(options.record, text);
+    saved = std::move(text);
+  };
+  const auto line_at = [&](std::size_t i) -> PlacedText {
+    const std::size_t first = script.lines[i].find_first_not_of(" \t");
+    return {std::string_view(script.lines[i]).substr(first), &script.name, static_cast<int>(i) + 1,
+            static_cast<int>(first) + 1};
+  };
+  for (std::size_t i = 0; i < script.lines.size(); ++i)
+    if (!script.lines[i].empty()) debugger.check(line_at(i));
+  try {
+    for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit() && !interrupted(); ++i)
+      if (!script.lines[i].empty()) loop.run_line(line_at(i));
+    if (windowed && !loop.has_quit() && !interrupted())
+      show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted(), save_recording);
+  } catch (const Interrupted&) {  // while a frame was drawn or brought back
+  } catch (...) {
+    save_recording();  // what was done before is kept
+    throw;
+  }
+  save_recording();
+  if (!options.quiet) fmt::print("frame {}, state {}\n", debugger.model().frame, hex64(debugger.state_hash()));
+  for (const ConsoleLine& line : debugger.model().console)
+    if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+  if (interrupted()) return 130;
+  return debugger.failures() > 0 ? 1 : 0;
+}
+
+class DebugCommand : public SubCommand {
+ public:
+  void declare(Options& options) override {
+    options.word("SCENE", given_.scene,
+                 "scene file (TOML), or the folder of a run, which is shown without being simulated again where it has "
+                 "kept the frame's state");
+    script_option(options, given_.script,
+                  "script file: lines by frame as for run, and lines done one after another (viewer/README.md)");
+    options.path("--record", given_.record, "file that gets what was done, as lines of a script that do it again");
+    options.flag("--window", given_.window,
+                 "show a window, after the script if there is one (default where there is a screen)");
+    options.flag("--headless", given_.headless, "no window: the script drives it");
+    options.path("--out", given_.out, "folder that `shot FILE` lines write into (default: here)");
+    size_option(options, given_.width, given_.height, "WIDTHxHEIGHT of the window in pixels (default: 1280x720)");
+    options.whole("--scale", given_.scale, 1, 8, "size of text, in steps of 13 pixels (default: by the height)");
+    options.whole("--memory", given_.memory, 1, 1 << 20, "megabytes of states kept for going back (default: 256)");
+    set_option(options, given_.overrides, "PATH=VALUE: override a parameter of the scene (repeatable)");
+    quiet_option(options, given_.quiet, "say nothing but problems");
+    threads_option(options);
+  }
+  int run() override { return debug(given_); }
+
+ private:
+  Given given_;
+};
+
+}  // namespace
+
+Entry<SubCommand> debug_command() {
+  return entry<SubCommand, DebugCommand>(
+      "debug", "the interactive debugger: play, step, go back, pick and change; what is done by hand is a script");
+}
+
+}  // namespace impinge

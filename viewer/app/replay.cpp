@@ -1,0 +1,70 @@
+// impinge replay
+#include <fmt/format.h>
+
+#include "engine/core/archive.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
+#include "viewer/app/shared_options.hpp"
+#include "viewer/controller/session.hpp"
+#include "viewer/controller/stats_table.hpp"
+
+namespace impinge {
+
+namespace {
+
+/// Returns the exit code.
+int replay(const std::filesystem::path& folder) {
+  if (!is_file(folder / "run.toml"))
+    throw InputError(folder.string() +
+                     ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
+  const std::string table = read_file(folder / "stats.csv", std::uint64_t{64} << 30);
+  Session session(folder / "run.toml", {}, {});
+  if (!session.scene().run)
+    throw InputError((folder / "run.toml").string() +
+                     ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
+
+  int frames = 0, different = 0;
+  const std::string file = (folder / "stats.csv").string();
+  StatsReader reader(table, session.is_judged(), file);
+  for (StatsLine row; reader.next(row);) {
+    session.advance();
+    const std::string hash = hex64(session.record().stats.state_hash);
+    if (row.figures[0] != session.frame())
+      throw InputError(fmt::format("{}: row {} is of frame {}; rows in order are wanted; run the scene again",
+                                   (folder / "stats.csv").string(), frames, row.figures[0]));
+    if (hash != row.state_hash && different++ == 0)
+      fmt::print("frame {}: state hash {}, recorded {}\n", session.frame(), hash, row.state_hash);
+    ++frames;
+  }
+  if (frames == 0)
+    throw InputError((folder / "stats.csv").string() +
+                     ": has no frames; a recorded run is wanted; run the scene first");
+  if (different > 0) {
+    fmt::print("{}: {} of {} frames differ\n", folder.string(), different, frames);
+    if (session.scene().run->version != IMPINGE_VERSION)
+      fmt::print("it was recorded by version {}, this is {}\n", session.scene().run->version, IMPINGE_VERSION);
+    return 1;
+  }
+  fmt::print("{}: {} frames repeated, every state hash is the recorded one\n", folder.string(), frames);
+  return 0;
+}
+
+class ReplayCommand : public SubCommand {
+ public:
+  void declare(Options& options) override {
+    options.word("DIR", folder_, "folder of the run");
+    threads_option(options);
+  }
+  int run() override { return replay(folder_); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace
+
+Entry<SubCommand> replay_command() {
+  return entry<SubCommand, ReplayCommand>("replay", "repeat a recorded run and check every state hash");
+}
+
+}  // namespace impinge

@@ -1,0 +1,21 @@
+#include "viewer/app/reserved_words.hpp"
+
+namespace impinge {
+
+namespace {
+
+// who builds one takes its line away
+constexpr std::string_view kCommands[] = {
+    "verify", "why", "mesh", "export", "shrink", "clean", "show", "judge", "trace",
+};
+constexpr ReservedOption kOptions[] = {
+    {"run", "--force"}, {"run", "--strict"}, {"check", "--strict"}, {"check", "--trial"},         {"list", "--json"},
+    {"debug", "--vnc"}, {"debug", "--web"},  {"debug", "--listen"}, {"debug", "--password-file"},
+};
+
+}  // namespace
+
+std::span<const std::string_view> reserved_commands() { return kCommands; }
+std::span<const ReservedOption> reserved_options() { return kOptions; }
+
+}  // namespace impinge

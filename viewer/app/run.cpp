@@ -1,0 +1,151 @@
+// impinge run
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "engine/core/error.hpp"
+#include "engine/io/paths.hpp"
+#include "viewer/app/convergence_note.hpp"
+#include "viewer/app/frame_progress.hpp"
+#include "viewer/app/shared_options.hpp"
+#include "viewer/controller/interrupt.hpp"
+#include "viewer/controller/run.hpp"
+#include "viewer/image/contact_sheet.hpp"
+#include "viewer/image/png.hpp"
+#include "viewer/present/png_sequence.hpp"
+#include "viewer/present/video.hpp"
+
+namespace impinge {
+
+namespace {
+
+/// Before anything is simulated: a film that could not be written at the end.
+void check_video_path(const std::filesystem::path& video, const std::filesystem::path& out) {
+  const std::filesystem::path folder = absolute_path(video).lexically_normal().parent_path();
+  static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
+  if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
+    throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(),
+                                 fmt::join(kEndings, ", ")));
+  // the run's own folder comes into being with the run
+  const bool is_own = folder == (absolute_path(out) / "").lexically_normal().parent_path();
+  if (!is_own && !is_folder(folder))
+    throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another",
+                                 video.string(), folder.string()));
+  if (!is_own && access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(
+        fmt::format("command line: --video is '{}'; it can't be written ({}); a folder that may be written to is "
+                    "wanted; name another",
+                    video.string(), std::strerror(errno)));
+}
+
+// the path of the sheet
+std::string write_contact_sheet(const std::filesystem::path& out, int last_frame) {
+  std::vector<std::filesystem::path> frames;
+  for (int frame = 0; frame <= last_frame; ++frame) frames.push_back(out / "frames" / PngSequence::file_name(frame));
+  const std::filesystem::path sheet = out / "contact_sheet.png";
+  write_png(sheet, make_contact_sheet(frames, 5, 25));
+  return sheet.string();
+}
+
+bool write_video(const std::filesystem::path& out, const std::filesystem::path& video, double frames_per_second) {
+  const bool made = make_video(out / "frames", video, frames_per_second);
+  if (!made) fmt::print(stderr, "note: ffmpeg is not installed, so there is no video\n");
+  return made;
+}
+
+class RunCommand : public SubCommand {
+ public:
+  void declare(Options& options) override;
+  int run() override;
+
+ private:
+  RunOptions options_;
+  std::filesystem::path video_;
+  bool quiet_ = false;
+};
+
+void RunCommand::declare(Options& options) {
+  scene_options(options, options_.scene, options_.overrides);
+  script_option(options, options_.script);
+  options.path("--out", options_.out, "folder to write to (default: out/SCENE)");
+  frames_option(options, options_.frames);
+  size_option(options, options_.width, options_.height);
+  images_option(options, options_.images);
+  const auto take_format = [this](const std::string& format) {
+    if (format != "ply") refuse_option(fmt::format("--export is '{}'", format), "ply is wanted", "write --export ply");
+    options_.export_ply = true;
+  };
+  options.other("--export", take_format, "ply: the bodies' surfaces of each frame");
+  options.flag("--contacts", options_.contacts, "write contacts.csv");
+  options.flag("--ids", options_.ids,
+               "write ids/NNNNNN.png too: what each pixel of a frame shows, for impinge diff to name what changed");
+  options.whole(
+      "--snapshots", [this](int megabytes) { options_.snapshot_megabytes = static_cast<std::uint64_t>(megabytes); }, 0,
+      1 << 20,
+      "megabytes for the states of the frames (default: 256): from these a run is resumed, and opened in the debugger "
+      "without being simulated again; where they don't fit every second one is given up, and so on");
+  options.flag("--judge", options_.judge,
+               "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
+  options.whole("--freeze", options_.freeze, 0, 100'000'000,
+                "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
+  threads_option(options);
+  options.flag("--resume", options_.resume, "continue an interrupted run in the folder");
+  options.path("--video", video_, "video file to make of the pictures (needs ffmpeg)");
+  quiet_option(options, quiet_);
+}
+
+int RunCommand::run() {
+  if (options_.out.empty()) options_.out = default_out(options_.scene);
+  if (!video_.empty() && !options_.images)
+    refuse_option("--video in a run without pictures", "pictures are wanted", "leave out --no-images");
+  explain_interrupt("stopping at the last whole frame, within 2 s");
+  FrameProgress progress;
+  RunWatcher watcher;
+  if (!video_.empty()) check_video_path(video_, options_.out);
+  const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
+  ConvergenceNote convergence;
+  watcher.frame = [&](const FrameStats& stats, int last_frame) {
+    convergence.add(stats);
+    if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
+  };
+  watcher.message = [&](const std::string& line) {
+    progress.clear();
+    fmt::print(stderr, "{}\n", line);
+  };
+  const RunResult result = impinge::run(options_, watcher);
+  progress.clear();
+  if (!result.diverged.empty()) fmt::print(stderr, "diverged: {}\n", result.diverged);
+  if (result.interrupted)
+    fmt::print(stderr, "interrupted {} {}; the same command with --resume goes on\n",
+               result.last_frame < 0 ? "before frame" : "after frame", std::max(0, result.last_frame));
+  const std::string sheet =
+      options_.images && result.exit_code() < 2 ? write_contact_sheet(options_.out, result.last_frame) : "";
+  const bool filmed = !sheet.empty() && !video_.empty() && write_video(options_.out, video_, result.frames_per_second);
+  if (quiet_) return result.exit_code();
+
+  fmt::print("{}", convergence.text());
+  if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
+  if (options_.images && result.last_frame >= 0)
+    fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);
+  fmt::print("figures:  {}/stats.csv ({} frames)\n", options_.out.string(), result.last_frame + 1);
+  if (!result.frozen_step.empty())
+    fmt::print("frozen:   {} ({} group{}, {} contact{}); impinge step solves it\n", result.frozen_step.string(),
+               result.frozen_groups, result.frozen_groups == 1 ? "" : "s", result.frozen_contacts,
+               result.frozen_contacts == 1 ? "" : "s");
+  if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
+  if (filmed) fmt::print("video:    {}\n", video_.string());
+  if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");
+  return result.exit_code();
+}
+
+}  // namespace
+
+Entry<SubCommand> run_command() {
+  return entry<SubCommand, RunCommand>("run", "simulate a scene and write its frames and figures into a folder");
+}
+
+}  // namespace impinge

@@ -1,0 +1,192 @@
+#include "viewer/compare/run_comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
+#include "engine/io/scene/former_paths.hpp"
+#include "engine/io/scene/toml.hpp"
+#include "viewer/controller/snapshot_file.hpp"
+#include "viewer/present/png_sequence.hpp"
+
+namespace impinge {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 30;
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+bool is_named_list(const TomlNode& node) {
+  return node.kind == TomlNode::array && !node.items.empty() &&
+         std::all_of(node.items.begin(), node.items.end(),
+                     [](const TomlNode& item) { return item.kind == TomlNode::table && item.find("name") != nullptr; });
+}
+
+// every value of a document by its path; bodies by their names
+void flatten(const TomlNode& table, const std::string& prefix, Settings& out) {
+  for (const TomlEntry& entry : table.entries) {
+    const std::string path = prefix + entry.key;
+    if (is_named_list(entry.value)) {
+      for (const TomlNode& item : entry.value.items)
+        flatten(item, path + "." + item.find("name")->value.string + ".", out);
+    } else if (path == "run.script") {
+      // by what they say, not by their number; what says nothing counts for nothing
+      for (const TomlNode& line : entry.value.items)
+        if (const std::size_t begin = line.string.find_first_not_of(" \t");
+            begin != std::string::npos && line.string[begin] != '#')
+          out.emplace_back("script: " + line.string.substr(begin), "there");
+    } else if (entry.value.kind == TomlNode::table) {
+      flatten(entry.value, path + ".", out);
+    } else {
+      out.emplace_back(path, format_toml(entry.value));
+    }
+  }
+}
+
+Settings settings_of(const RecordedRun& run) {
+  const fs::path file = run.folder() / "run.toml";
+  TomlNode root = parse_toml(file.string(), read_file(file, kMostBytes));
+  rename_former_paths(root, run.session().rows());
+  Settings settings;
+  flatten(root, "", settings);
+  return settings;
+}
+
+std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
+  const std::string table = read_file(file, kMostBytes);
+  const std::string name = file.string();
+  StatsReader reader(table, judged, name);
+  std::vector<StatsLine> rows;
+  for (StatsLine row; reader.next(row); rows.push_back(row))
+    if (row.figures[0] != static_cast<double>(rows.size()))
+      throw InputError(fmt::format("{}:{}: is of frame {}; rows in order are wanted; run the scene again", name,
+                                   rows.size() + 2, row.figures[0]));
+  if (rows.empty()) throw InputError(file.string() + ": has no frames; a recorded run is wanted; run the scene first");
+  return rows;
+}
+
+void compare_vectors(const std::string& body, const char* field, const char* unit, const Vec3& a, const Vec3& b,
+                     std::vector<FieldDifference>& out) {
+  if (a != b) out.push_back({body, field, unit, (a - b).norm(), ""});
+}
+
+// node by node
+void compare_nodes(const std::string& body, const char* field, const char* unit, const VecX& a, const VecX& b,
+                   std::vector<FieldDifference>& out) {
+  if (a.size() != b.size()) {
+    out.push_back({body, fmt::format("number of nodes ({} and {})", a.size() / 3, b.size() / 3), "", 0.0, ""});
+    return;
+  }
+  FieldDifference difference{body, field, unit, -1.0, ""};
+  for (Eigen::Index i = 0; i + 2 < a.size(); i += 3) {
+    const Vec3 p = a.segment<3>(i), q = b.segment<3>(i);
+    if (p != q && (p - q).norm() > difference.largest)
+      difference.largest = (p - q).norm(), difference.where = fmt::format("node {}", i / 3);
+  }
+  if (difference.largest >= 0.0) out.push_back(std::move(difference));
+}
+
+double angle_between(const Mat3& a, const Mat3& b) {
+  // from the distance of the matrices: exact for small angles too
+  return 2.0 * std::asin(std::min(1.0, (a - b).norm() / (2.0 * std::numbers::sqrt2))) * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+std::vector<SettingDifference> setting_differences(const RecordedRun& run_a, const RecordedRun& run_b) {
+  const Settings a = settings_of(run_a), b = settings_of(run_b);
+  const std::map<std::string, std::string> in_a(a.begin(), a.end()), in_b(b.begin(), b.end());
+  std::vector<SettingDifference> differences;
+  for (const auto& [path, value] : a) {
+    const auto it = in_b.find(path);
+    if (it == in_b.end())
+      differences.push_back({path, value, ""});
+    else if (it->second != value)
+      differences.push_back({path, value, it->second});
+  }
+  for (const auto& [path, value] : b)
+    if (!in_a.contains(path)) differences.push_back({path, "", value});
+  return differences;
+}
+
+RecordedRun::RecordedRun(const fs::path& folder) : folder_(folder) {
+  if (!is_file(folder / "run.toml"))
+    throw InputError(folder.string() +
+                     ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
+  session_ = std::make_unique<Session>(folder / "run.toml", std::vector<std::string>(), fs::path(),
+                                       SessionOptions{1280, 720, false, true});
+  if (!session_->scene().run)
+    throw InputError((folder / "run.toml").string() +
+                     ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
+  is_judged_ = session_->is_judged();
+  rows_ = read_rows(folder / "stats.csv", is_judged_);
+}
+
+fs::path RecordedRun::picture(int frame) const { return folder_ / "frames" / PngSequence::file_name(frame); }
+
+bool RecordedRun::has_snapshot(int frame) const {
+  return is_valid_snapshot(folder_ / "snapshots" / fmt::format("{:06}.bin", frame));
+}
+
+bool RecordedRun::go_to(int frame) {
+  IMPINGE_ASSERT(frame >= session_->frame() && frame < static_cast<int>(rows_.size()));
+  for (int from = frame; from > session_->frame() && from > 0; --from) {
+    if (!has_snapshot(from)) continue;
+    restore_snapshot(folder_ / "snapshots" / fmt::format("{:06}.bin", from), *session_);
+    break;
+  }
+  while (session_->frame() < frame) session_->advance();
+  return hex64(session_->world().state_hash()) == rows_[static_cast<std::size_t>(frame)].state_hash;
+}
+
+std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRecord& b) {
+  std::vector<FieldDifference> out;
+  for (const BodyRecord& p : a.bodies) {
+    const auto it =
+        std::find_if(b.bodies.begin(), b.bodies.end(), [&](const BodyRecord& body) { return body.name == p.name; });
+    if (it == b.bodies.end()) continue;
+    const BodyRecord& q = *it;
+    const std::string name(p.name);
+    if (p.kind != q.kind) {
+      out.push_back({name, "kind", "", 0.0, ""});
+      continue;
+    }
+    if (p.soft != nullptr && q.soft != nullptr) {
+      compare_nodes(name, "position", "m", p.soft->position, q.soft->position, out);
+      compare_nodes(name, "velocity", "m/s", p.soft->velocity, q.soft->velocity, out);
+      continue;
+    }
+    compare_vectors(name, "position", "m", p.pose.position, q.pose.position, out);
+    if (p.pose.rotation != q.pose.rotation)
+      out.push_back({name, "rotation", "degrees", angle_between(p.pose.rotation, q.pose.rotation), ""});
+    compare_vectors(name, "velocity", "m/s", p.velocity, q.velocity, out);
+    compare_vectors(name, "angular velocity", "rad/s", p.angular_velocity, q.angular_velocity, out);
+    if (p.asleep != q.asleep)
+      out.push_back({name, p.asleep ? "sleep (asleep in A only)" : "sleep (asleep in B only)", "", 0.0, ""});
+  }
+  return out;
+}
+
+std::vector<std::string> bodies_of_one(const StepRecord& a, const StepRecord& b) {
+  std::vector<std::string> names;
+  const auto add = [&](const StepRecord& from, const StepRecord& other, const char* side) {
+    for (const BodyRecord& body : from.bodies)
+      if (std::none_of(other.bodies.begin(), other.bodies.end(),
+                       [&](const BodyRecord& o) { return o.name == body.name; }))
+        names.push_back(fmt::format("{} (only in {})", body.name, side));
+  };
+  add(a, b, "A");
+  add(b, a, "B");
+  return names;
+}
+
+}  // namespace impinge

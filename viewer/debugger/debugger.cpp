@@ -1,0 +1,432 @@
+#include "viewer/debugger/debugger.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+#include "engine/io/file.hpp"
+#include "viewer/controller/run_folder.hpp"
+#include "viewer/controller/snapshot_file.hpp"
+#include "viewer/controller/stats_table.hpp"
+
+namespace impinge {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kConsoleLines = 500;
+
+bool changes_model(const Command& command) {
+  const auto* set = std::get_if<SetCommand>(&command);
+  return set != nullptr && !set->path.starts_with("view.");
+}
+
+std::string pointer_line(const Vec2& pointer) {
+  return fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y()));
+}
+
+std::string word_of(const std::string& line, int n) {
+  std::size_t begin = 0;
+  for (; n > 0 && begin < line.size(); --n) begin = std::min(line.find(' ', begin), line.size() - 1) + 1;
+  return line.substr(begin, line.find(' ', begin) - begin);
+}
+
+}  // namespace
+
+Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overrides, const fs::path& script,
+                   const DebuggerOptions& options)
+    : interrupted_(options.interrupted),
+      progress_(options.progress),
+      session_(scene, overrides, script, options.session),
+      ring_(options.most_bytes),
+      run_folder_(options.run_folder),
+      expectations_(session_.script(), session_.is_judged(), false,
+                    [this](const std::string& text) { say(ConsoleLine::problem, text); }) {
+  model_.scene = session_.scene().path.filename().string();
+  if (!run_folder_.empty()) {
+    model_.scene = run_folder_.filename().string();
+    read_run_folder();
+  }
+  session_.rows().find("view.panel.figures")->set(false);  // the panels say it
+  if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
+  if (advance()) breaks_here();
+}
+
+void Debugger::read_run_folder() {
+  const fs::path file = run_folder_ / "stats.csv";
+  const std::string text = read_file(file, std::uint64_t{1} << 32);
+  std::vector<StatsLine> rows = whole_rows(text, session_.is_judged());
+  // a run that was cut off may have ended within a line, but not before one
+  if (const auto lines = std::count(text.begin(), text.end(), '\n'); rows.empty() || std::ssize(rows) + 1 < lines)
+    throw InputError(
+        fmt::format("{}:{}: this line is no whole row of a frame; a run's table is wanted; run the scene again",
+                    file.string(), rows.empty() ? 1 : rows.size() + 2));
+  for (StatsLine& row : rows) {
+    hashes_.push_back(std::stoull(row.state_hash, nullptr, 16));
+    history_.push_back(std::move(row.figures));
+  }
+  folder_last_ = static_cast<int>(rows.size()) - 1;
+}
+
+void Debugger::check_hash(int frame) {
+  const std::uint64_t before = hashes_[static_cast<std::size_t>(frame)], now = state_hash();
+  if (before == now || told_of_hash_) return;
+  told_of_hash_ = true;  // what follows differs too
+  if (frame <= folder_last_)
+    say(ConsoleLine::problem,
+        fmt::format("frame {} came out as {:016x}; stats.csv has {:016x}: another program, machine or mesh made it",
+                    frame, now, before));
+  else
+    say(ConsoleLine::problem,
+        fmt::format("frame {} came out as {:016x}, not {:016x} as before: a bug of impinge", frame, now, before));
+}
+
+/// To a frame whose state is kept, with what the script has for it that is of the view.
+bool Debugger::bring_back(int frame) {
+  if (frame >= static_cast<int>(hashes_.size())) return false;
+  if (!ring_.has(frame) && !(frame <= folder_last_ && is_valid_snapshot(snapshot_file(frame)))) return false;
+  restore_before(frame);
+  const std::vector<Command> commands = session_.script().commands_at(frame);
+  if (!commands.empty()) changed_frames_.insert(frame);
+  for (const Command& command : commands)
+    if (!changes_model(command)) session_.change(command);
+  return true;
+}
+
+bool Debugger::advance() {
+  const int next = session_.frame() + 1;
+  if (next > 0 && bring_back(next)) {
+    note_frame();
+    return true;
+  }
+  // again where they were applied already: a value set twice is the same value
+  if (const auto it = by_hand_.find(next); it != by_hand_.end())
+    for (const Command& command : it->second) session_.change(command);
+  try {
+    if (!session_.advance().empty()) changed_frames_.insert(next);
+  } catch (const Interrupted&) {
+    if (next == 0) throw;  // there is no state yet
+    playing_ = false;
+    const InterruptScope finish(nullptr);
+    restore_before(next - 1);
+    return false;
+  } catch (const DivergenceError& error) {
+    playing_ = false;
+    say(ConsoleLine::problem, fmt::format("diverged: {}", error.what()));
+    restore_before(next - 1);
+    while (session_.frame() < next - 1 && advance()) {
+    }
+    return false;
+  }
+  note_frame();
+  return true;
+}
+
+void Debugger::note_frame() {
+  const StepRecord& record = session_.record();
+  const auto frame = static_cast<std::size_t>(session_.frame());
+  std::vector<double> figures = figure_values(record.stats, session_.is_judged());
+  if (frame < hashes_.size()) {
+    check_hash(session_.frame());
+  } else {
+    history_.push_back(std::move(figures));
+    hashes_.push_back(record.stats.state_hash);
+    expectations_.check(session_.frame(), history_.back(), [] { return fs::path(); });
+  }
+  if (!ring_.has(session_.frame())) {
+    ByteWriter state;
+    session_.save(state);
+    ring_.put(session_.frame(), state.bytes());
+    ++puts_;
+  }
+  follow_selection();
+}
+
+std::span<const double> Debugger::figures_before(int frame) const {
+  if (frame == 0) return {};
+  return history_[static_cast<std::size_t>(frame) - 1];
+}
+
+/// Whether a `break` becomes true with the present frame; says which. Whoever goes on stops then.
+bool Debugger::breaks_here() {
+  const auto frame = static_cast<std::size_t>(session_.frame());
+  stopped_ = expectations_.breaks(session_.frame(), history_[frame], figures_before(session_.frame()));
+  if (stopped_) playing_ = false;
+  return stopped_;
+}
+
+/// The first frame after `frame`, up to `last`, that is known and with which a `break` becomes true; `last` if none.
+int Debugger::next_known_break(int frame, int last) const {
+  for (int k = frame + 1; k < std::min(last, static_cast<int>(history_.size())); ++k)
+    if (expectations_.would_break(history_[static_cast<std::size_t>(k)], figures_before(k))) return k;
+  return last;
+}
+
+void Debugger::restore_before(int frame) {
+  std::vector<std::pair<const Parameter*, ParameterValue>> view;  // stays as it is
+  for (const Parameter& row : session_.rows().all())
+    if (row.path.starts_with("view.")) view.emplace_back(&row, row.get());
+  const std::optional<int> in_memory = ring_.at_or_before(frame);
+  // which reads files
+  const std::optional<int> in_folder = in_memory == frame ? std::nullopt : last_snapshot_before(frame);
+  if (in_folder && (!in_memory || *in_folder > *in_memory)) {
+    restore_snapshot(snapshot_file(*in_folder), session_);
+  } else {
+    ByteReader state(ring_.state(*in_memory));
+    session_.restore(state);
+  }
+  for (const auto& [row, value] : view) row->set(value);
+}
+
+fs::path Debugger::snapshot_file(int frame) const {
+  return run_folder_ / "snapshots" / fmt::format("{:06}.bin", frame);
+}
+
+std::optional<int> Debugger::last_snapshot_before(int frame) const {
+  for (int k = std::min(frame, folder_last_); k >= 0; --k)
+    if (is_valid_snapshot(snapshot_file(k))) return k;
+  return std::nullopt;
+}
+
+void Debugger::seek(int frame) {
+  const int from = session_.frame();
+  const bool back = frame < from;
+  frame = next_known_break(from, frame);  // a jump over frames that are known stops where going through them would
+  const bool known = frame < static_cast<int>(hashes_.size());
+  if (back || (known && std::max(ring_.at_or_before(frame).value_or(0), last_snapshot_before(frame).value_or(0)) >
+                            session_.frame())) {
+    restore_before(frame);
+    check_hash(session_.frame());
+  }
+  if (session_.frame() < std::min(frame, folder_last_) && !told_of_missing_) {
+    told_of_missing_ = true;
+    say(ConsoleLine::message,
+        fmt::format("the run kept no state of frame {}: made again from frame {}", frame, session_.frame()));
+  }
+  if (session_.frame() > from && session_.frame() == frame) breaks_here();
+  while (session_.frame() < frame && !is_interrupted() && advance()) {
+    if (progress_) progress_(session_.frame(), frame);
+    if (session_.frame() > from && breaks_here()) break;
+  }
+  if (progress_ && session_.frame() < frame) progress_(frame, frame);  // cut short: nothing more to show
+  follow_selection();
+}
+
+void Debugger::do_command(const Command& command) {
+  if (changes_model(command)) {
+    const int next = session_.frame() + 1;
+    by_hand_.erase(by_hand_.upper_bound(next), by_hand_.end());
+    changed_frames_.erase(changed_frames_.upper_bound(next), changed_frames_.end());
+    ring_.cut(session_.frame());
+    history_.resize(static_cast<std::size_t>(next));
+    hashes_.resize(static_cast<std::size_t>(next));
+    folder_last_ = std::min(folder_last_, session_.frame());  // its later frames are of another run now
+    std::vector<Command>& commands = by_hand_[next];
+    std::erase_if(commands,
+                  [&](const Command& c) { return std::get<SetCommand>(c).path == std::get<SetCommand>(command).path; });
+    commands.push_back(command);
+    changed_frames_.insert(next);
+  }
+  session_.change(command);
+}
+
+void Debugger::do_transport(const TransportLine& line) {
+  switch (line.verb) {
+    case TransportLine::play:
+      playing_ = true;
+      break;
+    case TransportLine::pause:
+      playing_ = false;
+      break;
+    case TransportLine::step:
+      seek(session_.frame() + line.frames);
+      break;
+    case TransportLine::back:
+      seek(std::max(0, session_.frame() - line.frames));
+      break;
+    case TransportLine::seek:
+      seek(line.frames);
+  }
+}
+
+void Debugger::do_select(Selection s) {
+  if (s.kind == Selection::contact) s.pair_id = session_.record().contacts[static_cast<std::size_t>(s.index)].pair_id;
+  model_.selection = s;
+}
+
+void Debugger::follow_selection() {
+  Selection& s = model_.selection;
+  if (s.kind != Selection::contact) return;
+  const std::vector<ContactRecord>& contacts = session_.record().contacts;
+  const auto it =
+      std::find_if(contacts.begin(), contacts.end(), [&](const ContactRecord& c) { return c.pair_id == s.pair_id; });
+  s.index = it == contacts.end() ? -1 : static_cast<int>(it - contacts.begin());
+}
+
+void Debugger::do_panel(const PanelLine& line) { take(line, model_.state); }
+
+void Debugger::check(const PlacedText& line) const {
+  if (line.text.starts_with("select contact")) return;  // how many there are depends on the frame
+  parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+}
+
+std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
+  DebugLine parsed = parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+  if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<ShotLine>(parsed) ||
+      std::holds_alternative<QuitLine>(parsed))
+    return parsed;
+  known_before_ = static_cast<int>(hashes_.size());
+  puts_before_ = puts_;
+  stopped_ = false;
+  const int before = session_.frame();
+  if (const auto* commands = std::get_if<std::vector<Command>>(&parsed)) {
+    for (const Command& command : *commands) do_command(command);
+    const std::string path = word_of(std::string(line.text), 1);
+    if (session_.rows().renamed(path) != nullptr) {  // recorded as it is written today
+      say(ConsoleLine::message, session_.rows().note_of_former({path}));
+      for (const Command& command : *commands) record(format_command(command));
+      return std::nullopt;
+    }
+  }
+  if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
+  if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
+  if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
+  // a line that was cut short is recorded as what it did
+  const auto* transport = std::get_if<TransportLine>(&parsed);
+  std::string done(line.text);
+  const int made = session_.frame() - before;
+  if (transport != nullptr && stopped_ && transport->verb == TransportLine::step && made < transport->frames)
+    done = fmt::format("step {}", made);
+  else if (transport != nullptr && ((stopped_ && transport->verb == TransportLine::seek) || is_interrupted()))
+    done = fmt::format("seek {}", session_.frame());
+  record(done);
+  return std::nullopt;
+}
+
+std::optional<DebugLine> Debugger::try_execute(const std::string& line) {
+  static const std::string kConsole = "console";
+  try {
+    return execute({line, &kConsole, 1, 1});
+  } catch (const InputError& error) {
+    say(ConsoleLine::problem, error.what());
+    return std::nullopt;
+  }
+}
+
+bool Debugger::play_on() {
+  if (!playing_) return false;
+  known_before_ = static_cast<int>(hashes_.size());
+  puts_before_ = puts_;
+  stopped_ = false;
+  if (advance()) {
+    breaks_here();
+    record("step");
+  }
+  return true;
+}
+
+void Debugger::say(ConsoleLine::Kind kind, const std::string& text) {
+  may_merge_ = kind == ConsoleLine::command;
+  model_.console.push_back({kind, text});
+  if (model_.console.size() > kConsoleLines) model_.console.erase(model_.console.begin());
+}
+
+void Debugger::add_recorded(const std::string& line) {
+  recorded_.push_back(line);
+  say(ConsoleLine::command, line);
+}
+
+void Debugger::replace_recorded(const std::string& line) {
+  recorded_.back() = line;
+  model_.console.back().text = line;
+}
+
+/// Of lines that follow each other only the sum or the last is kept, but only where that comes to the same to the last
+/// bit: the frames that are known and the states that are kept show too.
+void Debugger::record(const std::string& line) {
+  const std::string verb = word_of(line, 0);
+  if (verb == "play" || verb == "pause") return;  // what counts is how many frames were made
+  if (verb == "step" || verb == "seek") return record_transport(line);
+  trace_ = other;
+  if (verb == "camera" && word_of(line, 1) != "fov") return record_camera();
+  if (may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb &&
+      word_of(recorded_.back(), 1) == word_of(line, 1)) {
+    const std::string what = verb == "panel" ? word_of(line, 1) : "";
+    if (verb == "set" || what == "filter" || (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2)))
+      return replace_recorded(line);
+  }
+  add_recorded(line);
+}
+
+void Debugger::record_transport(const std::string& line) {
+  const std::string verb = word_of(line, 0);
+  const int known = static_cast<int>(hashes_.size()), made = known - known_before_;
+  const auto frames = [](const std::string& text) {
+    return text.find(' ') == std::string::npos ? 1 : std::stoi(word_of(text, 1));
+  };
+  // a `break` would cut the sum of two lines short where it did the first
+  const Trace trace = stopped_                                          ? other
+                      : known == known_before_ && puts_ == puts_before_ ? none
+                      : verb == "step" && made == frames(line)          ? new_frames
+                                                                        : other;
+  const bool same = may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb;
+  if (same && verb == "step" && trace == trace_ && trace != other)
+    return replace_recorded(fmt::format("step {}", frames(recorded_.back()) + frames(line)));
+  const bool replaces = same && verb == "seek" && trace_ == none;
+  trace_ = trace;
+  if (replaces)
+    replace_recorded(line);
+  else
+    add_recorded(line);
+}
+
+/// Where the camera is, whatever moved it there.
+void Debugger::record_camera() {
+  const Camera& camera = view().camera;
+  const auto line = [](const char* what, const Vec3& v) {
+    return fmt::format("camera {} {} {} {}", what, shortest(v.x()), shortest(v.y()), shortest(v.z()));
+  };
+  const std::string eye = line("eye", camera.eye), target = line("target", camera.target);
+  const std::size_t n = recorded_.size(), shown = model_.console.size();
+  if (may_merge_ && n >= 2 && shown >= 2 && recorded_[n - 1].starts_with("camera target") &&
+      recorded_[n - 2].starts_with("camera eye") && model_.console[shown - 2].text == recorded_[n - 2]) {
+    recorded_[n - 2] = model_.console[shown - 2].text = eye;
+    return replace_recorded(target);
+  }
+  add_recorded(eye);
+  add_recorded(target);
+}
+
+void Debugger::record_shot(const std::string& file, const Vec2& pointer) {
+  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) add_recorded(pointer_line(pointer));
+  if (playing_) add_recorded("play");  // the button shows it
+  add_recorded("shot " + file);
+  if (playing_) add_recorded("pause");
+}
+
+std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
+  std::vector<std::string> lines = recorded_;
+  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) lines.push_back(pointer_line(pointer));
+  if (playing_) lines.push_back("play");
+  return lines;
+}
+
+const DebugModel& Debugger::model() {
+  model_.record = &session_.record();
+  model_.rows = &session_.rows();
+  model_.view = &view();
+  model_.frame = session_.frame();
+  model_.known_last = static_cast<int>(hashes_.size()) - 1;
+  model_.playing = playing_;
+  model_.figure_names = &figure_names(session_.is_judged());
+  model_.history = &history_;
+  model_.changed_frames = &changed_frames_;
+  model_.snapshots = ring_.count();
+  model_.snapshot_bytes = ring_.bytes();
+  model_.most_snapshot_bytes = ring_.most();
+  return model_;
+}
+
+}  // namespace impinge

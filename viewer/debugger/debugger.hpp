@@ -1,0 +1,104 @@
+// The debugger's controller: a session that can be stepped, taken back and changed by command lines, whoever writes
+// them: a script, the console, a panel or a key. Lines in, a DebugModel for the view out, and a recording of what was
+// done.
+//
+// Going back restores the nearest earlier state and repeats what was done since, so any frame comes out bit for bit. A
+// change of the model in the past forgets the frames after it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "viewer/controller/expectations.hpp"
+#include "viewer/controller/session.hpp"
+#include "viewer/debugger/line.hpp"
+#include "viewer/debugger/snapshot_ring.hpp"
+
+namespace impinge {
+
+struct DebuggerOptions {
+  SessionOptions session;
+  std::size_t most_bytes = std::size_t{256} << 20;  ///< of states kept for going back
+  /// a finished run's, "" for none: its snapshots and figures are used
+  std::filesystem::path run_folder;
+  const std::atomic<bool>* interrupted = nullptr;     ///< asks to stop after the frame in work
+  std::function<void(int frame, int last)> progress;  ///< of a line that makes many frames, after each
+};
+
+class Debugger {
+ public:
+  /// Makes frame 0. Throws InputError.
+  Debugger(const std::filesystem::path& scene, const std::vector<std::string>& overrides,
+           const std::filesystem::path& script, const DebuggerOptions& options);
+
+  /// Throws InputError for a line that can't be done whatever the frame.
+  void check(const PlacedText& line) const;
+  /// Reads a line and does it, unless it is the window's to do: input, shots and quit are handed back. Throws
+  /// InputError.
+  std::optional<DebugLine> execute(const PlacedText& line);
+  /// The same for a line typed or clicked: what is wrong becomes a message in the console.
+  std::optional<DebugLine> try_execute(const std::string& line);
+  /// Makes the next frame while playing. False if it isn't.
+  bool play_on();
+
+  const DebugModel& model();
+  const ViewSettings& view() const { return session_.view().settings(); }
+  std::uint64_t state_hash() const { return session_.record().stats.state_hash; }
+  bool is_interrupted() const { return interrupted_ != nullptr && *interrupted_; }
+  std::string note_of_former_paths() const { return session_.note_of_former_paths(); }
+  int failures() const { return expectations_.failures(); }
+  void say(ConsoleLine::Kind kind, const std::string& text);
+  /// A picture was taken: with what was done, since it says where, and the pointer shows.
+  void record_shot(const std::string& file, const Vec2& pointer);
+  /// What was done so far, as lines that do it again. `pointer`: where it is now, so that what it hovers over looks the
+  /// same.
+  std::vector<std::string> recording(const Vec2& pointer) const;
+
+ private:
+  void do_command(const Command& command);
+  void do_transport(const TransportLine& line);
+  void do_select(Selection selection);
+  void do_panel(const PanelLine& line);
+  bool advance();
+  void seek(int frame);
+  void restore_before(int frame);
+  std::filesystem::path snapshot_file(int frame) const;
+  std::optional<int> last_snapshot_before(int frame) const;
+  void note_frame();
+  std::span<const double> figures_before(int frame) const;
+  bool breaks_here();
+  int next_known_break(int frame, int last) const;
+  void read_run_folder();
+  bool bring_back(int frame);
+  void check_hash(int frame);
+  void record(const std::string& line);
+  void record_transport(const std::string& line);
+  void record_camera();
+  void add_recorded(const std::string& line);
+  void replace_recorded(const std::string& line);
+  void follow_selection();
+
+  const std::atomic<bool>* interrupted_;
+  std::function<void(int, int)> progress_;
+  Session session_;
+  SnapshotRing ring_;
+  std::filesystem::path run_folder_;
+  int folder_last_ = -1;                         // last frame up to which the folder's snapshots are of this run
+  std::vector<std::vector<double>> history_;     // figures by frame
+  std::vector<std::uint64_t> hashes_;            // by frame
+  std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first
+  std::set<int> changed_frames_;
+  DebugModel model_;
+  Expectations expectations_;
+  bool playing_ = false;
+  bool stopped_ = false;  // the line being done was cut short by a `break`
+  std::vector<std::string> recorded_;
+  bool may_merge_ = false;  // whether the next line may become one with the last: nothing was said in between
+  int known_before_ = 0;    // of the line being done: how many frames were known,
+  std::size_t puts_ = 0, puts_before_ = 0;                // and how many states had been kept
+  enum Trace { none, new_frames, other } trace_ = other;  // that the last line about frames left
+  bool told_of_hash_ = false, told_of_missing_ = false;
+};
+
+}  // namespace impinge

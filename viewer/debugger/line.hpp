@@ -1,0 +1,60 @@
+// What the debugger understands beside the commands of a script, one a line, done one after another:
+//
+//   set | layer | camera ...            as in a script, from the next frame on
+//   step [N] | back [N] | seek FRAME | play | pause
+//   select body NAME [TRIANGLE] | select contact INDEX | select none
+//   panel sort COLUMN [down] | fold GROUP | unfold GROUP | plot +COLUMN -COLUMN | filter [TEXT] | scroll PANEL PIXELS |
+//   help on|off ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
+//   text WORDS | wait FRAMES
+//   shot FILE                           the window as a PNG
+//   quit
+#pragma once
+
+#include "viewer/controller/command.hpp"
+#include "viewer/state/debug_model.hpp"
+
+namespace impinge {
+
+struct TransportLine {
+  enum Verb { step, back, seek, play, pause };
+  Verb verb = step;
+  int frames = 1;  ///< of seek: which
+};
+struct SelectLine {
+  Selection selection;  ///< pair_id is not filled in
+};
+struct PanelLine {
+  enum Verb { sort, fold, unfold, plot, filter, scroll, help };
+  Verb verb = sort;
+  std::string name;                                   ///< column, group, text or panel
+  bool on = false;                                    ///< sort: down; help
+  float pixels = 0.0f;                                ///< scroll
+  std::vector<std::pair<std::string, bool>> columns;  ///< plot
+};
+struct InputLine {
+  enum Verb { click, drag, move, press, release, wheel, key, type, wait };
+  Verb verb = click;
+  std::string name;         ///< widget, button, key or text
+  double x = 0.0, y = 0.0;  ///< move; wheel: y; drag: value in x; wait: in x
+};
+struct ShotLine {
+  std::string file;
+};
+struct QuitLine {};
+using DebugLine =
+    std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, ShotLine, QuitLine>;
+
+/// What names a line may use.
+struct DebugNames {
+  const ParameterSet& rows;
+  const StepRecord& record;                 ///< bodies; contacts of the present frame
+  const std::vector<std::string>& figures;  ///< columns of stats.csv
+};
+
+/// Throws InputError at the word that is wrong. Whether a widget is there shows when it is used.
+DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names);
+
+/// What a panel line makes of the panels.
+void take(const PanelLine& line, PanelState& p);
+
+}  // namespace impinge

@@ -1,0 +1,59 @@
+#include "viewer/panels/debug/keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "viewer/panels/debug/widgets.hpp"
+
+namespace impinge {
+
+void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
+  if (ui.key_pressed("f1")) lines.push_back(model.state.help ? "panel help off" : "panel help on");
+  if (ui.takes_keys()) return;
+  if (ui.key_pressed("space")) lines.push_back(model.playing ? "pause" : "play");
+  if (ui.key_pressed("right")) lines.push_back("step");
+  if (ui.key_pressed("left") && model.frame > 0) lines.push_back("back");
+  if (ui.key_pressed("page_up")) lines.push_back("step 10");
+  if (ui.key_pressed("page_down") && model.frame > 0)
+    lines.push_back(fmt::format("back {}", std::min(10, model.frame)));
+  if (ui.key_pressed("home")) lines.push_back("seek 0");
+  if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
+  if (ui.key_pressed("f")) lines.push_back("camera fit");
+  constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+  if (ui.key_pressed("escape") && !ImGui::IsPopupOpen("", kAnyPopup))
+    lines.push_back(model.state.help ? "panel help off" : "select none");
+}
+
+void draw_help(const DebugModel& model, const UiArea& view) {
+  if (!model.state.help) return;
+  static constexpr const char* kRows[][2] = {{"space", "play, pause"},
+                                             {"right, left", "a frame on, a frame back"},
+                                             {"page up, down", "ten frames"},
+                                             {"home, end", "first, last known frame"},
+                                             {"f", "fit the view"},
+                                             {"escape", "deselect; close this"},
+                                             {"left button", "orbit; a click picks"},
+                                             {"right, middle", "pan"},
+                                             {"wheel", "zoom; scroll a panel"},
+                                             {"ctrl + click", "type a slider's value"},
+                                             {"f1", "this list"}};
+  ImGui::SetNextWindowPos({view.x + 0.5f * view.width, view.y + 0.5f * view.height}, 0, {0.5f, 0.5f});
+  ImGui::Begin("help", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav);
+  ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "keys and mouse");
+  ImGui::Separator();
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const auto& row : kRows) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(row[0]);
+      ImGui::TableNextColumn();
+      ImGui::TextColored(dim(), "  %s", row[1]);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace impinge

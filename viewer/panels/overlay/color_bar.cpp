@@ -1,0 +1,54 @@
+#include <fmt/format.h>
+#include <imgui.h>
+#include <algorithm>
+
+#include "viewer/draw/color_map.hpp"
+#include "viewer/panels/overlay/picture_panels.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr Color kInk = hex(0xf2f4f7), kTitle = hex(0xd9dee6);
+constexpr float kWidth = 220.0f, kHeight = 12.0f, kTick = 4.0f;  // of the bar, in text pixels
+
+ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
+
+}  // namespace
+
+PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings,
+                         const std::vector<PanelArea>& taken) {
+  if (!settings.show_legend) return {};
+  const float u = pen.unit, pad = pen.padding(), width = (pen.is_small() ? 0.7f : 1.0f) * kWidth * u;
+  const std::string title = bar.unit.empty() ? bar.title : fmt::format("{}, {}", bar.title, bar.unit);
+  const std::string low = "0", middle = fmt::format("{:.4g}", 0.5 * bar.high),
+                    high = fmt::format("{}{:.4g}", bar.exceeded ? ">" : "", bar.high);
+  PanelArea area;
+  const float beside = 0.5f * pen.text_width(high);  // the last number stands under the bar's end
+  area.width = std::max(pen.text_width(title), width + beside) + 2.0f * pad;
+  area.height = 2.0f * pen.text_size + (kHeight + kTick + 5.0f) * u + 2.0f * pad;
+  area.x = pen.picture_width - pen.margin() - area.width;
+  area.y = pen.picture_height - pen.margin() - area.height;
+  const bool meets = std::any_of(taken.begin(), taken.end(), [&](const PanelArea& t) { return panels_meet(t, area); });
+  if (meets || area.width > 0.6f * pen.picture_width || area.y < 0.0f) return {};
+  pen.sheet(area.x, area.y, area.width, area.height);
+  pen.text(area.x + pad, area.y + pad, kTitle, title);
+  const float left = area.x + pad, top = area.y + pad + pen.text_size + 3.0f * u, bottom = top + kHeight * u;
+  const auto& colors = heat_colors();
+  for (int k = 0; k + 1 < kHeatColors; ++k) {
+    const float from = left + width * static_cast<float>(k) / (kHeatColors - 1),
+                to = left + width * static_cast<float>(k + 1) / (kHeatColors - 1);
+    const ImU32 a = packed(colors[static_cast<std::size_t>(k)]), b = packed(colors[static_cast<std::size_t>(k + 1)]);
+    pen.list.AddRectFilledMultiColor({from, top}, {to, bottom}, a, b, b, a);
+  }
+  const auto number = [&](float share, const std::string& text) {
+    const float x = left + share * width, half = 0.5f * pen.text_width(text);
+    pen.list.AddLine({x, bottom}, {x, bottom + kTick * u}, packed(kInk), u);
+    pen.text(std::max(left, x - half), bottom + (kTick + 1.0f) * u, kInk, text);
+  };
+  number(0.0f, low);
+  number(0.5f, middle);
+  number(1.0f, high);
+  return area;
+}
+
+}  // namespace impinge

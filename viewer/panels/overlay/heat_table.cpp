@@ -1,0 +1,114 @@
+#include "viewer/panels/overlay/heat_table.hpp"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/draw/color_map.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr Color kInk = hex(0x20242a), kPaper = hex(0xffffff), kNone = hex(0xe9ecef), kLine = hex(0xb9c0c8),
+                kWhite = hex(0xffffff);
+constexpr double kWide = 20.0;  // from this ratio on, colours go by the logarithm
+
+ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
+Color ink_on(Color c) {
+  return 0.2126f * std::pow(c.r, 2.2f) + 0.7152f * std::pow(c.g, 2.2f) + 0.0722f * std::pow(c.b, 2.2f) > 0.2f ? kInk
+                                                                                                              : kWhite;
+}
+
+/// Colours from the least to the largest value.
+struct Scale {
+  double low = 1e300, high = -1e300;
+  bool logarithmic = true;
+
+  explicit Scale(const std::vector<double>& values) {
+    double least = 1e300;
+    for (const double v : values) {
+      if (!std::isfinite(v)) continue;
+      low = std::min(low, v), high = std::max(high, v);
+      if (v > 0.0) least = std::min(least, v);
+    }
+    logarithmic = low >= 0.0 && least < 1e300 && high > kWide * least;
+    if (logarithmic) low = least;
+  }
+  bool is_empty() const { return low > high; }
+  Color color(double v) const {
+    if (!(high > low)) return heat_color(0.5);
+    return heat_color(logarithmic ? (v <= 0.0 ? 0.0 : std::log(v / low) / std::log(high / low))
+                                  : (v - low) / (high - low));
+  }
+};
+
+std::string shortened(const Pen& pen, std::string text, float width) {
+  if (pen.text_width(text) <= width) return text;
+  while (text.size() > 1 && pen.text_width(text + "..") > width) text.pop_back();
+  return text + "..";
+}
+
+void draw_bar(const Pen& pen, const HeatTable& table, const Scale& scale, float x, float y, float width) {
+  const float height = 0.9f * pen.text_size;
+  constexpr int kSteps = 96;
+  for (int k = 0; k < kSteps; ++k)
+    pen.list.AddRectFilled({x + width * static_cast<float>(k) / kSteps, y},
+                           {x + width * static_cast<float>(k + 1) / kSteps, y + height},
+                           packed(heat_color((k + 0.5) / kSteps)));
+  const std::string low = fmt::format("{:.3g}", scale.low), high = fmt::format("{:.3g}", scale.high);
+  pen.text(x - pen.text_width(low) - 8.0f * pen.unit, y, kInk, low);
+  pen.text(x + width + 8.0f * pen.unit, y, kInk,
+           fmt::format("{}   {}{}", high, table.value_label, scale.logarithmic ? ", logarithmic" : ""));
+}
+
+}  // namespace
+
+void draw_heat_table(const Pen& pen, const HeatTable& table) {
+  const float u = pen.unit, line = 1.5f * pen.text_size, margin = 18.0f * u;
+  pen.list.AddRectFilled({0, 0}, {pen.picture_width, pen.picture_height}, packed(kPaper));
+  pen.text(margin, margin, kInk,
+           shortened(pen, fmt::format("{}: {}", table.title, table.value_label), pen.picture_width - 2.0f * margin));
+  float heads = pen.text_width(table.row_label);
+  for (const std::string& row : table.rows) heads = std::max(heads, pen.text_width(row));
+  heads = std::min(heads, 0.34f * pen.picture_width);
+  const float left = margin + heads + 12.0f * u, top = margin + 4.2f * line, right = pen.picture_width - margin,
+              bottom = pen.picture_height - margin - 2.0f * line;
+  const float width = std::min((right - left) / static_cast<float>(table.columns.size()), 300.0f * u),
+              height = std::min((bottom - top) / static_cast<float>(table.rows.size()), 120.0f * u);
+  pen.text(left, margin + 1.9f * line, kInk, table.column_label);
+  pen.text(margin, margin + 3.0f * line, kInk, shortened(pen, table.row_label, heads));
+  const Scale scale(table.values);
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string head = shortened(pen, table.columns[c], width - 4.0f * u);
+    pen.text(left + (static_cast<float>(c) + 0.5f) * width - 0.5f * pen.text_width(head), margin + 3.0f * line, kInk,
+             head);
+  }
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const float y = top + static_cast<float>(r) * height;
+    pen.text(margin, y + 0.5f * (height - pen.text_size), kInk, shortened(pen, table.rows[r], heads));
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      const float x = left + static_cast<float>(c) * width;
+      const std::size_t cell = r * table.columns.size() + c;
+      const bool has_value = std::isfinite(table.values[cell]);
+      const Color color = has_value ? scale.color(table.values[cell]) : kNone;
+      pen.list.AddRectFilled({x + u, y + u}, {x + width - u, y + height - u}, packed(color));
+      if (!has_value) pen.list.AddRect({x + u, y + u}, {x + width - u, y + height - u}, packed(kLine), 0.0f, 0, u);
+      const std::string text = shortened(
+          pen,
+          has_value
+              ? fmt::format("{:.3g}{}", table.values[cell], table.notes[cell].empty() ? "" : " " + table.notes[cell])
+          : table.notes[cell].empty() ? "no figure"
+                                      : table.notes[cell],
+          width - 4.0f * u);
+      pen.text(x + 0.5f * (width - pen.text_width(text)), y + 0.5f * (height - pen.text_size),
+               has_value ? ink_on(color) : kInk, text);
+    }
+  }
+  if (!scale.is_empty())
+    draw_bar(pen, table, scale, left + 60.0f * u, top + static_cast<float>(table.rows.size()) * height + 0.8f * line,
+             240.0f * u);
+}
+
+}  // namespace impinge

@@ -1,0 +1,74 @@
+#include <imgui.h>
+#include <algorithm>
+
+#include "viewer/panels/overlay/picture_panels.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr Color kInk = hex(0xd9dee6);
+constexpr float kMark = 20.0f, kAfterMark = 9.0f;
+
+ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
+
+/// Draws a mark as it looks in the picture, in a cell of kMark x 13 whose top left is (x, y).
+void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
+  const float u = pen.unit, middle = y + 6.5f * u, right = x + kMark * u;
+  const ImU32 ink = packed(row.color), dark = packed(role::kOutline);
+  ImDrawList& list = pen.list;
+  switch (row.mark) {
+    case LegendRow::area:
+      list.AddRectFilled({x + 2.0f * u, y + 1.0f * u}, {right - 2.0f * u, y + 12.0f * u}, ink, 2.0f * u);
+      break;
+    case LegendRow::point:
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.4f * u, dark, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 4.2f * u, ink, 24);
+      break;
+    case LegendRow::ring:
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.4f * u, dark, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 4.2f * u, ink, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 1.9f * u, dark, 24);
+      break;
+    case LegendRow::line:
+      list.AddLine({x, middle}, {right, middle}, ink, 1.6f * u);
+      break;
+    case LegendRow::arrow:
+      list.AddLine({x, middle}, {right - 6.0f * u, middle}, ink, 2.2f * u);
+      list.AddTriangleFilled({right - 8.0f * u, middle - 4.0f * u}, {right - 8.0f * u, middle + 4.0f * u},
+                             {right, middle}, ink);
+      break;
+  }
+}
+
+}  // namespace
+
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other) {
+  if (!settings.show_legend) return {};
+  std::vector<LegendRow> rows;
+  for (const Layer& layer : layers())
+    if (settings.is_on(layer.name))
+      std::copy_if(layer.legend.begin(), layer.legend.end(), std::back_inserter(rows),
+                   [&](const LegendRow& row) { return row.present == nullptr || row.present(record); });
+  if (rows.empty()) return {};
+  const float mark = (kMark + (pen.is_small() ? 0.5f : 1.0f) * kAfterMark) * pen.unit, pad = pen.padding();
+  float text = 0.0f;
+  for (const LegendRow& row : rows) text = std::max(text, pen.text_width(row.text));
+  PanelArea area;
+  area.width = text + 2.0f * pad + mark;
+  area.height = static_cast<float>(rows.size()) * pen.row() + 2.0f * pad - (pen.row() - pen.text_size);
+  area.x = pen.picture_width - pen.margin() - area.width;
+  area.y = pen.margin();
+  const bool meets = other.width > 0.0f && area.x < other.x + other.width + pen.margin();
+  if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height)
+    return {};
+  pen.sheet(area.x, area.y, area.width, area.height);
+  float y = area.y + pad;
+  for (const LegendRow& row : rows) {
+    draw_mark(pen, row, area.x + pad, y);
+    pen.text(area.x + pad + mark, y, kInk, row.text);
+    y += pen.row();
+  }
+  return area;
+}
+
+}  // namespace impinge

@@ -1,0 +1,70 @@
+#include "viewer/panels/overlay/overlay.hpp"
+
+#include <imgui.h>
+#include <mutex>
+
+namespace impinge {
+namespace {
+
+std::mutex& imgui_mutex() {
+  static std::mutex mutex;  // Dear ImGui's current context is one for the whole process
+  return mutex;
+}
+
+ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
+
+}  // namespace
+
+float Pen::text_width(const std::string& text) const {
+  return font.CalcTextSizeA(text_size, FLT_MAX, 0.0f, text.c_str()).x;
+}
+
+void Pen::text(float x, float y, Color color, const std::string& text) const {
+  list.AddText(&font, text_size, {x, y}, packed(color), text.c_str());
+}
+
+void Pen::sheet(float x, float y, float width, float height) const {
+  list.AddRectFilled({x, y}, {x + width, y + height}, packed(hex(0x12151a, 0.78f)), 5.0f * unit);
+  list.AddRect({x + 0.5f, y + 0.5f}, {x + width - 0.5f, y + height - 0.5f}, packed(hex(0xffffff, 0.10f)), 5.0f * unit,
+               0, unit);
+}
+
+Overlay::Overlay(int scale) : scale_(scale) {
+  const std::lock_guard lock(imgui_mutex());
+  context_ = ImGui::CreateContext();
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  ImFontConfig config;
+  config.SizePixels = 13.0f * static_cast<float>(scale);  // the embedded font is drawn on a grid of 13
+  config.OversampleH = config.OversampleV = 1;
+  config.PixelSnapH = true;
+  io.Fonts->AddFontDefault(&config);
+  io.Fonts->Flags |= ImFontAtlasFlags_NoMouseCursors;
+  backend_ = std::make_unique<ImguiBackend>(*io.Fonts);
+}
+
+Overlay::~Overlay() {
+  const std::lock_guard lock(imgui_mutex());
+  backend_.reset();
+  ImGui::DestroyContext(context_);
+}
+
+void Overlay::draw(int width, int height, const std::function<void(const Pen&)>& paint) {
+  const std::lock_guard lock(imgui_mutex());
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  io.DeltaTime = 1.0f / 60.0f;
+  ImGui::NewFrame();
+  const float unit = static_cast<float>(scale_);
+  const Pen pen{
+      *ImGui::GetBackgroundDrawList(), *ImGui::GetFont(), 13.0f * unit, unit, io.DisplaySize.x, io.DisplaySize.y};
+  paint(pen);
+  ImGui::Render();
+  backend_->draw(*ImGui::GetDrawData());
+}
+
+}  // namespace impinge

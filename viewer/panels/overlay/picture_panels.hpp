@@ -1,0 +1,35 @@
+// The panels drawn over a picture.
+#pragma once
+
+#include "viewer/layers/layer.hpp"
+#include "viewer/panels/overlay/overlay.hpp"
+
+namespace impinge {
+
+/// Pixels of the picture that a panel covers; empty (width 0) if it was left out.
+struct PanelArea {
+  float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+};
+
+/// The frame's figures at the top left: deterministic ones only, unless timings are asked for; in a small picture only
+/// the most important ones. Draws nothing where the panel would cover more than half the picture's width or run over
+/// its height.
+PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
+
+/// What the visible layers' marks mean, as far as the scene has such things, at the top right; left out where it would
+/// meet `other`.
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other);
+
+/// What the colours of heated surfaces mean, at the bottom right; left out with the legend, or where it would meet one
+/// of `taken`.
+PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings,
+                         const std::vector<PanelArea>& taken);
+
+/// Whether two panels share a pixel; those that were left out don't.
+bool panels_meet(const PanelArea& a, const PanelArea& b);
+
+/// Texts at points of the scene, each above its point; one that would meet a nearer one or a panel is left out.
+void draw_labels(const Pen& pen, const std::vector<DrawLabel>& labels, const Camera& camera,
+                 std::vector<PanelArea> taken);
+
+}  // namespace impinge

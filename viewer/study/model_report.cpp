@@ -1,0 +1,150 @@
+#include "viewer/study/model_report.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
+#include "engine/io/scene/former_paths.hpp"
+#include "engine/io/scene/scene_values.hpp"
+
+namespace impinge {
+
+namespace {
+
+void count_body(BodyKind kind, bool is_mesh, double friction, double restitution, bool self_collision, int& meshes,
+                ModelFacts& facts) {
+  switch (kind) {
+    case BodyKind::fixed:
+      ++facts.fixed;
+      break;
+    case BodyKind::scripted:
+      ++facts.scripted;
+      break;
+    case BodyKind::dynamic:
+      ++facts.dynamic;
+      break;
+    case BodyKind::deformable:
+      ++facts.deformable;
+      break;
+  }
+  facts.friction |= friction > 0.0;
+  facts.frictionless |= !(friction > 0.0);
+  facts.restitution |= restitution > 0.0;
+  facts.self_collision |= kind == BodyKind::deformable && self_collision;
+  meshes += is_mesh ? 1 : 0;
+}
+
+const TomlNode* at_path(const TomlNode& root, const std::string& path) {
+  const TomlNode* node = &root;
+  for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const TomlEntry* entry = node->find(path.substr(begin, end - begin));
+    node = entry == nullptr ? nullptr : &entry->value;
+    begin = end + 1;
+  }
+  return node;
+}
+
+BodyKind kind_of(const std::string& word) {
+  for (const BodyKind kind : {BodyKind::fixed, BodyKind::scripted, BodyKind::deformable})
+    if (word == kind_name(kind)) return kind;
+  return BodyKind::dynamic;
+}
+
+std::string response_text(const Parameters& p) {
+  const Response& response = *p.response.method;
+  const std::string summary = response.summary(lcp_settings(p));
+  return fmt::format("{}{}{}{}", p.response.method.name(),
+                     response.uses_cone_solver() ? fmt::format(" with {}", p.lcp.method.name()) : "",
+                     summary.empty() ? "" : ", ", summary);
+}
+
+}  // namespace
+
+ModelFacts model_facts(const World& world) {
+  ModelFacts facts;
+  int meshes = 0;
+  const Parameters& p = world.parameters;
+  for (const RigidBody& body : world.bodies()) {
+    count_body(body.kind, body.shape->mesh() != nullptr, body.friction < 0.0 ? p.contact.friction : body.friction,
+               body.restitution < 0.0 ? p.contact.restitution : body.restitution, body.self_collision, meshes, facts);
+    if (body.soft) facts.soft_dofs += body.soft->fem.dofs();
+  }
+  facts.mesh_pairs = meshes > 1 || facts.self_collision;
+  facts.attachments = static_cast<int>(world.record().attachments.size());
+  return facts;
+}
+
+bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& parameters, ModelFacts& facts) {
+  try {
+    if (!is_file(run_toml)) return false;
+    TomlNode root = parse_toml(run_toml.string(), read_file(run_toml, std::uint64_t{1} << 26));
+    ParameterSet rows;
+    parameters.bind(rows);
+    rename_former_paths(root, rows);
+    for (const Parameter& row : rows.all())
+      if (const TomlNode* node = at_path(root, row.path)) row.set(scene_value(row, *node));
+    int meshes = 0;
+    const auto own = [](const TomlNode* node, double of_scene) {
+      return node != nullptr && node->is_number() ? node->as_number() : of_scene;
+    };
+    if (const TomlEntry* bodies = root.find("body"))
+      for (const TomlNode& body : bodies->value.items) {
+        const TomlNode *kind = at_path(body, "kind"), *friction = at_path(body, "friction"),
+                       *restitution = at_path(body, "restitution"), *self = at_path(body, "self_collision");
+        const BodyKind is = kind_of(kind == nullptr ? "" : kind->string);
+        count_body(is, is == BodyKind::deformable || body.find("surface") != nullptr,
+                   own(friction, parameters.contact.friction), own(restitution, parameters.contact.restitution),
+                   self != nullptr && self->flag, meshes, facts);
+      }
+    facts.mesh_pairs = meshes > 1 || facts.self_collision;
+    facts.soft_dofs = -1;
+    if (const TomlEntry* attachments = root.find("attachment"))
+      facts.attachments = static_cast<int>(attachments->value.items.size());
+    return true;
+  } catch (const InputError&) {
+    return false;  // of another version: the report then says nothing about it
+  }
+}
+
+std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
+  std::vector<ModelLine> lines;
+  const auto line = [&](const char* stage, bool used, const std::string& what, const char* why) {
+    lines.push_back({stage, used, used ? what : why});
+  };
+  const bool moves = f.moving() > 0, meets = f.meets();
+  line("integrator", moves,
+       fmt::format("{}{}", p.simulation.integrator.name(),
+                   f.deformable == 0 ? " (rigid: A = M)"
+                   : f.dynamic == 0  ? ""
+                                     : " (for rigid bodies A = M)"),
+       "nothing can move");
+  line("broad phase", meets, std::string(p.broad_phase.method.name()), "no two bodies can meet");
+  line("narrow phase", meets && f.mesh_pairs,
+       fmt::format("{}, contacts by {}", p.narrow_phase.method.name(), name_of(p.contact.points)),
+       "no two meshes can meet; exact shapes are tested by formula");
+  line("response", meets, response_text(p), "no two bodies can meet");
+  line("friction", meets && f.friction,
+       fmt::format("Coulomb cone, three rows a contact, coefficient {} unless a body names one",
+                   shortest(p.contact.friction)),
+       "no body has any, so contacts have one row");
+  line("restitution", meets && f.restitution,
+       fmt::format("{} unless a body names one, above {} m/s", shortest(p.contact.restitution),
+                   shortest(p.contact.restitution_threshold)),
+       "no body bounces");
+  line("sleeping", p.simulation.sleeping && moves,
+       fmt::format("groups slower than {} m/s for {} s", shortest(p.simulation.sleep_speed),
+                   shortest(p.simulation.sleep_time)),
+       "switched off, or nothing can move");
+  line("deformation", f.deformable > 0,
+       fmt::format("{}linear solver {}", f.soft_dofs < 0 ? "" : fmt::format("{} degrees of freedom, ", f.soft_dofs),
+                   p.simulation.linear_solver.name()),
+       "no body is deformable");
+  line("self-contact", f.self_collision, "of the deformable bodies that ask for it", "no deformable body asks for it");
+  line("attachments", f.attachments > 0, fmt::format("{}, three bilateral rows each", f.attachments),
+       "the scene has none");
+  return lines;
+}
+
+}  // namespace impinge
