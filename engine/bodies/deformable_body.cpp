@@ -1,12 +1,15 @@
 #include "engine/bodies/deformable_body.hpp"
 
+#include <algorithm>
 #include <limits>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 
 namespace impinge {
 
 DeformableBody::DeformableBody(FemAssembly assembly) : fem(std::move(assembly)) {
+  mass = fem.total_mass();
   const int n = fem.nodes();
   position.resize(3 * n);
   for (int i = 0; i < n; ++i) position.segment<3>(3 * i) = fem.rest().vertices[i];
@@ -52,6 +55,12 @@ void DeformableBody::scatter_free(const VecX& free, VecX& all) const {
   for (int i = 0; i < free_nodes(); ++i) all.segment<3>(3 * free_node_[i]) = free.segment<3>(3 * i);
 }
 
+VecX DeformableBody::with_held(const VecX& free) const {
+  VecX all = held_velocity_;
+  scatter_free(free, all);
+  return all;
+}
+
 double DeformableBody::kinetic_energy() const {
   VecX momenta;
   fem.multiply_mass(velocity, momenta);
@@ -80,6 +89,16 @@ Vec3 DeformableBody::angular_momentum() const {
   return sum;
 }
 
+Balance DeformableBody::balance(const Vec3& gravity) {
+  return {kinetic_energy(), elastic_energy(), potential_energy(gravity), momentum(), angular_momentum()};
+}
+
+double DeformableBody::fastest_point() const {
+  double fastest = 0.0;
+  for (int i = 0; i < nodes(); ++i) fastest = std::max(fastest, velocity.segment<3>(3 * i).norm());
+  return fastest;
+}
+
 Vec3 DeformableBody::center_of_mass() const {
   Vec3 sum = Vec3::Zero();
   for (int i = 0; i < nodes(); ++i) sum += fem.node_mass()[i] * position.segment<3>(3 * i);
@@ -94,6 +113,28 @@ double DeformableBody::smallest_volume_ratio() const {
     smallest = std::min(smallest, deformation_gradient(fem.elements()[e], x).determinant());
   }
   return smallest;
+}
+
+void DeformableBody::come_to_rest() {
+  velocity.setZero();
+  center_velocity_.setZero();
+}
+
+void DeformableBody::save(ByteWriter& out) const {
+  save_frame(out, center_velocity_, Vec3::Zero(), Vec3::Zero());
+  out.put(acceleration_known);
+  for (const HeldRegion& region : held) out.put(region.displacement), out.put(region.wanted);
+  for (const VecX* x : {&position, &velocity, &acceleration})
+    for (Eigen::Index i = 0; i < x->size(); ++i) out.put((*x)[i]);
+}
+
+void DeformableBody::restore(ByteReader& in) {
+  center_velocity_ = restore_frame(in).velocity;
+  acceleration_known = in.get<bool>();
+  for (HeldRegion& region : held) region.displacement = in.get_vec3(), region.wanted = in.get_vec3();
+  for (VecX* x : {&position, &velocity, &acceleration})
+    for (Eigen::Index i = 0; i < x->size(); ++i) (*x)[i] = in.get<double>();
+  interpolate(embedding, fem.rest(), velocity, surface_velocity_);
 }
 
 }  // namespace impinge

@@ -1,7 +1,12 @@
-// A tetrahedral body's state: where its nodes are, how fast they move, which of them are held.
+// A deformable body: tetrahedra whose nodes move, some of them held, and the surface embedded in them that collides and
+// is drawn. Its state, its geometry and its sub-step; the elements' sums are FemAssembly's, the schemes integrators/'s.
 #pragma once
 
+#include "engine/bodies/body.hpp"
+#include "engine/bodies/deformable_step.hpp"
 #include "engine/bodies/fem_assembly.hpp"
+#include "engine/bodies/held_region.hpp"
+#include "engine/geometry/embedding.hpp"
 
 namespace impinge {
 
@@ -11,16 +16,18 @@ struct RayleighDamping {
   double beta = 0.0;   ///< s
 };
 
-class DeformableBody {
+class DeformableBody final : public Body {
  public:
-  /// At rest in its rest shape, no node held.
+  /// At rest in its rest shape, no node held; with no surface, nothing can touch it.
   explicit DeformableBody(FemAssembly assembly);
 
   FemAssembly fem;
+  std::shared_ptr<Material> material;  ///< the one that fem's elements refer to, if its rows may change
+  std::string model;                   ///< the material's name
   RayleighDamping damping;
-  std::string name;
+  Embedding embedding;  ///< of the surface's vertices
 
-  // node by node x, y, z
+  // state, node by node x, y, z
   VecX position;                    ///< m
   VecX velocity;                    ///< m/s; of a held node: what it is moved with
   VecX acceleration;                ///< m/s²; kept by integrators that need it (newmark)
@@ -30,8 +37,12 @@ class DeformableBody {
   int nodes() const { return fem.nodes(); }
   int free_nodes() const { return static_cast<int>(free_node_.size()); }
   /// Unknowns: three a node that isn't held.
-  int dofs() const { return 3 * free_nodes(); }
+  int dofs() const override { return 3 * free_nodes(); }
+  /// Smallest J = det F over the elements; <= 0 where one is inverted.
+  double smallest_volume_ratio() const;
 
+  // held nodes
+  std::vector<HeldRegion> held;
   /// Holds these nodes (and no others): their degrees of freedom leave the system. They keep their velocity's part zero
   /// until set_held_velocity. Throws InternalError on an index out of range.
   void hold(std::span<const int> nodes);
@@ -50,20 +61,83 @@ class DeformableBody {
   /// The parts of a vector over all nodes that belong to free ones, and back into `all` (held parts are left).
   VecX gather_free(const VecX& all) const;
   void scatter_free(const VecX& free, VecX& all) const;
+  /// `free` with the prescribed velocities of held nodes, over all nodes.
+  VecX with_held(const VecX& free) const;
 
+  // energy and momentum
   double kinetic_energy() const;                       ///< J
   double potential_energy(const Vec3& gravity) const;  ///< −Σ m g·x, J
   double elastic_energy() { return fem.energy(position); }
   Vec3 momentum() const;          ///< kg m/s
   Vec3 angular_momentum() const;  ///< about the origin, kg m²/s
-  Vec3 center_of_mass() const;
-  /// Smallest J = det F over the elements; <= 0 where one is inverted.
-  double smallest_volume_ratio() const;
+  Balance balance(const Vec3& gravity) override;
+
+  // as a body
+  BodyKind kind() const override { return BodyKind::deformable; }
+  bool has_freedom() const override { return true; }
+  bool is_moving() const override { return !asleep; }
+  bool can_touch_itself() const override { return self_collision; }
+  Twist twist() const override { return {center_velocity_, Vec3::Zero()}; }
+  std::span<const Vec3> vertex_velocities() const override { return surface_velocity_; }
+  double fastest_point() const override;
+  Vec3 center_of_mass() const override;
+  Pose file_pose() const override { return {pose.rotation, center_of_mass()}; }
+  void update_world_vertices() override;
+  /// Of the surface, which is moved as a whole by `velocity` until the first sub-step says more.
+  void set_center_velocity(const Vec3& velocity);
+
+  // a sub-step
+  void drive(double time, double h, double share) override;
+  void open_sub_step() override {}
+  void find_free_velocity(const TimeIntegration& how) override;
+  SystemBlock system_block() const override;
+  CarriedPoint carry(const MaterialPoint& point, const Vec3& at) const override;
+  double relinearize(const DeformableIntegrator& integrator, const VecX& change, const VecX& impulse) override;
+  void solve_again() override;
+  void change_velocity(const BodyVector& change) override;
+  void advance(const TimeIntegration& how, double end) override;
+  void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
+  void check_finite() const override;
+  void come_to_rest() override;
+
+  // points
+  MaterialPoint surface_point(TriangleIndex triangle, const Vec3& world) const override;
+  MaterialPoint inner_point(const Vec3& world) const override;
+  Vec3 position_of(const MaterialPoint& point) const override;
+
+  void save(ByteWriter& out) const override;
+  void restore(ByteReader& in) override;
 
  private:
+  /// Solvers of A, analyzed with free_pattern(). A copy of the body makes its own.
+  struct Solvers {
+    Solvers() = default;
+    Solvers(const Solvers&) {}
+    Solvers(Solvers&&) = default;
+    std::optional<LinearSolverChoice> made_with;
+    std::shared_ptr<const BlockPattern> pattern;
+    std::unique_ptr<LinearSolver> iterative;  ///< for the one right-hand side of v*
+    std::unique_ptr<LinearSolver> direct;     ///< for the many of contact
+  };
+
+  void choose_solvers(const LinearSolverChoice& wanted);
+  void check_solved() const;
+  void find_displacement_velocity();
+  std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
+
   std::vector<int> free_index_, free_node_, free_source_;
   std::shared_ptr<const BlockPattern> free_pattern_;
   VecX held_velocity_;
+  Vec3 center_velocity_ = Vec3::Zero();  ///< m/s, at the end of the last sub-step
+
+  // the open sub-step
+  DeformableStep step_;
+  Solvers solvers_;
+  bool is_explicit_ = false;            ///< its scheme's A is M
+  bool touched_ = false;                ///< contact or attachments gave it an impulse
+  VecX velocity_before_;                ///< over all nodes, m/s
+  VecX displacement_velocity_;          ///< (s v* + d)/Δt over all nodes, m/s: what contact and detection see
+  std::vector<Vec3> surface_velocity_;  ///< the same of the surface's vertices
 };
 
 }  // namespace impinge

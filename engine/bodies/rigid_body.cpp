@@ -1,22 +1,12 @@
 #include "engine/bodies/rigid_body.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include "engine/bodies/rigid_motion.hpp"
+#include "engine/bodies/time_integration.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/memory.hpp"
-#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
-namespace {
-
-/// A copy of the mesh for a body of its own, and its vertices in the world, bytes.
-double copy_bytes(const SurfaceMesh& surface) {
-  const double triangles = static_cast<double>(surface.mesh.triangles.size()),
-               vertices = static_cast<double>(surface.mesh.vertices.size());
-  return 60.0 * triangles + 52.0 * vertices;
-}
-
-}  // namespace
 
 void RigidBody::set_inertia(const Mat3& about_center) {
   principal = principal_inertia(about_center);
@@ -24,86 +14,70 @@ void RigidBody::set_inertia(const Mat3& about_center) {
   inertia_inverse = principal.inverse();
 }
 
-void RigidBody::update_world_vertices() {
-  const SurfaceMesh* mesh = shape->mesh();
-  if (mesh == nullptr) return;
-  if (soft) {
-    interpolate(soft->embedding, soft->fem.fem.rest(), soft->fem.position, world_vertices);
-    return;
-  }
-  const std::vector<Vec3>& local = mesh->mesh.vertices;
-  world_vertices.resize(local.size());
-  for (std::size_t i = 0; i < local.size(); ++i) world_vertices[i] = pose.apply(local[i]);
+void RigidBody::find_free_velocity(const TimeIntegration& how) { apply_gravity(*this, how.gravity, how.time_step); }
+
+SystemBlock RigidBody::system_block() const {
+  return RigidBlock{1.0 / mass, world_inertia_inverse(), velocity, angular_velocity()};
 }
 
-Aabb RigidBody::bounds() const {
-  if (shape->mesh() == nullptr) return shape->bounds(pose);
-  Aabb box;
-  for (const Vec3& v : world_vertices) box.include(v);
-  return box;
+CarriedPoint RigidBody::carry(const MaterialPoint&, const Vec3& at) const {
+  CarriedPoint carried;
+  carried.arm = at - pose.position;
+  carried.velocity_before = before_.linear + before_.angular.cross(carried.arm);
+  return carried;
 }
 
-RigidBody make_rigid_body(const BodyDescription& description) {
-  RigidBody body;
-  body.name = description.name;
-  body.kind = description.kind;
-  body.shape = description.shape;
-  body.surface_file = description.surface_file;
-  body.friction = description.friction.value_or(-1.0);
-  body.restitution = description.restitution.value_or(-1.0);
-  body.self_collision = description.self_collision;
+void RigidBody::change_velocity(const BodyVector& change) {
+  velocity += change.twist.linear;
+  angular_momentum += world_inertia() * change.twist.angular;
+}
 
-  if (body.is_deformable()) {
-    const Pose file{rotation_from_degrees(description.rotation), description.position};
-    try {
-      body.soft = std::make_unique<SoftBody>(
-          make_soft_body(*description.soft, file, description.velocity, description.angular_velocity));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("body '{}': {}", body.name, error.what()));
-    }
-    body.mass = body.soft->fem.fem.total_mass();
-    body.velocity = description.velocity;
-    body.mean_edge = mean_edge_length(body.shape->mesh()->mesh);
-    body.update_world_vertices();
-    body.soft->surface_velocity.assign(body.world_vertices.size(), description.velocity);
-    return body;
+void RigidBody::advance(const TimeIntegration& how, double /*end*/) {
+  try {
+    advance_rigid(*this, how.time_step);
+  } catch (const DivergenceError& error) {  // it knows no name
+    throw DivergenceError(
+        fmt::format("body '{}': {}; use more sub-steps, or smaller velocities and forces", name, error.what()));
   }
-  const bool is_plane = body.shape->as<Plane>() != nullptr;
-  if (is_plane && body.is_dynamic())
-    throw InputError("a dynamic body is a plane, which has no mass; a plane is static or scripted; use a box");
-  if (!is_plane) {
-    MassProperties properties = body.shape->mass(description.density);
-    if (!(properties.mass > 0.0))
-      throw InputError(
-          "the surface encloses no positive volume; a body needs a closed surface whose triangles are "
-          "counter-clockwise seen "
-          "from outside; flip its triangles");
-    body.center = properties.center;
-    if (const SurfaceMesh* mesh = description.shape->mesh()) {
-      body.mean_edge = mean_edge_length(mesh->mesh);
-      check_memory("", "its surface", copy_bytes(*mesh), "simplify it, or use fewer bodies");
-    }
-    body.shape = body.shape->recentered(body.center);
-    if (body.is_dynamic()) {
-      const double ratio = description.mass ? *description.mass / properties.mass : 1.0;
-      body.mass = properties.mass * ratio;
-      body.set_inertia(properties.inertia * ratio);
-    }
-    body.radius = body.shape->bounding_radius();
-  }
+}
 
-  Pose file{rotation_from_degrees(description.rotation), description.position};
-  if (body.kind == BodyKind::scripted && !description.motion.empty()) {
-    body.motion = Motion(description.motion);
-    file = body.motion.at(0.0);
-  }
-  body.pose = {file.rotation, file.apply(body.center)};
-  if (body.is_dynamic()) {
-    body.velocity = description.velocity;
-    body.angular_momentum = body.world_inertia() * description.angular_velocity;
-  }
-  body.update_world_vertices();
-  return body;
+void RigidBody::displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) {
+  if (by.twist.is_zero()) return;
+  displace_rigid(*this, by.twist.linear, by.twist.angular);
+  if (group_velocity) angular_momentum -= by.twist.linear.cross(mass * (velocity - *group_velocity));
+}
+
+void RigidBody::check_finite() const {
+  // a maximum alone may pass over NaN
+  const bool fine = pose.position.allFinite() && velocity.allFinite() &&
+                    pose.position.cwiseAbs().maxCoeff() < kLargest && velocity.cwiseAbs().maxCoeff() < kLargest &&
+                    angular_momentum.allFinite() && pose.rotation.allFinite();
+  if (fine) return;
+  throw DivergenceError(
+      fmt::format("body '{}': position or velocity is no longer a finite number below {:g}; use more sub-steps, or "
+                  "smaller velocities and forces",
+                  name, kLargest));
+}
+
+void RigidBody::come_to_rest() {
+  velocity.setZero();
+  angular_momentum.setZero();
+}
+
+Balance RigidBody::balance(const Vec3& gravity) {
+  const Vec3 p = mass * velocity;
+  Balance own;
+  own.kinetic = 0.5 * p.dot(velocity) + 0.5 * angular_momentum.dot(angular_velocity());
+  own.potential = -(mass * gravity.dot(pose.position));
+  own.momentum = p;
+  own.angular_momentum = pose.position.cross(p) + angular_momentum;
+  return own;
+}
+
+void RigidBody::restore(ByteReader& in) {
+  const Frame frame = restore_frame(in);
+  velocity = frame.velocity;
+  angular_momentum = frame.angular_momentum;
 }
 
 }  // namespace impinge

@@ -4,7 +4,8 @@
 
 namespace impinge {
 
-std::vector<CollisionGroup> make_groups(std::span<const std::pair<int, int>> contacts, const std::vector<char>& joins) {
+std::vector<CollisionGroup> make_groups(std::span<const std::pair<BodyIndex, BodyIndex>> contacts,
+                                        const std::vector<char>& joins) {
   std::vector<int> parent(joins.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -13,7 +14,7 @@ std::vector<CollisionGroup> make_groups(std::span<const std::pair<int, int>> con
   };
   std::vector<char> touched(joins.size(), 0);
   for (const auto& [a, b] : contacts) {
-    if (a < 0 || b < 0) continue;
+    if (a.is_none() || b.is_none()) continue;
     if (joins[a]) touched[a] = 1;
     if (joins[b]) touched[b] = 1;
     if (!joins[a] || !joins[b]) continue;
@@ -22,23 +23,39 @@ std::vector<CollisionGroup> make_groups(std::span<const std::pair<int, int>> con
   }
 
   std::vector<CollisionGroup> groups;
-  std::vector<int> group_of(joins.size(), -1);
-  for (int i = 0; i < static_cast<int>(joins.size()); ++i) {
+  std::vector<GroupIndex> group_of(joins.size());
+  for (BodyIndex i(0); i < joins.size(); ++i) {
     if (!touched[i]) continue;
     const int r = root(i);
-    if (group_of[r] < 0) {
-      group_of[r] = static_cast<int>(groups.size());
+    if (group_of[r].is_none()) {
+      group_of[r] = GroupIndex(groups.size());
       groups.emplace_back();
     }
     groups[group_of[r]].bodies.push_back(i);
   }
-  for (int c = 0; c < static_cast<int>(contacts.size()); ++c) {
+  for (ContactIndex c(0); c < contacts.size(); ++c) {
     const auto& [a, b] = contacts[c];
-    if (a < 0 || b < 0) continue;
-    const int body = joins[a] ? a : (joins[b] ? b : -1);
-    if (body >= 0) groups[group_of[root(body)]].contacts.push_back(c);
+    if (a.is_none() || b.is_none()) continue;
+    const BodyIndex body = joins[a] ? a : (joins[b] ? b : BodyIndex());
+    if (!body.is_none()) groups[group_of[root(body)]].contacts.push_back(c);
   }
   return groups;
+}
+
+std::vector<CollisionGroup> find_groups(const Bodies& bodies, const ContactList& contacts) {
+  std::vector<std::pair<BodyIndex, BodyIndex>> ends;
+  for (const Collision& c : contacts.collisions) ends.emplace_back(c.body_a, c.body_b);
+  const auto awake = [&](BodyIndex b) { return !b.is_none() && bodies[b].has_freedom() && !bodies[b].asleep; };
+  for (const Attachment& a : contacts.attachments) {
+    const BodyIndex first = awake(a.a.body) ? a.a.body : a.b.body;
+    if (awake(first))
+      ends.emplace_back(first, first == a.a.body && !a.b.body.is_none() ? a.b.body : first);
+    else
+      ends.emplace_back();
+  }
+  std::vector<char> joins;
+  for (const Body& body : bodies) joins.push_back(body.has_freedom());
+  return make_groups(ends, joins);
 }
 
 }  // namespace impinge

@@ -11,14 +11,14 @@ Vec3 row_velocity(const GroupSystem& group, std::size_t i, bool with_delta, Node
   Vec3 relative = Vec3::Zero();
   const auto add = [&](const ContactSide& side, double sign) {
     if (side.rigid >= 0) {
-      Vec3 v = group.bodies[side.rigid].velocity, w = group.bodies[side.rigid].angular_velocity;
+      Vec3 v = group.rigid[side.rigid].velocity, w = group.rigid[side.rigid].angular_velocity;
       if (with_delta) {
         v += group.delta_velocity[side.rigid];
         w += group.delta_angular_velocity[side.rigid];
       }
       relative += sign * (v + w.cross(side.arm));
     }
-    for (const NodeWeight& n : side.nodes) relative += sign * n.weight * node_velocity(side.soft, n.node);
+    for (const NodeWeight& n : side.nodes) relative += sign * n.weight * node_velocity(side.deformable, n.node);
   };
   add(rows.a, 1.0);
   add(rows.b, -1.0);
@@ -29,34 +29,34 @@ Vec3 row_velocity(const GroupSystem& group, std::size_t i, bool with_delta, Node
 
 Vec3 GroupSystem::contact_velocity(std::size_t i, bool with_delta) const {
   return row_velocity(*this, i, with_delta, [&](int body, int node) {
-    const Vec3 v = soft[body].velocity.segment<3>(3 * node);
-    return with_delta ? Vec3(v + soft_delta[body].segment<3>(3 * node)) : v;
+    const Vec3 v = deformable[body].velocity.segment<3>(3 * node);
+    return with_delta ? Vec3(v + deformable_delta[body].segment<3>(3 * node)) : v;
   });
 }
 
 Vec3 GroupSystem::displacement_velocity(std::size_t i) const {
   return row_velocity(*this, i, true, [&](int body, int node) {
-    return Vec3(soft[body].displacement_velocity.segment<3>(3 * node) +
-                soft[body].displacement_scale * soft_delta[body].segment<3>(3 * node));
+    return Vec3(deformable[body].displacement_velocity.segment<3>(3 * node) +
+                deformable[body].displacement_scale * deformable_delta[body].segment<3>(3 * node));
   });
 }
 
-VecX GroupSystem::soft_impulse(int body, const std::vector<Vec3>& impulses) const {
-  VecX sum = VecX::Zero(soft[body].velocity.size());
+VecX GroupSystem::deformable_impulse(int body, const std::vector<Vec3>& impulses) const {
+  VecX sum = VecX::Zero(deformable[body].velocity.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vec3 force = contacts[i].directions.transpose() * impulses[i];
     for (const auto& [side, sign] : {std::pair(&contacts[i].a, 1.0), std::pair(&contacts[i].b, -1.0)})
-      if (side->soft == body)
+      if (side->deformable == body)
         for (const NodeWeight& n : side->nodes) sum.segment<3>(3 * n.node) += sign * n.weight * force;
   }
   return sum;
 }
 
 void GroupSystem::clear_delta() {
-  delta_velocity.assign(bodies.size(), Vec3::Zero());
-  delta_angular_velocity.assign(bodies.size(), Vec3::Zero());
-  soft_delta.clear();
-  for (const SoftBlock& block : soft) soft_delta.push_back(VecX::Zero(block.velocity.size()));
+  delta_velocity.assign(rigid.size(), Vec3::Zero());
+  delta_angular_velocity.assign(rigid.size(), Vec3::Zero());
+  deformable_delta.clear();
+  for (const DeformableBlock& block : deformable) deformable_delta.push_back(VecX::Zero(block.velocity.size()));
 }
 
 }  // namespace impinge

@@ -3,42 +3,17 @@
 
 #include <memory>
 
-#include "engine/algebra/block_matrix.hpp"
-#include "engine/algebra/linear_solver.hpp"
+#include "engine/bodies/material_point.hpp"
+#include "engine/bodies/system_block.hpp"
 #include "engine/contact/row_kind.hpp"
 
 namespace impinge {
 
-/// A rigid body's part of A (block diagonal by body) and its velocities. A = diag(m I, R I_body R^T).
-struct BodyBlock {
-  double inverse_mass = 0.0;             ///< 1/kg
-  Mat3 inverse_inertia = Mat3::Zero();   ///< world axes, 1/(kg·m²)
-  Vec3 velocity = Vec3::Zero();          ///< v*, m/s
-  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
-};
-
-/// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions
-/// move by Δq(v) = s v + d: where a scheme's Δq is not Δt v (Newmark), what overlap is left after the
-/// velocities is pushed out in the same sub-step, which sees displacement velocities Δq/Δt.
-struct SoftBlock {
-  const BlockMatrix* a = nullptr;   ///< kg
-  LinearSolver* solver = nullptr;   ///< analyzed with a's pattern; factorized when a response asks for it
-  bool is_diagonal = false;         ///< a has nothing beside its diagonal blocks (explicit schemes, lumped mass)
-  VecX velocity;                    ///< v*, 3 x free nodes, m/s
-  VecX displacement_velocity;       ///< (s v* + d)/Δt, m/s
-  double displacement_scale = 1.0;  ///< s/Δt
-};
-
-struct NodeWeight {
-  int node = -1;  ///< free node of the deformable body
-  double weight = 0.0;
-};
-
 /// One body of a contact: a rigid body by its lever arm, a deformable one by the nodes that carry the point, or
 /// neither: a body without freedom, whose motion is in ContactRows::surface.
 struct ContactSide {
-  int rigid = -1;                 ///< index into GroupSystem::bodies
-  int soft = -1;                  ///< index into GroupSystem::soft
+  int rigid = -1;                 ///< index into GroupSystem::rigid
+  int deformable = -1;            ///< index into GroupSystem::deformable
   Vec3 arm = Vec3::Zero();        ///< rigid: from the centre of mass to the common point
   std::vector<NodeWeight> nodes;  ///< deformable; held nodes are left out
 };
@@ -61,12 +36,12 @@ struct ContactRows {
 };
 
 struct GroupSystem {
-  std::vector<BodyBlock> bodies;
-  std::vector<SoftBlock> soft;
+  std::vector<RigidBlock> rigid;
+  std::vector<DeformableBlock> deformable;
   std::vector<ContactRows> contacts;
   std::vector<Vec3> lambda;                                  ///< in: where to start; out: impulses (n, t1, t2), N·s
   std::vector<Vec3> delta_velocity, delta_angular_velocity;  ///< out: Δv = A⁻¹ J^T λ by rigid body
-  std::vector<VecX> soft_delta;                              ///< out: the same by deformable body, over its free nodes
+  std::vector<VecX> deformable_delta;                        ///< out: the same by deformable body, over its free nodes
   /// Out, or empty: velocities beside v* + Δv by which positions move in this sub-step and no later one, by rigid body,
   /// in groups without deformable ones: of responses that tell recovery from overlap and motion apart.
   std::vector<Vec3> position_velocity, position_angular_velocity;
@@ -80,7 +55,7 @@ struct GroupSystem {
   /// J Δq(v)/Δt of contact i with the Δv: how fast the gap changes over the sub-step.
   Vec3 displacement_velocity(std::size_t i) const;
   /// J^T λ on the free nodes of one deformable body, kg·m/s.
-  VecX soft_impulse(int body, const std::vector<Vec3>& impulses) const;
+  VecX deformable_impulse(int body, const std::vector<Vec3>& impulses) const;
   /// Zero Δv of the right sizes.
   void clear_delta();
 };

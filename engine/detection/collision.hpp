@@ -1,13 +1,16 @@
 // What detection hands on to response: a list of collisions, each one point pair with a normal. [Haapaoja16 §3.2.1]
 #pragma once
 
+#include <tuple>
+
+#include "engine/core/index.hpp"
 #include "engine/core/types.hpp"
 
 namespace impinge {
 
 /// Two bodies (scene order, a < b; a == b asks for self-collision) that may touch, and how far apart still counts.
 struct BodyPair {
-  int a = -1, b = -1;
+  BodyIndex a, b;
   double margin = 0.0;  ///< metres; features closer than this are wanted (0: intersections only)
   friend bool operator==(const BodyPair& l, const BodyPair& r) { return l.a == r.a && l.b == r.b; }
   friend bool operator<(const BodyPair& l, const BodyPair& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; }
@@ -15,7 +18,8 @@ struct BodyPair {
 
 /// A triangle of body a and one of body b. In self-collision triangle_a < triangle_b.
 struct TrianglePair {
-  int a = -1, b = -1, triangle_a = -1, triangle_b = -1;
+  BodyIndex a, b;
+  TriangleIndex triangle_a, triangle_b;
   bool intersecting = false;  ///< the closed triangles share a point (else: only closer than the pair's margin)
   friend bool operator==(const TrianglePair& l, const TrianglePair& r) {
     return l.a == r.a && l.b == r.b && l.triangle_a == r.triangle_a && l.triangle_b == r.triangle_b &&
@@ -28,13 +32,13 @@ struct TrianglePair {
 
 /// One contact found by detection. Everything in world coordinates at the instant of detection.
 struct Collision {
-  int body_a = -1, body_b = -1;          ///< scene order, a <= b
-  int triangle_a = -1, triangle_b = -1;  ///< -1 for an exact shape; the point lies in (or at a corner of) the triangle
+  BodyIndex body_a, body_b;              ///< scene order, a <= b
+  TriangleIndex triangle_a, triangle_b;  ///< none: an exact shape; the point lies in (or at a corner of) the triangle
   Vec3 point_a = Vec3::Zero();           ///< on A's surface
   Vec3 point_b = Vec3::Zero();           ///< on B's surface
   Vec3 normal = Vec3::UnitY();           ///< unit, from B towards A
   double gap = 0.0;                      ///< normal·(point_a - point_b), metres; negative: overlap
-  int normal_owner = -1;                 ///< the body whose surface gives the normal and turns it along; -1: neither
+  BodyIndex normal_owner;                ///< the body whose surface gives the normal and turns it along; none: neither
   std::uint64_t feature = 0;  ///< which features touch: stable from step to step, unique within the body pair
 };
 

@@ -15,7 +15,7 @@ std::string body_name(const FrozenStep& step, int b) {
 int mover(const FrozenGroup& group, std::size_t contact) {
   const FrozenContact& at = group.geometry[contact];
   const ContactSide& a = group.system.contacts[contact].a;
-  return a.rigid >= 0 || a.soft >= 0 ? at.body_a : at.body_b;
+  return a.rigid >= 0 || a.deformable >= 0 ? at.body_a : at.body_b;
 }
 
 /// The first figure of an answer that is no number, with the body it belongs to; "" where all are finite.
@@ -33,9 +33,9 @@ std::string first_not_finite(const FrozenStep& step, const std::vector<GroupAnsw
     for (std::size_t b = 0; b < answer.delta_velocity.size(); ++b)
       if (!answer.delta_velocity[b].allFinite() || !answer.delta_angular_velocity[b].allFinite())
         return fmt::format("body '{}': its change of velocity", name(group.rigid_bodies[b]));
-    for (std::size_t b = 0; b < answer.soft_delta.size(); ++b)
-      if (!answer.soft_delta[b].allFinite())
-        return fmt::format("body '{}': its change of velocity", name(group.soft_bodies[b]));
+    for (std::size_t b = 0; b < answer.deformable_delta.size(); ++b)
+      if (!answer.deformable_delta[b].allFinite())
+        return fmt::format("body '{}': its change of velocity", name(group.deformable_bodies[b]));
     first += answer.lambda.size();
   }
   return "";

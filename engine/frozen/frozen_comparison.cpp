@@ -36,11 +36,11 @@ class WatchedSolver : public LcpSolver {
 /// The frozen system with an answer in it, for those who look at it only.
 GroupSystem with_answer(const FrozenGroup& group, const GroupAnswer& answer) {
   GroupSystem system = group.system;
-  for (std::size_t s = 0; s < group.matrices.size(); ++s) system.soft[s].a = &group.matrices[s];
+  for (std::size_t s = 0; s < group.matrices.size(); ++s) system.deformable[s].a = &group.matrices[s];
   system.lambda = answer.lambda;
   system.delta_velocity = answer.delta_velocity;
   system.delta_angular_velocity = answer.delta_angular_velocity;
-  system.soft_delta = answer.soft_delta;
+  system.deformable_delta = answer.deformable_delta;
   return system;
 }
 
@@ -50,7 +50,8 @@ std::vector<Mat3> w_diagonal(ThawedGroup& thawed) {
     for (std::size_t i = 0; i < w.contacts(); ++i) diagonal.push_back(w.diagonal(i));
   };
   GroupSystem& system = thawed.system;
-  if (std::all_of(system.soft.begin(), system.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; })) {
+  if (std::all_of(system.deformable.begin(), system.deformable.end(),
+                  [](const DeformableBlock& b) { return b.is_diagonal; })) {
     const auto inverse = inverse_node_blocks(system);
     take(FactoredDelassus(system, &inverse));
   } else {
@@ -128,7 +129,7 @@ std::string FrozenRuler::solve_exactly(const Response& response, std::size_t g, 
       context.lcp = {0.1 * kExact, kMostExactIterations};
       response.solve(thawed.system, *solver, context);
       const GroupAnswer answer{thawed.system.lambda, thawed.system.delta_velocity, thawed.system.delta_angular_velocity,
-                               thawed.system.soft_delta};
+                               thawed.system.deformable_delta};
       const double reached = residual(g, thawed.system);
       if (!(reached < best) || !is_finite(answer)) continue;
       best = reached;
@@ -208,7 +209,7 @@ FrozenOutcome solve_frozen(const FrozenStep& step, const Response& response, con
     merge_history(outcome.history, !of_loop.empty() ? of_loop : watched.calls == 1 ? of_solver : std::vector<double>());
     GroupSystem& s = thawed.system;
     outcome.answers.push_back({std::move(s.lambda), std::move(s.delta_velocity), std::move(s.delta_angular_velocity),
-                               std::move(s.soft_delta)});
+                               std::move(s.deformable_delta)});
   }
   return outcome;
 }

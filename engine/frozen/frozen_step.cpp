@@ -20,8 +20,8 @@ std::string_view FrozenStep::setting(std::string_view path) const {
 
 bool FrozenStep::is_block_diagonal() const {
   return std::all_of(groups.begin(), groups.end(), [](const FrozenGroup& group) {
-    return std::all_of(group.system.soft.begin(), group.system.soft.end(),
-                       [](const SoftBlock& block) { return block.is_diagonal; });
+    return std::all_of(group.system.deformable.begin(), group.system.deformable.end(),
+                       [](const DeformableBlock& block) { return block.is_diagonal; });
   });
 }
 
@@ -30,14 +30,14 @@ bool is_finite(const GroupAnswer& answer) {
   return std::all_of(answer.lambda.begin(), answer.lambda.end(), finite) &&
          std::all_of(answer.delta_velocity.begin(), answer.delta_velocity.end(), finite) &&
          std::all_of(answer.delta_angular_velocity.begin(), answer.delta_angular_velocity.end(), finite) &&
-         std::all_of(answer.soft_delta.begin(), answer.soft_delta.end(), finite);
+         std::all_of(answer.deformable_delta.begin(), answer.deformable_delta.end(), finite);
 }
 
 FrozenGroup freeze(const GroupSystem& system) {
   FrozenGroup frozen;
   frozen.system = system;
   frozen.system.assembled.reset();
-  for (SoftBlock& block : frozen.system.soft) {
+  for (DeformableBlock& block : frozen.system.deformable) {
     frozen.matrices.push_back(*block.a);
     block.a = nullptr;
     block.solver = nullptr;
@@ -52,21 +52,21 @@ ThawedGroup thaw(const FrozenGroup& group, const LinearSolverChoice& linear_solv
     const BlockMatrix& a = group.matrices[s];
     thawed.solvers.push_back(linear_solver.make(a.rows(), kContactRightHandSides));
     thawed.solvers.back()->analyze(*a.pattern);
-    thawed.system.soft[s].a = &a;
-    thawed.system.soft[s].solver = thawed.solvers.back().get();
+    thawed.system.deformable[s].a = &a;
+    thawed.system.deformable[s].solver = thawed.solvers.back().get();
   }
   return thawed;
 }
 
 double energy_product(const FrozenGroup& group, const GroupAnswer& x, const GroupAnswer& y) {
   double sum = 0.0;
-  for (std::size_t b = 0; b < group.system.bodies.size(); ++b) {
-    const BodyBlock& block = group.system.bodies[b];
+  for (std::size_t b = 0; b < group.system.rigid.size(); ++b) {
+    const RigidBlock& block = group.system.rigid[b];
     sum += x.delta_velocity[b].dot(y.delta_velocity[b]) / block.inverse_mass;
     sum += x.delta_angular_velocity[b].dot(Mat3(block.inverse_inertia.inverse()) * y.delta_angular_velocity[b]);
   }
   for (std::size_t s = 0; s < group.matrices.size(); ++s)
-    sum += dot(x.soft_delta[s], group.matrices[s] * y.soft_delta[s]);
+    sum += dot(x.deformable_delta[s], group.matrices[s] * y.deformable_delta[s]);
   return sum;
 }
 
@@ -76,7 +76,7 @@ double energy_distance(const FrozenGroup& group, const GroupAnswer& x, const Gro
     difference.delta_velocity[b] -= y.delta_velocity[b];
     difference.delta_angular_velocity[b] -= y.delta_angular_velocity[b];
   }
-  for (std::size_t s = 0; s < x.soft_delta.size(); ++s) difference.soft_delta[s] -= y.soft_delta[s];
+  for (std::size_t s = 0; s < x.deformable_delta.size(); ++s) difference.deformable_delta[s] -= y.deformable_delta[s];
   return std::sqrt(std::max(0.0, energy_product(group, difference, difference)));
 }
 

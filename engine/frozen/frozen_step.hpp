@@ -2,14 +2,15 @@
 // and what it made of it. Plain data that owns all it refers to.
 #pragma once
 
+#include "engine/core/index.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {
 
 /// Where a contact (or attachment) is. World coordinates at the instant of detection.
 struct FrozenContact {
-  int body_a = -1, body_b = -1;          ///< scene order; -1: the world (attachments)
-  int triangle_a = -1, triangle_b = -1;  ///< -1: an exact shape, or an attachment
+  BodyIndex body_a, body_b;              ///< scene order; none: the world (attachments)
+  TriangleIndex triangle_a, triangle_b;  ///< none: an exact shape, or an attachment
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
   std::uint64_t feature = 0;  ///< what the contact is remembered by from step to step
 };
@@ -17,7 +18,7 @@ struct FrozenContact {
 /// λ and Δv of a group, as a response leaves them in a GroupSystem.
 struct GroupAnswer {
   std::vector<Vec3> lambda, delta_velocity, delta_angular_velocity;
-  std::vector<VecX> soft_delta;
+  std::vector<VecX> deformable_delta;
 };
 
 bool is_finite(const GroupAnswer& answer);
@@ -25,10 +26,10 @@ bool is_finite(const GroupAnswer& answer);
 struct FrozenGroup {
   /// λ: where the run started; the soft blocks' `a` and `solver` are null (see thaw)
   GroupSystem system;
-  std::vector<BlockMatrix> matrices;           ///< A by deformable body
-  std::vector<int> rigid_bodies, soft_bodies;  ///< scene indices, in the system's order
-  std::vector<FrozenContact> geometry;         ///< by contact of the system; its normal is the system's first direction
-  GroupAnswer answer;                          ///< the run's
+  std::vector<BlockMatrix> matrices;                       ///< A by deformable body
+  std::vector<BodyIndex> rigid_bodies, deformable_bodies;  ///< in the system's order
+  std::vector<FrozenContact> geometry;  ///< by contact of the system; its normal is the system's first direction
+  GroupAnswer answer;                   ///< the run's
 };
 
 struct FrozenStep {

@@ -18,24 +18,24 @@ constexpr std::size_t kHead = kMagic.size() + 24;
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
 void put_side(LittleEndianWriter& out, const ContactSide& side) {
-  out.put(std::int32_t{side.rigid}), out.put(std::int32_t{side.soft}), out.put(side.arm);
+  out.put(std::int32_t{side.rigid}), out.put(std::int32_t{side.deformable}), out.put(side.arm);
   out.put_count(side.nodes.size());
   for (const NodeWeight& n : side.nodes) out.put(std::int32_t{n.node}), out.put(n.weight);
 }
 
 void put_group(LittleEndianWriter& out, const FrozenGroup& group) {
   const GroupSystem& system = group.system;
-  out.put_count(system.bodies.size());
-  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
-    const BodyBlock& block = system.bodies[b];
+  out.put_count(system.rigid.size());
+  for (std::size_t b = 0; b < system.rigid.size(); ++b) {
+    const RigidBlock& block = system.rigid[b];
     out.put(std::int32_t{group.rigid_bodies[b]}), out.put(block.inverse_mass), out.put(block.inverse_inertia);
     out.put(block.velocity), out.put(block.angular_velocity);
   }
-  out.put_count(system.soft.size());
-  for (std::size_t s = 0; s < system.soft.size(); ++s) {
-    const SoftBlock& block = system.soft[s];
+  out.put_count(system.deformable.size());
+  for (std::size_t s = 0; s < system.deformable.size(); ++s) {
+    const DeformableBlock& block = system.deformable[s];
     const BlockMatrix& a = group.matrices[s];
-    out.put(std::int32_t{group.soft_bodies[s]}), out.put(block.is_diagonal), out.put(block.displacement_scale);
+    out.put(std::int32_t{group.deformable_bodies[s]}), out.put(block.is_diagonal), out.put(block.displacement_scale);
     out.put_count(static_cast<std::size_t>(a.pattern->rows));
     for (const int begin : a.pattern->begin) out.put_count(static_cast<std::size_t>(begin));
     for (const int column : a.pattern->column) out.put_count(static_cast<std::size_t>(column));
@@ -47,16 +47,17 @@ void put_group(LittleEndianWriter& out, const FrozenGroup& group) {
     const ContactRows& rows = system.contacts[i];
     const FrozenContact& at = group.geometry[i];
     out.put(static_cast<std::uint8_t>(rows.kind));
-    for (const int index : {at.body_a, at.body_b, at.triangle_a, at.triangle_b}) out.put(std::int32_t{index});
+    for (const int index : {at.body_a.value(), at.body_b.value(), at.triangle_a.value(), at.triangle_b.value()})
+      out.put(std::int32_t{index});
     out.put(at.point_a), out.put(at.point_b), out.put(at.feature);
     out.put(rows.directions), out.put(rows.surface), out.put(rows.gap), out.put(rows.bound), out.put(rows.friction);
     out.put(rows.restitution), out.put(rows.velocity_before);
     out.put(system.lambda[i]), out.put(group.answer.lambda[i]);
     put_side(out, rows.a), put_side(out, rows.b);
   }
-  for (std::size_t b = 0; b < system.bodies.size(); ++b)
+  for (std::size_t b = 0; b < system.rigid.size(); ++b)
     out.put(group.answer.delta_velocity[b]), out.put(group.answer.delta_angular_velocity[b]);
-  for (const VecX& v : group.answer.soft_delta) out.put(v);
+  for (const VecX& v : group.answer.deformable_delta) out.put(v);
 }
 
 class Reader {
@@ -152,14 +153,14 @@ BlockMatrix read_matrix(Reader& in) {
 ContactSide read_side(Reader& in, const FrozenGroup& group) {
   ContactSide side;
   const std::size_t start = in.at();
-  side.rigid = in.index("a side's rigid body", -1, static_cast<std::int64_t>(group.system.bodies.size()));
-  side.soft = in.index("a side's deformable body", -1, static_cast<std::int64_t>(group.matrices.size()));
+  side.rigid = in.index("a side's rigid body", -1, static_cast<std::int64_t>(group.system.rigid.size()));
+  side.deformable = in.index("a side's deformable body", -1, static_cast<std::int64_t>(group.matrices.size()));
   side.arm = in.vec3();
   const std::size_t nodes = in.count("nodes of a contact", 12);
-  if ((side.rigid >= 0 && side.soft >= 0) || (side.soft < 0 && nodes > 0))
+  if ((side.rigid >= 0 && side.deformable >= 0) || (side.deformable < 0 && nodes > 0))
     in.fail(start, "a side with more than one body", "a rigid body, a deformable one or none is wanted");
   for (std::size_t k = 0; k < nodes; ++k) {
-    const int node = in.index("a node", 0, group.matrices[side.soft].pattern->rows);
+    const int node = in.index("a node", 0, group.matrices[side.deformable].pattern->rows);
     side.nodes.push_back({node, in.get<double>()});
   }
   return side;
@@ -172,9 +173,9 @@ void read_contact(Reader& in, std::int64_t bodies, FrozenGroup& group) {
   const int kind = in.get<std::uint8_t>();
   if (kind > 2) in.fail(start, fmt::format("kind {}", kind), "0 to 2 is wanted");
   rows.kind = static_cast<RowKind>(kind);
-  at.body_a = in.index("a contact's body", -1, bodies), at.body_b = in.index("a contact's body", -1, bodies);
-  at.triangle_a = in.index("a triangle", -1, std::int64_t{1} << 31),
-  at.triangle_b = in.index("a triangle", -1, std::int64_t{1} << 31);
+  for (BodyIndex* body : {&at.body_a, &at.body_b}) *body = BodyIndex(in.index("a contact's body", -1, bodies));
+  for (TriangleIndex* triangle : {&at.triangle_a, &at.triangle_b})
+    *triangle = TriangleIndex(in.index("a triangle", -1, std::int64_t{1} << 31));
   at.point_a = in.vec3(), at.point_b = in.vec3(), at.feature = in.get<std::uint64_t>();
   rows.directions = in.mat3(), rows.surface = in.vec3(), rows.gap = in.get<double>(), rows.bound = in.get<double>();
   rows.friction = in.positive("friction", true);
@@ -190,29 +191,29 @@ FrozenGroup read_group(Reader& in, std::int64_t bodies) {
   FrozenGroup group;
   const std::size_t rigid = in.count("rigid bodies", 132);
   for (std::size_t b = 0; b < rigid; ++b) {
-    group.rigid_bodies.push_back(in.index("a body", 0, bodies));
-    BodyBlock block;
+    group.rigid_bodies.emplace_back(in.index("a body", 0, bodies));
+    RigidBlock block;
     block.inverse_mass = in.positive("1/m", false);
     block.inverse_inertia = in.mat3(), block.velocity = in.vec3(), block.angular_velocity = in.vec3();
-    group.system.bodies.push_back(block);
+    group.system.rigid.push_back(block);
   }
-  const std::size_t soft = in.count("deformable bodies", 17);
-  for (std::size_t s = 0; s < soft; ++s) {
-    group.soft_bodies.push_back(in.index("a body", 0, bodies));
-    SoftBlock block;
+  const std::size_t deformable = in.count("deformable bodies", 17);
+  for (std::size_t s = 0; s < deformable; ++s) {
+    group.deformable_bodies.emplace_back(in.index("a body", 0, bodies));
+    DeformableBlock block;
     block.is_diagonal = in.get<std::uint8_t>() != 0;
     block.displacement_scale = in.get<double>();
     group.matrices.push_back(read_matrix(in));
     const auto unknowns = static_cast<std::size_t>(group.matrices.back().rows());
     block.velocity = in.numbers(unknowns), block.displacement_velocity = in.numbers(unknowns);
-    group.system.soft.push_back(std::move(block));
+    group.system.deformable.push_back(std::move(block));
   }
   const std::size_t contacts = in.count("contacts", 316);
   for (std::size_t i = 0; i < contacts; ++i) read_contact(in, bodies, group);
   for (std::size_t b = 0; b < rigid; ++b)
     group.answer.delta_velocity.push_back(in.vec3()), group.answer.delta_angular_velocity.push_back(in.vec3());
   for (const BlockMatrix& a : group.matrices)
-    group.answer.soft_delta.push_back(in.numbers(static_cast<std::size_t>(a.rows())));
+    group.answer.deformable_delta.push_back(in.numbers(static_cast<std::size_t>(a.rows())));
   group.system.clear_delta();
   return group;
 }

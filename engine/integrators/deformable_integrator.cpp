@@ -5,23 +5,10 @@
 
 namespace impinge {
 
-void NewtonSettings::declare(const Rows& rows) {
-  rows.add("tolerance", tolerance, {1e-15, 1.0, true}, "",
-           "Newton's method ends where the residual is this part of the momenta and impulses that make it up.");
-  rows.add("max_iterations", max_iterations, {1, 1000000, true}, "",
-           "Newton iterations at most, of a body by itself and of a group in contact, each sub-step.");
-}
-
 VecX applied_force(const DeformableBody& body, const Vec3& gravity) {
   VecX f = body.external_force;
   for (int i = 0; i < body.nodes(); ++i) f.segment<3>(3 * i) += body.fem.node_mass()[i] * gravity;
   return f;
-}
-
-VecX with_held(const DeformableBody& body, const VecX& free) {
-  VecX all = body.held_velocity();
-  body.scatter_free(free, all);
-  return all;
 }
 
 VecX damping_force(const DeformableBody& body, const DeformableStep& step, const VecX& v) {
@@ -82,8 +69,8 @@ void solve_free_velocity(const DeformableBody& body, DeformableStep& step, Linea
   step.converged = step.linear_status == SolveStatus::ok;
 }
 
-void DeformableIntegrator::linearize(DeformableBody& body, const VecX& v, DeformableStep& step) const {
-  const VecX all = with_held(body, v);
+void OneStepScheme::linearize(DeformableBody& body, const VecX& v, DeformableStep& step) const {
+  const VecX all = body.with_held(v);
   VecX force, g;
   if (step.tangent.pattern != body.fem.pattern()) step.tangent = BlockMatrix(body.fem.pattern());
   body.fem.stiffness(step.position(all), Tangent::projected, force, step.tangent);
@@ -94,12 +81,12 @@ void DeformableIntegrator::linearize(DeformableBody& body, const VecX& v, Deform
   step.b = step.a * v - body.gather_free(g);
 }
 
-void DeformableIntegrator::free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const {
+void OneStepScheme::free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const {
   newton_solve(body, step, solver, *newton());
 }
 
-void DeformableIntegrator::advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const {
-  const VecX all = with_held(body, v);
+void OneStepScheme::advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const {
+  const VecX all = body.with_held(v);
   body.position = step.position(all);
   body.velocity = all;
   body.acceleration_known = false;

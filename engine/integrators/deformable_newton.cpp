@@ -51,7 +51,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
   IncrementalPotential potential(body, step);
   if (step.tangent.pattern != body.fem.pattern()) step.tangent = BlockMatrix(body.fem.pattern());
   BlockMatrix& k = step.tangent;
-  VecX force, v = with_held(body, body.gather_free(body.velocity));
+  VecX force, v = body.with_held(body.gather_free(body.velocity));
   double first_residual = 0.0;
   step.converged = false;
   for (step.newton_iterations = 0;; ++step.newton_iterations) {

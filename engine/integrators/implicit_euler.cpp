@@ -5,7 +5,7 @@
 namespace impinge {
 namespace {
 
-class ImplicitEuler : public DeformableIntegrator {
+class ImplicitEuler : public OneStepScheme {
  public:
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
     step.time_step = step.tau = step.s = h;

@@ -6,7 +6,7 @@
 namespace impinge {
 namespace {
 
-class LinearlyImplicitEuler : public DeformableIntegrator {
+class LinearlyImplicitEuler : public OneStepScheme {
  public:
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
     step.time_step = step.tau = step.s = h;

@@ -6,7 +6,7 @@
 namespace impinge {
 namespace {
 
-class Newmark : public DeformableIntegrator {
+class Newmark : public OneStepScheme {
  public:
   void declare(const Rows& rows) override {
     newton_.declare(rows);
@@ -31,7 +31,7 @@ class Newmark : public DeformableIntegrator {
   void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const override {
     const double gamma = settings_.gamma;
     const VecX before = body.velocity;
-    DeformableIntegrator::advance(body, step, v);
+    OneStepScheme::advance(body, step, v);
     body.acceleration = (body.velocity - before) / (gamma * step.time_step) - (1.0 - gamma) / gamma * body.acceleration;
     for (int i = 0; i < body.nodes(); ++i)
       if (body.is_held(i)) body.acceleration.segment<3>(3 * i).setZero();

@@ -5,7 +5,7 @@
 namespace impinge {
 namespace {
 
-class SymplecticEuler : public DeformableIntegrator {
+class SymplecticEuler : public OneStepScheme {
  public:
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
     step.time_step = step.tau = step.s = h;

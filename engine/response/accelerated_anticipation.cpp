@@ -62,10 +62,10 @@ class Solver {
         context_(context),
         by_change_(settings.stop == AnticipationSettings::Stop::change && !context.recovers_overlap),
         scale_(velocity_scale(base)) {
-    for (const SoftBlock& block : group.soft) inverse_.emplace_back(block);
+    for (const DeformableBlock& block : group.deformable) inverse_.emplace_back(block);
     rows_ = std::make_unique<SplittingDelassus>(group, inverse_, base.q);
     for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
-      for (const SoftBlock& block : group.soft) v->push_back(VecX::Zero(block.velocity.size()));
+      for (const DeformableBlock& block : group.deformable) v->push_back(VecX::Zero(block.velocity.size()));
   }
 
   ResponseResult run() {
@@ -98,7 +98,7 @@ class Solver {
       const bool contacts_hold = change <= 2.0 * tolerance && rows_->natural_residual(group_.lambda, x_) <= tolerance;
       rows_->impulses(group_.lambda, f_);
       for (std::size_t s = 0; s < x_.size(); ++s) {
-        multiply(*group_.soft[s].a, x_[s], a_x_[s]);
+        multiply(*group_.deformable[s].a, x_[s], a_x_[s]);
       }
       momentum = momentum_residual();
       show();
@@ -125,7 +125,7 @@ class Solver {
  private:
   ResponseResult finish(const ResponseResult& result) {
     rows_->move_rigid(group_.lambda);
-    group_.soft_delta = x_;
+    group_.deformable_delta = x_;
     return result;
   }
 
@@ -170,7 +170,7 @@ class Solver {
       rho = next;
       for (std::size_t s = 0; s < x_.size(); ++s) {
         direction[s] = step_[s] + beta * direction[s];
-        multiply(*group_.soft[s].a, direction[s], a_direction[s]);
+        multiply(*group_.deformable[s].a, direction[s], a_direction[s]);
       }
       const double curvature = inner(direction, a_direction);
       if (!(curvature > 0.0)) break;
@@ -188,7 +188,7 @@ class Solver {
 
   void show() {
     if (!context_.observe) return;
-    group_.soft_delta = x_;
+    group_.deformable_delta = x_;
     context_.observe(group_);
   }
 

@@ -20,7 +20,8 @@ class ConstraintAnticipation : public Response {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
     // explicit schemes: A of a deformable body is one block a node, and W has factors as for rigid bodies
-    if (std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; })) {
+    if (std::all_of(group.deformable.begin(), group.deformable.end(),
+                    [](const DeformableBlock& b) { return b.is_diagonal; })) {
       const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);
       FactoredDelassus w(group, &inverse);
       problem.w = &w;
@@ -42,13 +43,13 @@ class ConstraintAnticipation : public Response {
       const Vec3 force = group.contacts[i].directions.transpose() * group.lambda[i];
       for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)}) {
         if (side->rigid < 0) continue;
-        const BodyBlock& block = group.bodies[side->rigid];
+        const RigidBlock& block = group.rigid[side->rigid];
         group.delta_velocity[side->rigid] += sign * block.inverse_mass * force;
         group.delta_angular_velocity[side->rigid] += sign * (block.inverse_inertia * side->arm.cross(force));
       }
     }
-    for (int s = 0; s < static_cast<int>(group.soft.size()); ++s)
-      group.soft[s].solver->solve(group.soft_impulse(s, group.lambda), group.soft_delta[s]);
+    for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s)
+      group.deformable[s].solver->solve(group.deformable_impulse(s, group.lambda), group.deformable_delta[s]);
   }
 };
 

@@ -8,14 +8,14 @@ namespace impinge {
 
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal) {
   GroupVerdict verdict;
-  std::vector<Vec3> impulse(group.bodies.size(), Vec3::Zero()), turn(group.bodies.size(), Vec3::Zero());
+  std::vector<Vec3> impulse(group.rigid.size(), Vec3::Zero()), turn(group.rigid.size(), Vec3::Zero());
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactRows& rows = group.contacts[i];
     const Vec3 force = rows.directions.transpose() * group.lambda[i];
     Mat3 w = Mat3::Zero();
     const auto add = [&](const ContactSide& side, double sign) {
       if (side.rigid >= 0) {
-        const BodyBlock& block = group.bodies[side.rigid];
+        const RigidBlock& block = group.rigid[side.rigid];
         impulse[side.rigid] += sign * force;
         turn[side.rigid] += sign * side.arm.cross(force);
         for (int r = 0; r < 3; ++r)
@@ -26,7 +26,7 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
           }
       }
       for (const NodeWeight& n : side.nodes) {  // the natural map needs a scale only: the nodes' own blocks serve
-        const BlockMatrix& a = *group.soft[side.soft].a;
+        const BlockMatrix& a = *group.deformable[side.deformable].a;
         w += n.weight * n.weight * rows.directions * a.values[a.pattern->diagonal[n.node]].inverse() *
              rows.directions.transpose();
       }
@@ -44,16 +44,16 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
     verdict.natural_map = r;
     verdict.worst = static_cast<int>(i);
   }
-  for (std::size_t b = 0; b < group.bodies.size(); ++b) {
-    const BodyBlock& block = group.bodies[b];
+  for (std::size_t b = 0; b < group.rigid.size(); ++b) {
+    const RigidBlock& block = group.rigid[b];
     const Vec3 linear = group.delta_velocity[b] - block.inverse_mass * impulse[b];
     const Vec3 angular = group.delta_angular_velocity[b] - block.inverse_inertia * turn[b];
     verdict.momentum = larger(larger(verdict.momentum, linear.norm()), angular.norm());
   }
   // A Δv - J^T λ by node, as the velocity that its own block makes of it
-  for (std::size_t s = 0; s < group.soft.size(); ++s) {
-    const BlockMatrix& a = *group.soft[s].a;
-    const VecX r = a * group.soft_delta[s] - group.soft_impulse(static_cast<int>(s), group.lambda);
+  for (std::size_t s = 0; s < group.deformable.size(); ++s) {
+    const BlockMatrix& a = *group.deformable[s].a;
+    const VecX r = a * group.deformable_delta[s] - group.deformable_impulse(static_cast<int>(s), group.lambda);
     for (int i = 0; i < a.pattern->rows; ++i)
       verdict.momentum =
           larger(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());

@@ -40,7 +40,7 @@ void gauss_seidel_sweep(const BlockMatrix& a, const std::vector<Mat3>& inverse, 
 Vec3 soft_velocity(const GroupSystem& group, const std::vector<VecX>& v, std::size_t i) {
   Vec3 relative = Vec3::Zero();
   for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)})
-    for (const NodeWeight& n : side->nodes) relative += sign * n.weight * v[side->soft].segment<3>(3 * n.node);
+    for (const NodeWeight& n : side->nodes) relative += sign * n.weight * v[side->deformable].segment<3>(3 * n.node);
   return group.contacts[i].directions * relative;
 }
 
@@ -54,7 +54,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   const double tolerance = context.lcp.tolerance * scale;
 
   std::vector<VecX> x, a_x, drift;  // Δv, A Δv and D⁻¹ (L + U) Δv
-  for (const SoftBlock& block : group.soft) x.push_back(VecX::Zero(block.velocity.size()));
+  for (const DeformableBlock& block : group.deformable) x.push_back(VecX::Zero(block.velocity.size()));
   a_x = drift = x;
   ResponseResult result;
   bool converged = false;
@@ -62,7 +62,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
   const auto show = [&] {
     if (!context.observe) return;
     w.begin(group.lambda);
-    group.soft_delta = x;
+    group.deformable_delta = x;
     context.observe(group);
   };
   show();
@@ -79,9 +79,9 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
 
     double norm = 0.0, momentum = 0.0;
     for (std::size_t s = 0; s < x.size(); ++s) {
-      const VecX impulse = group.soft_impulse(static_cast<int>(s), group.lambda);
-      gauss_seidel_sweep(*group.soft[s].a, inverse[s], impulse, x[s]);
-      multiply(*group.soft[s].a, x[s], a_x[s]);
+      const VecX impulse = group.deformable_impulse(static_cast<int>(s), group.lambda);
+      gauss_seidel_sweep(*group.deformable[s].a, inverse[s], impulse, x[s]);
+      multiply(*group.deformable[s].a, x[s], a_x[s]);
       const VecX r = a_x[s] - impulse;
       norm += r.squaredNorm();
       for (std::size_t i = 0; i < inverse[s].size(); ++i)
@@ -94,7 +94,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
       before = norm;
     } else if (momentum <= tolerance) {
       w.begin(group.lambda);  // rigid Δv; the deformable bodies' is x
-      group.soft_delta = x;
+      group.deformable_delta = x;
       double worst = 0.0;
       for (std::size_t i = 0; i < base.q.size(); ++i)
         worst = std::max(
@@ -103,7 +103,7 @@ ResponseResult solve_seed(GroupSystem& group, const ConeProblem& base, const std
     }
   }
   w.begin(group.lambda);
-  group.soft_delta = x;
+  group.deformable_delta = x;
   if (!converged) result.ended = StopReason::iteration_cap, result.limit = settings.limit;
   return result;
 }
@@ -146,8 +146,8 @@ class IterativeConstraintAnticipation : public Response {
   ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseContext& context) const override {
     group.clear_delta();
     ConeProblem problem = make_cone_problem(group);
-    const bool one_step =
-        std::all_of(group.soft.begin(), group.soft.end(), [](const SoftBlock& b) { return b.is_diagonal; });
+    const bool one_step = std::all_of(group.deformable.begin(), group.deformable.end(),
+                                      [](const DeformableBlock& b) { return b.is_diagonal; });
     if (!one_step && (settings_.form != Settings::Form::seed || context.recovers_overlap))
       return solve_accelerated(group, problem, solver, settings_, context);
     const std::vector<std::vector<Mat3>> inverse = inverse_node_blocks(group);

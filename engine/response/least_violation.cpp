@@ -48,7 +48,7 @@ bool settle_contradiction(GroupSystem& group) {
   group.lambda = std::move(softened.lambda);
   group.delta_velocity = std::move(softened.delta_velocity);
   group.delta_angular_velocity = std::move(softened.delta_angular_velocity);
-  group.soft_delta = std::move(softened.soft_delta);
+  group.deformable_delta = std::move(softened.deformable_delta);
   return true;
 }
 

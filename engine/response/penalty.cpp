@@ -121,7 +121,7 @@ class Penalty : public Response {
     std::vector<char> act;  // a gap has no spring yet, so there is nothing to share with it
     for (const ContactRows& rows : group.contacts) act.push_back(rows.kind != RowKind::contact || rows.gap < 0.0);
     const std::vector<Mat3> shared = a.shared_mobility(act);
-    const double together = group.soft.empty() ? 0.0 : a.largest_normal_eigenvalue(act);
+    const double together = group.deformable.empty() ? 0.0 : a.largest_normal_eigenvalue(act);
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
       const ContactRows& rows = group.contacts[i];
       const Mat3& mobility = shared[i];

@@ -59,11 +59,11 @@ class SoftConstraint : public Response {
     ResponseResult result;
     for (; result.iterations < settings_.iterations; ++result.iterations)
       sweep(group, w, [&](std::size_t i, const Vec3& u) {
-        return soft_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
+        return deformable_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
       });
     if (!w.finish()) result.ended = StopReason::stagnated;
     // a deformable body's elastic forces count on positions that move by its velocities
-    if (settings_.relax_iterations == 0 || !group.soft.empty()) return result;
+    if (settings_.relax_iterations == 0 || !group.deformable.empty()) return result;
     group.position_velocity = group.delta_velocity;
     group.position_angular_velocity = group.delta_angular_velocity;
     // overlap may not grow any more; what is apart still is kept as it was, or the next sub-step would have nothing to
@@ -82,7 +82,7 @@ class SoftConstraint : public Response {
         return relaxed_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i]);
       });
     if (!w.finish()) result.ended = StopReason::stagnated;
-    for (std::size_t b = 0; b < group.bodies.size(); ++b) {
+    for (std::size_t b = 0; b < group.rigid.size(); ++b) {
       group.position_velocity[b] -= group.delta_velocity[b];
       group.position_angular_velocity[b] -= group.delta_angular_velocity[b];
     }
@@ -101,8 +101,8 @@ class SoftConstraint : public Response {
     }
   }
 
-  static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
-                           const ResponseContext& context) {
+  static Vec3 deformable_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
+                                 const ResponseContext& context) {
     if (rows.kind != RowKind::contact || bounces(rows)) {
       u.x() -= rows.bound;
       return relaxed_impulse(rows, w, u, lambda);

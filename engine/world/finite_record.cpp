@@ -6,34 +6,10 @@
 #include <utility>
 
 #include "engine/core/error.hpp"
-#include "engine/world/ledger.hpp"
+#include "engine/world/figures.hpp"
 
 namespace impinge {
 namespace {
-
-struct Figure {
-  const char* column;  ///< of stats.csv
-  double (*value)(const FrameStats&);
-  double (*share)(const Ledger&);  ///< what a body adds to it; null: it is no sum over bodies
-};
-
-constexpr Figure kFigures[] = {
-    {"time_s", [](const FrameStats& s) { return s.time; }, nullptr},
-    {"max_penetration_m", [](const FrameStats& s) { return s.max_penetration; }, nullptr},
-    {"residual", [](const FrameStats& s) { return s.residual; }, nullptr},
-    {"kinetic_J", [](const FrameStats& s) { return s.kinetic; }, [](const Ledger& l) { return l.kinetic; }},
-    {"potential_J", [](const FrameStats& s) { return s.potential; }, [](const Ledger& l) { return l.potential; }},
-    {"elastic_J", [](const FrameStats& s) { return s.elastic; }, [](const Ledger& l) { return l.elastic; }},
-    {"momentum_x", [](const FrameStats& s) { return s.momentum.x(); }, [](const Ledger& l) { return l.momentum.x(); }},
-    {"momentum_y", [](const FrameStats& s) { return s.momentum.y(); }, [](const Ledger& l) { return l.momentum.y(); }},
-    {"momentum_z", [](const FrameStats& s) { return s.momentum.z(); }, [](const Ledger& l) { return l.momentum.z(); }},
-    {"angular_momentum_x", [](const FrameStats& s) { return s.angular_momentum.x(); },
-     [](const Ledger& l) { return l.angular_momentum.x(); }},
-    {"angular_momentum_y", [](const FrameStats& s) { return s.angular_momentum.y(); },
-     [](const Ledger& l) { return l.angular_momentum.y(); }},
-    {"angular_momentum_z", [](const FrameStats& s) { return s.angular_momentum.z(); },
-     [](const Ledger& l) { return l.angular_momentum.z(); }},
-};
 
 [[noreturn]] void refuse(const StepRecord& record, const std::string& body, const std::string& column, double value) {
   throw DivergenceError(
@@ -43,12 +19,13 @@ constexpr Figure kFigures[] = {
 }
 
 /// ", body 'NAME'" of the body whose own share is not finite.
-std::string to_blame(const Figure& figure, const StepRecord& record, std::span<RigidBody> bodies) {
-  if (figure.share == nullptr) return "";
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (!std::isfinite(figure.share(make_ledger(bodies.subspan(b, 1), record.gravity))))
-      return fmt::format(", body '{}'", bodies[b].name);
-  return "";  // each is finite, their sum is not
+std::string to_blame(const Figure& figure, const StepRecord& record, Bodies& bodies) {
+  for (Body& body : bodies) {
+    FrameStats own;
+    own.take(body.balance(record.gravity));
+    if (!std::isfinite(figure.value(own))) return fmt::format(", body '{}'", body.name);
+  }
+  return "";  // each is finite, their sum is not; or it is no sum over bodies
 }
 
 void check_contact(const StepRecord& record, const ContactRecord& c) {
@@ -73,10 +50,12 @@ void check_contact(const StepRecord& record, const ContactRecord& c) {
 
 }  // namespace
 
-void check_finite(const StepRecord& record, std::span<RigidBody> bodies) {
-  for (const Figure& figure : kFigures)
+void check_finite(const StepRecord& record, Bodies& bodies) {
+  for (const Figure& figure : figures()) {
+    if (figure.is_hash() || figure.kind == FigureKind::judged) continue;
     if (const double value = figure.value(record.stats); !std::isfinite(value))
-      refuse(record, to_blame(figure, record, bodies), figure.column, value);
+      refuse(record, to_blame(figure, record, bodies), std::string(figure.name), value);
+  }
   for (const ContactRecord& contact : record.contacts) check_contact(record, contact);
 }
 

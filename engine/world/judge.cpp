@@ -21,7 +21,7 @@ struct Solid {
   Aabb bounds;
 };
 
-std::vector<Solid> solids_of(const RigidBody& body) {
+std::vector<Solid> solids_of(const Body& body) {
   const std::vector<ShapePart>* parts = body.shape->parts();
   if (parts == nullptr) return {{body.shape.get(), body.pose, body.world_vertices, body.bounds()}};
   std::vector<Solid> list;
@@ -155,12 +155,12 @@ std::int64_t crossing_triangles(const Solid& a, const Solid& b) {
 
 }  // namespace
 
-OverlapVerdict judge_overlap(std::span<const RigidBody> bodies) {
+OverlapVerdict judge_overlap(const Bodies& bodies) {
   std::vector<std::vector<Solid>> solids;
-  for (const RigidBody& body : bodies) solids.push_back(solids_of(body));
+  for (const Body& body : bodies) solids.push_back(solids_of(body));
   OverlapVerdict verdict;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+  for (BodyIndex i(0); i < bodies.size(); ++i)
+    for (BodyIndex j(i + 1); j < bodies.size(); ++j) {
       if (!bodies[i].has_freedom() && !bodies[j].has_freedom()) continue;
       for (const Solid& a : solids[i])
         for (const Solid& b : solids[j]) {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "engine/bodies/rigid_body.hpp"
+#include "engine/bodies/bodies.hpp"
 
 namespace impinge {
 
@@ -17,6 +17,6 @@ struct OverlapVerdict {
   std::int64_t intersections = 0;  ///< triangle pairs of different meshes that share a point
 };
 
-OverlapVerdict judge_overlap(std::span<const RigidBody> bodies);
+OverlapVerdict judge_overlap(const Bodies& bodies);
 
 }  // namespace impinge

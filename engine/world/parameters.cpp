@@ -2,19 +2,8 @@
 
 namespace impinge {
 
-namespace {
-
-const Words<ContactPoints> kPoints = {{ContactPoints::intersection, "intersection"},
-                                      {ContactPoints::proximity, "proximity"}};
-const Words<PushOut> kPushOut = {{PushOut::split, "split"}, {PushOut::velocity, "velocity"}};
-
-}  // namespace
-
-std::string_view name_of(ContactPoints points) { return word_of(kPoints, points); }
-
 void Parameters::bind(ParameterSet& set) {
-  const Rows all(set), of_simulation = all.below("simulation"), of_contact = all.below("contact"),
-                       of_lcp = all.below("lcp");
+  const Rows all(set), of_simulation = all.below("simulation"), of_lcp = all.below("lcp");
   of_simulation.add("frame_time", simulation.frame_time, {1e-6, 10.0, true}, "s",
                     "Length of a frame; a sub-step is frame_time / substeps.");
   of_simulation.add("substeps", simulation.substeps, {1, 1000, true}, "", "Sub-steps of a frame.");
@@ -31,22 +20,7 @@ void Parameters::bind(ParameterSet& set) {
   of_simulation.add("sleep_time", simulation.sleep_time, {0.0, 1000.0}, "s",
                     "How long a whole group must rest before it sleeps.");
   simulation.integrator.declare(all.below("integrator"));
-  of_contact.add("points", contact.points, kPoints,
-                 "Where contacts come from: triangles that intersect already, or features closer than "
-                 "activation_distance.");
-  of_contact.add("activation_distance", contact.activation_distance, {0.0, 1e3, true}, "m",
-                 "Features closer than this are contacts (proximity).");
-  of_contact.add("friction", contact.friction, {0.0, 100.0}, "",
-                 "Coulomb coefficient of bodies that name none; a pair has the geometric mean.");
-  of_contact.add("restitution", contact.restitution, {0.0, 1.0}, "",
-                 "Restitution of bodies that name none; a pair has the larger.");
-  of_contact.add("restitution_threshold", contact.restitution_threshold, {0.0, 1e3, true}, "m/s",
-                 "Slower impacts do not bounce.");
-  of_contact.add("max_push_out", contact.max_push_out, {0.0, 1e6, true}, "m/s",
-                 "Fastest recovery from overlap that exists already.");
-  of_contact.add("push_out", contact.push_out, kPushOut,
-                 "Recovery from overlap changes positions only (split), or velocities too, as in the seed (velocity).");
-  of_contact.add("warm_start", contact.warm_start, "Whether a contact starts from its impulse of the last sub-step.");
+  contact.declare(all.below("contact"));
   all.below("broad_phase").add("method", broad_phase.method, "Which bodies may touch.");
   broad_phase.method.declare(all.below("broad_phase"));
   all.below("narrow_phase").add("method", narrow_phase.method, "Which triangles of two meshes touch.");
@@ -83,6 +57,16 @@ ResponseContext response_context(const Parameters& p) {
   context.max_push_out = p.contact.max_push_out;
   context.restitution_threshold = p.contact.restitution_threshold;
   return context;
+}
+
+TimeIntegration time_integration(const Parameters& p) {
+  return {*p.simulation.integrator, p.simulation.linear_solver, p.simulation.gravity, p.simulation.time_step()};
+}
+
+Detecting detecting(const Parameters& p) { return {p.contact, *p.broad_phase.method, *p.narrow_phase.method}; }
+
+Solving solving(const Parameters& p) {
+  return {*p.response.method, *p.lcp.method, response_context(p), p.contact, *p.simulation.integrator};
 }
 
 }  // namespace impinge

@@ -2,26 +2,16 @@
 // to one method is that method's own: it keeps and declares it, below its name.
 #pragma once
 
+#include "engine/contact/contact_settings.hpp"
 #include "engine/core/method_set.hpp"
 #include "engine/detection/broadphase/broad_phase.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
 #include "engine/response/response.hpp"
+#include "engine/step/detect.hpp"
+#include "engine/step/respond.hpp"
 
 namespace impinge {
-
-/// Where contacts come from.
-enum class ContactPoints {
-  intersection,  ///< triangles that intersect already
-  proximity      ///< features closer than the activation distance
-};
-std::string_view name_of(ContactPoints points);
-
-/// What recovery from overlap changes.
-enum class PushOut {
-  split,    ///< positions only
-  velocity  ///< velocities too, as in the seed
-};
 
 struct Parameters {
   struct Simulation {
@@ -35,16 +25,7 @@ struct Parameters {
     LinearSolverChoice linear_solver;
     double time_step() const { return frame_time / substeps; }  ///< Δt of every formula
   } simulation;
-  struct Contact {
-    ContactPoints points = ContactPoints::proximity;
-    double activation_distance = 1e-3;
-    double friction = 0.3;
-    double restitution = 0.0;
-    double restitution_threshold = 0.01;
-    double max_push_out = 1.0;
-    PushOut push_out = PushOut::split;
-    bool warm_start = true;
-  } contact;
+  ContactSettings contact;
   struct Broad {
     MethodSet<BroadPhase> method{broad_phases()};
   } broad_phase;
@@ -68,8 +49,12 @@ struct Parameters {
 /// of methods that it can't run either. Throws InputError for a value that isn't allowed.
 void take_settings(std::span<const RowText> values, Parameters& parameters);
 
-/// What the parameters tell a cone solver, and a response.
+/// What the parameters tell a cone solver, a response, time integration, and the stages that detect and solve. They refer
+/// to the parameters.
 LcpSettings lcp_settings(const Parameters& parameters);
 ResponseContext response_context(const Parameters& parameters);
+TimeIntegration time_integration(const Parameters& parameters);
+Detecting detecting(const Parameters& parameters);
+Solving solving(const Parameters& parameters);
 
 }  // namespace impinge

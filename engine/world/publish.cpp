@@ -1,34 +1,24 @@
 // Stage 12: the step record, with every quantity at the end of the frame.
 #include <algorithm>
 
-#include "engine/core/archive.hpp"
+#include "engine/bodies/deformable_body.hpp"
+#include "engine/contact/pair_coefficients.hpp"
+#include "engine/step/sub_step.hpp"
 #include "engine/world/finite_record.hpp"
-#include "engine/world/ledger.hpp"
-#include "engine/world/world_stages.hpp"
+#include "engine/world/world.hpp"
 
 namespace impinge {
 namespace {
 
-/// Detection alone (frame 0): its collisions as contacts that nothing has solved.
-SolvedContact unsolved(const Collision& c, const std::vector<RigidBody>& bodies, const Parameters& parameters) {
-  SolvedContact contact;
-  contact.collision = c;
-  contact.local_a = attach_point(bodies[c.body_a], c.triangle_a, c.point_a);
-  contact.local_b = attach_point(bodies[c.body_b], c.triangle_b, c.point_b);
-  contact.local_normal =
-      c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation.transpose() * c.normal) : c.normal;
-  contact.friction = pair_friction(bodies[c.body_a], bodies[c.body_b], parameters);
-  return contact;
-}
-
-ContactRecord carried(const SolvedContact& contact, const std::vector<RigidBody>& bodies) {
+ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
   const Collision& c = contact.collision;
   ContactRecord record;
   record.body_a = c.body_a, record.body_b = c.body_b;
   record.triangle_a = c.triangle_a, record.triangle_b = c.triangle_b;
-  record.point_a = carry_point(bodies[c.body_a], c.triangle_a, contact.local_a);
-  record.point_b = carry_point(bodies[c.body_b], c.triangle_b, contact.local_b);
-  record.normal = c.normal_owner >= 0 ? Vec3(bodies[c.normal_owner].pose.rotation * contact.local_normal) : c.normal;
+  record.point_a = bodies[c.body_a].position_of(contact.point_a);
+  record.point_b = bodies[c.body_b].position_of(contact.point_b);
+  record.normal = c.normal;
+  if (!c.normal_owner.is_none()) record.normal = bodies[c.normal_owner].pose.rotation * contact.local_normal;
   record.gap = record.normal.dot(record.point_a - record.point_b);
   record.gap0 = c.gap;
   record.lambda = contact.lambda;
@@ -39,97 +29,97 @@ ContactRecord carried(const SolvedContact& contact, const std::vector<RigidBody>
   return record;
 }
 
+BodyRecord record_of(const Body& body) {
+  BodyRecord r;
+  r.name = body.name;
+  r.kind = body.kind();
+  r.shape = body.shape.get();
+  r.pose = {body.pose.rotation, body.center_of_mass()};
+  r.file_pose = body.file_pose();
+  r.vertices = body.world_vertices;
+  r.bounds = body.bounds();
+  const Twist twist = body.twist();
+  r.velocity = twist.linear;
+  r.angular_velocity = twist.angular;
+  r.mass = body.mass;
+  r.deformable = body.as<DeformableBody>();
+  r.asleep = body.asleep;
+  return r;
+}
+
 }  // namespace
 
-Vec3 attach_point(const RigidBody& body, int triangle, const Vec3& world) {
-  return body.soft ? triangle_weights(body, triangle, world) : body.pose.apply_inverse(world);
+void World::publish_found() {
+  SubStep& s = *sub_step_;
+  s.results.clear();
+  s.groups = find_groups(bodies_, s.contacts(attachments_));
+  std::vector<SolvedContact> contacts;
+  for (const Collision& c : s.collisions) {
+    const Body &a = bodies_[c.body_a], &b = bodies_[c.body_b];
+    contacts.push_back(unsolved_contact(c, a.surface_point(c.triangle_a, c.point_a),
+                                        b.surface_point(c.triangle_b, c.point_b),
+                                        pair_friction(a, b, parameters.contact), bodies_));
+  }
+  for (GroupIndex g(0); g < s.groups.size(); ++g)
+    for (const ContactIndex c : s.groups[g].contacts)
+      if (c < contacts.size()) contacts[c].group = g;
+  publish(contacts);
 }
 
-Vec3 carry_point(const RigidBody& body, int triangle, const Vec3& local) {
-  if (!body.soft) return body.pose.apply(local);
-  const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
-  return local.x() * body.world_vertices[t[0]] + local.y() * body.world_vertices[t[1]] +
-         local.z() * body.world_vertices[t[2]];
+void World::publish_solved() {
+  std::vector<SolvedContact> contacts;
+  for (const GroupResult& result : sub_step_->results)
+    contacts.insert(contacts.end(), result.solved.begin(), result.solved.end());
+  publish(contacts);
 }
 
-void World::publish(bool solved) {
-  Stages& s = *stages_;
-  if (!solved) {
-    s.contacts.clear();
-    for (const Collision& c : s.detection.collisions) s.contacts.push_back(unsolved(c, bodies_, parameters));
-    s.make_collision_groups(bodies_, attachments_);
-    s.attachment_impulse.assign(attachments_.size(), Vec3::Zero());
-    for (std::size_t g = 0; g < s.groups.size(); ++g)
-      for (int c : s.groups[g].contacts)
-        if (c < static_cast<int>(s.contacts.size())) s.contacts[c].group = static_cast<int>(g);
+void World::publish(std::span<const SolvedContact> contacts) {
+  const SubStep& s = *sub_step_;
+  next_record_.bodies.clear();
+  for (const Body& body : bodies_) next_record_.bodies.push_back(record_of(body));
+  next_record_.groups.clear();
+  for (GroupIndex g(0); g < s.groups.size(); ++g) {
+    next_record_.groups.push_back(s.groups[g].bodies);
+    for (const BodyIndex b : s.groups[g].bodies) next_record_.bodies[b].group = g;
   }
+  next_record_.broad_pairs = s.pairs;
+  next_record_.triangle_pairs = s.triangle_pairs;
+  next_record_.contacts.clear();
+  for (const SolvedContact& contact : contacts) next_record_.contacts.push_back(carried(contact, bodies_));
+  next_record_.attachments.clear();
+  for (const Attachment& a : attachments_)
+    next_record_.attachments.push_back(
+        {a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), Vec3::Zero()});
+  for (const GroupResult& result : s.results)
+    for (std::size_t i = 0; i < result.contacts.size(); ++i)
+      if (const ContactList list = s.contacts(attachments_); list.collision(result.contacts[i]) == nullptr)
+        next_record_.attachments[list.attachment_at(result.contacts[i])].impulse = result.impulses[i].impulse;
+  next_record_.gravity = parameters.simulation.gravity;
+  next_record_.frame_time = parameters.simulation.frame_time;
 
-  StepRecord& record = s.next_record;
-  record.bodies.clear();
-  for (const RigidBody& body : bodies_) {
-    BodyRecord r;
-    r.name = body.name;
-    r.kind = body.kind;
-    r.shape = body.shape.get();
-    r.pose = body.pose;
-    r.file_pose = body.file_pose();
-    r.vertices = body.world_vertices;
-    r.bounds = body.bounds();
-    r.velocity = body.velocity;
-    r.angular_velocity = body.angular_velocity();
-    r.mass = body.mass;
-    if (body.soft) {
-      r.soft = &body.soft->fem;
-      r.embedding = &body.soft->embedding;
-      r.pose.position = r.file_pose.position = body.soft->fem.center_of_mass();
-    }
-    r.asleep = body.asleep;
-    record.bodies.push_back(r);
+  stats_.frame = frame_;
+  stats_.time = time_;
+  stats_.substeps = parameters.simulation.substeps;
+  stats_.bodies = bodies_.size();
+  stats_.dofs = stats_.asleep = 0;
+  Balance balance;
+  for (Body& body : bodies_) {
+    stats_.dofs += body.dofs();
+    stats_.asleep += body.asleep ? 1 : 0;
+    balance += body.balance(parameters.simulation.gravity);
   }
-  record.groups.clear();
-  for (std::size_t g = 0; g < s.groups.size(); ++g) {
-    record.groups.push_back(s.groups[g].bodies);
-    for (int b : s.groups[g].bodies) record.bodies[b].group = static_cast<int>(g);
-  }
-  record.broad_pairs = s.detection.pairs;
-  record.triangle_pairs = s.detection.triangle_pairs;
-  record.contacts.clear();
-  for (const SolvedContact& contact : s.contacts) record.contacts.push_back(carried(contact, bodies_));
-  record.attachments.clear();
-  for (std::size_t i = 0; i < attachments_.size(); ++i) {
-    const Attachment& a = attachments_[i];
-    record.attachments.push_back(
-        {a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), s.attachment_impulse[i]});
-  }
-  record.gravity = parameters.simulation.gravity;
-  record.frame_time = parameters.simulation.frame_time;
-
-  FrameStats& stats = s.frame_stats;
-  stats.frame = frame_;
-  stats.time = time_;
-  stats.substeps = parameters.simulation.substeps;
-  stats.bodies = static_cast<int>(bodies_.size());
-  stats.dofs = stats.asleep = 0;
-  for (const RigidBody& body : bodies_) {
-    stats.dofs += body.is_dynamic() ? 6 : body.soft ? body.soft->fem.dofs() : 0;
-    stats.asleep += body.asleep ? 1 : 0;
-  }
-  stats.broad_pairs = static_cast<std::int64_t>(record.broad_pairs.size());
-  stats.triangle_pairs = static_cast<std::int64_t>(record.triangle_pairs.size());
-  stats.contacts = static_cast<std::int64_t>(record.contacts.size());
-  stats.groups = static_cast<std::int64_t>(record.groups.size());
-  stats.max_penetration = 0.0;
-  for (const ContactRecord& c : record.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
-  const Ledger ledger = make_ledger(bodies_, parameters.simulation.gravity);
-  stats.kinetic = ledger.kinetic;
-  stats.elastic = ledger.elastic;
-  stats.potential = ledger.potential;
-  stats.momentum = ledger.momentum;
-  stats.angular_momentum = ledger.angular_momentum;
-  stats.state_hash = state_hash();
-  record.stats = stats;
-  check_finite(record, bodies_);
-  std::swap(record_, record);  // so that a frame that may not be published leaves the last one standing
+  stats_.broad_pairs = static_cast<std::int64_t>(next_record_.broad_pairs.size());
+  stats_.triangle_pairs = static_cast<std::int64_t>(next_record_.triangle_pairs.size());
+  stats_.contacts = static_cast<std::int64_t>(next_record_.contacts.size());
+  stats_.groups = static_cast<std::int64_t>(next_record_.groups.size());
+  stats_.max_penetration = 0.0;
+  for (const ContactRecord& c : next_record_.contacts)
+    stats_.max_penetration = std::max(stats_.max_penetration, -c.gap);
+  stats_.take(balance);
+  stats_.state_hash = state_hash();
+  next_record_.stats = stats_;
+  check_finite(next_record_, bodies_);
+  std::swap(record_, next_record_);  // so that a frame that may not be published leaves the last one standing
 }
 
 }  // namespace impinge

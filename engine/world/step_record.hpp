@@ -7,10 +7,10 @@
 
 #include "engine/bodies/body_kind.hpp"
 #include "engine/bodies/deformable_body.hpp"
+#include "engine/contact/contact_frame.hpp"
+#include "engine/contact/contact_state.hpp"
 #include "engine/core/profile.hpp"
 #include "engine/detection/collision.hpp"
-#include "engine/geometry/embedding.hpp"
-#include "engine/shapes/shape.hpp"
 
 namespace impinge {
 
@@ -25,34 +25,28 @@ struct BodyRecord {
   Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
   double mass = 0.0;  ///< kg; 0 for static and scripted
   bool asleep = false;
-  int group = -1;  ///< collision group of the last sub-step, -1: none
-  /// of a deformable body: its tetrahedra, nodes, held nodes; its pose is its centre's
-  const DeformableBody* soft = nullptr;
-  const Embedding* embedding = nullptr;  ///< of its surface
+  GroupIndex group;  ///< of the last sub-step; none: nothing touches it
+  /// of a deformable body: its tetrahedra, nodes, held nodes, embedding; its pose is its centre's
+  const DeformableBody* deformable = nullptr;
 };
-
-enum class ContactState : std::uint8_t { open, stick, slip };
-const char* state_name(ContactState state);
 
 /// A contact of the last sub-step, its points carried with their bodies to the end of the frame.
 struct ContactRecord {
-  int body_a = -1, body_b = -1, triangle_a = -1, triangle_b = -1;
+  BodyIndex body_a, body_b;
+  TriangleIndex triangle_a, triangle_b;  ///< none: an exact shape
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero(), normal = Vec3::UnitY();
   double gap = 0.0;            ///< at the end of the frame, metres
   double gap0 = 0.0;           ///< what the solver saw, metres
   Vec3 lambda = Vec3::Zero();  ///< impulse (n, t1, t2) of the last sub-step, N·s
   double friction = 0.0;       ///< coefficient of the pair
   ContactState state = ContactState::open;
-  int group = -1;
+  GroupIndex group;
   std::uint64_t pair_id = 0;  ///< stable identity from step to step
 };
 
-/// t1 = normalised e x n with e the first world axis of smallest |n·e|; t2 = n x t1.
-Vec3 tangent1(const Vec3& normal);
-
 struct AttachmentRecord {
   std::string_view name;
-  int body_a = -1, body_b = -1;  ///< -1: the world
+  BodyIndex body_a, body_b;  ///< none: the world
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
   Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
 };
@@ -80,6 +74,10 @@ struct FrameStats {
   std::vector<UnsolvedGroups> unsolved;                  ///< the same by cause; of frames that this process made
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+  void take(const Balance& balance) {
+    kinetic = balance.kinetic, potential = balance.potential, elastic = balance.elastic;
+    momentum = balance.momentum, angular_momentum = balance.angular_momentum;
+  }
   StageTimes times;
   std::uint64_t state_hash = 0;
   // Filled in by who asks the judge of overlap (judge.hpp).
@@ -94,7 +92,7 @@ struct StepRecord {
   std::vector<TrianglePair> triangle_pairs;
   std::vector<ContactRecord> contacts;
   std::vector<AttachmentRecord> attachments;
-  std::vector<std::vector<int>> groups;  ///< body indices of each collision group, ascending
+  std::vector<std::vector<BodyIndex>> groups;  ///< the bodies of each collision group, ascending
   Vec3 gravity = Vec3::Zero();
   double frame_time = 0.0;
 };

@@ -14,9 +14,14 @@ std::size_t get_count(ByteReader& in, std::size_t least_bytes) {
   return static_cast<std::size_t>(count);
 }
 
-int get_body(ByteReader& in, const StepRecord& record, int least) {
-  const int body = in.get<int>();
-  if (body < least || body >= static_cast<int>(record.bodies.size()))
+template <class Of>
+void put_index(ByteWriter& out, Index<Of> index) {
+  out.put(index.value());
+}
+
+BodyIndex get_body(ByteReader& in, const StepRecord& record) {
+  const BodyIndex body(in.get<int>());
+  if (body < 0 || body >= static_cast<int>(record.bodies.size()))
     throw InputError("snapshot: it names a body that the scene has not; remove it and run again");
   return body;
 }
@@ -27,9 +32,9 @@ void put_triangle_pairs(ByteWriter& out, const std::vector<TrianglePair>& pairs)
   for (std::size_t i = 0; i < pairs.size();) {
     std::size_t end = i;
     while (end < pairs.size() && pairs[end].a == pairs[i].a && pairs[end].b == pairs[i].b) ++end;
-    out.put(pairs[i].a), out.put(pairs[i].b), out.put<std::uint64_t>(end - i);
+    put_index(out, pairs[i].a), put_index(out, pairs[i].b), out.put<std::uint64_t>(end - i);
     for (; i < end; ++i)
-      out.put(pairs[i].triangle_a),
+      put_index(out, pairs[i].triangle_a),
           out.put(2 * static_cast<std::int64_t>(pairs[i].triangle_b) + (pairs[i].intersecting ? 1 : 0));
   }
 }
@@ -38,33 +43,33 @@ void get_triangle_pairs(ByteReader& in, StepRecord& record) {
   std::vector<TrianglePair>& pairs = record.triangle_pairs;
   pairs.resize(get_count(in, 12));
   for (std::size_t i = 0; i < pairs.size();) {
-    const int a = get_body(in, record, 0), b = get_body(in, record, 0);
+    const BodyIndex a = get_body(in, record), b = get_body(in, record);
     const auto count = in.get<std::uint64_t>();
     if (count == 0 || count > pairs.size() - i)
       throw InputError("snapshot: its pairs of triangles don't add up; it is damaged, remove it and run again");
     for (const std::size_t end = i + count; i < end; ++i) {
-      const int triangle_a = in.get<int>();
+      const TriangleIndex triangle_a(in.get<int>());
       const auto packed = in.get<std::int64_t>();
-      pairs[i] = {a, b, triangle_a, static_cast<int>(packed >> 1), (packed & 1) != 0};
+      pairs[i] = {a, b, triangle_a, TriangleIndex(packed >> 1), (packed & 1) != 0};
     }
   }
 }
 
 void put_contact(ByteWriter& out, const ContactRecord& c) {
-  out.put(c.body_a), out.put(c.body_b), out.put(c.triangle_a), out.put(c.triangle_b);
+  put_index(out, c.body_a), put_index(out, c.body_b), put_index(out, c.triangle_a), put_index(out, c.triangle_b);
   out.put(c.point_a), out.put(c.point_b), out.put(c.normal);
   out.put(c.gap), out.put(c.gap0), out.put(c.lambda), out.put(c.friction);
-  out.put(static_cast<std::uint8_t>(c.state)), out.put(c.group), out.put(c.pair_id);
+  out.put(static_cast<std::uint8_t>(c.state)), put_index(out, c.group), out.put(c.pair_id);
 }
 
 ContactRecord get_contact(ByteReader& in, const StepRecord& record) {
   ContactRecord c;
-  c.body_a = get_body(in, record, 0), c.body_b = get_body(in, record, 0), c.triangle_a = in.get<int>(),
-  c.triangle_b = in.get<int>();
+  c.body_a = get_body(in, record), c.body_b = get_body(in, record);
+  c.triangle_a = TriangleIndex(in.get<int>()), c.triangle_b = TriangleIndex(in.get<int>());
   c.point_a = in.get_vec3(), c.point_b = in.get_vec3(), c.normal = in.get_vec3();
   c.gap = in.get<double>(), c.gap0 = in.get<double>(), c.lambda = in.get_vec3(), c.friction = in.get<double>();
   c.state = static_cast<ContactState>(std::min<int>(in.get<std::uint8_t>(), static_cast<int>(ContactState::slip)));
-  c.group = in.get<int>(), c.pair_id = in.get<std::uint64_t>();
+  c.group = GroupIndex(in.get<int>()), c.pair_id = in.get<std::uint64_t>();
   return c;
 }
 
@@ -73,16 +78,16 @@ ContactRecord get_contact(ByteReader& in, const StepRecord& record) {
 void put_record(ByteWriter& out, const StepRecord& record) {
   put_figures(out, record.stats);
   out.put<std::uint64_t>(record.broad_pairs.size());
-  for (const BodyPair& pair : record.broad_pairs) out.put(pair.a), out.put(pair.b), out.put(pair.margin);
+  for (const BodyPair& pair : record.broad_pairs) put_index(out, pair.a), put_index(out, pair.b), out.put(pair.margin);
   put_triangle_pairs(out, record.triangle_pairs);
   out.put<std::uint64_t>(record.contacts.size());
   for (const ContactRecord& contact : record.contacts) put_contact(out, contact);
   out.put<std::uint64_t>(record.attachments.size());
   for (const AttachmentRecord& attachment : record.attachments) out.put(attachment.impulse);
   out.put<std::uint64_t>(record.groups.size());
-  for (const std::vector<int>& group : record.groups) {
+  for (const std::vector<BodyIndex>& group : record.groups) {
     out.put<std::uint64_t>(group.size());
-    for (const int body : group) out.put(body);
+    for (const BodyIndex body : group) put_index(out, body);
   }
 }
 
@@ -90,7 +95,7 @@ void get_record(ByteReader& in, StepRecord& record) {
   get_figures(in, record.stats);
   record.broad_pairs.resize(get_count(in, 16));
   for (BodyPair& pair : record.broad_pairs)
-    pair.a = get_body(in, record, 0), pair.b = get_body(in, record, 0), pair.margin = in.get<double>();
+    pair.a = get_body(in, record), pair.b = get_body(in, record), pair.margin = in.get<double>();
   get_triangle_pairs(in, record);
   record.contacts.resize(get_count(in, 149));
   for (ContactRecord& contact : record.contacts) contact = get_contact(in, record);
@@ -98,12 +103,12 @@ void get_record(ByteReader& in, StepRecord& record) {
     throw InputError("snapshot: it belongs to a scene with another number of attachments");
   for (AttachmentRecord& attachment : record.attachments) attachment.impulse = in.get_vec3();
   record.groups.resize(get_count(in, 8));
-  for (BodyRecord& body : record.bodies) body.group = -1;
+  for (BodyRecord& body : record.bodies) body.group = {};
   for (std::size_t g = 0; g < record.groups.size(); ++g) {
     record.groups[g].resize(get_count(in, 4));
-    for (int& body : record.groups[g]) {
-      body = get_body(in, record, 0);
-      record.bodies[static_cast<std::size_t>(body)].group = static_cast<int>(g);
+    for (BodyIndex& body : record.groups[g]) {
+      body = get_body(in, record);
+      record.bodies[body].group = GroupIndex(g);
     }
   }
 }

@@ -3,17 +3,18 @@
 
 #include <memory>
 
-#include "engine/world/attachments.hpp"
+#include "engine/bodies/body_description.hpp"
+#include "engine/contact/attachments.hpp"
+#include "engine/contact/contact_cache.hpp"
+#include "engine/step/sleeping.hpp"
 #include "engine/world/parameters.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
 
 class ByteReader;
-struct CollisionGroup;
-struct FrozenStep;
-struct GroupSystem;
 class ByteWriter;
+struct FrozenStep;
 
 class World {
  public:
@@ -24,13 +25,13 @@ class World {
 
   Parameters parameters;
 
-  /// Adds a body before start(). Throws InputError (without a place) where the body can't be made.
-  RigidBody& add_body(const BodyDescription& description);
+  /// Adds a body before start(); it stays where it is for as long as the world lives. Throws InputError (without a
+  /// place) where the body can't be made.
+  Body& add_body(const BodyDescription& description);
   /// Joins two points after the bodies were added. Throws InputError (without a place) where it can't.
   void add_attachment(const AttachmentDescription& description);
-  std::vector<RigidBody>& bodies() { return bodies_; }
-  const std::vector<RigidBody>& bodies() const { return bodies_; }
-  const BodyNames& body_names() const { return names_; }
+  Bodies& bodies() { return bodies_; }
+  const Bodies& bodies() const { return bodies_; }
 
   /// Declares the rows `body.NAME.*` of the bodies there are. The set refers to this object.
   void bind_bodies(ParameterSet& set);
@@ -58,23 +59,22 @@ class World {
   void restore(ByteReader& in);
 
  private:
-  struct Stages;  // the algorithms in use and their working memory
-  void bind_soft_body(ParameterSet& set, int body, const std::string& path);
-  void substep(double time_step, int left);
-  void free_velocity(int body, double time_step);
-  GroupSystem solve_group(CollisionGroup& group, double time_step);
-  void push_out(const GroupSystem& solved, const CollisionGroup& group, double time_step);
-  void take_group(const GroupSystem& system, int group);
-  void integrate(double time_step);
-  void detect(double time_step);
+  void advance(FrozenStep* frozen);
+  void substep(double time_step, int left, FrozenStep* frozen);
+  void take_results();
   void save_state(ByteWriter& out) const;
-  void publish(bool solved);
+  void publish_solved();
+  void publish_found();
+  void publish(std::span<const SolvedContact> contacts);
 
-  std::vector<RigidBody> bodies_;
-  BodyNames names_;
+  Bodies bodies_;
   std::vector<Attachment> attachments_;
-  std::unique_ptr<Stages> stages_;
-  StepRecord record_;
+  ContactCache cache_;
+  Sleeping sleeping_;
+  std::unique_ptr<SubStep> sub_step_;  // the last one
+  FrameStats stats_;                   // of the frame being made: sums and maxima over its sub-steps
+  std::uint64_t settings_seen_ = 0;    // hash of what parameters_changed compares with
+  StepRecord record_, next_record_;    // the published one; the one of the frame being made
   int frame_ = 0;
   double time_ = 0.0;
 };

@@ -104,7 +104,7 @@ TEST_CASE(
       CAPTURE(friction, columns);
       CHECK(converged);
       const FrozenVerdict verdict = FrozenRuler(step).judge(
-          {{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.soft_delta}});
+          {{group.lambda, group.delta_velocity, group.delta_angular_velocity, group.deformable_delta}});
       CHECK(verdict.residual < 1e-8);
       CHECK(verdict.distance < 1e-6);
     }

@@ -40,8 +40,8 @@ double overlap(const World& world) {
 
 double fastest(const World& world) {
   double speed = 0.0;
-  for (const RigidBody& b : world.bodies())
-    if (b.is_dynamic()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+  for (const Body& b : world.bodies())
+    if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
   return speed;
 }
 

@@ -7,11 +7,11 @@
 #include "engine/response/group_judge.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/world/judge.hpp"
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/frozen_reference.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/response_worlds.hpp"
-#include "tests/support/soft_bodies.hpp"
 #include "tests/support/soft_stack.hpp"
 
 using namespace impinge;
@@ -29,8 +29,8 @@ ResponseResult solve(std::string_view name, GroupSystem& group, const LcpSetting
   return response->solve(group, *make_named(lcp_solvers(), lcp), context);
 }
 
-BodyBlock block_of(double mass, const Vec3& velocity) {
-  BodyBlock block;
+RigidBlock block_of(double mass, const Vec3& velocity) {
+  RigidBlock block;
   block.inverse_mass = 1.0 / mass;
   block.inverse_inertia = Mat3::Identity() * (10.0 / mass);
   block.velocity = velocity;
@@ -55,7 +55,7 @@ void begin(GroupSystem& group) {
 /// A box of 1 kg on the floor and one of `ratio` kg on it, after a sub-step's fall.
 GroupSystem tower(double ratio, double speed) {
   GroupSystem group;
-  group.bodies = {block_of(1.0, {0, -speed, 0}), block_of(ratio, {0, -speed, 0})};
+  group.rigid = {block_of(1.0, {0, -speed, 0}), block_of(ratio, {0, -speed, 0})};
   group.contacts = {contact_of(0, -1), contact_of(1, 0)};
   begin(group);
   return group;
@@ -234,8 +234,8 @@ TEST_CASE("rows that depend on each other have an answer still: twelve contacts 
     for (const double mu : {0.0, 0.5}) {
       CAPTURE(e.name, mu);
       GroupSystem group;
-      group.bodies = {block_of(2.0, {0.3, -1.0, 0.1})};
-      group.bodies[0].angular_velocity = {0.2, 0.4, -0.3};
+      group.rigid = {block_of(2.0, {0.3, -1.0, 0.1})};
+      group.rigid[0].angular_velocity = {0.2, 0.4, -0.3};
       Random random(5);
       for (int i = 0; i < 12; ++i) {
         const double a = M_PI / 4.0 * (i % 8);
@@ -256,7 +256,7 @@ TEST_CASE("two walls that close on a body: the velocity that violates both least
     for (const double mu : {0.0, 0.4}) {
       CAPTURE(e.name, mu);
       GroupSystem group;
-      group.bodies = {block_of(3.0, {0.7, 0.2, 0.0})};
+      group.rigid = {block_of(3.0, {0.7, 0.2, 0.0})};
       group.contacts = {contact_of(0, -1), contact_of(0, -1)};
       group.contacts[1].directions.topRows<2>() *= -1.0;
       group.contacts[0].surface.x() = -1.0;
@@ -308,7 +308,7 @@ TEST_CASE("a ball and a deformable cube between closing walls: every response st
       for (int i = 0; i < 30; ++i) {
         world.step();
         flagged += world.record().stats.unconverged;
-        fastest = std::max(fastest, soft ? fastest_node(world) : world.bodies()[3].velocity.norm());
+        fastest = std::max(fastest, soft ? fastest_node(world) : rigid(world, 3).velocity.norm());
       }
       CHECK(std::isfinite(fastest));
       CHECK(world.bodies()[3].pose.position.allFinite());

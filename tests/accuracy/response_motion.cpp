@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/response_worlds.hpp"
-#include "tests/support/soft_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -21,7 +21,7 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
       if (rod) body.rotation = Vec3(90, 0, 0);
       World probe;
       probe.add_body(body);
-      const double k = 1.0 / (probe.bodies()[0].world_inertia()(2, 2) / (2.0 * radius * radius));  // m R²/I
+      const double k = 1.0 / (rigid(probe, 0).world_inertia()(2, 2) / (2.0 * radius * radius));  // m R²/I
       if (!rod) CHECK(k == Approx(2.5));
       const double needed = std::tan(angle) / (1.0 + k);
       for (const double mu : {1.05 * needed, 0.95 * needed}) {
@@ -34,7 +34,7 @@ TEST_CASE("balls and rods roll down an incline or slip, on both sides of the fri
         world.add_body(body);
         world.start();
         run(world, 60);
-        const RigidBody& b = world.bodies()[1];
+        const RigidBody& b = rigid(world, 1);
         const double v = b.velocity.dot(down), spin = std::abs(b.angular_velocity().z()) * radius;
         const double exact = mu > needed ? kGravity * std::sin(angle) * k / (1.0 + k)
                                          : kGravity * (std::sin(angle) - mu * std::cos(angle));
@@ -76,11 +76,11 @@ TEST_CASE("a box is pushed over the floor, twenty-five balls roll on it") {
     double error = 0.0;
     const int steps = 150;
     for (int i = 1; i <= steps; ++i) {
-      world.bodies()[1].velocity += 1e-3 * force / big * push;
+      rigid(world, 1).velocity += 1e-3 * force / big * push;
       world.step();
       const double t = 1e-3 * i;
-      error += ((world.bodies()[1].velocity - a_box * t * push).squaredNorm() +
-                (world.bodies()[2].velocity - a_ball * t * push).squaredNorm()) /
+      error += ((rigid(world, 1).velocity - a_box * t * push).squaredNorm() +
+                (rigid(world, 2).velocity - a_ball * t * push).squaredNorm()) /
                steps;
     }
     WARN(e.name << ": mean squared error of the pushed box and a ball " << error << " m²/s²");
@@ -96,12 +96,12 @@ TEST_CASE("three legs hold a torque up to µ m g R, and slip beyond it") {
     for (const double torque : {20.0, 29.7, 30.3}) {
       CAPTURE(e.name, torque);
       GroupSystem group;
-      BodyBlock block;
+      RigidBlock block;
       block.inverse_mass = 1.0 / mass;
       block.inverse_inertia = Mat3::Identity() / inertia;
       block.velocity = {0, 0, -g * h};
       block.angular_velocity = {0, 0, torque * h / inertia};
-      group.bodies = {block};
+      group.rigid = {block};
       for (int k = 0; k < 3; ++k) {
         ContactRows rows;
         const double a = 2.0 * M_PI * k / 3.0 + 0.1;
@@ -147,7 +147,7 @@ void check_bounce(std::string_view response, double e) {
   double last = 0.0, before = 0.0;
   for (int i = 1; i < 1.1 * total / 1e-4; ++i) {
     world.step();
-    const double v = world.bodies()[1].velocity.y();
+    const double v = rigid(world, 1).velocity.y();
     if (before < -0.05 && v > 0.0) {
       ++bounces;
       // either law is exact to what falls in a step
@@ -191,7 +191,7 @@ TEST_CASE("three touching balls hit by one: responses that know one law for all 
     world.start();
     world.step();
     const double expected[] = {-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};
-    for (int i = 0; i < 3; ++i) CHECK(world.bodies()[i].velocity.x() == Approx(expected[i]).epsilon(1e-9));
+    for (int i = 0; i < 3; ++i) CHECK(rigid(world, i).velocity.x() == Approx(expected[i]).epsilon(1e-9));
   }
 }
 
@@ -216,13 +216,13 @@ TEST_CASE("a deformable pad slides with µ ΣN against it, and sticks below that
       world.start();
       run(world, 120);
       Vec3 sum = Vec3::Zero();
-      const double before = world.bodies()[1].soft->fem.center_of_mass().x();
+      const double before = deformable(world, 1).center_of_mass().x();
       const int frames = 120;
       for (int i = 0; i < frames; ++i) {
         world.step();
         sum += contact_force_on(world, 1) / frames;
       }
-      const double moved = world.bodies()[1].soft->fem.center_of_mass().x() - before,
+      const double moved = deformable(world, 1).center_of_mass().x() - before,
                    weight = kGravity * world.bodies()[1].mass;
       CHECK(sum.y() == Approx(weight).epsilon(1e-3));
       if (slips) {
@@ -266,7 +266,7 @@ TEST_CASE("two deformable cubes that collide without friction and gravity: kinet
       contacts += world.record().stats.contacts;
     }
     CHECK(contacts > 0);
-    CHECK(world.bodies()[0].velocity.x() < 0.5);
+    CHECK(world.bodies()[0].twist().linear.x() < 0.5);
     if (regularised(e.name))
       WARN(e.name << ": largest rise of kinetic and elastic energy in a frame " << rise << " of what there was");
     else

@@ -1,7 +1,7 @@
 // Flight without contact: the integrator's own closed form, the constants of free rotation and its attitudes.
 #include <catch2/catch.hpp>
 
-#include "engine/integrators/rigid_motion.hpp"
+#include "engine/bodies/rigid_motion.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/worlds.hpp"
@@ -82,7 +82,7 @@ TEST_CASE("ballistic flight follows the closed form of the integrator") {
     travelled += (world.bodies()[0].pose.position - last).norm();
     last = world.bodies()[0].pose.position;
     REQUIRE((last - expected).norm() <= 1e-12 * travelled);
-    REQUIRE((world.bodies()[0].velocity - (v0 + n * h * g)).norm() <= 1e-12 * (v0 + n * h * g).norm());
+    REQUIRE((rigid(world, 0).velocity - (v0 + n * h * g)).norm() <= 1e-12 * (v0 + n * h * g).norm());
   }
 }
 
@@ -96,7 +96,8 @@ TEST_CASE("a free tumbling bunny keeps its angular momentum") {
   BodyDescription d = dynamic_body("bunny", MeshPointer(surface), Vec3(1, 2, 3));
   d.angular_velocity = Vec3(5.0, -3.0, 8.0);
   d.velocity = Vec3(0.1, 0.2, -0.3);
-  RigidBody& bunny = world.add_body(d);
+  world.add_body(d);
+  RigidBody& bunny = rigid(world, 0);
   const auto energy = [&] { return 0.5 * bunny.angular_momentum.dot(bunny.angular_velocity()); };
   world.start();
   const Vec3 l0 = world.record().stats.angular_momentum, spin0 = bunny.angular_momentum;

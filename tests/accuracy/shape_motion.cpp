@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/geometry/rotation.hpp"
 #include "tests/support/sample_shapes.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -41,8 +42,8 @@ void prepare(World& world, int substeps = 1) {
 
 double fastest(const World& world) {
   double speed = 0.0;
-  for (const RigidBody& b : world.bodies())
-    if (b.is_dynamic()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+  for (const Body& b : world.bodies())
+    if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
   return speed;
 }
 
@@ -55,7 +56,7 @@ struct Rest {
 Rest rest_of(World& world, int frames) {
   world.start();
   std::vector<Vec3> places;
-  for (const RigidBody& b : world.bodies()) places.push_back(b.pose.position);
+  for (const Body& b : world.bodies()) places.push_back(b.pose.position);
   Rest rest;
   for (int i = 0; i < frames; ++i) {
     world.step();
@@ -159,9 +160,9 @@ TEST_CASE("new shapes dropped at random come to rest on floor, box, hull, mesh a
       CHECK(now <= energy + 1e-6);  // nothing is won
       energy = now;
     }
-    for (const RigidBody& b : world.bodies()) {
-      if (!b.is_dynamic()) continue;
-      CAPTURE(ground->name(), b.name, b.shape->name(), b.pose.position.transpose(), b.velocity.norm());
+    for (const Body& b : world.bodies()) {
+      if (b.kind() != BodyKind::dynamic) continue;
+      CAPTURE(ground->name(), b.name, b.shape->name(), b.pose.position.transpose(), b.twist().linear.norm());
       CHECK(b.pose.position.y() > 0.0);
       CHECK(b.pose.position.y() < 0.2);
     }
@@ -198,7 +199,7 @@ TEST_CASE("a cylinder rolls down an incline or slips, on both sides of the frict
       world.add_body(body);
       world.start();
       for (int i = 0; i < 60; ++i) world.step();
-      const RigidBody& b = world.bodies()[1];
+      const RigidBody& b = rigid(world, 1);
       const double v = b.velocity.dot(down), spin = std::abs(b.angular_velocity().z()) * radius;
       const double exact =
           share > 1.0 ? 2.0 / 3.0 * kGravity * std::sin(angle) : kGravity * (std::sin(angle) - mu * std::cos(angle));

@@ -3,7 +3,7 @@
 
 #include "engine/integrators/deformable_integrator.hpp"
 #include "engine/world/judge.hpp"
-#include "tests/support/soft_bodies.hpp"
+#include "tests/support/deformable_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -27,7 +27,7 @@ void check_rest(double young, int cells, bool stacked, double seconds, int subst
   run(world, static_cast<int>(seconds * 60));
 
   double weight = 0.0;
-  for (const RigidBody& body : world.bodies()) weight += body.soft ? kGravity * body.mass : 0.0;
+  for (const Body& body : world.bodies()) weight += body.kind() == BodyKind::deformable ? kGravity * body.mass : 0.0;
   CHECK(fastest_node(world) < 1e-3);
   CHECK(judge_overlap(world.bodies()).penetration < 1e-4 * 0.2);
   // what the floor bears: contacts of the plane, mean over a few frames, since a residual of the solver leaves a
@@ -109,9 +109,9 @@ namespace {
 
 BodyDescription damped_cube() {
   BodyDescription d = soft_cube("hung", 0.2, 3, {0, 0, 0}, {1e5, 0.4, 1000.0, 0.02, "corotational"});
-  auto soft = std::make_shared<SoftDescription>(*d.soft);
+  auto soft = std::make_shared<DeformableDescription>(*d.deformable);
   soft->damping.alpha = 4.0;  // stills the swing about the hook that the lattice's own slant begins
-  d.soft = soft;
+  d.deformable = soft;
   return d;
 }
 
@@ -159,18 +159,18 @@ TEST_CASE("held nodes follow their key frames exactly and pull the body along") 
   World world;
   BodyDescription bar =
       soft_box("bar", {0.3, 0.1, 0.1}, {6, 2, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
-  auto soft = std::make_shared<SoftDescription>(*bar.soft);
+  auto soft = std::make_shared<DeformableDescription>(*bar.deformable);
   NodeRegion left, right;
   left.min = {-0.01, -1, -1}, left.max = {0.001, 1, 1};
   right.min = {0.299, -1, -1}, right.max = {0.31, 1, 1};
   right.motion = {{0.0, Vec3::Zero(), Vec3::Zero()}, {0.5, {0.03, 0, 0}, {90, 0, 0}}};
   soft->fixed = {left, right};
-  bar.soft = soft;
+  bar.deformable = soft;
   world.add_body(bar);
   world.parameters.simulation.gravity.setZero();
   world.start();
   run(world, 60);
-  const DeformableBody& fem = world.bodies()[0].soft->fem;
+  const DeformableBody& fem = deformable(world, 0);
   CHECK(fem.free_nodes() == 7 * 9 - 18);
   for (int i = 0; i < fem.nodes(); ++i) {
     const Vec3 rest = fem.rest_position(i), now = fem.position.segment<3>(3 * i);
@@ -182,19 +182,19 @@ TEST_CASE("held nodes follow their key frames exactly and pull the body along") 
   }
   CHECK(fem.velocity.cwiseAbs().maxCoeff() < 1e-3);  // held again, at rest
   // the middle is stretched and turned by half of it
-  const RigidBody& body = world.bodies()[0];
-  CHECK(body.soft->fem.center_of_mass().x() == Approx(0.165).epsilon(2e-2));
+  const Body& body = world.bodies()[0];
+  CHECK(body.center_of_mass().x() == Approx(0.165).epsilon(2e-2));
 }
 
 TEST_CASE("a parameter moves held nodes evenly over a frame; materials change between frames") {
   World world;
   BodyDescription bar =
       soft_box("bar", {0.3, 0.1, 0.1}, {3, 1, 1}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
-  auto soft = std::make_shared<SoftDescription>(*bar.soft);
+  auto soft = std::make_shared<DeformableDescription>(*bar.deformable);
   NodeRegion left;
   left.min = {-0.01, -1, -1}, left.max = {0.001, 1, 1};
   soft->fixed = {left};
-  bar.soft = soft;
+  bar.deformable = soft;
   world.add_body(bar);
   world.parameters.simulation.gravity.setZero();
   ParameterSet rows;
@@ -203,16 +203,16 @@ TEST_CASE("a parameter moves held nodes evenly over a frame; materials change be
   rows.find("body.bar.fixed_0.displacement")->set(Vec3(0, 0.01, 0));
   world.parameters_changed();
   world.step();
-  const DeformableBody& fem = world.bodies()[0].soft->fem;
-  const int node = world.bodies()[0].soft->held[0].nodes[0];
+  const DeformableBody& fem = deformable(world, 0);
+  const int node = deformable(world, 0).held[0].nodes[0];
   CHECK(Vec3(fem.position.segment<3>(3 * node)).y() == Approx(fem.rest_position(node).y() + 0.01).margin(1e-12));
   CHECK(Vec3(fem.velocity.segment<3>(3 * node)).y() == Approx(0.01 * 60).epsilon(1e-9));
   world.step();
   CHECK(Vec3(fem.velocity.segment<3>(3 * node)).norm() == 0.0);
   rows.find("body.bar.material.young")->set(2e5);
-  CHECK(world.bodies()[0].soft->material->settings().young == 2e5);
+  CHECK(deformable(world, 0).material->settings().young == 2e5);
   // twice as stiff: twice the energy in the same shape
-  DeformableBody& body = world.bodies()[0].soft->fem;
+  DeformableBody& body = deformable(world, 0);
   const double stiff = body.elastic_energy();
   rows.find("body.bar.material.young")->set(1e5);
   CHECK(stiff == Approx(2.0 * body.elastic_energy()).epsilon(1e-12));
@@ -253,7 +253,7 @@ TEST_CASE("a deformable body that touches itself stays out of itself") {
     World world;
     BodyDescription d =
         soft_box("ring", {0.3, 0.02, 0.05}, {24, 2, 2}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});
-    auto soft = std::make_shared<SoftDescription>(*d.soft);
+    auto soft = std::make_shared<DeformableDescription>(*d.deformable);
     soft->mesh = block;
     TriangleMesh skin = boundary_surface(block);
     soft->embedding = embed(block, skin.vertices);
@@ -268,7 +268,7 @@ TEST_CASE("a deformable body that touches itself stays out of itself") {
     first.motion = {{0.0, Vec3::Zero(), Vec3::Zero()}, {0.5, {-0.06, 0.025, 0}, {0, 0, 0}}};
     soft->fixed = {last, first};
     d.shape = surface(std::move(skin));
-    d.soft = soft;
+    d.deformable = soft;
     d.self_collision = self_collision;
     world.add_body(d);
     world.parameters.simulation.gravity.setZero();
@@ -279,7 +279,7 @@ TEST_CASE("a deformable body that touches itself stays out of itself") {
       contacts = std::max(contacts, world.record().stats.contacts);
     }
     // independent truth: surface vertices of the far end inside the near end's tetrahedra
-    const DeformableBody& fem = world.bodies()[0].soft->fem;
+    const DeformableBody& fem = deformable(world, 0);
     int inside = 0;
     for (int v = 0; v < fem.nodes(); ++v) {
       if (v % 25 < 18) continue;

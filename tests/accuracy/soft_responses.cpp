@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/world/judge.hpp"
-#include "tests/support/soft_bodies.hpp"
+#include "tests/support/deformable_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -22,7 +22,7 @@ TEST_CASE("two stacked deformable cubes rest with iterative constraint anticipat
     world.start();
     for (int i = 0; i < 150; ++i) world.step();
     double weight = 0.0, force = 0.0;
-    for (const RigidBody& body : world.bodies()) weight += body.soft ? 9.81 * body.mass : 0.0;
+    for (const Body& body : world.bodies()) weight += body.kind() == BodyKind::deformable ? 9.81 * body.mass : 0.0;
     const int frames = 20;
     for (int i = 0; i < frames; ++i) {
       world.step();

@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "engine/geometry/rotation.hpp"
-#include "engine/integrators/free_rotation.hpp"
+#include "engine/rotation/free_rotation.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

@@ -36,8 +36,8 @@ int main(int argc, char** argv) {
       world.step();
       ms += last = world.record().stats.times.response_ms;
       speed = overlap = 0.0;
-      for (const RigidBody& b : world.bodies())
-        if (b.is_dynamic()) speed = std::max(speed, b.velocity.norm() + b.angular_velocity().norm() * b.radius);
+      for (const Body& b : world.bodies())
+        if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
       for (const ContactRecord& c : world.record().contacts) overlap = std::max(overlap, -c.gap);
       still = speed >= 1e-3 ? -1 : still < 0 ? i : still;
     }

@@ -27,10 +27,10 @@ struct Way {
 
 double relative_error(const GroupSystem& group, const GroupSystem& truth) {
   double error = 0.0, size = 0.0;
-  for (std::size_t s = 0; s < group.soft.size(); ++s) {
-    const VecX difference = group.soft_delta[s] - truth.soft_delta[s];
-    error += difference.dot(*group.soft[s].a * difference);
-    size += truth.soft_delta[s].dot(*group.soft[s].a * truth.soft_delta[s]);
+  for (std::size_t s = 0; s < group.deformable.size(); ++s) {
+    const VecX difference = group.deformable_delta[s] - truth.deformable_delta[s];
+    error += difference.dot(*group.deformable[s].a * difference);
+    size += truth.deformable_delta[s].dot(*group.deformable[s].a * truth.deformable_delta[s]);
   }
   return std::sqrt(error / size);
 }
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
       tight.lcp = {1e-11, 100000};
       make_response("constraint_anticipation")->solve(truth, *lcp, tight);
       Eigen::Index unknowns = 0;
-      for (const SoftBlock& block : truth.soft) unknowns += block.velocity.size();
+      for (const DeformableBlock& block : truth.soft) unknowns += block.velocity.size();
       double exact_ms = 0.0;
       for (const Way& method : methods) {
         GroupSystem group = stack.group;

@@ -220,7 +220,7 @@ TEST_CASE("sweep files, filters and columns that can't be are refused at their p
   refused("[sweep.vary]\ncontact.frictoin = [0, 1]", "p.toml:4:20: ", "did you mean 'contact.friction'?");
   refused("[sweep.vary]\ncontact.friction = []", "p.toml:4:20: ", "no values");
   refused("[sweep.vary]\ncontact.friction = [0.5, 0.50]", "p.toml:4:20: ", "twice");
-  refused("[sweep.vary]\nbody.crate.mass = [1, -2]", "p.toml:4:19: ", "greater than 0");
+  refused("[sweep.vary]\nbody.crate.mass = [1, -2]", "p.toml:4:19: ", "[1e-15, 1e+15] kg");
   refused("[sweep.vary]\ncontact.friction = \"0:1:0\"", "p.toml:4:20: ", "empty range");
   refused("[sweep.vary]\ncontact.friction = \"0:1:1000\"\nsimulation.substeps = \"1:1000:1000\"",
           "p.toml:4:20: ", "--yes");

@@ -8,10 +8,10 @@
 #include "engine/frozen/frozen_comparison.hpp"
 #include "engine/frozen/frozen_step_file.hpp"
 #include "engine/io/little_endian.hpp"
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/soft_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -42,7 +42,7 @@ FrozenStep frozen_at(int frame, const char* response = "constraint_anticipation"
 
 void check_equal(const FrozenGroup& a, const FrozenGroup& b) {
   CHECK(a.rigid_bodies == b.rigid_bodies);
-  CHECK(a.soft_bodies == b.soft_bodies);
+  CHECK(a.deformable_bodies == b.deformable_bodies);
   REQUIRE(a.matrices.size() == b.matrices.size());
   for (std::size_t s = 0; s < a.matrices.size(); ++s) {
     CHECK(a.matrices[s].pattern->begin == b.matrices[s].pattern->begin);
@@ -50,16 +50,16 @@ void check_equal(const FrozenGroup& a, const FrozenGroup& b) {
     CHECK(a.matrices[s].pattern->diagonal == b.matrices[s].pattern->diagonal);
     CHECK(a.matrices[s].pattern->mirror == b.matrices[s].pattern->mirror);
     CHECK(a.matrices[s].values == b.matrices[s].values);
-    CHECK(a.system.soft[s].velocity == b.system.soft[s].velocity);
-    CHECK(a.system.soft[s].displacement_velocity == b.system.soft[s].displacement_velocity);
-    CHECK(a.answer.soft_delta[s] == b.answer.soft_delta[s]);
+    CHECK(a.system.deformable[s].velocity == b.system.deformable[s].velocity);
+    CHECK(a.system.deformable[s].displacement_velocity == b.system.deformable[s].displacement_velocity);
+    CHECK(a.answer.deformable_delta[s] == b.answer.deformable_delta[s]);
   }
-  REQUIRE(a.system.bodies.size() == b.system.bodies.size());
-  for (std::size_t i = 0; i < a.system.bodies.size(); ++i) {
-    CHECK(a.system.bodies[i].inverse_mass == b.system.bodies[i].inverse_mass);
-    CHECK(a.system.bodies[i].inverse_inertia == b.system.bodies[i].inverse_inertia);
-    CHECK(a.system.bodies[i].velocity == b.system.bodies[i].velocity);
-    CHECK(a.system.bodies[i].angular_velocity == b.system.bodies[i].angular_velocity);
+  REQUIRE(a.system.rigid.size() == b.system.rigid.size());
+  for (std::size_t i = 0; i < a.system.rigid.size(); ++i) {
+    CHECK(a.system.rigid[i].inverse_mass == b.system.rigid[i].inverse_mass);
+    CHECK(a.system.rigid[i].inverse_inertia == b.system.rigid[i].inverse_inertia);
+    CHECK(a.system.rigid[i].velocity == b.system.rigid[i].velocity);
+    CHECK(a.system.rigid[i].angular_velocity == b.system.rigid[i].angular_velocity);
   }
   CHECK(a.system.lambda == b.system.lambda);
   CHECK(a.answer.lambda == b.answer.lambda);
@@ -71,8 +71,8 @@ void check_equal(const FrozenGroup& a, const FrozenGroup& b) {
     CHECK(l.directions == r.directions);
     CHECK((l.kind == r.kind && l.gap == r.gap && l.bound == r.bound && l.friction == r.friction &&
            l.restitution == r.restitution && l.velocity_before == r.velocity_before && l.surface == r.surface));
-    CHECK((l.a.rigid == r.a.rigid && l.a.soft == r.a.soft && l.a.arm == r.a.arm && l.b.rigid == r.b.rigid &&
-           l.b.soft == r.b.soft && l.b.arm == r.b.arm));
+    CHECK((l.a.rigid == r.a.rigid && l.a.deformable == r.a.deformable && l.a.arm == r.a.arm && l.b.rigid == r.b.rigid &&
+           l.b.deformable == r.b.deformable && l.b.arm == r.b.arm));
     REQUIRE(l.a.nodes.size() == r.a.nodes.size());
     REQUIRE(l.b.nodes.size() == r.b.nodes.size());
     for (std::size_t k = 0; k < l.a.nodes.size(); ++k)
@@ -131,8 +131,8 @@ TEST_CASE("a frozen step is read back to the bit, and freezing changes nothing")
     const FrozenStep step = watched.step_and_freeze();
     CHECK(plain.state_hash() == watched.state_hash());
     REQUIRE(step.groups.size() == 2);
-    REQUIRE(step.groups[0].system.soft.size() == 1);
-    REQUIRE(step.groups[0].system.bodies.size() == 1);
+    REQUIRE(step.groups[0].system.deformable.size() == 1);
+    REQUIRE(step.groups[0].system.rigid.size() == 1);
     REQUIRE(step.contacts() > 8);
     CHECK(step.contacts() == watched.record().contacts.size());
     write_frozen_step(folder / "a.step", step);
@@ -313,7 +313,7 @@ TEST_CASE("a frozen step that nothing solves to finite figures: a row with the r
   // finite numbers all of them, as the reader wants it, that overflow in whatever is made of them
   for (int kind = 0; kind < 4; ++kind) {
     FrozenStep step = good;
-    BodyBlock& body = step.groups[0].system.bodies[0];
+    RigidBlock& body = step.groups[0].system.rigid[0];
     if (kind == 0) body.velocity = Vec3::Constant(1.5e308);
     if (kind == 1) body.inverse_mass = 1e308, body.velocity *= 1e200;
     if (kind == 2) body.inverse_inertia = 1e308 * Mat3::Identity();

@@ -243,14 +243,14 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
   Random random(24);
   GroupSystem group;
   for (int b = 0; b < 4; ++b) {
-    BodyBlock block;
+    RigidBlock block;
     block.inverse_mass = random.in(0.2, 2.0);
     const Mat3 r = random.rotation();
     block.inverse_inertia =
         r * Vec3(random.in(0.5, 5), random.in(0.5, 5), random.in(0.5, 5)).asDiagonal() * r.transpose();
     block.velocity = random.vector();
     block.angular_velocity = random.vector();
-    group.bodies.push_back(block);
+    group.rigid.push_back(block);
   }
   for (int c = 0; c < 12; ++c) {
     ContactRows rows;
@@ -267,8 +267,8 @@ TEST_CASE("the factored W of rigid bodies is the dense one") {
   // J and A⁻¹ written out, [Haapaoja16 Eq. 4.11]
   MatX j = MatX::Zero(36, 24), inverse = MatX::Zero(24, 24);
   for (int b = 0; b < 4; ++b) {
-    inverse.block<3, 3>(6 * b, 6 * b) = group.bodies[b].inverse_mass * Mat3::Identity();
-    inverse.block<3, 3>(6 * b + 3, 6 * b + 3) = group.bodies[b].inverse_inertia;
+    inverse.block<3, 3>(6 * b, 6 * b) = group.rigid[b].inverse_mass * Mat3::Identity();
+    inverse.block<3, 3>(6 * b + 3, 6 * b + 3) = group.rigid[b].inverse_inertia;
   }
   for (int c = 0; c < 12; ++c)
     for (int k = 0; k < 3; ++k) {

@@ -23,14 +23,14 @@ struct RandomGroup {
   RandomGroup(std::uint64_t seed, int rigid, int soft, bool lumped, int contacts, bool frictionless = false) {
     Random random(seed);
     for (int b = 0; b < rigid; ++b) {
-      BodyBlock block;
+      RigidBlock block;
       block.inverse_mass = random.in(0.2, 2.0);
       const Mat3 r = random.rotation();
       block.inverse_inertia =
           r * Vec3(random.in(0.5, 5), random.in(0.5, 5), random.in(0.5, 5)).asDiagonal() * r.transpose();
       block.velocity = random.vector();
       block.angular_velocity = random.vector();
-      system.bodies.push_back(block);
+      system.rigid.push_back(block);
     }
     const TetMesh mesh = make_tet_box(Vec3::Ones(), 2, 2, 2);
     const int nodes = static_cast<int>(mesh.vertices.size());
@@ -54,14 +54,14 @@ struct RandomGroup {
       }
       solvers.push_back(make_linear_solver("simplicial_llt"));
       solvers.back()->analyze(p);
-      SoftBlock block;
+      DeformableBlock block;
       block.a = &m;
       block.solver = solvers.back().get();
       block.is_diagonal = lumped;
       block.velocity = VecX::Zero(3 * nodes);
       for (Eigen::Index i = 0; i < block.velocity.size(); ++i) block.velocity[i] = random.sym();
       block.displacement_velocity = block.velocity;
-      system.soft.push_back(block);
+      system.deformable.push_back(block);
     }
     const int bodies = rigid + soft;
     const auto side = [&](int body) {
@@ -72,7 +72,7 @@ struct RandomGroup {
         side.arm = 0.5 * random.vector();
         return side;
       }
-      side.soft = body - rigid;
+      side.deformable = body - rigid;
       const Tet& tet = mesh.tets[random.below(static_cast<int>(mesh.tets.size()))];
       Vec3 w(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1));
       w /= w.sum();
@@ -171,7 +171,7 @@ TEST_CASE("without friction impulses and constraint anticipation move bodies ali
       patient_response(name, kMost)->solve(group.system, *lcp_solvers().front().make(), patient());
       for (std::size_t b = 0; b < 2; ++b) {
         CHECK((group.system.delta_velocity[b] - exact.system.delta_velocity[b]).norm() < 1e-7);
-        CHECK((group.system.soft_delta[b] - exact.system.soft_delta[b]).lpNorm<Eigen::Infinity>() < 1e-7);
+        CHECK((group.system.deformable_delta[b] - exact.system.deformable_delta[b]).lpNorm<Eigen::Infinity>() < 1e-7);
       }
     }
   }

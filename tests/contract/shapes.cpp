@@ -222,7 +222,7 @@ TEST_CASE("every shape has contacts with every other, found the same from both s
         if (contacts.empty()) continue;
         CHECK(smallest_gap(swapped) == Approx(smallest_gap(contacts)).margin(1e-7));
         // feature by feature a deep overlap with a mesh has no one answer: which side is nearest is a matter of rounding
-        if ((a->mesh() != nullptr || b->mesh() != nullptr) && smallest_gap(contacts) < -0.1) continue;
+        if ((a->mesh() != nullptr || b->mesh() != nullptr) && smallest_gap(contacts) < -0.05) continue;
 
         const Pose move = random_pose(r, 2.0);
         Bodies moved;

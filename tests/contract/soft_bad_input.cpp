@@ -2,9 +2,9 @@
 // written.
 #include <catch2/catch.hpp>
 
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/soft_bodies.hpp"
 #include "tests/support/tet_writers.hpp"
 
 using namespace impinge;

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
-#include "engine/bodies/soft_body.hpp"
+#include "engine/bodies/deformable_body.hpp"
 #include "engine/geometry/mass_properties.hpp"
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/soft_bodies.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"
+#include "tests/support/worlds.hpp"
 #include "viewer/controller/session.hpp"
 
 using namespace impinge;
@@ -49,15 +50,15 @@ struct Meshes {
   }
 };
 
-const SoftBody& soft(const Session& session) { return *session.world().bodies()[0].soft; }
+const DeformableBody& soft(const Session& session) { return deformable(session.world(), 0); }
 
 // a free body falls as implicit Euler's point mass does: the sum of n steps of g h k, whatever it is made of
 void check_falls(Session& session) {
-  const Vec3 start = soft(session).fem.center_of_mass();
+  const Vec3 start = soft(session).center_of_mass();
   for (int i = 0; i < 5; ++i) session.advance();
   const auto& p = session.world().parameters.simulation;
   const double h = p.time_step(), n = 4.0 * p.substeps;  // frame 0 is the start
-  const Vec3 fallen = soft(session).fem.center_of_mass() - start;
+  const Vec3 fallen = soft(session).center_of_mass() - start;
   CHECK(fallen.y() == Approx(-9.81 * h * h * n * (n + 1.0) / 2.0).epsilon(1e-9));
   CHECK(std::hypot(fallen.x(), fallen.z()) < 1e-9);
 }
@@ -70,9 +71,9 @@ TEST_CASE("every kind of volume makes a body of the right mass that falls") {
   const auto check = [&](const std::string& body, double mass, double tolerance) {
     INFO(body);
     const auto session = meshes.open(body);
-    CHECK(soft(*session).fem.fem.total_mass() == Approx(mass).epsilon(tolerance));
+    CHECK(soft(*session).fem.total_mass() == Approx(mass).epsilon(tolerance));
     CHECK(session->world().bodies()[0].mass == Approx(mass).epsilon(tolerance));
-    CHECK(check_tet_mesh(soft(*session).fem.fem.rest()) == std::nullopt);
+    CHECK(check_tet_mesh(soft(*session).fem.rest()) == std::nullopt);
     check_falls(*session);
   };
   check("volume = \"box.veg\"\n", box_mass, 1e-12);
@@ -118,17 +119,17 @@ TEST_CASE("a deformable body's material comes from the scene, its file, an overr
       "at 4 set body.soft.fixed_0.displacement 0 0.02 0\n";
   const auto s = meshes.open(body, script, {"body.soft.material.young=2e5", "body.soft.material.damping_alpha=0.25"});
   CHECK(settings(*s).young == 2e5);
-  CHECK(soft(*s).fem.damping.alpha == 0.25);
-  CHECK(soft(*s).fem.damping.beta == 0.01);
+  CHECK(soft(*s).damping.alpha == 0.25);
+  CHECK(soft(*s).damping.beta == 0.01);
   for (int frame = 0; frame <= 5; ++frame) {
     s->advance();
     CHECK(settings(*s).young == (frame < 2 ? 2e5 : 1e6));
-    CHECK(soft(*s).fem.damping.beta == (frame < 2 ? 0.01 : 0.003));
+    CHECK(soft(*s).damping.beta == (frame < 2 ? 0.01 : 0.003));
     if (frame >= 3) CHECK(settings(*s).poisson == Approx(0.3 + 0.05 * (frame - 3)).epsilon(1e-12));
     const HeldRegion& held = soft(*s).held[0];
     CHECK(held.nodes.size() == 6);
     for (std::size_t k = 0; k < held.nodes.size(); ++k) {
-      const Vec3 moved = soft(*s).fem.position.segment<3>(3 * held.nodes[k]) - held.start[k];
+      const Vec3 moved = soft(*s).position.segment<3>(3 * held.nodes[k]) - held.start[k];
       CHECK((moved - Vec3(0, frame < 4 ? 0.0 : 0.02, 0)).norm() < 1e-12);
     }
   }
@@ -148,7 +149,7 @@ TEST_CASE("the override's stiffness is felt: a held beam sags in inverse proport
         "", {"body.soft.material.young=" + young, "simulation.sleeping=false"});
     for (int i = 0; i < 120; ++i) s->advance();
     const int tip = 3;  // (i, j, k) = (3, 0, 0) of the lattice
-    return soft(*s).fem.rest_position(tip).y() - soft(*s).fem.position[3 * tip + 1];
+    return soft(*s).rest_position(tip).y() - soft(*s).position[3 * tip + 1];
   };
   const double soft_sag = sag("2e6"), stiff_sag = sag("2e7");
   CHECK(soft_sag > 1e-5);
@@ -167,14 +168,12 @@ fixed = [ { box = { min = [0.9, -1, -1], max = [1.01, 1, 1] } },
   CHECK(soft(*s).held[0].nodes == std::vector<int>{0, 4, 8, 12, 16, 20});  // i = 0 of 4 x 3 x 2 nodes
   CHECK(soft(*s).held[1].nodes == std::vector<int>{2, 3, 7, 15});          // within a cell's edge of (3, 0, 0)
   CHECK(soft(*s).held[2].nodes == std::vector<int>{23});
-  CHECK(soft(*s).fem.free_nodes() == 24 - 11);
+  CHECK(soft(*s).free_nodes() == 24 - 11);
   for (int i = 0; i < 6; ++i) s->advance();  // past the last key
   for (const int node : {0, 20, 23})
-    CHECK((soft(*s).fem.position.segment<3>(3 * node) - soft(*s).fem.rest_position(node) - Vec3(1, 0, 0)).norm() <
-          1e-12);
+    CHECK((soft(*s).position.segment<3>(3 * node) - soft(*s).rest_position(node) - Vec3(1, 0, 0)).norm() < 1e-12);
   for (const int node : {2, 15})
-    CHECK((soft(*s).fem.position.segment<3>(3 * node) - soft(*s).fem.rest_position(node) - Vec3(1.02, 0.01, 0)).norm() <
-          1e-12);
+    CHECK((soft(*s).position.segment<3>(3 * node) - soft(*s).rest_position(node) - Vec3(1.02, 0.01, 0)).norm() < 1e-12);
 
   // all of it held: a body without freedom is refused
   CHECK_THROWS_AS(meshes.open("volume = \"box.veg\"\nfixed = { sphere = { center = [0, 0, 0], radius = 9 } }\n"),
@@ -205,7 +204,7 @@ point = [0.3, 0, 0.05]
   CHECK(s->record().attachments[1].name == "attachment_1");
   for (const AttachmentRecord& a : s->record().attachments) CHECK((a.point_a - a.point_b).norm() < 2e-3);
   CHECK((s->record().attachments[0].point_a - Vec3(0.05, 0.2, 0.05)).norm() < 2e-3);
-  CHECK(soft(*s).fem.center_of_mass().y() > -0.2);  // it hangs: without the hook it would have fallen 1.2 m
+  CHECK(soft(*s).center_of_mass().y() > -0.2);  // it hangs: without the hook it would have fallen 1.2 m
 }
 
 TEST_CASE("a run of deformable bodies is repeated by its run.toml, override and script included") {

@@ -5,14 +5,15 @@
 #include <fstream>
 #include <optional>
 
-#include "engine/bodies/soft_body.hpp"
+#include "engine/bodies/deformable_body.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/io/tets/tetrahedralize.hpp"
 #include "engine/io/tets/volume_cache.hpp"
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/refusal.hpp"
-#include "tests/support/soft_bodies.hpp"
 #include "tests/support/tet_writers.hpp"
+#include "tests/support/worlds.hpp"
 #include "viewer/controller/session.hpp"
 
 using namespace impinge;
@@ -62,13 +63,14 @@ struct Files {
 std::string bits(const fs::path& scene) {
   Session session(scene, {}, {});
   std::string out;
-  for (const RigidBody& body : session.world().bodies()) {
+  for (const Body& body : session.world().bodies()) {
+    const auto* own = body.as<DeformableBody>();
     ByteWriter bytes;
-    for (const Vec3& x : body.soft->fem.fem.rest().vertices) bytes.put(x);
-    for (const Tet& tet : body.soft->fem.fem.rest().tets)
+    for (const Vec3& x : own->fem.rest().vertices) bytes.put(x);
+    for (const Tet& tet : own->fem.rest().tets)
       for (const int i : tet) bytes.put(i);
-    for (const double m : body.soft->fem.fem.node_mass()) bytes.put(m);
-    for (const Vec4& w : body.soft->embedding.weight)
+    for (const double m : own->fem.node_mass()) bytes.put(m);
+    for (const Vec4& w : own->embedding.weight)
       for (int k = 0; k < 4; ++k) bytes.put(w[k]);
     out += bytes.bytes();
   }
@@ -188,7 +190,7 @@ TEST_CASE("tetrahedra come from the program that the environment names") {
   {
     const Variable named("IMPINGE_TETRAHEDRALIZE", good);
     Session session(files.scene(), {}, {});
-    const FemAssembly& fem = session.world().bodies()[0].soft->fem.fem;
+    const FemAssembly& fem = deformable(session.world(), 0).fem;
     CHECK(fem.rest().tets.size() == 48);
     CHECK(fem.total_mass() == Approx(1000.0 * 0.008).epsilon(1e-12));
   }

@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
+#include "tests/support/indices.hpp"
 #include "tests/support/meshes.hpp"
 
 using namespace impinge;
@@ -34,9 +35,9 @@ std::vector<TrianglePair> reference(std::span<const Collider> colliders, std::sp
         const auto shared = [&](int v) { return std::find(tb[j].begin(), tb[j].end(), v) != tb[j].end(); };
         if (p.a == p.b && std::any_of(ta[i].begin(), ta[i].end(), shared)) continue;
         if (triangles_intersect(ca, cb))
-          found.push_back({p.a, p.b, i, j, true});
+          found.push_back(triangle_pair(p.a, p.b, i, j, true));
         else if (p.margin > 0.0 && closest_features(ca, cb).squared_distance <= p.margin * p.margin)
-          found.push_back({p.a, p.b, i, j, false});
+          found.push_back(triangle_pair(p.a, p.b, i, j, false));
       }
     }
   }
@@ -79,7 +80,7 @@ void check_poses(Phases& phases, const MeshPointer& a, const MeshPointer& b, int
     set.place(1, random_pose(random, 0.9));
     const double margin = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.01 : 0.15;
     CAPTURE(seed, i, margin);
-    total += phases.check(set, {{0, 1, margin}});
+    total += phases.check(set, {body_pair(0, 1, margin)});
   }
   CHECK(total > 1000);
 }
@@ -117,7 +118,7 @@ TEST_CASE("narrow phases find the published pair counts of two icospheres", "[na
       const Vec3 axis = Vec3(1, 2, 3).normalized();
       set.add(mesh, {Eigen::AngleAxisd(0.7, axis).toRotationMatrix(), Vec3(0.35, 0.22, 0.13)});
       std::vector<TrianglePair> found;
-      const std::vector<BodyPair> pairs{{0, 1, 0.0}};
+      const std::vector<BodyPair> pairs{body_pair(0, 1, 0.0)};
       phase->find(set.all(), pairs, found);
       INFO(e.name << " ico" << k);
       CHECK(found.size() == far_counts[k - 3]);
@@ -144,7 +145,7 @@ TEST_CASE("narrow phases equal the reference on boxes that touch, lie in one pla
       set.add(mesh, {rotation, base + rotation * offset});
       for (double margin : {0.0, 1e-3, 0.4}) {
         CAPTURE(offset.transpose(), far, margin);
-        const std::size_t found = phases.check(set, {{0, 1, margin}});
+        const std::size_t found = phases.check(set, {body_pair(0, 1, margin)});
         CHECK(found > 0);  // they touch
         total += found;
       }
@@ -188,7 +189,7 @@ TEST_CASE("narrow phases equal the reference on slivers, triangles of no area an
     ColliderSet set;
     set.add(surface(std::move(soup[0])));
     set.add(surface(std::move(soup[1])));
-    for (double margin : {0.0, 0.02}) total += phases.check(set, {{0, 1, margin}});
+    for (double margin : {0.0, 0.02}) total += phases.check(set, {body_pair(0, 1, margin)});
   }
   CHECK(total > 2000);
 }
@@ -198,8 +199,8 @@ TEST_CASE("narrow phases equal the reference on a mesh over a floor of two huge 
   ColliderSet set;
   set.add(surface(sheet(1e4, 1)));
   set.add(surface(bumpy_sphere(3)), {Mat3::Identity(), Vec3(3.0, 0.2, 5.0)});
-  CHECK(phases.check(set, {{0, 1, 0.0}}) > 20);
-  CHECK(phases.check(set, {{0, 1, 0.05}}) > 50);
+  CHECK(phases.check(set, {body_pair(0, 1, 0.0)}) > 20);
+  CHECK(phases.check(set, {body_pair(0, 1, 0.05)}) > 50);
 }
 
 TEST_CASE("narrow phases equal the reference on many bodies, each pair with its own margin, and on self-collision",
@@ -217,12 +218,12 @@ TEST_CASE("narrow phases equal the reference on many bodies, each pair with its 
   set.add(surface(knot));
   for (int i = 0; i < bodies; ++i)
     for (int j = i + 1; j < bodies; ++j)
-      if ((i * 7 + j) % 3 != 0) pairs.push_back({i, j, (i + j) % 4 == 0 ? 0.0 : 0.01 * (j % 5)});
-  pairs.push_back({3, bodies, 0.02});
+      if ((i * 7 + j) % 3 != 0) pairs.push_back(body_pair(i, j, (i + j) % 4 == 0 ? 0.0 : 0.01 * (j % 5)));
+  pairs.push_back(body_pair(3, bodies, 0.02));
   std::sort(pairs.begin(), pairs.end());
   CHECK(phases.check(set, pairs) > 1000);
-  CHECK(phases.check(set, {{bodies, bodies, 0.0}}) > 10);
-  CHECK(phases.check(set, {{3, bodies, 0.02}, {bodies, bodies, 0.01}}) > 10);
+  CHECK(phases.check(set, {body_pair(bodies, bodies, 0.0)}) > 10);
+  CHECK(phases.check(set, {body_pair(3, bodies, 0.02), body_pair(bodies, bodies, 0.01)}) > 10);
   CHECK(phases.check(set, {}) == 0);
 }
 
@@ -241,7 +242,7 @@ TEST_CASE("narrow phases follow bodies that move, deform and part", "[narrow_pha
     }
     set.place(1, std::move(world));
     CAPTURE(k);
-    const std::size_t count = phases.check(set, {{0, 1, k % 2 == 0 ? 0.0 : 0.03}});
+    const std::size_t count = phases.check(set, {body_pair(0, 1, k % 2 == 0 ? 0.0 : 0.03)});
     if (k == 1) first = count;
     if (k == 39) CHECK(count == 0);
   }

@@ -5,6 +5,7 @@
 
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
+#include "tests/support/indices.hpp"
 #include "tests/support/meshes.hpp"
 
 using namespace impinge;
@@ -20,14 +21,14 @@ std::vector<TrianglePair> triangles_of(const ColliderSet& set, const BodyPair& p
 
 std::vector<Collision> proximity(const ColliderSet& set, double activation, double time_step = 0.0,
                                  double reach = 0.0) {
-  const BodyPair pair{0, 1, activation + reach};
+  const BodyPair pair = body_pair(0, 1, activation + reach);
   std::vector<Collision> contacts;
   proximity_contacts(set.all(), pair, triangles_of(set, pair), activation, time_step, contacts);
   return contacts;
 }
 
 std::vector<Collision> intersection(const ColliderSet& set) {
-  const BodyPair pair{0, 1, 0.0};
+  const BodyPair pair = body_pair(0, 1, 0.0);
   std::vector<Collision> contacts;
   intersection_contacts(set.all(), pair, triangles_of(set, pair), contacts);
   return contacts;
@@ -166,7 +167,7 @@ TEST_CASE("gaps of separate bumpy bodies are true distances, the least that of t
     set.add(a, random_pose(random, 1.6));
     set.add(b, random_pose(random, 1.6));
     const double reach = 0.3;
-    const std::vector<TrianglePair> pairs = triangles_of(set, {0, 1, reach});
+    const std::vector<TrianglePair> pairs = triangles_of(set, body_pair(0, 1, reach));
     if (pairs.empty() || std::any_of(pairs.begin(), pairs.end(), [](const TrianglePair& p) { return p.intersecting; }))
       continue;
     // found by the triangle distances alone
@@ -296,7 +297,7 @@ TEST_CASE("overlap of any depth is pushed out", "[contacts]") {
     ColliderSet set;
     set.add(i % 2 == 0 ? a : cube, random_pose(random, 0.8));
     set.add(i % 3 == 0 ? b : cube, random_pose(random, 0.8));
-    const std::vector<TrianglePair> pairs = triangles_of(set, {0, 1, 1e-3});
+    const std::vector<TrianglePair> pairs = triangles_of(set, body_pair(0, 1, 1e-3));
     if (std::none_of(pairs.begin(), pairs.end(), [](const TrianglePair& p) { return p.intersecting; })) continue;
     ++overlapping;
     const std::vector<Collision> contacts = proximity(set, 1e-3);

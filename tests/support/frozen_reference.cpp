@@ -16,7 +16,7 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// First unknown of each deformable body; rigid ones come first, six each. The last entry is the number of unknowns.
 std::vector<int> offsets(const FrozenGroup& group) {
-  std::vector<int> first = {6 * static_cast<int>(group.system.bodies.size())};
+  std::vector<int> first = {6 * static_cast<int>(group.system.rigid.size())};
   for (const BlockMatrix& a : group.matrices) first.push_back(first.back() + a.rows());
   return first;
 }
@@ -28,9 +28,9 @@ void put(Triplets& list, int row, int column, const Mat3& block) {
 
 Triplets entries_of_a(const FrozenGroup& group) {
   Triplets list;
-  for (int b = 0; b < static_cast<int>(group.system.bodies.size()); ++b) {
-    put(list, 6 * b, 6 * b, Mat3(Mat3::Identity() / group.system.bodies[b].inverse_mass));
-    put(list, 6 * b + 3, 6 * b + 3, group.system.bodies[b].inverse_inertia.inverse());
+  for (int b = 0; b < static_cast<int>(group.system.rigid.size()); ++b) {
+    put(list, 6 * b, 6 * b, Mat3(Mat3::Identity() / group.system.rigid[b].inverse_mass));
+    put(list, 6 * b + 3, 6 * b + 3, group.system.rigid[b].inverse_inertia.inverse());
   }
   const auto first = offsets(group);
   for (std::size_t s = 0; s < group.matrices.size(); ++s) {
@@ -56,7 +56,7 @@ Sparse jacobian(const FrozenGroup& group) {
         put(list, 3 * i, 6 * side->rigid + 3, arm);
       }
       for (const NodeWeight& n : side->nodes)
-        put(list, 3 * i, first[side->soft] + 3 * n.node, sign * n.weight * rows.directions);
+        put(list, 3 * i, first[side->deformable] + 3 * n.node, sign * n.weight * rows.directions);
     }
   }
   Sparse j(static_cast<int>(3 * group.system.contacts.size()), first.back());
@@ -133,13 +133,13 @@ GroupAnswer kkt_answer(const FrozenGroup& group) {
 
   GroupAnswer answer;
   for (int i = 0; i < m; ++i) answer.lambda.emplace_back(lambda[i], 0.0, 0.0);
-  for (int b = 0; b < static_cast<int>(group.system.bodies.size()); ++b) {
+  for (int b = 0; b < static_cast<int>(group.system.rigid.size()); ++b) {
     answer.delta_velocity.push_back(x.segment<3>(6 * b));
     answer.delta_angular_velocity.push_back(x.segment<3>(6 * b + 3));
   }
   const auto first = offsets(group);
   for (std::size_t b = 0; b < group.matrices.size(); ++b)
-    answer.soft_delta.push_back(x.segment(first[b], group.matrices[b].rows()));
+    answer.deformable_delta.push_back(x.segment(first[b], group.matrices[b].rows()));
   return answer;
 }
 
@@ -151,11 +151,11 @@ MatX w_assembled(const FrozenGroup& group, const LinearSolverChoice& linear_solv
 MatX w_by_whole_solves(const FrozenGroup& group, const LinearSolverChoice& linear_solver) {
   const Sparse j = jacobian(group);
   MatX w = MatX::Zero(j.rows(), j.rows());
-  for (std::size_t b = 0; b < group.system.bodies.size(); ++b) {
+  for (std::size_t b = 0; b < group.system.rigid.size(); ++b) {
     const MatX columns = columns_on(j, 6 * static_cast<int>(b), 6);
     MatX solved = columns;
-    solved.topRows(3) *= group.system.bodies[b].inverse_mass;
-    solved.bottomRows(3) = group.system.bodies[b].inverse_inertia * columns.bottomRows(3);
+    solved.topRows(3) *= group.system.rigid[b].inverse_mass;
+    solved.bottomRows(3) = group.system.rigid[b].inverse_inertia * columns.bottomRows(3);
     w += columns.transpose() * solved;
   }
   ThawedGroup thawed = thaw(group, linear_solver);
@@ -184,7 +184,7 @@ MatX w_by_dense_inverse(const FrozenGroup& group) {
     const Sparse part = j.middleCols(from, count);
     w += part * MatX(inverse * MatX(part.transpose()));
   };
-  add(0, 6 * static_cast<int>(group.system.bodies.size()));
+  add(0, 6 * static_cast<int>(group.system.rigid.size()));
   const auto first = offsets(group);
   for (std::size_t s = 0; s < group.matrices.size(); ++s) add(first[s], group.matrices[s].rows());
   return w;

@@ -53,11 +53,10 @@ class HandMadeRecord {
     soft.hold(held);
     for (int i = 0; i < soft.nodes(); ++i)
       soft.position.segment<3>(3 * i) = place(mesh.vertices[static_cast<std::size_t>(i)]);
-    embeddings_.push_back(embedding);
+    soft.embedding = embedding;
     const int index = add(name, BodyKind::deformable, surface, Vec3::Zero());
     BodyRecord& body = record_.bodies.back();
-    body.soft = &soft;
-    body.embedding = &embeddings_.back();
+    body.deformable = &soft;
     interpolate(embedding, mesh, soft.position, vertices_.back());
     body.vertices = vertices_.back();
     body.bounds = Aabb{};
@@ -70,7 +69,7 @@ class HandMadeRecord {
 
   ContactRecord& touch(int a, int b, const Vec3& point, const Vec3& normal, ContactState state, double gap = 0.0) {
     ContactRecord contact;
-    contact.body_a = a, contact.body_b = b;
+    contact.body_a = BodyIndex(a), contact.body_b = BodyIndex(b);
     contact.point_b = point;
     contact.point_a = point + gap * normal;
     contact.normal = normal;
@@ -90,7 +89,6 @@ class HandMadeRecord {
   std::deque<SharedShape> shapes_;
   std::deque<std::vector<Vec3>> vertices_;
   std::deque<DeformableBody> soft_;
-  std::deque<Embedding> embeddings_;
   StepRecord record_;
 };
 

@@ -39,7 +39,7 @@ class Bodies {
   std::span<const Collider> colliders() const { return colliders_; }
   std::vector<Collision> contacts(int a, int b, const ContactQuery& query) const {
     std::vector<Collision> found;
-    primitive_contacts(colliders_, BodyPair{a, b, query.activation}, query, found);
+    primitive_contacts(colliders_, BodyPair{BodyIndex(a), BodyIndex(b), query.activation}, query, found);
     return found;
   }
 

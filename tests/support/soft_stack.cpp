@@ -13,7 +13,7 @@ Vec3 corner_of(int level) { return {kShift * level, kSize * level, kShift * leve
 /// The nodes that carry a point of a cube's lower or upper face, by the lattice square it lies in.
 ContactSide side_at(const SoftStack& stack, int level, int cells, bool upper, double x, double z) {
   ContactSide side;
-  side.soft = level;
+  side.deformable = level;
   const Vec3 corner = corner_of(level);
   const double u = std::clamp((x - corner.x()) / kSize * cells, 0.0, static_cast<double>(cells));
   const double v = std::clamp((z - corner.z()) / kSize * cells, 0.0, static_cast<double>(cells));
@@ -67,12 +67,12 @@ SoftStack make_soft_stack(const StackOptions& o) {
     first->analyze(*body.free_pattern());
     scheme->begin(body, {0, -9.81, 0}, o.time_step, made->step);
     scheme->free_velocity(body, made->step, *first);
-    SoftBlock block;
+    DeformableBlock block;
     block.a = &made->step.a;
     block.solver = made->solver.get();
     block.velocity = made->step.v_star;
     block.displacement_velocity = made->step.v_star;
-    stack.group.soft.push_back(std::move(block));
+    stack.group.deformable.push_back(std::move(block));
     stack.bodies.push_back(std::move(made));
   }
   const auto nodes_of = [&](int level, auto each) {
@@ -95,12 +95,12 @@ SoftStack make_soft_stack(const StackOptions& o) {
   if (o.rigid_on_top) {
     const int top = static_cast<int>(o.cells.size()) - 1;
     const double mass = 5.0, half = 0.07;
-    BodyBlock block;
+    RigidBlock block;
     block.inverse_mass = 1.0 / mass;
     block.inverse_inertia = Mat3::Identity() * (6.0 / (mass * 4.0 * half * half));
     block.velocity = {0.2, -1.0, 0.1};
     block.angular_velocity = {0.5, 0.2, -0.3};
-    stack.group.bodies.push_back(block);
+    stack.group.rigid.push_back(block);
     for (const double dx : {-half, half})
       for (const double dz : {-half, half}) {
         ContactSide side;

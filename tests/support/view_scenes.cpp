@@ -1,4 +1,5 @@
 #include "tests/support/view_scenes.hpp"
+#include "tests/support/indices.hpp"
 
 #include <cmath>
 #include <map>
@@ -33,10 +34,10 @@ std::unique_ptr<HandMadeRecord> make_record(double shift) {
   r.stats.asleep = 1;
   r.bodies[static_cast<std::size_t>(ball)].velocity = {1.5, 0.4, 0.0};
   r.bodies[static_cast<std::size_t>(wheel)].angular_velocity = {0.0, 4.0, 6.0};
-  r.groups = {{0, ball, crate}, {stone, wheel}};
+  r.groups = {indices<BodyIndex>({0, ball, crate}), indices<BodyIndex>({stone, wheel})};
   for (std::size_t g = 0; g < r.groups.size(); ++g)
     for (const int body : r.groups[g])
-      if (body != 0) r.bodies[static_cast<std::size_t>(body)].group = static_cast<int>(g);
+      if (body != 0) r.bodies[static_cast<std::size_t>(body)].group = GroupIndex(g);
   scene->touch(0, ball, {-0.55 + shift, 0.0, 0.45}, -Vec3::UnitY(), ContactState::slip, -0.002).lambda = {0.16, 0.05,
                                                                                                           0.0};
   scene->touch(0, crate, {0.05 + shift, 0.0, 0.3}, -Vec3::UnitY(), ContactState::stick).lambda = {0.08, 0.0, 0.01};
@@ -44,8 +45,9 @@ std::unique_ptr<HandMadeRecord> make_record(double shift) {
   scene->touch(paddle, ball, {-0.8 + shift, 0.25, 0.45}, -Vec3::UnitX(), ContactState::open, 0.1);
   scene->touch(stone, wheel, {-0.1 + shift, 0.4, -0.35}, -Vec3::UnitX(), ContactState::slip, 0.06).lambda = {0.05, 0.01,
                                                                                                              0.0};
-  r.broad_pairs = {{0, ball}, {0, crate}, {paddle, ball}, {stone, wheel}};
-  for (int t = 0; t < 40; ++t) r.triangle_pairs.push_back({stone, wheel, 9 * t, 5 * t, t % 2 == 0});
+  r.broad_pairs = {body_pair(0, ball, 0.0), body_pair(0, crate, 0.0), body_pair(paddle, ball, 0.0),
+                   body_pair(stone, wheel, 0.0)};
+  for (int t = 0; t < 40; ++t) r.triangle_pairs.push_back(triangle_pair(stone, wheel, 9 * t, 5 * t, t % 2 == 0));
   r.stats.frame = shift == 0.0 ? 7 : 8;
   r.stats.time = r.stats.frame / 60.0;
   r.stats.broad_pairs = static_cast<std::int64_t>(r.broad_pairs.size());
@@ -91,9 +93,10 @@ std::unique_ptr<HandMadeRecord> make_soft_record() {
   scene->touch(0, body, {0.1, 0.0, 0.2}, -Vec3::UnitY(), ContactState::stick).lambda = {900.0, 20.0, 0.0};
   scene->touch(ball, body, {0.15, 0.73, 0.05}, Vec3::UnitY(), ContactState::slip).lambda = {600.0, 90.0, 0.0};
   StepRecord& r = scene->record();
-  r.attachments.push_back({"string", body, crate, {0.66, 0.45, 0.15}, {0.95, 0.27, 0.5}, Vec3::Zero()});
-  r.groups = {{ball, body}, {crate}};
-  r.bodies[static_cast<std::size_t>(body)].group = 0;
+  r.attachments.push_back(
+      {"string", BodyIndex(body), BodyIndex(crate), {0.66, 0.45, 0.15}, {0.95, 0.27, 0.5}, Vec3::Zero()});
+  r.groups = {indices<BodyIndex>({ball, body}), indices<BodyIndex>({crate})};
+  r.bodies[static_cast<std::size_t>(body)].group = GroupIndex(0);
   r.stats.frame = 12;
   r.stats.time = 0.2;
   r.stats.elastic = 3.25;

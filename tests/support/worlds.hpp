@@ -1,11 +1,26 @@
 // Small scenes for tests, built without files.
 #pragma once
 
+#include "engine/bodies/deformable_body.hpp"
+#include "engine/bodies/rigid_body.hpp"
 #include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "engine/world/world.hpp"
 
 namespace impinge::test {
+
+/// The body of that place in the scene, as what it is there.
+template <class Kind, class W>
+auto& body_as(W& world, int i) {
+  auto* body = world.bodies()[i].template as<Kind>();
+  if (body == nullptr) throw InternalError("a body of another kind");
+  return *body;
+}
+inline RigidBody& rigid(World& world, int i) { return body_as<RigidBody>(world, i); }
+inline const RigidBody& rigid(const World& world, int i) { return body_as<RigidBody>(world, i); }
+inline DeformableBody& deformable(World& world, int i) { return body_as<DeformableBody>(world, i); }
+inline const DeformableBody& deformable(const World& world, int i) { return body_as<DeformableBody>(world, i); }
 
 inline BodyDescription fixed_plane(const char* name, const Vec3& normal, double offset) {
   BodyDescription d;
@@ -32,7 +47,7 @@ inline void run(World& world, int frames) {
 }
 
 /// Height of a body's frame over the plane y = 0 and how far its y axis is from upright, degrees.
-inline double tilt_degrees(const RigidBody& body) {
+inline double tilt_degrees(const Body& body) {
   double best = 180.0;
   for (int k = 0; k < 3; ++k) {
     const double c = std::abs(body.pose.rotation.col(k).y());

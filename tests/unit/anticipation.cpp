@@ -22,28 +22,28 @@ struct Dense {
 };
 
 Dense dense(const GroupSystem& group) {
-  Eigen::Index n = 6 * static_cast<Eigen::Index>(group.bodies.size());
+  Eigen::Index n = 6 * static_cast<Eigen::Index>(group.rigid.size());
   std::vector<Eigen::Index> first;
-  for (const SoftBlock& b : group.soft) {
+  for (const DeformableBlock& b : group.deformable) {
     first.push_back(n);
     n += b.velocity.size();
   }
   const auto m = static_cast<Eigen::Index>(group.contacts.size());
   Dense d{MatX::Zero(n, n), MatX::Zero(3 * m, n), VecX::Zero(3 * m)};
   VecX v = VecX::Zero(n);
-  for (std::size_t b = 0; b < group.bodies.size(); ++b) {
+  for (std::size_t b = 0; b < group.rigid.size(); ++b) {
     const auto at = static_cast<Eigen::Index>(6 * b);
-    d.a.block<3, 3>(at, at) = Mat3::Identity() / group.bodies[b].inverse_mass;
-    d.a.block<3, 3>(at + 3, at + 3) = group.bodies[b].inverse_inertia.inverse();
-    v.segment<3>(at) = group.bodies[b].velocity;
-    v.segment<3>(at + 3) = group.bodies[b].angular_velocity;
+    d.a.block<3, 3>(at, at) = Mat3::Identity() / group.rigid[b].inverse_mass;
+    d.a.block<3, 3>(at + 3, at + 3) = group.rigid[b].inverse_inertia.inverse();
+    v.segment<3>(at) = group.rigid[b].velocity;
+    v.segment<3>(at + 3) = group.rigid[b].angular_velocity;
   }
-  for (std::size_t s = 0; s < group.soft.size(); ++s) {
-    const BlockPattern& p = *group.soft[s].a->pattern;
+  for (std::size_t s = 0; s < group.deformable.size(); ++s) {
+    const BlockPattern& p = *group.deformable[s].a->pattern;
     for (int i = 0; i < p.rows; ++i)
       for (int k = p.begin[i]; k < p.begin[i + 1]; ++k)
-        d.a.block<3, 3>(first[s] + 3 * i, first[s] + 3 * p.column[k]) = group.soft[s].a->values[k];
-    v.segment(first[s], group.soft[s].velocity.size()) = group.soft[s].velocity;
+        d.a.block<3, 3>(first[s] + 3 * i, first[s] + 3 * p.column[k]) = group.deformable[s].a->values[k];
+    v.segment(first[s], group.deformable[s].velocity.size()) = group.deformable[s].velocity;
   }
   for (Eigen::Index c = 0; c < m; ++c) {
     const ContactRows& rows = group.contacts[c];
@@ -55,7 +55,7 @@ Dense dense(const GroupSystem& group) {
           d.j.block<1, 3>(3 * c + k, 6 * side->rigid + 3) += sign * side->arm.cross(direction).transpose();
         }
         for (const NodeWeight& n : side->nodes)
-          d.j.block<1, 3>(3 * c + k, first[side->soft] + 3 * n.node) += sign * n.weight * direction.transpose();
+          d.j.block<1, 3>(3 * c + k, first[side->deformable] + 3 * n.node) += sign * n.weight * direction.transpose();
       }
   }
   d.q = d.j * v;
@@ -67,15 +67,15 @@ Dense dense(const GroupSystem& group) {
 }
 
 VecX delta_of(const GroupSystem& group) {
-  Eigen::Index n = 6 * static_cast<Eigen::Index>(group.bodies.size());
-  for (const VecX& v : group.soft_delta) n += v.size();
+  Eigen::Index n = 6 * static_cast<Eigen::Index>(group.rigid.size());
+  for (const VecX& v : group.deformable_delta) n += v.size();
   VecX all(n);
   Eigen::Index at = 0;
-  for (std::size_t b = 0; b < group.bodies.size(); ++b, at += 6) {
+  for (std::size_t b = 0; b < group.rigid.size(); ++b, at += 6) {
     all.segment<3>(at) = group.delta_velocity[b];
     all.segment<3>(at + 3) = group.delta_angular_velocity[b];
   }
-  for (const VecX& v : group.soft_delta) {
+  for (const VecX& v : group.deformable_delta) {
     all.segment(at, v.size()) = v;
     at += v.size();
   }
@@ -260,7 +260,7 @@ TEST_CASE("the seed's form is honest: its 5 % rule stops far away, and a cap is 
 TEST_CASE("bodies whose matrix is block diagonal take one outer step and no factorization") {
   SoftStack stack = make_soft_stack({.young = 1e5, .friction = 0.3, .cells = {3, 2}, .rigid_on_top = true});
   std::vector<BlockMatrix> lumped;
-  for (SoftBlock& block : stack.group.soft) {
+  for (DeformableBlock& block : stack.group.deformable) {
     lumped.push_back(*block.a);
     BlockMatrix& a = lumped.back();
     for (int i = 0; i < a.pattern->rows; ++i)
@@ -268,9 +268,9 @@ TEST_CASE("bodies whose matrix is block diagonal take one outer step and no fact
         if (k != a.pattern->diagonal[i]) a.values[k].setZero();
   }
   for (std::size_t s = 0; s < lumped.size(); ++s) {
-    stack.group.soft[s].a = &lumped[s];
-    stack.group.soft[s].is_diagonal = true;
-    stack.group.soft[s].solver = nullptr;
+    stack.group.deformable[s].a = &lumped[s];
+    stack.group.deformable[s].is_diagonal = true;
+    stack.group.deformable[s].solver = nullptr;
   }
   for (const char* name : {kExact, kIterative}) {
     CAPTURE(name);

@@ -5,6 +5,7 @@
 #include "engine/contact/collision_groups.hpp"
 #include "engine/core/error.hpp"
 #include "engine/geometry/rotation.hpp"
+#include "tests/support/indices.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/worlds.hpp"
 
@@ -57,33 +58,35 @@ TEST_CASE("a scripted body's velocity carries its pose exactly") {
   for (int i = 0; i < 30; ++i) {
     const Pose before = world.bodies()[0].pose;
     world.step();
-    const RigidBody& b = world.bodies()[0];
+    const Body& b = world.bodies()[0];
     const double h = world.parameters.simulation.time_step();
-    CHECK((before.position + h * b.velocity - b.pose.position).norm() < 1e-14);
-    CHECK((rotation_exp(h * b.scripted_angular_velocity) * before.rotation - b.pose.rotation).norm() < 1e-13);
+    CHECK((before.position + h * b.twist().linear - b.pose.position).norm() < 1e-14);
+    CHECK((rotation_exp(h * b.twist().angular) * before.rotation - b.pose.rotation).norm() < 1e-13);
   }
 }
 
 TEST_CASE("collision groups are the connected components; what does not move joins nothing") {
   // the seed's Fig. 3.6: A-B, B-C and D-E; body 5 is a floor that everybody touches
   const std::vector<char> joins = {1, 1, 1, 1, 1, 0, 1};
-  const std::vector<std::pair<int, int>> contacts = {{0, 1}, {1, 2}, {3, 4}, {0, 5}, {3, 5}, {4, 5}};
+  std::vector<std::pair<BodyIndex, BodyIndex>> contacts;
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {3, 4}, {0, 5}, {3, 5}, {4, 5}})
+    contacts.emplace_back(BodyIndex(a), BodyIndex(b));
   const std::vector<CollisionGroup> groups = make_groups(contacts, joins);
   REQUIRE(groups.size() == 2);
-  CHECK(groups[0].bodies == std::vector<int>{0, 1, 2});
-  CHECK(groups[0].contacts == std::vector<int>{0, 1, 3});
-  CHECK(groups[1].bodies == std::vector<int>{3, 4});
-  CHECK(groups[1].contacts == std::vector<int>{2, 4, 5});
+  CHECK(groups[0].bodies == indices<BodyIndex>({0, 1, 2}));
+  CHECK(groups[0].contacts == indices<ContactIndex>({0, 1, 3}));
+  CHECK(groups[1].bodies == indices<BodyIndex>({3, 4}));
+  CHECK(groups[1].contacts == indices<ContactIndex>({2, 4, 5}));
 
   Random random(5);
   for (int trial = 0; trial < 200; ++trial) {  // against repeated relabelling
     const int n = 2 + random.below(30);
     std::vector<char> free(n);
     for (char& f : free) f = random.u() < 0.8;
-    std::vector<std::pair<int, int>> pairs;
+    std::vector<std::pair<BodyIndex, BodyIndex>> pairs;
     for (int k = random.below(40); k > 0; --k) {
       const int a = random.below(n), b = random.below(n);
-      if (a != b) pairs.emplace_back(std::min(a, b), std::max(a, b));
+      if (a != b) pairs.emplace_back(BodyIndex(std::min(a, b)), BodyIndex(std::max(a, b)));
     }
     std::vector<int> label(n);
     for (int i = 0; i < n; ++i) label[i] = i;

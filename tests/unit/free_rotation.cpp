@@ -3,8 +3,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/geometry/rotation.hpp"
-#include "engine/integrators/elliptic_functions.hpp"
-#include "engine/integrators/free_rotation.hpp"
+#include "engine/rotation/elliptic_functions.hpp"
+#include "engine/rotation/free_rotation.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

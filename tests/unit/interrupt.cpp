@@ -7,8 +7,8 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
+#include "tests/support/deformable_bodies.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/soft_bodies.hpp"
 #include "tests/support/worlds.hpp"
 
 using namespace impinge;

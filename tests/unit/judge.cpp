@@ -15,9 +15,9 @@ double penetration(const SharedShape& a, const Vec3& xa, const Vec3& ra, const S
   BodyDescription da = dynamic_body("a", a, xa), db = dynamic_body("b", b, xb);
   da.rotation = ra;
   if (b->as<Plane>() != nullptr) db.kind = BodyKind::fixed;
-  std::vector<RigidBody> bodies;
-  bodies.push_back(make_rigid_body(da));
-  bodies.push_back(make_rigid_body(db));
+  Bodies bodies;
+  bodies.add(make_body(da));
+  bodies.add(make_body(db));
   const OverlapVerdict verdict = judge_overlap(bodies);
   if (crossings) *crossings = verdict.intersections;
   return verdict.penetration;

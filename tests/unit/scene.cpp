@@ -2,11 +2,13 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/bodies/scripted_body.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/temp_folder.hpp"
+#include "tests/support/worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -70,10 +72,10 @@ TEST_CASE("a scene's parameters and bodies arrive in SI") {
   CHECK(plane.normal == Vec3(0, 1, 0));
   CHECK(plane.offset == Approx(3.0));
 
-  const RigidBody& tetra = s.world.bodies()[1];
+  const RigidBody& tetra = rigid(s.world, 1);
   CHECK(tetra.mass == Approx(3.0));
   CHECK(tetra.friction == 0.25);
-  CHECK(tetra.restitution == -1.0);
+  CHECK_FALSE(tetra.restitution.has_value());
   CHECK(tetra.velocity == Vec3(1, 0, 0));
   CHECK((tetra.angular_velocity() - Vec3(0, 0, 2)).norm() < 1e-12);
   Mat3 turn;  // 90° about y: x goes to -z
@@ -81,7 +83,7 @@ TEST_CASE("a scene's parameters and bodies arrive in SI") {
   for (int v = 0; v < 4; ++v)
     CHECK((tetra.world_vertices[v] - (turn * (2.0 * tetrahedron().vertices[v]) + Vec3(1, 2, 3))).norm() < 1e-12);
 
-  const RigidBody& pill = s.world.bodies()[2];
+  const auto& pill = body_as<ScriptedBody>(s.world, 2);
   CHECK(pill.shape->as<Capsule>()->half_length == Approx(0.3));
   CHECK((pill.motion.at(0.0).position - Vec3(0, 9, 0)).norm() < 1e-15);  // a key without position has the body's
   CHECK((pill.motion.at(5.0).position - Vec3(1, 9, 0)).norm() < 1e-15);

@@ -7,6 +7,7 @@
 #include "tests/support/mesh_text.hpp"
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/tet_writers.hpp"
+#include "tests/support/worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -21,15 +22,15 @@ struct Loaded {
     world.parameters.bind(rows);
     scene = load_scene(path, overrides, world, rows);
   }
-  const RigidBody& body(int i = 0) const { return world.bodies()[i]; }
-  const SoftBody& soft(int i = 0) const { return *world.bodies()[i].soft; }
+  const Body& body(int i = 0) const { return world.bodies()[i]; }
+  const DeformableBody& soft(int i = 0) const { return deformable(world, i); }
   /// Two frames; whether all nodes are where numbers can be.
   bool steps() {
     world.start();
     world.step();
     world.step();
-    for (const RigidBody& b : world.bodies())
-      if (b.soft && !b.soft->fem.position.allFinite()) return false;
+    for (const Body& b : world.bodies())
+      if (!b.center_of_mass().allFinite()) return false;
     return true;
   }
 };
@@ -60,7 +61,7 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
         Case{"shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n", 6e-3, 1e-9}}) {
     INFO(c.lines);
     Loaded s(folder.write("s.toml", body_text(c.lines)));
-    const RigidBody& body = s.body();
+    const Body& body = s.body();
     CHECK(body.mass == Approx(1000.0 * c.volume).epsilon(c.tolerance));
     CHECK(s.soft().embedding.outside == 0);
     // the surface that collides is the shape's, moved by nothing yet
@@ -73,7 +74,7 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
   // cells as cubic as the sides allow: 2:1:3
   const Loaded lattice(folder.write(
       "s.toml", body_text("shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n")));
-  CHECK(lattice.soft().fem.nodes() == 5 * 3 * 7);
+  CHECK(lattice.soft().nodes() == 5 * 3 * 7);
 }
 
 TEST_CASE("volume files of every format give the same body") {
@@ -91,12 +92,12 @@ TEST_CASE("volume files of every format give the same body") {
         body_text(fmt::format(
             "volume = \"{}\"\nscale = 2\nrotation = [0, 90, 0]\nposition = [1, 2, 3]\nmaterial = {{ density = 500 }}\n",
             name))));
-    REQUIRE(s.soft().fem.nodes() == 27);
+    REQUIRE(s.soft().nodes() == 27);
     CHECK(s.body().mass == Approx(8 * 500 * 6e-3));
     Mat3 turn;  // 90° about y: x goes to -z
     turn << 0, 0, 1, 0, 1, 0, -1, 0, 0;
     for (int i = 0; i < 27; ++i)
-      CHECK((Vec3(s.soft().fem.position.segment<3>(3 * i)) - (turn * (2.0 * mesh.vertices[i]) + Vec3(1, 2, 3))).norm() <
+      CHECK((Vec3(s.soft().position.segment<3>(3 * i)) - (turn * (2.0 * mesh.vertices[i]) + Vec3(1, 2, 3))).norm() <
             1e-12);
     const TriangleMesh& boundary = s.body().shape->mesh()->mesh;
     CHECK(boundary.vertices.size() == 26);
@@ -131,18 +132,18 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
                                               fmt::format("material = {{ model = \"{}\", young = 3e4, poisson = 0.3, "
                                                           "damping = [0.5, 0.02], mass = \"consistent\" }}\n",
                                                           model))));
-    const SoftBody& soft = s.soft();
+    const DeformableBody& soft = s.soft();
     CHECK(soft.model == model);
     CHECK(soft.material->settings().young == 3e4);
     CHECK(soft.material->settings().poisson == 0.3);
-    CHECK(soft.fem.damping.alpha == 0.5);
-    CHECK(soft.fem.damping.beta == 0.02);
-    CHECK(soft.fem.fem.mass_kind() == MassKind::consistent);
+    CHECK(soft.damping.alpha == 0.5);
+    CHECK(soft.damping.beta == 0.02);
+    CHECK(soft.fem.mass_kind() == MassKind::consistent);
     CHECK(s.body().mass == Approx(2.5));
     CHECK(s.body().self_collision);
     CHECK(s.body().friction == 0.7);
     CHECK(s.body().restitution == 0.2);
-    CHECK((soft.fem.momentum() - 2.5 * Vec3(1, 2, 3)).norm() < 1e-12);
+    CHECK((soft.momentum() - 2.5 * Vec3(1, 2, 3)).norm() < 1e-12);
     CHECK(s.steps());
   }
   const Loaded s(
@@ -180,8 +181,8 @@ TEST_CASE("regions hold the nodes they name, and move them") {
     Loaded s(folder.write("s.toml", body_text(lines + "{ box = { min = [-1, 0.89, -1], max = [1, 0.91, 1] } }\n")));
     REQUIRE(s.soft().held.size() == 1);
     CHECK(s.soft().held[0].nodes.size() == 25);
-    for (const int i : s.soft().held[0].nodes) CHECK(s.soft().fem.position[3 * i + 1] == Approx(0.9));
-    CHECK(s.soft().fem.dofs() == 3 * 100);
+    for (const int i : s.soft().held[0].nodes) CHECK(s.soft().position[3 * i + 1] == Approx(0.9));
+    CHECK(s.soft().dofs() == 3 * 100);
     CHECK(s.steps());
   }
   {
@@ -191,12 +192,12 @@ TEST_CASE("regions hold the nodes they name, and move them") {
     REQUIRE(s.soft().held.size() == 2);
     CHECK(s.soft().held[0].nodes.size() == 4);  // a corner and its three neighbours
     CHECK(s.soft().held[1].nodes == std::vector<int>{0, 1, 2});
-    const VecX start = s.soft().fem.position;
+    const VecX start = s.soft().position;
     CHECK(s.steps());  // two frames of 1/60 s: past the last key
     for (const int i : {0, 1, 2})
-      CHECK((s.soft().fem.position.segment<3>(3 * i) - start.segment<3>(3 * i) - Vec3(0.01, 0, 0)).norm() < 1e-12);
+      CHECK((s.soft().position.segment<3>(3 * i) - start.segment<3>(3 * i) - Vec3(0.01, 0, 0)).norm() < 1e-12);
     for (const int i : s.soft().held[0].nodes)
-      CHECK((s.soft().fem.position.segment<3>(3 * i) - start.segment<3>(3 * i)).norm() < 1e-15);
+      CHECK((s.soft().position.segment<3>(3 * i) - start.segment<3>(3 * i)).norm() < 1e-15);
   }
 }
 
@@ -219,7 +220,7 @@ TEST_CASE("bodies of one surface share one volume, and a resolved scene gives th
   std::string text;
   for (int i = 0; i < 4; ++i) text += fmt::format("[[body]]\nname = \"b{}\"\nposition = [{}, 0, 0]\n{}", i, i, body);
   const Loaded s(folder.write("s.toml", text + "scale = 2\n"));
-  for (int i = 1; i < 3; ++i) CHECK(s.soft(i).fem.fem.rest().tets == s.soft(0).fem.fem.rest().tets);
+  for (int i = 1; i < 3; ++i) CHECK(s.soft(i).fem.rest().tets == s.soft(0).fem.rest().tets);
   CHECK(s.body(3).mass == Approx(8 * s.body(0).mass));
 
   RunRecord run;

@@ -150,7 +150,7 @@ TEST_CASE("the colour bar ends at a round number that covers what is shown, or w
   scene.add_soft("bar", cube, mesh, embed(mesh, cube->mesh.vertices),
                  [](const Vec3& p) { return Vec3(1.013 * p.x(), (1.0 - 0.00585) * p.y(), (1.0 - 0.00585) * p.z()); });
   ViewSettings settings = make_view_settings();
-  for (const double stress : heat_of_elements(*scene.record().bodies[0].soft, HeatQuantity::stress))
+  for (const double stress : heat_of_elements(*scene.record().bodies[0].deformable, HeatQuantity::stress))
     CHECK(stress == Approx(1300.0).epsilon(0.02));
   CHECK(heat_high(scene.record(), settings, HeatQuantity::stress) == Approx(2000.0).epsilon(1e-12));
   CHECK(heat_high(scene.record(), settings, HeatQuantity::strain) == Approx(0.02).epsilon(1e-9));

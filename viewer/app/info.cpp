@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "engine/bodies/deformable_body.hpp"
+#include "engine/bodies/rigid_body.hpp"
 #include "engine/core/parallel.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/study/ablation.hpp"
@@ -20,10 +22,10 @@ struct Counts {
 
 Counts count(const World& world) {
   Counts counts;
-  for (const RigidBody& body : world.bodies()) {
+  for (const Body& body : world.bodies()) {
     counts.shapes[std::string(body.shape->name())]++;
-    if (body.soft) counts.bytes += memory_of(*body.soft);
-    counts.bytes += sizeof(RigidBody);
+    const auto* deformable = body.as<DeformableBody>();
+    counts.bytes += deformable == nullptr ? sizeof(RigidBody) : sizeof(DeformableBody) + memory_of(*deformable);
     const SurfaceMesh* mesh = body.shape->mesh();
     if (mesh == nullptr) continue;
     counts.vertices += mesh->mesh.vertices.size();

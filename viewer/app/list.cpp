@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/algebra/linear_solver.hpp"
-#include "engine/bodies/soft_body.hpp"
+#include "engine/bodies/body_description.hpp"
 #include "engine/core/error.hpp"
 #include "engine/detection/broadphase/broad_phase.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
@@ -64,7 +64,7 @@ std::string range_of(const Parameter& row) {
 
 /// A deformable cube with a held node, so that all its rows exist.
 BodyDescription small_deformable() {
-  auto soft = std::make_shared<SoftDescription>();
+  auto soft = std::make_shared<DeformableDescription>();
   soft->mesh = make_tet_box(Vec3::Ones(), 1, 1, 1);
   NodeRegion held;
   held.kind = NodeRegion::list;
@@ -78,7 +78,7 @@ BodyDescription small_deformable() {
   body.name = "DEFORMABLE";
   body.kind = BodyKind::deformable;
   body.shape = MeshPointer(surface);
-  body.soft = soft;
+  body.deformable = soft;
   return body;
 }
 

@@ -160,9 +160,9 @@ std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRe
       out.push_back({name, "kind", "", 0.0, ""});
       continue;
     }
-    if (p.soft != nullptr && q.soft != nullptr) {
-      compare_nodes(name, "position", "m", p.soft->position, q.soft->position, out);
-      compare_nodes(name, "velocity", "m/s", p.soft->velocity, q.soft->velocity, out);
+    if (p.deformable != nullptr && q.deformable != nullptr) {
+      compare_nodes(name, "position", "m", p.deformable->position, q.deformable->position, out);
+      compare_nodes(name, "velocity", "m/s", p.deformable->velocity, q.deformable->velocity, out);
       continue;
     }
     compare_vectors(name, "position", "m", p.pose.position, q.pose.position, out);

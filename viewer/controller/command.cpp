@@ -133,6 +133,9 @@ std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterS
     if (row == nullptr)
       word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is",
                   remedy(rows.nearest(word.text), "use one of them"));
+    if (!row->set)
+      word.refuse(fmt::format("'{}' can't change while running", word.text), "it is fixed with the scene",
+                  "set it in the scene, or by --set");
     if (!row->live && !first_frame)
       word.refuse(fmt::format("'{}' can't change while running", word.text), "it may be set at frame 0",
                   "write at 0, or set it in the scene");

@@ -186,7 +186,8 @@ void Session::restore(ByteReader& in) {
     if (get_text(in) != row.path)
       throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
     if (row.inherit.empty()) {
-      row.set(get_value(in, row.initial));
+      const ParameterValue value = get_value(in, row.initial);
+      if (row.set) row.set(value);  // else it is fixed with the scene
     } else {
       const double number = in.get<double>();
       row.set(number == kInherited ? ParameterValue(row.inherit) : ParameterValue(number));

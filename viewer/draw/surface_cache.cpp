@@ -27,11 +27,11 @@ ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) {
 }
 
 MovedSurfacePointer SurfaceCache::moved_of(const BodyRecord& body) {
-  if (body.soft == nullptr) return nullptr;
-  MovedSurfacePointer& moved = moved_[body.soft];
+  if (body.deformable == nullptr) return nullptr;
+  MovedSurfacePointer& moved = moved_[body.deformable];
   if (!moved)
     moved = std::make_shared<MovedSurface>(
-        move_surface(*surface_of(*body.shape), body.vertices, body.soft->smallest_volume_ratio() <= 0.0));
+        move_surface(*surface_of(*body.shape), body.vertices, body.deformable->smallest_volume_ratio() <= 0.0));
   return moved;
 }
 

@@ -9,7 +9,7 @@ void draw(const LayerContext& context, DrawList& list) {
   const float size = 0.9f * static_cast<float>(context.settings.point_size),
               width = 1.8f * static_cast<float>(context.settings.line_width);
   for (const AttachmentRecord& link : context.record.attachments) {
-    const PickId pick = body_pick(static_cast<std::size_t>(std::max(0, link.body_a)));
+    const PickId pick = body_pick(static_cast<std::size_t>(std::max(0, link.body_a.value())));
     list.lines.push_back({link.point_a, link.point_b, role::kAttachment, width, Depth::both, pick});
     for (const Vec3& p : {link.point_a, link.point_b}) {
       list.points.push_back({p, role::kAttachment, size, Depth::both, pick});

@@ -56,18 +56,21 @@ bool has_rigid(const StepRecord& record) {
                   [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::scripted; });
 }
 bool has_deformable(const StepRecord& record) {
-  return any_body(record, [](const BodyRecord& b) { return b.soft != nullptr; });
+  return any_body(record, [](const BodyRecord& b) { return b.deformable != nullptr; });
 }
 bool has_held_nodes(const StepRecord& record) {
-  return any_body(record,
-                  [](const BodyRecord& b) { return b.soft != nullptr && b.soft->free_nodes() < b.soft->nodes(); });
+  return any_body(record, [](const BodyRecord& b) {
+    return b.deformable != nullptr && b.deformable->free_nodes() < b.deformable->nodes();
+  });
 }
 bool has_outside_vertices(const StepRecord& record) {
-  return any_body(record, [](const BodyRecord& b) { return b.embedding != nullptr && b.embedding->outside > 0; });
+  return any_body(record,
+                  [](const BodyRecord& b) { return b.deformable != nullptr && b.deformable->embedding.outside > 0; });
 }
 bool has_everted(const StepRecord& record) {
-  return any_body(record,
-                  [](const BodyRecord& b) { return b.soft != nullptr && b.soft->smallest_volume_ratio() <= 0.0; });
+  return any_body(record, [](const BodyRecord& b) {
+    return b.deformable != nullptr && b.deformable->smallest_volume_ratio() <= 0.0;
+  });
 }
 bool has_attachments(const StepRecord& record) { return !record.attachments.empty(); }
 

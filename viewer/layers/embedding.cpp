@@ -14,15 +14,15 @@ void draw(const LayerContext& context, DrawList& list) {
               size = 0.5f * static_cast<float>(context.settings.point_size);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
-    if (body.soft == nullptr || body.embedding == nullptr) continue;
-    const Embedding& embedding = *body.embedding;
+    if (body.deformable == nullptr || body.deformable->embedding.tet.empty()) continue;
+    const Embedding& embedding = body.deformable->embedding;
     const PickId pick = body_pick(i);
     const auto draw_vertex = [&](std::size_t v, bool outside) {
       const Vec3& at = body.vertices[v];
       const Color color = outside ? role::kOutside : role::kCarried;
-      for (const int n : body.soft->fem.rest().tets[static_cast<std::size_t>(embedding.tet[v])])
+      for (const int n : body.deformable->fem.rest().tets[static_cast<std::size_t>(embedding.tet[v])])
         list.lines.push_back(
-            {at, body.soft->position.segment<3>(3 * n), with_alpha(color, 0.7f), width, Depth::both, pick});
+            {at, body.deformable->position.segment<3>(3 * n), with_alpha(color, 0.7f), width, Depth::both, pick});
       list.points.push_back({at, color, outside ? 1.5f * size : size, Depth::both, pick});
     };
     std::vector<std::size_t> outside;

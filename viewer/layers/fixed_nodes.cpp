@@ -12,7 +12,7 @@ void draw(const LayerContext& context, DrawList& list) {
   const float size = 0.85f * static_cast<float>(context.settings.point_size),
               width = 1.4f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
-    const DeformableBody* body = context.record.bodies[i].soft;
+    const DeformableBody* body = context.record.bodies[i].deformable;
     if (body == nullptr) continue;
     for (int n = 0; n < body->nodes(); ++n) {
       if (!body->is_held(n)) continue;

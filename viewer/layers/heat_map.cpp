@@ -35,9 +35,10 @@ double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQua
   if (own.max > 0.0) return own.max;
   std::vector<double> all;
   for (const BodyRecord& body : record.bodies) {
-    if (body.soft == nullptr) continue;
-    std::vector<double> shown = node_average(*body.soft, heat_of_elements(*body.soft, quantity));
-    if (body.embedding != nullptr) shown = values_at_points(*body.embedding, body.soft->fem.rest(), shown);
+    if (body.deformable == nullptr) continue;
+    std::vector<double> shown = node_average(*body.deformable, heat_of_elements(*body.deformable, quantity));
+    if (!body.deformable->embedding.tet.empty())
+      shown = values_at_points(body.deformable->embedding, body.deformable->fem.rest(), shown);
     std::copy_if(shown.begin(), shown.end(), std::back_inserter(all), [](double v) { return std::isfinite(v); });
   }
   // at rest nothing but rounding is left, which is no picture
@@ -69,16 +70,17 @@ ColorBar make_color_bar(HeatQuantity quantity, double high) {
 
 void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantity) {
   const StepRecord& record = context.record;
-  if (std::none_of(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.soft != nullptr; }))
+  if (std::none_of(record.bodies.begin(), record.bodies.end(),
+                   [](const BodyRecord& b) { return b.deformable != nullptr; }))
     return;
   const double high = heat_high(record, context.settings, quantity);
   ColorBar bar = make_color_bar(quantity, high);
   for (DrawSurface& item : list.surfaces) {
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];
-    if (body.soft == nullptr || body.embedding == nullptr) continue;
-    const std::vector<double> nodes = node_average(*body.soft, heat_of_elements(*body.soft, quantity));
-    const std::vector<double> points = values_at_points(*body.embedding, body.soft->fem.rest(), nodes);
+    if (body.deformable == nullptr || body.deformable->embedding.tet.empty()) continue;
+    const std::vector<double> nodes = node_average(*body.deformable, heat_of_elements(*body.deformable, quantity));
+    const std::vector<double> points = values_at_points(body.deformable->embedding, body.deformable->fem.rest(), nodes);
     auto heat = std::make_shared<std::vector<float>>();
     heat->reserve(item.surface->source.size());
     for (const std::uint32_t v : item.surface->source) heat->push_back(static_cast<float>(points[v] / high));

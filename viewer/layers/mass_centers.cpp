@@ -12,7 +12,7 @@ void draw(const LayerContext& context, DrawList& list) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed) continue;
     const Color colors[3] = {role::kAxisX, role::kAxisY, role::kAxisZ};
-    for (int axis = 0; axis < 3 && body.soft == nullptr; ++axis)  // a deformable body has no frame
+    for (int axis = 0; axis < 3 && body.deformable == nullptr; ++axis)  // a deformable body has no frame
       list.arrows.push_back(
           {body.pose.position, body.pose.rotation.col(axis), colors[axis], length, width, Depth::on_top, body_pick(i)});
     list.points.push_back({body.pose.position, role::kMassCenter,

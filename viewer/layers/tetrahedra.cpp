@@ -31,7 +31,7 @@ bool is_everted(const DeformableBody& body, const Tet& tet) {
 }
 
 void draw_edges(const LayerContext& context, DrawList& list, std::size_t index, Color color) {
-  const DeformableBody& body = *context.record.bodies[index].soft;
+  const DeformableBody& body = *context.record.bodies[index].deformable;
   const ClipPlane& clip = context.settings.clip;
   const float width = 0.8f * static_cast<float>(context.settings.line_width);
   const PickId pick = body_pick(index);
@@ -50,7 +50,7 @@ void draw_edges(const LayerContext& context, DrawList& list, std::size_t index, 
 
 void draw_solids(const LayerContext& context, DrawList& list, std::size_t index, Color color) {
   const BodyRecord& record = context.record.bodies[index];
-  const DeformableBody& body = *record.soft;
+  const DeformableBody& body = *record.deformable;
   const TetMesh& mesh = body.fem.rest();
   std::vector<int> upright, everted;
   for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
@@ -88,7 +88,7 @@ void draw(const LayerContext& context, DrawList& list) {
   const bool wire = context.own<Settings>().style == Settings::Style::wire;
   const bool over_surfaces = context.settings.is_on("meshes");
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
-    if (context.record.bodies[i].soft == nullptr) continue;
+    if (context.record.bodies[i].deformable == nullptr) continue;
     if (wire)
       draw_edges(context, list, i, over_surfaces ? mix(colors[i], role::kTetrahedron, 0.55f) : colors[i]);
     else

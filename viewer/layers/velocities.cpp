@@ -12,12 +12,12 @@ constexpr std::size_t kMostVertices = 160;  // of a deformable body
 /// At some of the surface's vertices: what the nodes that carry them have.
 void draw_deformable(const LayerContext& context, DrawList& list, std::size_t index, double time, float width) {
   const BodyRecord& body = context.record.bodies[index];
-  const Embedding& embedding = *body.embedding;
+  const Embedding& embedding = body.deformable->embedding;
   const double shortest = 0.012 * body.bounds.extent().norm();
   for (const std::size_t v : thinned(body.vertices.size(), kMostVertices)) {
     Vec3 way = Vec3::Zero();
-    const Tet& tet = body.soft->fem.rest().tets[static_cast<std::size_t>(embedding.tet[v])];
-    for (int k = 0; k < 4; ++k) way += time * embedding.weight[v][k] * body.soft->velocity.segment<3>(3 * tet[k]);
+    const Tet& tet = body.deformable->fem.rest().tets[static_cast<std::size_t>(embedding.tet[v])];
+    for (int k = 0; k < 4; ++k) way += time * embedding.weight[v][k] * body.deformable->velocity.segment<3>(3 * tet[k]);
     if (way.norm() > shortest)
       list.arrows.push_back({body.vertices[v], way, role::kVelocity, 0.0f, width, Depth::both, body_pick(index)});
   }
@@ -29,7 +29,7 @@ void draw(const LayerContext& context, DrawList& list) {
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed) continue;
-    if (body.soft != nullptr && body.embedding != nullptr) {
+    if (body.deformable != nullptr && !body.deformable->embedding.tet.empty()) {
       draw_deformable(context, list, i, time, 0.7f * width);
       continue;
     }

@@ -16,7 +16,7 @@ void draw(const LayerContext& context, DrawList& list) {
     const ShadedSurfacePointer surface = context.surfaces.surface_of(*body.shape);
     std::vector<Vec3> world;
     world.reserve(surface->positions.size());
-    if (body.soft != nullptr)
+    if (body.deformable != nullptr)
       for (const std::uint32_t v : surface->source) world.push_back(body.vertices[v]);
     else
       for (const Eigen::Vector3f& p : surface->positions) world.push_back(body.pose.apply(p.cast<double>()));

@@ -23,8 +23,8 @@ constexpr double kRepeatSeconds = 2.0;  // of one setting; what takes longer isn
 /// Points of each body's surface at one frame; those of exact shapes: where the body's axes leave its ball.
 std::vector<std::vector<Vec3>> surface_points(const Session& session) {
   std::vector<std::vector<Vec3>> points;
-  for (std::size_t i = 0; i < session.world().bodies().size(); ++i) {
-    const RigidBody& body = session.world().bodies()[i];
+  for (BodyIndex i(0); i < session.world().bodies().size(); ++i) {
+    const Body& body = session.world().bodies()[i];
     std::vector<Vec3>& list = points.emplace_back();
     if (!body.has_freedom()) continue;
     const BodyRecord& record = session.record().bodies[i];

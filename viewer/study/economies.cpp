@@ -51,10 +51,11 @@ std::vector<Economy> economies(const Session& session) {
   const bool meets = facts.meets(), soft = facts.deformable > 0;
   std::vector<std::string> rows, masses, self;
   std::size_t vertices = 0, nodes = 0;
-  for (const RigidBody& body : world.bodies()) {
+  for (const Body& body : world.bodies()) {
     if (body.friction == 0.0) rows.push_back(fmt::format("body.{}.friction=1e-9", body.name));
-    if (!body.soft) continue;
-    const FemAssembly& fem = body.soft->fem.fem;
+    const auto* deformable = body.as<DeformableBody>();
+    if (deformable == nullptr) continue;
+    const FemAssembly& fem = deformable->fem;
     vertices += body.shape->mesh()->mesh.vertices.size();
     nodes += static_cast<std::size_t>(fem.nodes());
     if (fem.mass_kind() == MassKind::lumped)

@@ -130,7 +130,7 @@ class Comparison {
     std::vector<GroupAnswer> list;
     for (const FrozenGroup& group : step_.groups)
       list.push_back({std::vector<Vec3>(group.system.contacts.size(), Vec3::Zero()), group.system.delta_velocity,
-                      group.system.delta_angular_velocity, group.system.soft_delta});
+                      group.system.delta_angular_velocity, group.system.deformable_delta});
     return list;
   }
 
@@ -146,8 +146,8 @@ class Comparison {
 void print_head(const FrozenStep& step, const Parameters& settings, const FrozenRuler& ruler, const std::string& file) {
   std::size_t rigid = 0, soft = 0, unknowns = 0;
   for (const FrozenGroup& group : step.groups) {
-    rigid += group.system.bodies.size(), soft += group.matrices.size();
-    unknowns += 6 * group.system.bodies.size();
+    rigid += group.system.rigid.size(), soft += group.matrices.size();
+    unknowns += 6 * group.system.rigid.size();
     for (const BlockMatrix& a : group.matrices) unknowns += static_cast<std::size_t>(a.rows());
   }
   fmt::print(

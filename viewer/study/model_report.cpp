@@ -66,10 +66,10 @@ ModelFacts model_facts(const World& world) {
   ModelFacts facts;
   int meshes = 0;
   const Parameters& p = world.parameters;
-  for (const RigidBody& body : world.bodies()) {
-    count_body(body.kind, body.shape->mesh() != nullptr, body.friction < 0.0 ? p.contact.friction : body.friction,
-               body.restitution < 0.0 ? p.contact.restitution : body.restitution, body.self_collision, meshes, facts);
-    if (body.soft) facts.soft_dofs += body.soft->fem.dofs();
+  for (const Body& body : world.bodies()) {
+    count_body(body.kind(), body.shape->mesh() != nullptr, body.friction.value_or(p.contact.friction),
+               body.restitution.value_or(p.contact.restitution), body.self_collision, meshes, facts);
+    if (body.kind() == BodyKind::deformable) facts.soft_dofs += body.dofs();
   }
   facts.mesh_pairs = meshes > 1 || facts.self_collision;
   facts.attachments = static_cast<int>(world.record().attachments.size());

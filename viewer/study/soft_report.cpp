@@ -22,12 +22,13 @@ std::string solvers_of(const LinearSolverChoice& wanted, int dofs) {
 }  // namespace
 
 void print_soft_bodies(const Session& session) {
-  for (const RigidBody& body : session.world().bodies()) {
-    if (!body.soft) continue;
-    const SoftBody& soft = *body.soft;
-    const FemAssembly& fem = soft.fem.fem;
+  for (const Body& body : session.world().bodies()) {
+    const auto* deformable = body.as<DeformableBody>();
+    if (deformable == nullptr) continue;
+    const DeformableBody& soft = *deformable;
+    const FemAssembly& fem = soft.fem;
     const MaterialSettings& m = soft.material->settings();
-    const int held = fem.nodes() - soft.fem.free_nodes();
+    const int held = fem.nodes() - soft.free_nodes();
     double filled = 0.0;
     for (const TetRest& element : fem.elements()) filled += element.volume;
     const TriangleMesh& surface = body.shape->mesh()->mesh;
@@ -36,15 +37,15 @@ void print_soft_bodies(const Session& session) {
 
     fmt::print("  {}: {} nodes, {} tetrahedra, smallest dihedral angle {:.1f} degrees\n", body.name, fem.nodes(),
                fem.rest().tets.size(), smallest_dihedral_angle(fem.rest()));
-    fmt::print("    freedom:  {} degrees free, {} held ({} nodes in {} regions)\n", soft.fem.dofs(), 3 * held, held,
+    fmt::print("    freedom:  {} degrees free, {} held ({} nodes in {} regions)\n", soft.dofs(), 3 * held, held,
                soft.held.size());
     fmt::print(
         "    material: {}, young {} Pa, poisson {}, density {:.6g} kg/m^3, damping alpha {} 1/s, beta {} s, {} mass\n",
-        soft.model, shortest(m.young), shortest(m.poisson), body.mass / filled, shortest(soft.fem.damping.alpha),
-        shortest(soft.fem.damping.beta), fem.mass_kind() == MassKind::lumped ? "lumped" : "consistent");
+        soft.model, shortest(m.young), shortest(m.poisson), body.mass / filled, shortest(soft.damping.alpha),
+        shortest(soft.damping.beta), fem.mass_kind() == MassKind::lumped ? "lumped" : "consistent");
     fmt::print("    volume:   {:.6g} m^3 filled ({:+.2f} % of the surface's {:.6g} m^3), mass {:.6g} kg\n", filled,
                100.0 * (filled / enclosed - 1.0), enclosed, body.mass);
-    fmt::print("    solver:   {}\n", solvers_of(session.world().parameters.simulation.linear_solver, soft.fem.dofs()));
+    fmt::print("    solver:   {}\n", solvers_of(session.world().parameters.simulation.linear_solver, soft.dofs()));
     fmt::print("    surface:  {} vertices, {} triangles{}\n", surface.vertices.size(), surface.triangles.size(),
                outside > 0
                    ? fmt::format(", {} vertices outside of the volume, carried by the nearest tetrahedra", outside)
@@ -54,8 +55,8 @@ void print_soft_bodies(const Session& session) {
     for (const std::string& note : file.notes) fmt::print("  {}: {}\n", file.name, note);
 }
 
-std::size_t memory_of(const SoftBody& body) {
-  const FemAssembly& fem = body.fem.fem;
+std::size_t memory_of(const DeformableBody& body) {
+  const FemAssembly& fem = body.fem;
   // an element keeps its rest data and its answer; the stiffness a block for each pair of neighbours, twice (all, free)
   return fem.elements().size() * (sizeof(TetRest) + sizeof(ElementResponse) + sizeof(Tet)) +
          fem.block_mass().size() * 2 * sizeof(Mat3) + static_cast<std::size_t>(fem.nodes()) * 6 * sizeof(Vec3);

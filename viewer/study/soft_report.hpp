@@ -9,6 +9,6 @@ namespace impinge {
 void print_soft_bodies(const Session& session);
 
 /// Bytes of the body's nodes, elements and stiffness pattern, about.
-std::size_t memory_of(const SoftBody& body);
+std::size_t memory_of(const DeformableBody& body);
 
 }  // namespace impinge

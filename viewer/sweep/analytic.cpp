@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/bodies/rigid_body.hpp"
 #include "engine/core/error.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "viewer/sweep/reference.hpp"
@@ -24,10 +25,10 @@ struct OnPlane {
   double friction = 0.0, restitution = 0.0;
 };
 
-double given(double own, double scene) { return own < 0.0 ? scene : own; }
+double given(const std::optional<double>& own, double scene) { return own.value_or(scene); }
 
 // how far the shape reaches from its centre against the normal, at its pose
-double reach(const RigidBody& body, const Vec3& normal) {
+double reach(const Body& body, const Vec3& normal) {
   if (const auto* sphere = body.shape->as<Sphere>()) return sphere->radius;
   const auto& box = *body.shape->as<Box>();
   return (body.pose.rotation.transpose() * normal).cwiseAbs().dot(box.half);
@@ -38,15 +39,15 @@ OnPlane on_plane(const std::string& name, const Session& session, bool wants_sph
                                          wants_sphere ? "sphere" : "box");
   const auto& contact = session.world().parameters.contact;
   OnPlane scene;
-  const RigidBody* ground = nullptr;
-  for (const RigidBody& body : session.world().bodies()) {
-    if (body.kind == BodyKind::fixed && body.shape->as<Plane>() != nullptr && ground == nullptr)
+  const Body* ground = nullptr;
+  for (const Body& body : session.world().bodies()) {
+    if (body.kind() == BodyKind::fixed && body.shape->as<Plane>() != nullptr && ground == nullptr)
       ground = &body;
-    else if (body.is_dynamic() && scene.body == nullptr &&
+    else if (body.as<RigidBody>() != nullptr && scene.body == nullptr &&
              (wants_sphere ? body.shape->as<Sphere>() != nullptr : body.shape->as<Box>() != nullptr))
-      scene.body = &body;
+      scene.body = body.as<RigidBody>();
     else
-      unfit(name, fmt::format("body '{}' is a {} {}", body.name, kind_name(body.kind), body.shape->name()), wanted);
+      unfit(name, fmt::format("body '{}' is a {} {}", body.name, kind_name(body.kind()), body.shape->name()), wanted);
   }
   if (scene.body == nullptr || ground == nullptr)
     unfit(name, scene.body == nullptr ? "the scene has no such body" : "the scene has no plane", wanted);
@@ -64,13 +65,14 @@ OnPlane on_plane(const std::string& name, const Session& session, bool wants_sph
 AnalyticMotion free_fall(const Session& session) {
   const Vec3 g = session.world().parameters.simulation.gravity;
   std::map<std::string, Vec3> velocities;
-  for (const RigidBody& body : session.world().bodies()) {
+  for (const Body& body : session.world().bodies()) {
     if (!body.has_freedom()) continue;
-    if (body.is_deformable())
+    const auto* rigid = body.as<RigidBody>();
+    if (rigid == nullptr)
       unfit("free_fall", fmt::format("body '{}' is deformable", body.name), "rigid bodies that don't spin");
-    if (body.angular_momentum.norm() > 0.0)
+    if (rigid->angular_momentum.norm() > 0.0)
       unfit("free_fall", fmt::format("body '{}' spins", body.name), "rigid bodies that don't spin");
-    velocities[body.name] = body.velocity;
+    velocities[body.name] = rigid->velocity;
   }
   return {[=](const std::string& body, double t) { return Vec3(velocities.at(body) * t + 0.5 * g * t * t); }, true};
 }

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> moving_bodies(const Session& session) {
   std::vector<std::string> names;
-  for (const RigidBody& body : session.world().bodies())
+  for (const Body& body : session.world().bodies())
     if (body.has_freedom()) names.push_back(body.name);
   return names;
 }

@@ -27,7 +27,7 @@ Vec3 vector_at(const std::string& path, const std::vector<std::string>& changes,
 
 double moving_size(const Session& session) {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  for (const RigidBody& body : session.world().bodies()) {
+  for (const Body& body : session.world().bodies()) {
     if (!body.has_freedom()) continue;
     low = low.cwiseMin(body.bounds().min);
     high = high.cwiseMax(body.bounds().max);

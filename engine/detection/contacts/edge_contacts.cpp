@@ -56,15 +56,14 @@ void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone
     if (closest_between_segments(ea.p + shift, ea.q + shift, eb.p, eb.q).squared_distance > limit * limit) return;
   }
   Collision c;
-  c.body_a = query.a.body();
-  c.body_b = query.b.body();
-  c.triangle_a = ta;
-  c.triangle_b = tb;
+  c.body_a = BodyIndex(query.a.body());
+  c.body_b = BodyIndex(query.b.body());
+  c.triangle_a = TriangleIndex(ta);
+  c.triangle_b = TriangleIndex(tb);
   c.point_a = closest.point0;
   c.point_b = closest.point1;
   c.normal = normal;
   c.gap = gap;
-  c.normal_owner = -1;
   c.feature = feature_key(Feature::edge, ea.index, Feature::edge, eb.index);
   contacts.push_back(c);
 }

@@ -50,14 +50,14 @@ Collision make_contact(const SurfaceView& own, int t_own, const Deepest& deepest
   const Vec3& x = own.vertex(v);
   const TriangleCorners triangle = other.corners(t);
   Collision c;
-  c.body_a = own.body();
-  c.body_b = other.body();
-  c.triangle_a =
-      own.triangles_round(v)[0];  // of several that the vertex is deepest of, the same one whichever was found first
-  c.triangle_b = t;
+  c.body_a = BodyIndex(own.body());
+  c.body_b = BodyIndex(other.body());
+  // of several that the vertex is deepest of, the same one whichever was found first
+  c.triangle_a = TriangleIndex(own.triangles_round(v)[0]);
+  c.triangle_b = TriangleIndex(t);
   c.point_a = x;
   c.normal = n;
-  c.normal_owner = other.body();
+  c.normal_owner = BodyIndex(other.body());
   c.feature = feature_key(Feature::vertex, v, Feature::face, t);
   const Vec3 path = own.vertex_velocity(v) - other.velocity_at(t, x);
   const double speed = path.norm();

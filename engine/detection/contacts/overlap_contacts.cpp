@@ -90,13 +90,13 @@ class Separation {
   void set(const Vec3& point_a, const Vec3& point_b, const Vec3& n, int owner, SurfaceFeature fa, SurfaceFeature fb) {
     best_.body_a = pair_.a;
     best_.body_b = pair_.b;
-    best_.triangle_a = query_.a.triangle_of(fa);
-    best_.triangle_b = query_.b.triangle_of(fb);
+    best_.triangle_a = TriangleIndex(query_.a.triangle_of(fa));
+    best_.triangle_b = TriangleIndex(query_.b.triangle_of(fb));
     best_.point_a = point_a;
     best_.point_b = point_b;
     best_.normal = n;
     best_.gap = n.dot(point_a - point_b);
-    best_.normal_owner = owner;
+    best_.normal_owner = BodyIndex(owner);
     best_.feature = feature_key(fa.kind, fa.index, fb.kind, fb.index);
   }
 

@@ -239,15 +239,15 @@ class VertexPass {
     for (const Collision& c : kept_)
       if (c.normal.dot(normal) > kSameSide) return;
     Collision c;
-    c.body_a = own_.body();
-    c.body_b = other_.body();
-    c.triangle_a = own_.triangles_round(v)[0];
-    c.triangle_b = triangle;
+    c.body_a = BodyIndex(own_.body());
+    c.body_b = BodyIndex(other_.body());
+    c.triangle_a = TriangleIndex(own_.triangles_round(v)[0]);
+    c.triangle_b = TriangleIndex(triangle);
     c.point_a = own_.vertex(v);
     c.point_b = point;
     c.normal = normal;
     c.gap = normal.dot(c.point_a - c.point_b);
-    c.normal_owner = is_owned ? other_.body() : -1;
+    if (is_owned) c.normal_owner = BodyIndex(other_.body());
     c.feature = feature_key(Feature::vertex, v, feature.kind, feature.index);
     kept_.push_back(c);
   }

@@ -67,7 +67,7 @@ void compound_contacts(std::span<const Collider> colliders, const BodyPair& pair
       if (!overlap(parts_a[i].bounds.inflated(reach), parts_b[j].bounds)) continue;
       const Collider local[2] = {parts_a[i], parts_b[j]};
       found.clear();
-      primitive_contacts(local, {0, 1, pair.margin}, query, found);
+      primitive_contacts(local, {BodyIndex(0), BodyIndex(1), pair.margin}, query, found);
       for (Collision& c : found) {
         if (c.gap > 0.0 && ((many_b && is_seam(c.point_b, c.point_a, c.gap, j, parts_b, tie)) ||
                             (many_a && is_seam(c.point_a, c.point_b, c.gap, i, parts_a, tie))))
@@ -79,7 +79,7 @@ void compound_contacts(std::span<const Collider> colliders, const BodyPair& pair
         if (std::any_of(contacts.begin() + static_cast<std::ptrdiff_t>(begin), contacts.end(), is_same)) continue;
         c.body_a = pair.a;
         c.body_b = pair.b;
-        c.normal_owner = c.normal_owner == 0 ? pair.a : c.normal_owner == 1 ? pair.b : -1;
+        if (!c.normal_owner.is_none()) c.normal_owner = c.normal_owner == BodyIndex(0) ? pair.a : pair.b;
         const std::uint64_t high = c.feature >> 32, low = c.feature & 0xffffffffu;
         c.feature = (many_a ? with_part(high, i) : high) << 32 | (many_b ? with_part(low, j) : low);
         contacts.push_back(c);

@@ -71,21 +71,21 @@ bool ContactSink::add(const Candidate& c) {
   contact.body_a = pair_.a;
   contact.body_b = pair_.b;
   contact.gap = gap;
-  const int first_body = swapped_ ? pair_.b : pair_.a, second_body = swapped_ ? pair_.a : pair_.b;
-  contact.normal_owner = c.owner == NormalOwner::first ? first_body : c.owner == NormalOwner::second ? second_body : -1;
+  const BodyIndex first_body = swapped_ ? pair_.b : pair_.a, second_body = swapped_ ? pair_.a : pair_.b;
+  if (c.owner != NormalOwner::neither) contact.normal_owner = c.owner == NormalOwner::first ? first_body : second_body;
   if (swapped_) {
     contact.point_a = c.point_second;
     contact.point_b = c.point_first;
     contact.normal = -c.normal;
-    contact.triangle_a = c.triangle_second;
-    contact.triangle_b = c.triangle_first;
+    contact.triangle_a = TriangleIndex(c.triangle_second);
+    contact.triangle_b = TriangleIndex(c.triangle_first);
     contact.feature = feature_key(c.kind_second, c.index_second, c.kind_first, c.index_first);
   } else {
     contact.point_a = c.point_first;
     contact.point_b = c.point_second;
     contact.normal = c.normal;
-    contact.triangle_a = c.triangle_first;
-    contact.triangle_b = c.triangle_second;
+    contact.triangle_a = TriangleIndex(c.triangle_first);
+    contact.triangle_b = TriangleIndex(c.triangle_second);
     contact.feature = feature_key(c.kind_first, c.index_first, c.kind_second, c.index_second);
   }
   contacts_.push_back(contact);

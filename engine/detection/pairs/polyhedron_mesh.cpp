@@ -63,7 +63,7 @@ bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<dou
   all.time_step = 0.0;
   const Collider local[2] = {sink.first(), sink.second()};
   std::vector<Collision> out;
-  ContactSink way_out(local, {0, 1, 0.0}, false, all, out);
+  ContactSink way_out(local, {BodyIndex(0), BodyIndex(1), 0.0}, false, all, out);
   if (!add_ball_contacts(way_out, SurfaceView(sink.second(), 1), {center, 0.0, Feature::shape, 0})) return false;
   for (const Collision& found : out) {
     Candidate c;
@@ -99,7 +99,7 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   own.vertices = corners;
   own.mean_edge = mean_edge_length(solid.surface->mesh);
   const Collider local[2] = {own, mesh};
-  const BodyPair pair{0, 1, margin};
+  const BodyPair pair{BodyIndex(0), BodyIndex(1), margin};
   const int count = static_cast<int>(solid.surface->mesh.triangles.size());
   std::vector<Aabb> boxes;
   for (int k = 0; k < count; ++k) boxes.push_back(search_box(corners_of(own, k), margin));
@@ -110,7 +110,8 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
     for (int k = 0; k < count; ++k) {
       if (!overlap(boxes[k], box)) continue;
       const PairState state = test_triangles(corners_of(own, k), c, margin);
-      if (state != PairState::apart) triangles.push_back({0, 1, k, t, state == PairState::intersecting});
+      if (state != PairState::apart)
+        triangles.push_back({pair.a, pair.b, TriangleIndex(k), TriangleIndex(t), state == PairState::intersecting});
     }
   }
   std::sort(triangles.begin(), triangles.end());

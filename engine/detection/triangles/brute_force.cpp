@@ -50,7 +50,8 @@ class BruteForce final : public NarrowPhase {
           if (is_self && share_a_vertex(triangles[i], triangles[j])) continue;
           const int ta = static_cast<int>(i), tb = static_cast<int>(j);
           const PairState state = test_triangles(corners, corners_of(b, tb), pair.margin);
-          if (state != PairState::apart) out.push_back({pair.a, pair.b, ta, tb, state == PairState::intersecting});
+          if (state != PairState::apart)
+            out.push_back({pair.a, pair.b, TriangleIndex(ta), TriangleIndex(tb), state == PairState::intersecting});
         }
       }
     });

@@ -333,7 +333,8 @@ class SpatialHash final : public NarrowPhase {
       return;
     const PairState state = test_triangles(corners_of(a, l.triangle), corners_of(b, r.triangle), partner->margin);
     if (state != PairState::apart)
-      out.push_back({l.body, r.body, l.triangle, r.triangle, state == PairState::intersecting});
+      out.push_back({BodyIndex(l.body), BodyIndex(r.body), TriangleIndex(l.triangle), TriangleIndex(r.triangle),
+                     state == PairState::intersecting});
   }
 
   // triangles that are in no list against all items of their partners

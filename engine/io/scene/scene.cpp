@@ -84,7 +84,7 @@ void read_bodies(TomlNode& list, Scene& scene, SurfaceFiles& surfaces, World& wo
     if (!names.insert(body.name).second)
       refuse(table.find("name")->value.place, fmt::format("a second body named '{}'", body.name), "names must differ",
              "rename one of them");
-    const RigidBody* added = nullptr;
+    const Body* added = nullptr;
     try {
       added = &world.add_body(body);
     } catch (const InputError& error) {
@@ -102,7 +102,7 @@ void read_attachments(TomlNode& list, Scene& scene, World& world) {
   std::set<std::string> names;
   for (TomlNode& table : list.items) {
     const AttachmentDescription attachment =
-        read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies(), world.body_names());
+        read_attachment(table, static_cast<int>(scene.attachments.size()), world.bodies());
     const bool is_named = table.find("name") != nullptr;
     if (names.contains(attachment.name))
       refuse(table.place, fmt::format("a second attachment named '{}'", attachment.name), "names must differ",

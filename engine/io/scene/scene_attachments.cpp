@@ -9,20 +9,19 @@
 namespace impinge {
 namespace {
 
-const RigidBody& body_named(const TomlNode& node, const std::string& what, std::span<const RigidBody> bodies,
-                            const BodyNames& names) {
+const Body& body_named(const TomlNode& node, const std::string& what, const Bodies& bodies) {
   const std::string& name = scene_text(node, what);
-  if (const int i = names.find(name); i >= 0) return bodies[i];
-  const std::string near = nearest_word(name, names.all());
+  if (const BodyIndex i = bodies.find(name); !i.is_none()) return bodies[i];
+  const std::vector<std::string> names = bodies.names();
+  const std::string near = nearest_word(name, names);
   refuse(node.place, fmt::format("{} names the body {}, which is not there", what, toml_string(name)),
-         bodies.empty() ? "the scene has no bodies" : "bodies: " + some_of(names.all()),
+         bodies.is_empty() ? "the scene has no bodies" : "bodies: " + some_of(names),
          near.empty() ? "name one of them" : fmt::format("did you mean '{}'?", near));
 }
 
 }  // namespace
 
-AttachmentDescription read_attachment(const TomlNode& table, int index, std::span<const RigidBody> bodies,
-                                      const BodyNames& names) {
+AttachmentDescription read_attachment(const TomlNode& table, int index, const Bodies& bodies) {
   scene_table(table, "attachment");
   check_keys(table, "attachment", {"name", "body_a", "body_b", "point"});
   AttachmentDescription a;
@@ -35,11 +34,11 @@ AttachmentDescription read_attachment(const TomlNode& table, int index, std::spa
   if (first == nullptr)
     refuse(table.place, fmt::format("{} has no body_a", a.name), "the name of a body is wanted",
            "add body_a = \"...\"");
-  const RigidBody& body_a = body_named(first->value, a.name + ".body_a", bodies, names);
+  const Body& body_a = body_named(first->value, a.name + ".body_a", bodies);
   a.body_a = body_a.name;
   bool moves = body_a.has_freedom();
   if (second != nullptr) {
-    const RigidBody& body_b = body_named(second->value, a.name + ".body_b", bodies, names);
+    const Body& body_b = body_named(second->value, a.name + ".body_b", bodies);
     a.body_b = body_b.name;
     moves |= body_b.has_freedom();
   }

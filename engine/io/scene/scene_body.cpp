@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/bodies/body_keys.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/scene/scene_motion.hpp"
@@ -18,7 +19,6 @@ namespace impinge {
 namespace {
 
 // beyond these a number is a slip, not a quantity
-constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6}, kSpeed{-1e6, 1e6}, kTime{0.0, 1e9};
 constexpr double kMostScale = 1e6, kMostDensity = 1e9;
 
 const std::vector<std::string> kKeys = {
@@ -78,9 +78,10 @@ void check_kind(const TomlNode& table, const std::string& what, const BodyDescri
 }  // namespace
 
 // a body's own, or nothing by the word that `set` and --set give it back to the scene with
-std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, double high) {
-  if (node.kind == TomlNode::text && node.string == "scene") return std::nullopt;
-  return scene_real(node, what, {0.0, high});
+std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, const char* name) {
+  const BodyKey& key = body_key(name);
+  if (node.kind == TomlNode::text && node.string == key.inherit) return std::nullopt;
+  return scene_real(node, what, key.range);
 }
 
 void check_name(const TomlNode& node, const std::string& name, const char* whose) {
@@ -116,18 +117,23 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   };
   double scale = 1.0;
   with("scale", [&](const TomlNode& node, const std::string& key) { scale = scene_positive(node, key, kMostScale); });
-  with("position",
-       [&](const TomlNode& node, const std::string& key) { body.position = scene_vector(node, key, kLength); });
-  with("rotation",
-       [&](const TomlNode& node, const std::string& key) { body.rotation = scene_vector(node, key, kAngle); });
-  with("velocity",
-       [&](const TomlNode& node, const std::string& key) { body.velocity = scene_vector(node, key, kSpeed); });
-  with("angular_velocity",
-       [&](const TomlNode& node, const std::string& key) { body.angular_velocity = scene_vector(node, key, kSpeed); });
+  with("position", [&](const TomlNode& node, const std::string& key) {
+    body.position = scene_vector(node, key, body_key("position").range);
+  });
+  with("rotation", [&](const TomlNode& node, const std::string& key) {
+    body.rotation = scene_vector(node, key, body_key("rotation").range);
+  });
+  with("velocity", [&](const TomlNode& node, const std::string& key) {
+    body.velocity = scene_vector(node, key, body_key("velocity").range);
+  });
+  with("angular_velocity", [&](const TomlNode& node, const std::string& key) {
+    body.angular_velocity = scene_vector(node, key, body_key("angular_velocity").range);
+  });
   with("friction",
-       [&](const TomlNode& node, const std::string& key) { body.friction = read_coefficient(node, key, 100.0); });
-  with("restitution",
-       [&](const TomlNode& node, const std::string& key) { body.restitution = read_coefficient(node, key, 1.0); });
+       [&](const TomlNode& node, const std::string& key) { body.friction = read_coefficient(node, key, "friction"); });
+  with("restitution", [&](const TomlNode& node, const std::string& key) {
+    body.restitution = read_coefficient(node, key, "restitution");
+  });
   with("self_collision",
        [&](const TomlNode& node, const std::string& key) { body.self_collision = scene_flag(node, key); });
   with("material", [&](const TomlNode& node, const std::string& key) { read_material(node, key, body); });

@@ -1,7 +1,7 @@
 // One [[body]] of a scene as a checked description.
 #pragma once
 
-#include "engine/bodies/rigid_body.hpp"
+#include "engine/bodies/body_description.hpp"
 #include "engine/io/scene/scene_surface.hpp"
 
 namespace impinge {

@@ -2,18 +2,22 @@
 
 #include <fmt/format.h>
 
+#include "engine/bodies/body_keys.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr double kLeastSize = 1e-6, kMostSize = 1e6, kLeastMass = 1e-15, kMostMass = 1e15;
+constexpr double kLeastSize = 1e-6, kMostSize = 1e6;
 constexpr const char* kSizes = "[1e-6, 1e6] m";
 constexpr const char* kMasses = "[1e-15, 1e15] kg";
 
 bool is_size(double value) { return value >= kLeastSize && value <= kMostSize; }
-bool is_mass(double value) { return value >= kLeastMass && value <= kMostMass; }
+bool is_mass(double value) {
+  const Range range = body_key("mass").range;
+  return value >= range.low && value <= range.high;
+}
 
 }  // namespace
 
@@ -49,7 +53,7 @@ void check_extent(const TomlNode& node, const std::string& what, const std::vect
              fmt::format("lengths in {} are allowed", kSizes), "change its scale");
 }
 
-void check_mass(const TomlNode& table, const RigidBody& body) {
+void check_mass(const TomlNode& table, const Body& body) {
   if (!body.has_freedom() || is_mass(body.mass)) return;
   const TomlEntry* material = table.find("material");
   const TomlEntry* density = material == nullptr ? nullptr : material->value.find("density");

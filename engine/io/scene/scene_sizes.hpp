@@ -2,7 +2,7 @@
 // number is a slip, not a quantity.
 #pragma once
 
-#include "engine/bodies/rigid_body.hpp"
+#include "engine/bodies/body.hpp"
 #include "engine/io/scene/toml.hpp"
 
 namespace impinge {
@@ -19,6 +19,6 @@ void check_extent(const TomlNode& node, const std::string& what, const std::vect
 
 /// Throws InputError, located at the density where the table of the body has one, unless what the body weighs is in
 /// [1e-15, 1e15] kg.
-void check_mass(const TomlNode& table, const RigidBody& body);
+void check_mass(const TomlNode& table, const Body& body);
 
 }  // namespace impinge

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bodies/body_keys.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/io/scene/scene_motion.hpp"
 #include "engine/io/scene/scene_values.hpp"
@@ -39,16 +40,16 @@ void read_damping(const TomlNode& table, const std::string& what, RayleighDampin
     if (node.kind != TomlNode::array || node.items.size() != 2)
       refuse(node.place, what + ".damping is not a pair", "[alpha in 1/s, beta in s] is wanted",
              "write damping = [0, 0.01]");
-    damping.alpha = scene_real(node.items[0], what + ".damping", {0.0, 1e6});
-    damping.beta = scene_real(node.items[1], what + ".damping", {0.0, 1e3});
+    damping.alpha = scene_real(node.items[0], what + ".damping", body_key("material.damping_alpha").range);
+    damping.beta = scene_real(node.items[1], what + ".damping", body_key("material.damping_beta").range);
   }
   if (const TomlEntry* entry = table.find("damping_alpha"))
-    damping.alpha = scene_real(entry->value, what + ".damping_alpha", {0.0, 1e6});
+    damping.alpha = scene_real(entry->value, what + ".damping_alpha", body_key("material.damping_alpha").range);
   if (const TomlEntry* entry = table.find("damping_beta"))
-    damping.beta = scene_real(entry->value, what + ".damping_beta", {0.0, 1e3});
+    damping.beta = scene_real(entry->value, what + ".damping_beta", body_key("material.damping_beta").range);
 }
 
-void read_elastic(const TomlNode& table, const std::string& what, SoftDescription& soft) {
+void read_elastic(const TomlNode& table, const std::string& what, DeformableDescription& soft) {
   check_keys(scene_table(table, what), what, deformable_material_keys());
   const auto with = [&](const char* key, auto&& read) {
     if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
@@ -130,7 +131,7 @@ struct Regions {
   std::vector<std::string> name;
 };
 
-Regions read_fixed(const TomlNode& table, const std::string& what, SoftDescription& soft) {
+Regions read_fixed(const TomlNode& table, const std::string& what, DeformableDescription& soft) {
   Regions regions;
   const TomlEntry* fixed = table.find("fixed");
   if (fixed == nullptr) return regions;
@@ -152,7 +153,7 @@ Regions read_fixed(const TomlNode& table, const std::string& what, SoftDescripti
 }
 
 // a region that holds nothing is a slip in its numbers, and so is one that leaves nothing to deform
-void check_fixed(const Regions& regions, const std::string& what, const SoftDescription& soft,
+void check_fixed(const Regions& regions, const std::string& what, const DeformableDescription& soft,
                  const BodyDescription& body) {
   const Pose file{rotation_from_degrees(body.rotation), body.position};
   const int nodes = static_cast<int>(soft.mesh.vertices.size());
@@ -205,7 +206,7 @@ std::vector<std::string> deformable_material_keys() {
 
 void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
                     BodyDescription& body) {
-  auto soft = std::make_shared<SoftDescription>();
+  auto soft = std::make_shared<DeformableDescription>();
   if (const TomlEntry* material = table.find("material")) read_elastic(material->value, what + ".material", *soft);
   const Regions regions = read_fixed(table, what, *soft);
   read_volume(table, what, scale, files, *soft, body);
@@ -217,7 +218,7 @@ void read_soft_body(const TomlNode& table, const std::string& what, double scale
     soft->density = *body.mass / volume;
     body.mass.reset();
   }
-  body.soft = std::move(soft);
+  body.deformable = std::move(soft);
 }
 
 }  // namespace impinge

@@ -1,7 +1,7 @@
 // What a deformable [[body]] has beside a rigid one: material.model and its numbers, volume, fixed.
 #pragma once
 
-#include "engine/bodies/rigid_body.hpp"
+#include "engine/bodies/body_description.hpp"
 #include "engine/io/scene/scene_surface.hpp"
 
 namespace impinge {

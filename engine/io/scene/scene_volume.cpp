@@ -95,7 +95,7 @@ MeshPointer outer_surface(const TomlNode& table, const std::string& what, double
                        cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
 }
 
-void take(const CarriedVolume& volume, const MeshPointer& surface, SoftDescription& soft, BodyDescription& body) {
+void take(const CarriedVolume& volume, const MeshPointer& surface, DeformableDescription& soft, BodyDescription& body) {
   soft.mesh = volume.mesh;
   soft.fraction = volume.fraction;
   soft.embedding = volume.embedding;
@@ -104,7 +104,7 @@ void take(const CarriedVolume& volume, const MeshPointer& surface, SoftDescripti
 
 // only what the scene leaves open is taken from the file
 void use_file_material(const TomlNode& table, const TomlNode& node, const std::string& what, const TetFile& file,
-                       SoftDescription& soft) {
+                       DeformableDescription& soft) {
   if (file.materials.empty()) return;
   const TomlEntry* material = table.find("material");
   const auto gives = [&](const char* key) { return material != nullptr && material->value.find(key) != nullptr; };
@@ -135,7 +135,7 @@ double distance_to_triangles(const Vec3& x, const TetMesh& volume, std::span<con
 
 // a surface and a volume that don't belong together would be carried by nonsense
 void check_outside(const TomlNode& node, const std::string& what, const TriangleMesh& surface,
-                   const SoftDescription& soft) {
+                   const DeformableDescription& soft) {
   if (soft.embedding.outside == 0) return;
   const double size = bounds_of(soft.mesh.vertices).extent().maxCoeff(), allowed = kMostOutside * size;
   std::vector<Triangle> boundary;
@@ -159,7 +159,7 @@ void check_outside(const TomlNode& node, const std::string& what, const Triangle
 }
 
 void read_volume_file(const TomlNode& table, const TomlNode& node, const std::string& what, double scale,
-                      SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+                      SurfaceFiles& files, DeformableDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume";
   if (const TomlEntry* shape = table.find("shape"))
     refuse(shape->place, what + " has a shape and a volume file",
@@ -180,7 +180,7 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
 }
 
 void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files,
-               SoftDescription& soft, BodyDescription& body) {
+               DeformableDescription& soft, BodyDescription& body) {
   const int cells = read_cells(way.value, what + ".volume.cage");
   const MeshPointer outer = outer_surface(table, what, scale, 0.0, cells, files, body);
   check_memory(way.value.place, fmt::format("{}.volume.cage of {} cells", what, cells), cage_memory(outer->mesh, cells),
@@ -195,7 +195,7 @@ void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& w
 }
 
 void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
-                  SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+                  SurfaceFiles& files, DeformableDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume.lattice";
   const int cells = read_cells(way.value, name);
   const TomlEntry* shape = table.find("shape");
@@ -216,7 +216,7 @@ void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string
 }
 
 void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
-                         SurfaceFiles& files, SoftDescription& soft, BodyDescription& body) {
+                         SurfaceFiles& files, DeformableDescription& soft, BodyDescription& body) {
   const std::string name = what + ".volume.tetrahedralize";
   const TomlNode& node = way.value;
   check_keys(node, name, {"max_size", "min_angle"});
@@ -254,7 +254,7 @@ void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std:
 }  // namespace
 
 void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
-                 SoftDescription& soft, BodyDescription& body) {
+                 DeformableDescription& soft, BodyDescription& body) {
   const TomlEntry *entry = table.find("volume"), *shape = table.find("shape"), *surface = table.find("surface");
   const std::string name = what + ".volume";
   if (shape != nullptr && surface != nullptr)

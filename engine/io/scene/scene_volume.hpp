@@ -1,7 +1,7 @@
 // The tetrahedra of a deformable [[body]] and the surface they carry: `volume` with `surface` or `shape`.
 #pragma once
 
-#include "engine/bodies/rigid_body.hpp"
+#include "engine/bodies/body_description.hpp"
 #include "engine/io/scene/scene_surface.hpp"
 
 namespace impinge {
@@ -10,6 +10,6 @@ namespace impinge {
 /// of young, poisson and density the scene doesn't give. Throws InputError, located, at the first key or value that
 /// can't be taken.
 void read_volume(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
-                 SoftDescription& soft, BodyDescription& body);
+                 DeformableDescription& soft, BodyDescription& body);
 
 }  // namespace impinge

@@ -26,8 +26,8 @@ std::vector<Part> parts_of(const GroupSystem& group, Wanted wanted) {
 }
 
 void add_rigid(const GroupSystem& group, MatX& w) {
-  for (int b = 0; b < static_cast<int>(group.bodies.size()); ++b) {
-    const BodyBlock& block = group.bodies[b];
+  for (int b = 0; b < static_cast<int>(group.rigid.size()); ++b) {
+    const RigidBlock& block = group.rigid[b];
     const std::vector<Part> parts = parts_of(group, [&](const ContactSide& s) { return s.rigid == b; });
     std::vector<Mat3> arms;
     for (const Part& p : parts) {
@@ -47,7 +47,7 @@ void add_rigid(const GroupSystem& group, MatX& w) {
   }
 }
 
-MatX gram(const SoftBlock& block, const SparseColumns& columns) {
+MatX gram(const DeformableBlock& block, const SparseColumns& columns) {
   MatX w;
   const SolveStatus status = block.solver->gram(columns, w).status;
   if (status == SolveStatus::not_finite || status == SolveStatus::not_positive_definite)
@@ -56,7 +56,7 @@ MatX gram(const SoftBlock& block, const SparseColumns& columns) {
 }
 
 /// W by columns of J^T: three a contact.
-void add_by_contact(const GroupSystem& group, const SoftBlock& block, const std::vector<Part>& parts, MatX& w) {
+void add_by_contact(const GroupSystem& group, const DeformableBlock& block, const std::vector<Part>& parts, MatX& w) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < parts.size(); ++j)
     for (const NodeWeight& n : parts[j].side->nodes)
@@ -74,7 +74,7 @@ void add_by_contact(const GroupSystem& group, const SoftBlock& block, const std:
 }
 
 /// W by columns of unit impulses: three a touched node, and then J on both sides.
-void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::vector<Part>& parts,
+void add_by_node(const GroupSystem& group, const DeformableBlock& block, const std::vector<Part>& parts,
                  const std::vector<int>& nodes, MatX& w) {
   std::vector<int> row(block.velocity.size() / 3, -1);
   const auto m = static_cast<Eigen::Index>(3 * nodes.size());
@@ -101,9 +101,9 @@ void add_by_node(const GroupSystem& group, const SoftBlock& block, const std::ve
 }
 
 void add_soft(const GroupSystem& group, int body, MatX& w) {
-  const SoftBlock& block = group.soft[body];
+  const DeformableBlock& block = group.deformable[body];
   const std::vector<Part> parts =
-      parts_of(group, [&](const ContactSide& s) { return s.soft == body && !s.nodes.empty(); });
+      parts_of(group, [&](const ContactSide& s) { return s.deformable == body && !s.nodes.empty(); });
   if (parts.empty()) return;
   check_interrupt();
   if (block.solver->factorize(*block.a) != SolveStatus::ok)
@@ -123,7 +123,7 @@ std::shared_ptr<const MatX> assemble(const GroupSystem& group) {
   const auto n = static_cast<Eigen::Index>(3 * group.contacts.size());
   MatX w = MatX::Zero(n, n);
   add_rigid(group, w);
-  for (int s = 0; s < static_cast<int>(group.soft.size()); ++s) add_soft(group, s, w);
+  for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s) add_soft(group, s, w);
   return std::make_shared<const MatX>(0.5 * (w + MatX(w.transpose())));
 }
 

@@ -12,7 +12,7 @@ namespace impinge {
 namespace {
 
 /// W_ii of one rigid side.
-Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const BodyBlock& block) {
+Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const RigidBlock& block) {
   Mat3 turn;
   for (int k = 0; k < 3; ++k) turn.row(k) = side.arm.cross(rows.directions.row(k).transpose()).transpose();
   return block.inverse_mass * rows.directions * rows.directions.transpose() +
@@ -23,18 +23,18 @@ Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const BodyBlo
 
 DelassusByContact::DelassusByContact(GroupSystem& group)
     : group_(group),
-      node_inverse_(group.soft.size()),
-      coupled_(group.soft.size()),
+      node_inverse_(group.deformable.size()),
+      coupled_(group.deformable.size()),
       place_(group.contacts.size(), {-1, -1}),
       coupled_velocity_(group.contacts.size(), Vec3::Zero()),
       diagonal_(group.contacts.size(), Mat3::Zero()),
       split_(group.contacts.size(), Mat3::Zero()) {
   group_.clear_delta();
-  std::vector<int> rigid_contacts(group.bodies.size(), 0);
-  std::vector<std::vector<int>> node_contacts(group.soft.size());
-  for (std::size_t s = 0; s < group.soft.size(); ++s) {
-    if (!group.soft[s].is_diagonal) continue;
-    const BlockMatrix& a = *group.soft[s].a;
+  std::vector<int> rigid_contacts(group.rigid.size(), 0);
+  std::vector<std::vector<int>> node_contacts(group.deformable.size());
+  for (std::size_t s = 0; s < group.deformable.size(); ++s) {
+    if (!group.deformable[s].is_diagonal) continue;
+    const BlockMatrix& a = *group.deformable[s].a;
     for (int i = 0; i < a.pattern->rows; ++i) node_inverse_[s].push_back(a.values[a.pattern->diagonal[i]].inverse());
     node_contacts[s].assign(a.pattern->rows, 0);
   }
@@ -43,10 +43,10 @@ DelassusByContact::DelassusByContact(GroupSystem& group)
     for (int k = 0; k < 2; ++k) {
       if (sides[k]->rigid >= 0) ++rigid_contacts[sides[k]->rigid];
       if (sides[k]->nodes.empty()) continue;
-      if (group.soft[sides[k]->soft].is_diagonal) {
-        for (const NodeWeight& n : sides[k]->nodes) ++node_contacts[sides[k]->soft][n.node];
+      if (group.deformable[sides[k]->deformable].is_diagonal) {
+        for (const NodeWeight& n : sides[k]->nodes) ++node_contacts[sides[k]->deformable][n.node];
       } else {
-        std::vector<std::size_t>& list = coupled_[sides[k]->soft].contacts;
+        std::vector<std::size_t>& list = coupled_[sides[k]->deformable].contacts;
         place_[i][k] = static_cast<int>(list.size());
         list.push_back(i);
       }
@@ -56,34 +56,34 @@ DelassusByContact::DelassusByContact(GroupSystem& group)
     const ContactRows& rows = group.contacts[i];
     for (const ContactSide* side : {&rows.a, &rows.b}) {
       if (side->rigid >= 0) {
-        const Mat3 w = rigid_block(rows, *side, group.bodies[side->rigid]);
+        const Mat3 w = rigid_block(rows, *side, group.rigid[side->rigid]);
         diagonal_[i] += w;
         split_[i] += rigid_contacts[side->rigid] * w;
       }
-      if (side->nodes.empty() || !group.soft[side->soft].is_diagonal) continue;
+      if (side->nodes.empty() || !group.deformable[side->deformable].is_diagonal) continue;
       for (const NodeWeight& n : side->nodes) {
-        const Mat3 w =
-            n.weight * n.weight * rows.directions * node_inverse_[side->soft][n.node] * rows.directions.transpose();
+        const Mat3 w = n.weight * n.weight * rows.directions * node_inverse_[side->deformable][n.node] *
+                       rows.directions.transpose();
         diagonal_[i] += w;
-        split_[i] += node_contacts[side->soft][n.node] * w;
+        split_[i] += node_contacts[side->deformable][n.node] * w;
       }
     }
   }
-  for (int s = 0; s < static_cast<int>(group.soft.size()); ++s)
+  for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s)
     if (!coupled_[s].contacts.empty()) add_coupled(s);
   for (std::size_t i = 0; i < group.contacts.size(); ++i)
     if (!group.lambda[i].isZero(0.0)) add_impulse(i, group.lambda[i]);
 }
 
 void DelassusByContact::add_coupled(int s) {
-  const SoftBlock& block = group_.soft[s];
+  const DeformableBlock& block = group_.deformable[s];
   Coupled& coupled = coupled_[s];
   const int m = static_cast<int>(coupled.contacts.size());
   std::vector<Eigen::Triplet<double>> entries;
   for (int c = 0; c < m; ++c) {
     const ContactRows& rows = group_.contacts[coupled.contacts[c]];
     for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)}) {
-      if (side->soft != s) continue;
+      if (side->deformable != s) continue;
       for (const NodeWeight& n : side->nodes)
         for (int r = 0; r < 3; ++r)
           for (int k = 0; k < 3; ++k)
@@ -119,17 +119,17 @@ void DelassusByContact::add_impulse(std::size_t i, const Vec3& delta) {
     const ContactSide& side = *sides[k];
     const double sign = k == 0 ? 1.0 : -1.0;
     if (side.rigid >= 0) {
-      const BodyBlock& block = group_.bodies[side.rigid];
+      const RigidBlock& block = group_.rigid[side.rigid];
       group_.delta_velocity[side.rigid] += sign * block.inverse_mass * force;
       group_.delta_angular_velocity[side.rigid] += sign * (block.inverse_inertia * side.arm.cross(force));
     }
     if (side.nodes.empty()) continue;
     if (place_[i][k] < 0) {
       for (const NodeWeight& n : side.nodes)
-        group_.soft_delta[side.soft].segment<3>(3 * n.node) +=
-            node_inverse_[side.soft][n.node] * (sign * n.weight * force);
+        group_.deformable_delta[side.deformable].segment<3>(3 * n.node) +=
+            node_inverse_[side.deformable][n.node] * (sign * n.weight * force);
     } else {
-      const Coupled& coupled = coupled_[side.soft];
+      const Coupled& coupled = coupled_[side.deformable];
       for (std::size_t c = 0; c < coupled.contacts.size(); ++c)
         coupled_velocity_[coupled.contacts[c]] += coupled.w.block<3, 3>(3 * c, 3 * place_[i][k]) * delta;
     }
@@ -147,7 +147,7 @@ void DelassusByContact::show(const std::function<void(const GroupSystem&)>& obse
   observe(group_);
   for (std::size_t s = 0; s < coupled_.size(); ++s)
     // while impulses change, coupled_velocity_ says it
-    if (!coupled_[s].contacts.empty()) group_.soft_delta[s].setZero();
+    if (!coupled_[s].contacts.empty()) group_.deformable_delta[s].setZero();
 }
 
 bool DelassusByContact::finish() {
@@ -155,10 +155,11 @@ bool DelassusByContact::finish() {
   std::fill(coupled_velocity_.begin(), coupled_velocity_.end(), Vec3::Zero());
   for (std::size_t i = 0; i < group_.contacts.size(); ++i)
     if (!group_.lambda[i].isZero(0.0)) add_impulse(i, group_.lambda[i]);
-  for (int s = 0; s < static_cast<int>(group_.soft.size()); ++s) {
+  for (int s = 0; s < static_cast<int>(group_.deformable.size()); ++s) {
     if (coupled_[s].contacts.empty() || !solved_) continue;
-    solved_ = group_.soft[s].solver->solve(group_.soft_impulse(s, group_.lambda), group_.soft_delta[s]).status ==
-              SolveStatus::ok;
+    solved_ = group_.deformable[s]
+                  .solver->solve(group_.deformable_impulse(s, group_.lambda), group_.deformable_delta[s])
+                  .status == SolveStatus::ok;
   }
   return solved_;
 }

@@ -5,9 +5,9 @@
 namespace impinge {
 
 std::vector<std::vector<Mat3>> inverse_node_blocks(const GroupSystem& group) {
-  std::vector<std::vector<Mat3>> inverse(group.soft.size());
-  for (std::size_t s = 0; s < group.soft.size(); ++s) {
-    const BlockMatrix& a = *group.soft[s].a;
+  std::vector<std::vector<Mat3>> inverse(group.deformable.size());
+  for (std::size_t s = 0; s < group.deformable.size(); ++s) {
+    const BlockMatrix& a = *group.deformable[s].a;
     for (int i = 0; i < a.pattern->rows; ++i) inverse[s].push_back(a.values[a.pattern->diagonal[i]].inverse());
   }
   return inverse;
@@ -23,7 +23,7 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
     const ContactRows& rows = group.contacts[i];
     const auto add = [&](const ContactSide& side, double sign, RigidSide& out) {
       if (side.rigid >= 0) {
-        const BodyBlock& block = group.bodies[side.rigid];
+        const RigidBlock& block = group.rigid[side.rigid];
         for (int k = 0; k < 3; ++k)
           out.arm.row(k) = sign * side.arm.cross(rows.directions.row(k).transpose()).transpose();
         out.linear = sign * block.inverse_mass * rows.directions.transpose();
@@ -31,8 +31,8 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
         diagonal_[i] += block.inverse_mass * (rows.directions * rows.directions.transpose()) + out.arm * out.angular;
       }
       for (const NodeWeight& n : side.nodes)
-        diagonal_[i] +=
-            n.weight * n.weight * (rows.directions * (*node_inverse_)[side.soft][n.node] * rows.directions.transpose());
+        diagonal_[i] += n.weight * n.weight *
+                        (rows.directions * (*node_inverse_)[side.deformable][n.node] * rows.directions.transpose());
     };
     add(rows.a, 1.0, sides_[i][0]);
     add(rows.b, -1.0, sides_[i][1]);
@@ -58,7 +58,7 @@ Vec3 FactoredDelassus::row(std::size_t i, bool normal_only) const {
         turned += rigid.arm * w;
     }
     for (const NodeWeight& n : side.nodes)
-      relative += sign * n.weight * group_.soft_delta[side.soft].segment<3>(3 * n.node);
+      relative += sign * n.weight * group_.deformable_delta[side.deformable].segment<3>(3 * n.node);
   };
   add(rows.a, 1.0, sides_[i][0]);
   add(rows.b, -1.0, sides_[i][1]);
@@ -82,8 +82,8 @@ void FactoredDelassus::change(std::size_t i, const Vec3& delta, bool normal_only
     const Vec3 force =
         normal_only ? Vec3(rows.directions.row(0).transpose() * delta.x()) : Vec3(rows.directions.transpose() * delta);
     for (const NodeWeight& n : side.nodes)
-      group_.soft_delta[side.soft].segment<3>(3 * n.node) +=
-          (*node_inverse_)[side.soft][n.node] * (sign * n.weight * force);
+      group_.deformable_delta[side.deformable].segment<3>(3 * n.node) +=
+          (*node_inverse_)[side.deformable][n.node] * (sign * n.weight * force);
   };
   add(rows.a, 1.0, sides_[i][0]);
   add(rows.b, -1.0, sides_[i][1]);

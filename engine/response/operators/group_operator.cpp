@@ -9,13 +9,13 @@
 namespace impinge {
 
 GroupOperator::GroupOperator(const GroupSystem& group) : group_(group) {
-  for (const BodyBlock& body : group.bodies) {
+  for (const RigidBlock& body : group.rigid) {
     mass_.push_back(1.0 / body.inverse_mass);
     inertia_.push_back(body.inverse_inertia.inverse());
   }
-  size_ = 6 * static_cast<Eigen::Index>(group.bodies.size());
-  for (const SoftBlock& block : group.soft) {
-    soft_at_.push_back(size_);
+  size_ = 6 * static_cast<Eigen::Index>(group.rigid.size());
+  for (const DeformableBlock& block : group.deformable) {
+    deformable_at_.push_back(size_);
     size_ += block.velocity.size();
   }
   plain_ = inverse_blocks({});
@@ -27,9 +27,9 @@ VecX GroupOperator::multiply(const VecX& x) const {
     y.segment<3>(6 * b) = mass_[b] * x.segment<3>(6 * b);
     y.segment<3>(6 * b + 3) = inertia_[b] * x.segment<3>(6 * b + 3);
   }
-  for (std::size_t s = 0; s < soft_at_.size(); ++s) {
-    const Eigen::Index n = group_.soft[s].velocity.size();
-    y.segment(soft_at_[s], n) = *group_.soft[s].a * VecX(x.segment(soft_at_[s], n));
+  for (std::size_t s = 0; s < deformable_at_.size(); ++s) {
+    const Eigen::Index n = group_.deformable[s].velocity.size();
+    y.segment(deformable_at_[s], n) = *group_.deformable[s].a * VecX(x.segment(deformable_at_[s], n));
   }
   return y;
 }
@@ -41,7 +41,7 @@ Vec3 GroupOperator::row(std::size_t i, const VecX& x) const {
     if (side->rigid >= 0)
       relative += sign * (x.segment<3>(6 * side->rigid) + Vec3(x.segment<3>(6 * side->rigid + 3)).cross(side->arm));
     for (const NodeWeight& n : side->nodes)
-      relative += sign * n.weight * x.segment<3>(soft_at_[side->soft] + 3 * n.node);
+      relative += sign * n.weight * x.segment<3>(deformable_at_[side->deformable] + 3 * n.node);
   }
   return rows.directions * relative;
 }
@@ -54,7 +54,8 @@ void GroupOperator::add_impulse(std::size_t i, const Vec3& lambda, VecX& y) cons
       y.segment<3>(6 * side->rigid) += sign * force;
       y.segment<3>(6 * side->rigid + 3) += sign * side->arm.cross(force);
     }
-    for (const NodeWeight& n : side->nodes) y.segment<3>(soft_at_[side->soft] + 3 * n.node) += sign * n.weight * force;
+    for (const NodeWeight& n : side->nodes)
+      y.segment<3>(deformable_at_[side->deformable] + 3 * n.node) += sign * n.weight * force;
   }
 }
 
@@ -76,15 +77,15 @@ Mat3 GroupOperator::block_mobility(std::size_t i) const {
       w += j * plain_.rigid[side->rigid] * j.transpose();
     }
     for (const NodeWeight& n : side->nodes)
-      w += n.weight * n.weight * rows.directions * plain_.node[side->soft][n.node] * rows.directions.transpose();
+      w += n.weight * n.weight * rows.directions * plain_.node[side->deformable][n.node] * rows.directions.transpose();
   }
   return w;
 }
 
 std::vector<Mat3> GroupOperator::shared_mobility(const std::vector<char>& act) const {
-  std::vector<int> rigid(group_.bodies.size(), 0);
+  std::vector<int> rigid(group_.rigid.size(), 0);
   std::vector<VecX> load, mass;  // by node: sum of weights; kg
-  for (const SoftBlock& soft : group_.soft) {
+  for (const DeformableBlock& soft : group_.deformable) {
     const BlockPattern& p = *soft.a->pattern;
     load.push_back(VecX::Zero(p.rows));
     mass.push_back(VecX::Zero(p.rows));
@@ -95,7 +96,7 @@ std::vector<Mat3> GroupOperator::shared_mobility(const std::vector<char>& act) c
     for (const ContactSide* side : {&group_.contacts[i].a, &group_.contacts[i].b}) {
       if (!act[i]) continue;
       if (side->rigid >= 0) ++rigid[side->rigid];
-      for (const NodeWeight& n : side->nodes) load[side->soft][n.node] += std::abs(n.weight);
+      for (const NodeWeight& n : side->nodes) load[side->deformable][n.node] += std::abs(n.weight);
     }
   std::vector<Mat3> shared(group_.contacts.size(), Mat3::Zero());
   for (std::size_t i = 0; i < shared.size(); ++i)
@@ -106,8 +107,8 @@ std::vector<Mat3> GroupOperator::shared_mobility(const std::vector<char>& act) c
         shared[i] += rigid[side->rigid] * j * plain_.rigid[side->rigid] * j.transpose();
       }
       for (const NodeWeight& n : side->nodes)
-        if (const double m = mass[side->soft][n.node]; m > 0.0)
-          shared[i] += std::abs(n.weight) * load[side->soft][n.node] / m * Mat3::Identity();
+        if (const double m = mass[side->deformable][n.node]; m > 0.0)
+          shared[i] += std::abs(n.weight) * load[side->deformable][n.node] / m * Mat3::Identity();
     }
   return shared;
 }
@@ -147,7 +148,7 @@ GroupOperator::Blocks GroupOperator::inverse_blocks(const std::vector<Mat3>& h) 
     m.bottomRightCorner<3, 3>() = inertia_[b];
     blocks.rigid.push_back(m);
   }
-  for (const SoftBlock& soft : group_.soft) {
+  for (const DeformableBlock& soft : group_.deformable) {
     std::vector<Mat3>& node = blocks.node.emplace_back();
     for (int i = 0; i < soft.a->pattern->rows; ++i) node.push_back(soft.a->values[soft.a->pattern->diagonal[i]]);
   }
@@ -159,7 +160,8 @@ GroupOperator::Blocks GroupOperator::inverse_blocks(const std::vector<Mat3>& h) 
         blocks.rigid[side->rigid] += j.transpose() * h[i] * j;
       }
       for (const NodeWeight& n : side->nodes)
-        blocks.node[side->soft][n.node] += n.weight * n.weight * rows.directions.transpose() * h[i] * rows.directions;
+        blocks.node[side->deformable][n.node] +=
+            n.weight * n.weight * rows.directions.transpose() * h[i] * rows.directions;
     }
   }
   for (Mat6& m : blocks.rigid) m = m.inverse().eval();
@@ -173,7 +175,7 @@ VecX GroupOperator::precondition(const Blocks& inverse, const VecX& r) const {
   for (std::size_t b = 0; b < inverse.rigid.size(); ++b) z.segment<6>(6 * b) = inverse.rigid[b] * r.segment<6>(6 * b);
   for (std::size_t s = 0; s < inverse.node.size(); ++s)
     for (std::size_t n = 0; n < inverse.node[s].size(); ++n) {
-      const Eigen::Index at = soft_at_[s] + 3 * static_cast<Eigen::Index>(n);
+      const Eigen::Index at = deformable_at_[s] + 3 * static_cast<Eigen::Index>(n);
       z.segment<3>(at) = inverse.node[s][n] * r.segment<3>(at);
     }
   return z;
@@ -251,8 +253,8 @@ VecX GroupOperator::load(const GroupSystem& group) const {
     x.segment<3>(6 * b) = group.delta_velocity[b];
     x.segment<3>(6 * b + 3) = group.delta_angular_velocity[b];
   }
-  for (std::size_t s = 0; s < soft_at_.size(); ++s)
-    x.segment(soft_at_[s], group.soft_delta[s].size()) = group.soft_delta[s];
+  for (std::size_t s = 0; s < deformable_at_.size(); ++s)
+    x.segment(deformable_at_[s], group.deformable_delta[s].size()) = group.deformable_delta[s];
   return x;
 }
 
@@ -261,8 +263,8 @@ void GroupOperator::store(const VecX& x, GroupSystem& group) const {
     group.delta_velocity[b] = x.segment<3>(6 * b);
     group.delta_angular_velocity[b] = x.segment<3>(6 * b + 3);
   }
-  for (std::size_t s = 0; s < soft_at_.size(); ++s)
-    group.soft_delta[s] = x.segment(soft_at_[s], group.soft[s].velocity.size());
+  for (std::size_t s = 0; s < deformable_at_.size(); ++s)
+    group.deformable_delta[s] = x.segment(deformable_at_[s], group.deformable[s].velocity.size());
 }
 
 }  // namespace impinge

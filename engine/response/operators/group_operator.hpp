@@ -56,7 +56,7 @@ class GroupOperator {
   const GroupSystem& group_;
   std::vector<double> mass_;
   std::vector<Mat3> inertia_;
-  std::vector<Eigen::Index> soft_at_;  // where each deformable body's nodes begin
+  std::vector<Eigen::Index> deformable_at_;  // where each deformable body's nodes begin
   Eigen::Index size_ = 0;
   Blocks plain_;
 };

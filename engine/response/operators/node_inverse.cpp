@@ -13,7 +13,7 @@ constexpr double kBound = 4.0;    // x^T A_e x <= 4 Σ x_i^T A_e,ii x_i for an e
 
 }  // namespace
 
-NodeInverse::NodeInverse(const SoftBlock& block) {
+NodeInverse::NodeInverse(const DeformableBlock& block) {
   const BlockMatrix& a = *block.a;
   diagonal_.reserve(a.pattern->rows);
   for (int i = 0; i < a.pattern->rows; ++i) diagonal_.push_back(a.values[a.pattern->diagonal[i]].inverse());

@@ -13,7 +13,7 @@ namespace impinge {
 class NodeInverse {
  public:
   /// Refers to nothing. c = 1 for a body whose A is its block diagonal.
-  explicit NodeInverse(const SoftBlock& block);
+  explicit NodeInverse(const DeformableBlock& block);
 
   int nodes() const { return static_cast<int>(diagonal_.size()); }
   /// Block of Q⁻¹, 1/kg.

@@ -23,10 +23,10 @@ SplittingDelassus::Side SplittingDelassus::make_side(const ContactRows& rows, co
   side.first = side.last = static_cast<int>(node_.size());
   if (from.rigid >= 0) {
     for (int k = 0; k < 3; ++k) side.arm.row(k) = sign * from.arm.cross(rows.directions.row(k).transpose()).transpose();
-    side.angular = group_.bodies[from.rigid].inverse_inertia * side.arm.transpose();
+    side.angular = group_.rigid[from.rigid].inverse_inertia * side.arm.transpose();
   }
   if (from.nodes.empty()) return side;
-  side.soft = from.soft;
+  side.deformable = from.deformable;
   for (const NodeWeight& n : from.nodes) node_.push_back({n.node, sign * n.weight});
   side.last = static_cast<int>(node_.size());
   return side;
@@ -38,9 +38,9 @@ void SplittingDelassus::prepare() {
     diagonal_[i].setZero();
     for (Side& side : sides_[i]) {
       if (side.rigid >= 0)
-        diagonal_[i] += group_.bodies[side.rigid].inverse_mass * (d * d.transpose()) + side.arm * side.angular;
-      if (side.soft < 0) continue;
-      const NodeInverse& q = inverse_[side.soft];
+        diagonal_[i] += group_.rigid[side.rigid].inverse_mass * (d * d.transpose()) + side.arm * side.angular;
+      if (side.deformable < 0) continue;
+      const NodeInverse& q = inverse_[side.deformable];
       Mat3 w = Mat3::Zero();
       for (int k = side.first; k < side.last; ++k) w += node_[k].weight * node_[k].weight * q[node_[k].index];
       diagonal_[i] += d * w * d.transpose();
@@ -55,8 +55,8 @@ Vec3 SplittingDelassus::velocity(std::size_t i, const std::vector<VecX>& x) cons
       relative += side.sign * group_.delta_velocity[side.rigid];
       turned += side.arm * group_.delta_angular_velocity[side.rigid];
     }
-    if (side.soft < 0) continue;
-    const double* node = x[side.soft].data();
+    if (side.deformable < 0) continue;
+    const double* node = x[side.deformable].data();
     for (int k = side.first; k < side.last; ++k)
       relative += node_[k].weight * Eigen::Map<const Vec3>(node + 3 * node_[k].index);
   }
@@ -71,7 +71,7 @@ void SplittingDelassus::move_rigid(const std::vector<Vec3>& lambda) {
     for (const Side& side : sides_[i]) {
       if (side.rigid < 0) continue;
       group_.delta_velocity[side.rigid] +=
-          side.sign * group_.bodies[side.rigid].inverse_mass * (group_.contacts[i].directions.transpose() * lambda[i]);
+          side.sign * group_.rigid[side.rigid].inverse_mass * (group_.contacts[i].directions.transpose() * lambda[i]);
       group_.delta_angular_velocity[side.rigid] += side.angular * lambda[i];
     }
   }
@@ -103,12 +103,12 @@ double SplittingDelassus::sweep(std::vector<Vec3>& lambda, std::vector<VecX>& x)
     const Vec3 force = group_.contacts[i].directions.transpose() * change;
     for (const Side& side : sides_[i]) {
       if (side.rigid >= 0) {
-        group_.delta_velocity[side.rigid] += side.sign * group_.bodies[side.rigid].inverse_mass * force;
+        group_.delta_velocity[side.rigid] += side.sign * group_.rigid[side.rigid].inverse_mass * force;
         group_.delta_angular_velocity[side.rigid] += side.angular * change;
       }
-      if (side.soft < 0) continue;
-      const NodeInverse& q = inverse_[side.soft];
-      double* node = x[side.soft].data();
+      if (side.deformable < 0) continue;
+      const NodeInverse& q = inverse_[side.deformable];
+      double* node = x[side.deformable].data();
       for (int k = side.first; k < side.last; ++k)
         Eigen::Map<Vec3>(node + 3 * node_[k].index) += q[node_[k].index] * (node_[k].weight * force);
     }
@@ -131,7 +131,7 @@ void SplittingDelassus::impulses(const std::vector<Vec3>& lambda, std::vector<Ve
     const Vec3 force = group_.contacts[i].directions.transpose() * lambda[i];
     for (const Side& side : sides_[i])
       for (int k = side.first; k < side.last; ++k)
-        f[side.soft].segment<3>(3 * node_[k].index) += node_[k].weight * force;
+        f[side.deformable].segment<3>(3 * node_[k].index) += node_[k].weight * force;
   }
 }
 

@@ -26,7 +26,7 @@ class SplittingDelassus {
 
  private:
   struct Side {
-    int rigid = -1, soft = -1;
+    int rigid = -1, deformable = -1;
     double sign = 1.0;
     int first = 0, last = 0;                          // into node_
     Mat3 arm = Mat3::Zero(), angular = Mat3::Zero();  // rows r x d; inertia⁻¹ times them

@@ -26,10 +26,10 @@ void body_rows(const DebugModel& model, const Selection& s) {
   if (b.mass > 0.0) row("mass", fmt::format("{:.5g} kg", b.mass));
   row("place, m", vector(b.pose.position));
   row("v, m/s", vector(b.velocity));
-  if (b.soft == nullptr)
+  if (b.deformable == nullptr)
     row("w, rad/s", vector(b.angular_velocity));
   else
-    row("unknowns", fmt::format("{} in {} tetrahedra", b.soft->dofs(), b.soft->fem.rest().tets.size()));
+    row("unknowns", fmt::format("{} in {} tetrahedra", b.deformable->dofs(), b.deformable->fem.rest().tets.size()));
   int contacts = 0;
   double force = 0.0;
   for (const ContactRecord& c : model.record->contacts)

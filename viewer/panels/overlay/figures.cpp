@@ -32,9 +32,9 @@ std::string grouped(std::int64_t number) {
 void add_deformable(std::vector<Row>& rows, const StepRecord& record) {
   std::int64_t tetrahedra = 0, unknowns = 0;
   for (const BodyRecord& body : record.bodies) {
-    if (body.soft == nullptr) continue;
-    tetrahedra += static_cast<std::int64_t>(body.soft->fem.rest().tets.size());
-    unknowns += body.soft->dofs();
+    if (body.deformable == nullptr) continue;
+    tetrahedra += static_cast<std::int64_t>(body.deformable->fem.rest().tets.size());
+    unknowns += body.deformable->dofs();
   }
   if (tetrahedra == 0) return;
   const double energy = std::abs(record.stats.elastic);

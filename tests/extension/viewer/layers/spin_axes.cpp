@@ -19,7 +19,7 @@ void draw(const LayerContext& context, DrawList& list) {
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     const double speed = body.angular_velocity.norm();
-    if (body.kind == BodyKind::fixed || body.soft != nullptr || speed == 0.0) continue;
+    if (body.kind == BodyKind::fixed || body.deformable != nullptr || speed == 0.0) continue;
     list.arrows.push_back({body.pose.position, body.angular_velocity / speed, role::kOverlap,
                            static_cast<float>(length * speed), width, Depth::on_top, body_pick(i)});
   }

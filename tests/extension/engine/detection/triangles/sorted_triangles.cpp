@@ -38,7 +38,8 @@ class SortedTriangles : public NarrowPhase {
         if (!overlap(box, other)) continue;
         if (pair.a == pair.b && (j <= i || share_a_vertex(triangles[i], triangles[j]))) continue;
         const PairState state = test_triangles(corners_of(a, i), corners_of(b, j), pair.margin);
-        if (state != PairState::apart) found.push_back({pair.a, pair.b, i, j, state == PairState::intersecting});
+        if (state != PairState::apart)
+          found.push_back({pair.a, pair.b, TriangleIndex(i), TriangleIndex(j), state == PairState::intersecting});
       }
   }
 };

@@ -1,0 +1,56 @@
+#include "engine/bodies/body.hpp"
+
+#include "engine/core/archive.hpp"
+
+namespace impinge {
+
+Aabb Body::bounds() const {
+  if (shape->mesh() == nullptr) return shape->bounds(pose);
+  Aabb box;
+  for (const Vec3& v : world_vertices) box.include(v);
+  return box;
+}
+
+void Body::update_world_vertices() {
+  const SurfaceMesh* mesh = shape->mesh();
+  if (mesh == nullptr) return;
+  const std::vector<Vec3>& local = mesh->mesh.vertices;
+  world_vertices.resize(local.size());
+  for (std::size_t i = 0; i < local.size(); ++i) world_vertices[i] = pose.apply(local[i]);
+}
+
+SystemBlock Body::system_block() const { throw InternalError("body '" + name + "' has no freedom and no equations"); }
+
+CarriedPoint Body::carry(const MaterialPoint&, const Vec3& at) const {
+  CarriedPoint carried;
+  carried.arm = at - pose.position;
+  carried.velocity_before = before_.linear + before_.angular.cross(carried.arm);
+  const Twist now = twist();
+  carried.prescribed.push_back({1.0, now.linear + now.angular.cross(carried.arm)});
+  return carried;
+}
+
+MaterialPoint Body::surface_point(TriangleIndex, const Vec3& world) const {
+  MaterialPoint point;
+  point.local = pose.apply_inverse(world);
+  return point;
+}
+
+MaterialPoint Body::inner_point(const Vec3& world) const { return surface_point({}, world); }
+
+void Body::save_frame(ByteWriter& out, const Vec3& velocity, const Vec3& angular_momentum,
+                      const Vec3& angular_velocity) const {
+  out.put(pose.position), out.put(pose.rotation);
+  out.put(velocity), out.put(angular_momentum), out.put(angular_velocity);
+  out.put(asleep), out.put(rest_time), out.put(island.value());
+}
+
+Body::Frame Body::restore_frame(ByteReader& in) {
+  pose.position = in.get_vec3(), pose.rotation = in.get_mat3();
+  Frame frame;
+  frame.velocity = in.get_vec3(), frame.angular_momentum = in.get_vec3(), frame.angular_velocity = in.get_vec3();
+  asleep = in.get<bool>(), rest_time = in.get<double>(), island = BodyIndex(in.get<int>());
+  return frame;
+}
+
+}  // namespace impinge

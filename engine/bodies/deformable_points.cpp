@@ -1,0 +1,117 @@
+// The surface of a deformable body and points in it: what carries them, and where they are.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/bodies/deformable_body.hpp"
+#include "engine/core/error.hpp"
+#include "engine/geometry/distance.hpp"
+
+namespace impinge {
+namespace {
+
+// in heights of the nearest tetrahedron: farther out, a small strain of it would be a large motion of the point
+constexpr double kMostOutside = 1.0;
+
+/// Weights of the corners that give the point of the triangle nearest to `point`.
+Vec3 nearest_weights(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 e0 = b - a, e1 = c - a, x = closest_on_triangle(point, {a, b, c}).point - a;
+  const double d00 = e0.dot(e0), d01 = e0.dot(e1), d11 = e1.dot(e1), d20 = x.dot(e0), d21 = x.dot(e1);
+  const double denominator = d00 * d11 - d01 * d01;
+  if (!(denominator > 0.0)) return Vec3::Unit(0);
+  const double v = (d11 * d20 - d01 * d21) / denominator, w = (d00 * d21 - d01 * d20) / denominator;
+  return {1.0 - v - w, v, w};
+}
+
+Vec3 interpolated(const std::vector<NodeWeight>& nodes, const VecX& values) {
+  Vec3 sum = Vec3::Zero();
+  for (const NodeWeight& n : nodes) sum += n.weight * values.segment<3>(3 * n.node);
+  return sum;
+}
+
+}  // namespace
+
+void DeformableBody::update_world_vertices() {
+  if (shape && shape->mesh() != nullptr) interpolate(embedding, fem.rest(), position, world_vertices);
+}
+
+void DeformableBody::set_center_velocity(const Vec3& v) {
+  center_velocity_ = v;
+  surface_velocity_.assign(world_vertices.size(), v);
+}
+
+MaterialPoint DeformableBody::surface_point(TriangleIndex triangle, const Vec3& world) const {
+  const Triangle& t = shape->mesh()->mesh.triangles[triangle];
+  MaterialPoint point;
+  point.triangle = triangle;
+  point.local = nearest_weights(world, world_vertices[t[0]], world_vertices[t[1]], world_vertices[t[2]]);
+  return point;
+}
+
+MaterialPoint DeformableBody::inner_point(const Vec3& world) const {
+  TetMesh now = fem.rest();
+  for (int i = 0; i < nodes(); ++i) now.vertices[i] = position.segment<3>(3 * i);
+  const Embedding place = embed(now, std::span(&world, 1));
+  if (place.farthest > kMostOutside)
+    throw InputError(
+        fmt::format("{:.2g} tetrahedron heights outside of the deformable body '{}'", place.farthest, name));
+  MaterialPoint point;
+  point.local = world;
+  point.tet = place.tet[0];
+  point.weight = place.weight[0];
+  return point;
+}
+
+Vec3 DeformableBody::position_of(const MaterialPoint& point) const {
+  if (point.triangle.is_none()) {
+    Vec3 x = Vec3::Zero();
+    const Tet& nodes = fem.rest().tets[point.tet];
+    for (int k = 0; k < 4; ++k) x += point.weight[k] * position.segment<3>(3 * nodes[k]);
+    return x;
+  }
+  const Triangle& t = shape->mesh()->mesh.triangles[point.triangle];
+  return point.local.x() * world_vertices[t[0]] + point.local.y() * world_vertices[t[1]] +
+         point.local.z() * world_vertices[t[2]];
+}
+
+/// Held ones too, every node once.
+std::vector<NodeWeight> DeformableBody::carrying_nodes(const MaterialPoint& point) const {
+  std::vector<NodeWeight> list;
+  if (point.triangle.is_none()) {
+    for (int k = 0; k < 4; ++k)
+      if (point.weight[k] != 0.0) list.push_back({fem.rest().tets[point.tet][k], point.weight[k]});
+    return list;
+  }
+  const Triangle& t = shape->mesh()->mesh.triangles[point.triangle];
+  for (int k = 0; k < 3; ++k) {
+    if (point.local[k] == 0.0) continue;
+    const Tet& tet = fem.rest().tets[embedding.tet[t[k]]];
+    for (int n = 0; n < 4; ++n) {
+      const double weight = point.local[k] * embedding.weight[t[k]][n];
+      if (weight == 0.0) continue;
+      const auto at = std::find_if(list.begin(), list.end(), [&](const NodeWeight& w) { return w.node == tet[n]; });
+      if (at == list.end())
+        list.push_back({tet[n], weight});
+      else
+        at->weight += weight;
+    }
+  }
+  return list;
+}
+
+CarriedPoint DeformableBody::carry(const MaterialPoint& point, const Vec3& /*at*/) const {
+  // a row acts at the point itself: it is what moves with the nodes
+  CarriedPoint carried;
+  const std::vector<NodeWeight> nodes = carrying_nodes(point);
+  carried.velocity_before = interpolated(nodes, velocity_before_);
+  for (const NodeWeight& n : nodes) {
+    const int free = free_index_[n.node];
+    if (free >= 0)
+      carried.nodes.push_back({free, n.weight});
+    else
+      carried.prescribed.push_back({n.weight, displacement_velocity_.segment<3>(3 * n.node)});
+  }
+  return carried;
+}
+
+}  // namespace impinge

@@ -1,0 +1,36 @@
+// The open sub-step of a deformable body, as time integration fills it.
+#pragma once
+
+#include "engine/algebra/block_matrix.hpp"
+#include "engine/algebra/linear_solver.hpp"
+
+namespace impinge {
+
+/// Vectors over the free nodes (DeformableBody::free_node), x, y, z each. Keep it from one sub-step to the next: its
+/// matrices are as large as the body, and begin() reuses them.
+struct DeformableStep {
+  double time_step = 0.0;  ///< h, s
+  Vec3 gravity = Vec3::Zero();
+  double tau = 0.0, s = 0.0;  ///< s
+  VecX start;                 ///< x₀ over all nodes, m
+  VecX offset;                ///< d over all nodes, m; of held nodes: how far they are moved
+  VecX v_hat;                 ///< over all nodes, m/s
+  VecX force;                 ///< elastic f(x₀) over all nodes, N
+  BlockMatrix stiffness;      ///< K(x₀) over all nodes, N/m; empty where nothing needs it
+  BlockMatrix tangent;  ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
+  BlockMatrix a;        ///< over the free nodes, kg
+  VecX b;               ///< kg m/s
+  VecX v_star;          ///< solution without contact, m/s
+
+  // how free_velocity fared
+  int newton_iterations = 0;
+  int linear_iterations = 0;
+  double residual = 0.0;  ///< ‖g(v*)‖ relative to the first residual; of one-iteration schemes: of the linear solve
+  bool converged = true;
+  SolveStatus linear_status = SolveStatus::ok;
+
+  /// x₀ + s v + d over all nodes, m; v over all nodes too (DeformableBody::with_held).
+  VecX position(const VecX& v) const { return start + s * v + offset; }
+};
+
+}  // namespace impinge

@@ -1,0 +1,110 @@
+// A deformable body's part in a sub-step: its open system A v = b, the solvers of A, and what follows from v.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/bodies/deformable_body.hpp"
+#include "engine/bodies/time_integration.hpp"
+#include "engine/core/error.hpp"
+
+namespace impinge {
+
+void DeformableBody::drive(double time, double h, double share) {
+  for (HeldRegion& region : held) {
+    const bool moved = region.is_moved();
+    region.displacement =
+        share >= 1.0 ? region.wanted : Vec3(region.displacement + share * (region.wanted - region.displacement));
+    for (std::size_t k = 0; k < region.nodes.size(); ++k) {
+      const Vec3 now = position.segment<3>(3 * region.nodes[k]);
+      set_held_velocity(region.nodes[k], moved ? Vec3((region.at(k, time + h) - now) / h) : Vec3(Vec3::Zero()));
+    }
+  }
+}
+
+void DeformableBody::choose_solvers(const LinearSolverChoice& wanted) {
+  if (solvers_.made_with == wanted && solvers_.pattern == free_pattern_) return;
+  solvers_.made_with = wanted;
+  solvers_.pattern = free_pattern_;
+  solvers_.iterative = wanted.make(dofs(), 1);
+  solvers_.direct = wanted.make(dofs(), kContactRightHandSides);
+  solvers_.iterative->analyze(*free_pattern_);
+  solvers_.direct->analyze(*free_pattern_);
+}
+
+void DeformableBody::check_solved() const {
+  if (step_.linear_status != SolveStatus::not_finite && step_.linear_status != SolveStatus::not_positive_definite)
+    return;
+  throw DivergenceError(
+      fmt::format("body '{}': its system matrix is {}; use more sub-steps or a softer material", name,
+                  step_.linear_status == SolveStatus::not_finite ? "not finite" : "not positive definite"));
+}
+
+void DeformableBody::find_displacement_velocity() {
+  displacement_velocity_ = (step_.s * with_held(step_.v_star) + step_.offset) / step_.time_step;
+}
+
+void DeformableBody::find_free_velocity(const TimeIntegration& how) {
+  choose_solvers(how.linear_solver);
+  velocity_before_ = velocity;
+  touched_ = false;
+  is_explicit_ = how.integrator.is_explicit();
+  how.integrator.begin(*this, how.gravity, how.time_step, step_);
+  how.integrator.free_velocity(*this, step_, *solvers_.iterative);
+  check_solved();
+  find_displacement_velocity();
+  interpolate(embedding, fem.rest(), displacement_velocity_, surface_velocity_);
+}
+
+SystemBlock DeformableBody::system_block() const {
+  return DeformableBlock{&step_.a,
+                         solvers_.direct.get(),
+                         is_explicit_ && fem.mass_kind() == MassKind::lumped,
+                         step_.v_star,
+                         gather_free(displacement_velocity_),
+                         step_.s / step_.time_step};
+}
+
+double DeformableBody::relinearize(const DeformableIntegrator& integrator, const VecX& change, const VecX& impulse) {
+  const VecX v = step_.v_star + change;
+  integrator.linearize(*this, v, step_);
+  const VecX momentum = step_.a * v;
+  const double size = std::max({momentum.norm(), step_.b.norm(), impulse.norm()});
+  return size > 0.0 ? (momentum - step_.b - impulse).norm() / size : 0.0;
+}
+
+void DeformableBody::solve_again() {
+  step_.linear_status = solvers_.iterative->factorize(step_.a);
+  if (step_.linear_status == SolveStatus::ok)
+    step_.linear_status = solvers_.iterative->solve(step_.b, step_.v_star).status;
+  check_solved();
+  find_displacement_velocity();
+}
+
+void DeformableBody::change_velocity(const BodyVector& change) {
+  step_.v_star += change.nodes;
+  touched_ = true;
+}
+
+void DeformableBody::advance(const TimeIntegration& how, double /*end*/) {
+  how.integrator.advance(*this, step_, step_.v_star);
+  // Newmark's accelerations are those of the elastic forces alone: contact acts at the end of the step [Kane99], or a
+  // body that lands would bounce back with the speed it came with
+  if (touched_) acceleration_known = false;
+  center_velocity_ = momentum() / mass;
+}
+
+void DeformableBody::displace(const BodyVector& by, const std::optional<Vec3>& /*group_velocity*/) {
+  VecX displacement = VecX::Zero(position.size());
+  scatter_free(by.nodes, displacement);
+  position += displacement;
+}
+
+void DeformableBody::check_finite() const {
+  if (position.allFinite() && position.cwiseAbs().maxCoeff() < kLargest && velocity.allFinite()) return;
+  throw DivergenceError(
+      fmt::format("body '{}': a node's position or velocity is no longer a finite number below {:g}; use more "
+                  "sub-steps, or a more stable material or integrator",
+                  name, kLargest));
+}
+
+}  // namespace impinge

@@ -1,0 +1,171 @@
+#include "engine/contact/assemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/contact_frame.hpp"
+#include "engine/contact/pair_coefficients.hpp"
+#include "engine/contact/row_bound.hpp"
+
+namespace impinge {
+namespace {
+
+/// Where a body stands in the group's system; neither: it has no freedom.
+struct BlockIndex {
+  int rigid = -1, deformable = -1;
+};
+
+/// A body in contact with itself: one side carries the difference of both, since they may share nodes.
+void merge_sides(ContactRows& rows) {
+  for (const NodeWeight& n : rows.b.nodes) {
+    const auto at =
+        std::find_if(rows.a.nodes.begin(), rows.a.nodes.end(), [&](const NodeWeight& w) { return w.node == n.node; });
+    if (at == rows.a.nodes.end())
+      rows.a.nodes.push_back({n.node, -n.weight});
+    else
+      at->weight -= n.weight;
+  }
+  rows.b.nodes.clear();
+  rows.b.deformable = -1;
+  std::erase_if(rows.a.nodes, [](const NodeWeight& n) { return std::abs(n.weight) < 1e-12; });
+}
+
+bool responds(const ContactRows& rows) {
+  return rows.a.rigid >= 0 || rows.b.rigid >= 0 || !rows.a.nodes.empty() || !rows.b.nodes.empty();
+}
+
+/// Fills an AssembledGroup contact by contact.
+class Assembly {
+ public:
+  Assembly(const AssemblyInput& input, const CollisionGroup& group)
+      : input_(input), bodies_(input.bodies), group_(group), blocks_(group.bodies.size()) {
+    for (std::size_t i = 0; i < group.bodies.size(); ++i) {
+      const BodyIndex b = group.bodies[i];
+      SystemBlock block = bodies_[b].system_block();
+      if (auto* rigid = std::get_if<RigidBlock>(&block)) {
+        blocks_[i].rigid = static_cast<int>(system().rigid.size());
+        system().rigid.push_back(*rigid);
+        result_.rigid.push_back(b);
+      } else {
+        blocks_[i].deformable = static_cast<int>(system().deformable.size());
+        system().deformable.push_back(std::move(std::get<DeformableBlock>(block)));
+        result_.deformable.push_back(b);
+      }
+    }
+    system().contacts.reserve(group.contacts.size());
+  }
+
+  void add_collision(ContactIndex index, const Collision& c) {
+    ContactRows rows;
+    rows.directions = contact_axes(c.normal);
+    const Vec3 common = 0.5 * (c.point_a + c.point_b);
+    const MaterialPoint a = bodies_[c.body_a].surface_point(c.triangle_a, c.point_a),
+                        b = bodies_[c.body_b].surface_point(c.triangle_b, c.point_b);
+    Vec3 velocity_before = Vec3::Zero();
+    fill_side(c.body_a, a, common, 1.0, rows, rows.a, velocity_before);
+    fill_side(c.body_b, b, common, -1.0, rows, rows.b, velocity_before);
+    rows.gap = c.gap;
+    rows.friction = pair_friction(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
+    if (!add(index, std::move(rows), {a, b})) return;
+    const double free_velocity = system().contact_velocity(system().contacts.size() - 1, false).x();
+    ContactRows& row = system().contacts.back();
+    row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
+    row.velocity_before = c.normal.dot(velocity_before);
+    row.bound =
+        row_bound({c.gap, free_velocity, row.velocity_before, row.restitution}, input_.settings, input_.time_step);
+  }
+
+  void add_attachment(ContactIndex index, const Attachment& attachment) {
+    ContactRows rows;
+    rows.kind = RowKind::attachment;
+    rows.directions.setIdentity();
+    const Vec3 a = attachment.a.position(bodies_), b = attachment.b.position(bodies_), common = 0.5 * (a + b);
+    Vec3 velocity_before = Vec3::Zero();
+    fill_side(attachment.a.body, attachment.a.point, common, 1.0, rows, rows.a, velocity_before);
+    fill_side(attachment.b.body, attachment.b.point, common, -1.0, rows, rows.b, velocity_before);
+    Vec3 recovery = (a - b) / input_.time_step;
+    if (recovery.norm() > input_.settings.max_push_out) recovery *= input_.settings.max_push_out / recovery.norm();
+    rows.surface += recovery;
+    add(index, std::move(rows), {attachment.a.point, attachment.b.point});
+  }
+
+  AssembledGroup finish() {
+    system().clear_delta();
+    return std::move(result_);
+  }
+
+ private:
+  GroupSystem& system() { return result_.system; }
+
+  BlockIndex block_of(BodyIndex body) const {
+    const auto at = std::lower_bound(group_.bodies.begin(), group_.bodies.end(), body);
+    if (at == group_.bodies.end() || *at != body) return {};
+    return blocks_[static_cast<std::size_t>(at - group_.bodies.begin())];
+  }
+
+  /// And what prescribed motion adds to the rows, and the velocity of A's point against B's before the sub-step.
+  void fill_side(BodyIndex body, const MaterialPoint& point, const Vec3& common, double sign, ContactRows& rows,
+                 ContactSide& side, Vec3& velocity_before) const {
+    if (body.is_none()) return;
+    CarriedPoint carried = bodies_[body].carry(point, common);
+    const BlockIndex block = block_of(body);
+    side.rigid = block.rigid;
+    side.deformable = block.deformable;
+    side.arm = carried.arm;
+    side.nodes = std::move(carried.nodes);
+    for (const Prescribed& p : carried.prescribed) rows.surface += sign * p.weight * rows.directions * p.velocity;
+    velocity_before += sign * carried.velocity_before;
+  }
+
+  bool add(ContactIndex index, ContactRows rows, std::pair<MaterialPoint, MaterialPoint> points) {
+    if (rows.a.deformable >= 0 && rows.a.deformable == rows.b.deformable) merge_sides(rows);
+    if (!responds(rows)) return false;
+    Vec3 start = Vec3::Zero();
+    if (!input_.start.empty()) {
+      start = rows.directions * input_.start[static_cast<std::size_t>(index.value())];
+      if (rows.has_one_row()) start.tail<2>().setZero();
+      if (rows.kind == RowKind::contact && start.x() <= 0.0) start.setZero();
+    }
+    system().lambda.push_back(start);
+    system().contacts.push_back(std::move(rows));
+    result_.contacts.push_back(index);
+    result_.points.push_back(std::move(points));
+    return true;
+  }
+
+  const AssemblyInput& input_;
+  const Bodies& bodies_;
+  const CollisionGroup& group_;
+  std::vector<BlockIndex> blocks_;  // by body of the group
+  AssembledGroup result_;
+};
+
+}  // namespace
+
+std::vector<BodyVector> AssembledGroup::by_body(const CollisionGroup& group, const std::vector<Vec3>& linear,
+                                                const std::vector<Vec3>& angular,
+                                                const std::vector<VecX>& nodes) const {
+  std::vector<BodyVector> list(group.bodies.size());
+  std::size_t r = 0, d = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (r < rigid.size() && rigid[r] == group.bodies[i]) {
+      list[i].twist = {linear[r], angular[r]};
+      ++r;
+    } else {
+      list[i].nodes = nodes[d++];
+    }
+  }
+  return list;
+}
+
+AssembledGroup assemble(const AssemblyInput& input, const CollisionGroup& group) {
+  Assembly assembly(input, group);
+  for (const ContactIndex i : group.contacts)
+    if (const Collision* collision = input.contacts.collision(i))
+      assembly.add_collision(i, *collision);
+    else
+      assembly.add_attachment(i, input.contacts.attachment(i));
+  return assembly.finish();
+}
+
+}  // namespace impinge

@@ -1,0 +1,36 @@
+// Stage 9 of a sub-step: the contacts of one group become A, J, v* and bounds.
+#pragma once
+
+#include "engine/contact/collision_groups.hpp"
+#include "engine/contact/contact_settings.hpp"
+#include "engine/contact/group_system.hpp"
+
+namespace impinge {
+
+/// What stage 9 reads, the same for every group.
+struct AssemblyInput {
+  const Bodies& bodies;
+  ContactList contacts;
+  /// By contact, what its impulse starts from: on A, world axes, N·s; empty: from nothing.
+  std::span<const Vec3> start;
+  const ContactSettings& settings;
+  double time_step = 0.0;  ///< s
+};
+
+/// A group's system, and what its parts are in the scene.
+struct AssembledGroup {
+  GroupSystem system;
+  std::vector<BodyIndex> rigid, deformable;                     ///< of the system's blocks
+  std::vector<ContactIndex> contacts;                           ///< of its rows
+  std::vector<std::pair<MaterialPoint, MaterialPoint>> points;  ///< of its rows: where they act on A and B
+
+  /// What a solution over the blocks says of each body of `group`.
+  std::vector<BodyVector> by_body(const CollisionGroup& group, const std::vector<Vec3>& linear,
+                                  const std::vector<Vec3>& angular, const std::vector<VecX>& nodes) const;
+};
+
+/// The group's system at the bodies' free velocities (row_bound.hpp says what contacts ask for); an attachment asks
+/// J v = -(x_A - x_B)/Δt. Contacts that nothing can respond to (of held nodes with an immovable body) are left out.
+AssembledGroup assemble(const AssemblyInput& input, const CollisionGroup& group);
+
+}  // namespace impinge

@@ -1,0 +1,45 @@
+#include "engine/step/detect.hpp"
+
+#include "engine/core/interrupt.hpp"
+#include "engine/step/find_collisions.hpp"
+#include "engine/step/find_pairs.hpp"
+
+namespace impinge {
+namespace {
+
+/// What collisions and moving attachments join.
+std::vector<BodyEnds> touching(const Bodies& bodies, const ContactList& contacts) {
+  const auto is_moving = [&](BodyIndex b) { return !b.is_none() && bodies[b].is_moving(); };
+  std::vector<BodyEnds> ends;
+  for (const Collision& c : contacts.collisions) ends.emplace_back(c.body_a, c.body_b);
+  for (const Attachment& a : contacts.attachments)
+    if (is_moving(a.a.body) || is_moving(a.b.body)) ends.emplace_back(a.a.body, a.b.body);
+  return ends;
+}
+
+}  // namespace
+
+void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detecting& by, const TimeIntegration& how,
+            Sleeping& sleeping, SubStep& step, StageTimes& times) {
+  for (;;) {
+    {
+      const StageTimer timer(times.broad_ms);
+      make_colliders(bodies, step.colliders);
+      find_pairs(bodies, step.colliders, by.contact, step.time_step, by.broad_phase, step.pairs);
+    }
+    check_interrupt();
+    {
+      const StageTimer timer(times.narrow_ms);
+      find_collisions(step.colliders, step.pairs, by.contact, step.time_step, by.narrow_phase, step.triangle_pairs,
+                      step.collisions);
+    }
+    std::vector<BodyIndex> sleepers;
+    for (BodyIndex b(0); b < bodies.size(); ++b)
+      if (bodies[b].asleep) sleepers.push_back(b);
+    if (!sleeping.wake_touched(bodies, touching(bodies, step.contacts(attachments)))) return;
+    for (const BodyIndex b : sleepers)
+      if (!bodies[b].asleep) bodies[b].find_free_velocity(how);
+  }
+}
+
+}  // namespace impinge

@@ -1,0 +1,13 @@
+#include "engine/step/drive.hpp"
+
+namespace impinge {
+
+void drive(Bodies& bodies, double time, double h, double share) {
+  for (Body& body : bodies) body.drive(time, h, share);
+}
+
+void place(Bodies& bodies, double time) {
+  for (Body& body : bodies) body.place(time);
+}
+
+}  // namespace impinge

@@ -1,0 +1,55 @@
+#include "engine/step/find_collisions.hpp"
+
+#include <algorithm>
+
+#include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/pairs/primitive.hpp"
+
+namespace impinge {
+namespace {
+
+bool is_mesh_pair(std::span<const Collider> colliders, const BodyPair& pair) {
+  return colliders[pair.a].shape->mesh() != nullptr && colliders[pair.b].shape->mesh() != nullptr;
+}
+
+/// Those of one pair.
+std::span<const TrianglePair> part_of(std::span<const TrianglePair> all, const BodyPair& pair) {
+  const auto before = [](const TrianglePair& t, const BodyPair& p) { return t.a != p.a ? t.a < p.a : t.b < p.b; };
+  const auto first = std::lower_bound(all.begin(), all.end(), pair, before);
+  auto last = first;
+  while (last != all.end() && last->a == pair.a && last->b == pair.b) ++last;
+  return {first, last};
+}
+
+}  // namespace
+
+void find_collisions(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
+                     const ContactSettings& settings, double time_step, NarrowPhase& narrow_phase,
+                     std::vector<TrianglePair>& triangle_pairs, std::vector<Collision>& collisions) {
+  const bool proximity = settings.points == ContactPoints::proximity;
+  const ContactQuery query{proximity, settings.activation_distance, time_step};
+  std::vector<BodyPair> mesh_pairs;
+  for (const BodyPair& pair : pairs)
+    if (is_mesh_pair(colliders, pair)) mesh_pairs.push_back(pair);
+  triangle_pairs.clear();
+  if (!mesh_pairs.empty()) narrow_phase.find(colliders, mesh_pairs, triangle_pairs);
+  check_interrupt();
+
+  std::vector<std::vector<Collision>> found(pairs.size());  // one slot a pair, so that threads don't share
+  parallel_for(pairs.size(), 1, [&](std::size_t i) {
+    const BodyPair& pair = pairs[i];
+    if (!is_mesh_pair(colliders, pair)) return primitive_contacts(colliders, pair, query, found[i]);
+    const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
+    if (triangles.empty()) return;
+    if (proximity)
+      proximity_contacts(colliders, pair, triangles, query.activation, time_step, found[i]);
+    else
+      intersection_contacts(colliders, pair, triangles, found[i]);
+  });
+  collisions.clear();
+  for (const std::vector<Collision>& list : found) collisions.insert(collisions.end(), list.begin(), list.end());
+}
+
+}  // namespace impinge

@@ -1,0 +1,86 @@
+#include "engine/step/find_pairs.hpp"
+
+#include <algorithm>
+
+namespace impinge {
+namespace {
+
+/// Whether the pair can give a contact that anything responds to.
+bool is_wanted(const Body& a, const Body& b) {
+  return (a.has_freedom() || b.has_freedom()) && (a.is_moving() || b.is_moving());
+}
+
+/// The box a body fills during the sub-step, plus half the activation distance.
+Aabb swept_bounds(const Collider& collider, double radius, double activation, double time_step) {
+  Aabb box = collider.bounds;
+  for (std::size_t i = 0; i < collider.vertex_velocities.size(); ++i)
+    box.include(Vec3(collider.vertices[i] + time_step * collider.vertex_velocities[i]));
+  const Vec3 shift = time_step * collider.velocity;
+  box.min += shift.cwiseMin(0.0);
+  box.max += shift.cwiseMax(0.0);
+  return box.inflated(0.5 * activation + time_step * collider.angular_velocity.norm() * radius);
+}
+
+double fastest_point(const Collider& c, double radius) {
+  double fastest = c.velocity.norm() + c.angular_velocity.norm() * radius;
+  for (const Vec3& v : c.vertex_velocities) fastest = std::max(fastest, v.norm());
+  return fastest;
+}
+
+/// How far the surfaces can approach in the sub-step, metres.
+double approach(const Collider& a, double radius_a, const Collider& b, double radius_b, double time_step) {
+  if (!a.vertex_velocities.empty() || !b.vertex_velocities.empty())
+    return time_step * (fastest_point(a, radius_a) + fastest_point(b, radius_b));
+  return time_step * ((a.velocity - b.velocity).norm() + a.angular_velocity.norm() * radius_a +
+                      b.angular_velocity.norm() * radius_b);
+}
+
+}  // namespace
+
+void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders) {
+  colliders.resize(static_cast<std::size_t>(bodies.size().value()));
+  for (BodyIndex i(0); i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    Collider& c = colliders[i];
+    c.shape = body.shape.get();
+    c.pose = body.pose;
+    c.vertices = body.world_vertices;
+    c.bounds = body.bounds();
+    c.vertex_velocities = body.vertex_velocities();
+    const Twist twist = c.vertex_velocities.empty() ? body.twist() : Twist();
+    c.velocity = twist.linear;
+    c.angular_velocity = twist.angular;
+    c.self_collision = body.self_collision;
+    c.mean_edge = body.mean_edge;
+  }
+}
+
+void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
+                double time_step, BroadPhase& broad_phase, std::vector<BodyPair>& pairs) {
+  const bool proximity = settings.points == ContactPoints::proximity;
+  const double activation = settings.activation();
+  std::vector<Aabb> boxes;
+  boxes.reserve(colliders.size());
+  for (BodyIndex i(0); i < bodies.size(); ++i)
+    boxes.push_back(proximity ? swept_bounds(colliders[i], bodies[i].radius, activation, time_step)
+                              : colliders[i].bounds);
+  std::vector<BoxPair> box_pairs;
+  broad_phase.find(boxes, box_pairs);
+
+  pairs.clear();
+  for (BodyIndex i(0); i < bodies.size(); ++i)
+    if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, activation});
+  for (const auto& [first, second] : box_pairs) {
+    const BodyIndex a(first), b(second);
+    if (!is_wanted(bodies[a], bodies[b])) continue;
+    // the approach widens the search; for meshes by one edge length at most, since the triangles in reach grow with its
+    // square: what is faster overlaps a little and is pushed out
+    const double reach = approach(colliders[a], bodies[a].radius, colliders[b], bodies[b].radius, time_step);
+    const double margin =
+        proximity ? activation + std::min(reach, std::max(bodies[a].mean_edge, bodies[b].mean_edge)) : 0.0;
+    pairs.push_back({a, b, margin});
+  }
+  std::sort(pairs.begin(), pairs.end());
+}
+
+}  // namespace impinge

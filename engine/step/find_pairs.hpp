@@ -1,0 +1,19 @@
+// Stage 5 of a sub-step: which bodies may touch. Sleeping bodies cost nothing here until something that moves comes near.
+#pragma once
+
+#include "engine/bodies/bodies.hpp"
+#include "engine/contact/contact_settings.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
+#include "engine/detection/collider.hpp"
+#include "engine/detection/collision.hpp"
+
+namespace impinge {
+
+/// What detection sees of the bodies, at their free velocities. It refers to them.
+void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders);
+
+/// Fills `pairs`, sorted, from the boxes that the bodies sweep in the sub-step of time_step seconds.
+void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
+                double time_step, BroadPhase& broad_phase, std::vector<BodyPair>& pairs);
+
+}  // namespace impinge

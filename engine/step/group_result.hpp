@@ -1,0 +1,50 @@
+// What the response made of a group: a value. Groups don't see each other's, and whoever merges them does so in order.
+#pragma once
+
+#include <optional>
+
+#include "engine/contact/assemble.hpp"
+#include "engine/contact/contact_state.hpp"
+#include "engine/core/profile.hpp"
+#include "engine/frozen/frozen_step.hpp"
+#include "engine/response/group_judge.hpp"
+
+namespace impinge {
+
+/// A contact of a sub-step in the coordinates of its bodies, so that its points can be carried to any later pose.
+struct SolvedContact {
+  Collision collision;
+  MaterialPoint point_a, point_b;
+  Vec3 local_normal = Vec3::Zero();  ///< in the frame of the body that owns the normal
+  Vec3 lambda = Vec3::Zero();        ///< N·s
+  double friction = 0.0;
+  ContactState state = ContactState::open;
+  GroupIndex group;
+};
+
+/// The collision at the bodies' present poses, not solved.
+SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
+                               double friction, const Bodies& bodies);
+
+struct GroupResult {
+  // the answer, by body of the group
+  std::vector<BodyVector> velocity;      ///< Δv
+  std::vector<BodyVector> displacement;  ///< recovery from overlap, metres and radians; empty: none
+
+  // how it was found
+  ResponseResult response;                   ///< of the last solve
+  bool is_at_root = true;                    ///< false: a Newton scheme ended at its cap
+  bool is_contradiction = false;             ///< its rows have no answer
+  int iterations = 0, outer_iterations = 0;  ///< of all its solves
+  GroupVerdict verdict;
+  bool is_answered() const { return response.converged() && is_at_root; }
+
+  // what it hands on, by contact
+  std::vector<ContactIndex> contacts;        ///< those that something responds to
+  std::vector<ContactCache::Item> impulses;  ///< of each of them, zero ones too
+  std::vector<SolvedContact> solved;         ///< of collisions, in order
+  std::optional<FrozenGroup> frozen;         ///< where it was asked for
+  double assemble_ms = 0.0, response_ms = 0.0;
+};
+
+}  // namespace impinge

@@ -1,0 +1,71 @@
+#include "engine/step/integrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.hpp"
+#include "engine/step/tasks.hpp"
+
+namespace impinge {
+namespace {
+
+/// The velocity of the group's centre of mass if nothing but its own rigid bodies holds it, else nothing.
+std::optional<Vec3> free_velocity_of(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
+  const auto is_rigid = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::dynamic; };
+  const auto is_free = [&](ContactIndex i) {
+    const Collision* c = contacts.collision(i);
+    return c != nullptr && is_rigid(c->body_a) && is_rigid(c->body_b);
+  };
+  if (!std::all_of(group.contacts.begin(), group.contacts.end(), is_free)) return std::nullopt;
+  double mass = 0.0;
+  Vec3 mean = Vec3::Zero();
+  for (const BodyIndex b : group.bodies) mass += bodies[b].mass, mean += bodies[b].mass * bodies[b].twist().linear;
+  return mean / mass;
+}
+
+/// Recovery from overlap; where a group is free of the rest of the world it keeps its angular momentum too.
+void displace(Bodies& bodies, const SubStep& step) {
+  const ContactList contacts = step.contacts({});
+  for (GroupIndex g(0); g < step.groups.size(); ++g) {
+    const CollisionGroup& group = step.groups[g];
+    const std::vector<BodyVector>& by = step.results[g].displacement;
+    if (by.empty()) continue;
+    const std::optional<Vec3> velocity = free_velocity_of(bodies, group, contacts);
+    for (std::size_t i = 0; i < group.bodies.size(); ++i) bodies[group.bodies[i]].displace(by[i], velocity);
+  }
+}
+
+/// Bodies don't know their groups.
+template <class Work>
+void naming_group(GroupIndex group, Work&& work) {
+  try {
+    work();
+  } catch (const DivergenceError& error) {
+    throw DivergenceError(fmt::format("group {}, {}", group.value(), error.what()));
+  }
+}
+
+}  // namespace
+
+void change_velocities(Bodies& bodies, const SubStep& step) {
+  for (GroupIndex g(0); g < step.groups.size(); ++g)
+    for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i)
+      bodies[step.groups[g].bodies[i]].change_velocity(step.results[g].velocity[i]);
+}
+
+void integrate(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {
+  const std::vector<GroupIndex> group_of = step.group_of(bodies);
+  const double end = step.time + step.time_step;
+  for_each_body(bodies, [&](BodyIndex b, Body& body) {
+    if (!body.asleep) naming_group(group_of[b], [&] { body.advance(how, end); });
+  });
+  displace(bodies, step);
+  for_each_body(bodies, [&](BodyIndex b, Body& body) {
+    if (!body.has_freedom() || body.asleep) return;
+    naming_group(group_of[b], [&] { body.check_finite(); });
+    body.update_world_vertices();
+  });
+}
+
+}  // namespace impinge

@@ -1,0 +1,26 @@
+#include "engine/step/remember.hpp"
+
+namespace impinge {
+
+std::vector<ContactCache::Item> impulses_to_remember(const Bodies& bodies, const ContactCache& before,
+                                                     std::span<const GroupResult> results) {
+  const auto rests = [&](BodyIndex b) { return b.is_none() || bodies[b].asleep || !bodies[b].has_freedom(); };
+  std::vector<ContactCache::Item> items;
+  for (const ContactCache::Item& item : before.items())
+    if (rests(item.key.body_a) && rests(item.key.body_b)) items.push_back(item);
+  for (const GroupResult& result : results)
+    for (const ContactCache::Item& item : result.impulses)
+      if (!item.impulse.isZero(0.0)) items.push_back(item);
+  return items;
+}
+
+std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results) {
+  std::vector<BodyEnds> supports;
+  for (const GroupResult& result : results)
+    for (const auto& [key, impulse] : result.impulses)
+      for (const auto& [body, other] : {BodyEnds(key.body_a, key.body_b), BodyEnds(key.body_b, key.body_a)})
+        if (!other.is_none() && bodies[other].kind() == BodyKind::scripted) supports.emplace_back(body, other);
+  return supports;
+}
+
+}  // namespace impinge

@@ -1,0 +1,16 @@
+// What of a sub-step's answer the next ones need.
+#pragma once
+
+#include "engine/step/sleeping.hpp"
+#include "engine/step/sub_step.hpp"
+
+namespace impinge {
+
+/// The impulses that the next sub-step starts from; sleepers keep theirs for the day they wake.
+std::vector<ContactCache::Item> impulses_to_remember(const Bodies& bodies, const ContactCache& before,
+                                                     std::span<const GroupResult> results);
+
+/// (body, scripted body) of all contacts that were solved.
+std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results);
+
+}  // namespace impinge

@@ -1,0 +1,207 @@
+#include "engine/step/respond.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/contact/push_out.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+#include "engine/response/least_violation.hpp"
+#include "engine/step/tasks.hpp"
+
+namespace impinge {
+namespace {
+
+// positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
+constexpr double kPushOutTolerance = 1e-3;
+// a task should last longer than it takes to wake a thread: some 20 µs
+constexpr std::size_t kContactsPerTask = 16;
+
+/// The solution of one group, from its system to the value that it hands on.
+class GroupSolve {
+ public:
+  GroupSolve(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,
+             const Solving& how)
+      : bodies_(bodies), input_(input), group_(group), index_(index), how_(how) {}
+
+  GroupResult run() {
+    make_system();
+    solve();
+    find_root();
+    if (!result_.response.converged() && !how_.response.lives_on_overlap())
+      result_.is_contradiction = settle_contradiction(system());
+    close();
+    return std::move(result_);
+  }
+
+ private:
+  GroupSystem& system() { return now_.system; }
+
+  void make_system() {
+    const StageTimer timer(result_.assemble_ms);
+    now_ = assemble(input_, group_);
+  }
+
+  void solve() {
+    if (how_.freezes) result_.frozen = freeze(system());  // before a later Newton iteration takes A anew
+    const StageTimer timer(result_.response_ms);
+    try {
+      result_.response = how_.response.solve(system(), how_.lcp, how_.context);
+    } catch (const DivergenceError& error) {  // a response knows no names
+      std::string names;
+      for (const BodyIndex b : now_.deformable)
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", bodies_[b].name);
+      throw DivergenceError(fmt::format("group {}, body {}: {}; use more sub-steps or a softer material",
+                                        index_.value(), names, error.what()));
+    }
+    count(result_.response);
+  }
+
+  /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.
+  void find_root() {
+    const NewtonSettings* newton = how_.integrator.newton();
+    result_.is_at_root = newton == nullptr || now_.deformable.empty();
+    for (int i = 0; !result_.is_at_root && i < newton->max_iterations; ++i) {
+      check_interrupt();
+      {
+        const StageTimer timer(result_.assemble_ms);
+        double residual = 0.0;
+        for (std::size_t k = 0; k < now_.deformable.size(); ++k)
+          residual = std::max(residual, bodies_[now_.deformable[k]].relinearize(
+                                            how_.integrator, system().deformable_delta[k],
+                                            system().deformable_impulse(static_cast<int>(k), system().lambda)));
+        result_.is_at_root = residual <= newton->tolerance;
+        if (result_.is_at_root) break;
+        for (const BodyIndex b : now_.deformable) bodies_[b].solve_again();
+      }
+      const std::vector<Vec3> lambda = system().lambda;
+      make_system();
+      if (!lambda.empty()) system().lambda = lambda;
+      solve();
+    }
+  }
+
+  void close() {
+    const StageTimer timer(result_.response_ms);
+    result_.verdict = judge_group(system());  // of stage 12: the judge sees the group while its system stands
+    const GroupSystem& s = system();
+    result_.velocity = now_.by_body(group_, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta);
+    push_out();
+    hand_on();
+  }
+
+  void push_out() {
+    const auto move = [&](const std::vector<Vec3>& linear, const std::vector<Vec3>& angular,
+                          const std::vector<VecX>& nodes) {
+      const double h = input_.time_step;
+      result_.displacement = now_.by_body(group_, linear, angular, nodes);
+      for (BodyVector& by : result_.displacement) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
+    };
+    const GroupSystem& s = system();
+    if (!s.position_velocity.empty()) return move(s.position_velocity, s.position_angular_velocity, {});
+    if (how_.response.lives_on_overlap() || !needs_push_out(s, how_.contact, input_.time_step)) return;
+    check_interrupt();
+    GroupSystem recovery = make_push_out_system(s, how_.contact, input_.time_step);
+    ResponseContext loose = how_.context;
+    loose.lcp.tolerance = kPushOutTolerance;
+    loose.recovers_overlap = true;
+    const ResponseResult solved = how_.response.solve(recovery, how_.lcp, loose);
+    count(solved);
+    if (!solved.converged()) settle_contradiction(recovery);
+    move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta);
+  }
+
+  void hand_on() {
+    const GroupSystem& s = system();
+    for (std::size_t i = 0; i < now_.contacts.size(); ++i) {
+      const ContactIndex c = now_.contacts[i];
+      result_.impulses.push_back({input_.contacts.key(c), s.contacts[i].directions.transpose() * s.lambda[i]});
+      const Collision* collision = input_.contacts.collision(c);
+      if (collision == nullptr) continue;
+      const auto& [a, b] = now_.points[i];
+      SolvedContact solved = unsolved_contact(*collision, a, b, s.contacts[i].friction, bodies_);
+      solved.lambda = s.lambda[i];
+      solved.state = state_of(solved.lambda, solved.friction);
+      solved.group = index_;
+      result_.solved.push_back(std::move(solved));
+    }
+    if (result_.frozen) {
+      result_.frozen->answer = {s.lambda, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta};
+      result_.frozen->rigid_bodies = now_.rigid;
+      result_.frozen->deformable_bodies = now_.deformable;
+      result_.frozen->geometry = frozen_geometry();
+    }
+    result_.contacts = std::move(now_.contacts);
+  }
+
+  std::vector<FrozenContact> frozen_geometry() const {
+    std::vector<FrozenContact> list;
+    for (const ContactIndex c : now_.contacts) {
+      const ContactKey key = input_.contacts.key(c);
+      if (const Collision* at = input_.contacts.collision(c)) {
+        list.push_back({at->body_a, at->body_b, at->triangle_a, at->triangle_b, at->point_a, at->point_b, key.feature});
+      } else {
+        const Attachment& joined = input_.contacts.attachment(c);
+        list.push_back(
+            {key.body_a, key.body_b, {}, {}, joined.a.position(bodies_), joined.b.position(bodies_), key.feature});
+      }
+    }
+    return list;
+  }
+
+  void count(const ResponseResult& solved) {
+    result_.iterations += solved.iterations;
+    result_.outer_iterations += solved.outer_iterations;
+  }
+
+  Bodies& bodies_;
+  const AssemblyInput& input_;
+  const CollisionGroup& group_;
+  GroupIndex index_;
+  const Solving& how_;
+  AssembledGroup now_;
+  GroupResult result_;
+};
+
+}  // namespace
+
+SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
+                               double friction, const Bodies& bodies) {
+  SolvedContact contact;
+  contact.collision = collision;
+  contact.point_a = a;
+  contact.point_b = b;
+  contact.local_normal = collision.normal;
+  if (!collision.normal_owner.is_none())
+    contact.local_normal = bodies[collision.normal_owner].pose.rotation.transpose() * collision.normal;
+  contact.friction = friction;
+  return contact;
+}
+
+GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,
+                             const Solving& how) {
+  return GroupSolve(bodies, input, group, index, how).run();
+}
+
+std::vector<GroupResult> respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
+                                 std::span<const CollisionGroup> groups, const Solving& how, StageTimes& times) {
+  const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step};
+  std::vector<GroupResult> results(groups.size());
+  double wall_ms = 0.0;
+  {
+    const StageTimer timer(wall_ms);
+    for_each_in_tasks(
+        groups.size(), kContactsPerTask, [&](std::size_t g) { return groups[g].contacts.size(); },
+        [&](std::size_t g) { results[g] = respond_to_group(bodies, input, groups[g], GroupIndex(g), how); });
+  }
+  // threads work side by side: what the stages share of the time that passed
+  double assemble_ms = 0.0, all_ms = 0.0;
+  for (const GroupResult& r : results) assemble_ms += r.assemble_ms, all_ms += r.assemble_ms + r.response_ms;
+  const double share = all_ms > 0.0 ? assemble_ms / all_ms : 0.0;
+  times.assemble_ms += share * wall_ms;
+  times.response_ms += (1.0 - share) * wall_ms;
+  return results;
+}
+
+}  // namespace impinge

@@ -1,0 +1,27 @@
+// Stages 9 and 10 of a sub-step: the system of each group, the response, and what follows from the impulses.
+#pragma once
+
+#include "engine/bodies/time_integration.hpp"
+#include "engine/step/sub_step.hpp"
+
+namespace impinge {
+
+/// What the groups are solved by.
+struct Solving {
+  const Response& response;
+  const LcpSolver& lcp;
+  ResponseContext context;
+  const ContactSettings& contact;
+  const DeformableIntegrator& integrator;
+  bool freezes = false;  ///< the groups are wanted as they were handed to the response
+};
+
+/// Groups are independent, so threads share them. What of several is thrown is what the lowest group throws.
+std::vector<GroupResult> respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
+                                 std::span<const CollisionGroup> groups, const Solving& how, StageTimes& times);
+
+/// One group. Of the bodies, those of the group may have A and b taken anew (Newton schemes); nothing else changes.
+GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,
+                             const Solving& how);
+
+}  // namespace impinge

@@ -1,0 +1,85 @@
+#include "engine/step/sleeping.hpp"
+
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+
+namespace impinge {
+
+void Sleeping::update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
+                      double speed, double time, double time_step) {
+  for (Body& body : bodies) {
+    if (!body.has_freedom() || body.asleep) continue;
+    body.rest_time = body.fastest_point() <= speed ? body.rest_time + time_step : 0.0;
+  }
+  for (const CollisionGroup& group : groups) {
+    if (group.contacts.empty()) continue;
+    if (!std::all_of(group.bodies.begin(), group.bodies.end(),
+                     [&](BodyIndex b) { return bodies[b].rest_time >= time; }))
+      continue;
+    const BodyIndex island = group.bodies.front();
+    for (BodyIndex b : group.bodies) {
+      bodies[b].asleep = true;
+      bodies[b].island = island;
+      bodies[b].come_to_rest();
+      for (const auto& [dynamic, scripted] : supports)
+        if (dynamic == b) supports_.emplace_back(island, scripted);
+    }
+  }
+}
+
+bool Sleeping::wake_island(Bodies& bodies, BodyIndex island) {
+  bool woke = false;
+  for (Body& body : bodies) {
+    if (!body.asleep || body.island != island) continue;
+    body.asleep = false;
+    body.island = {};
+    body.rest_time = 0.0;
+    woke = true;
+  }
+  return woke;
+}
+
+bool Sleeping::wake_touched(Bodies& bodies, std::span<const BodyEnds> touching) {
+  bool woke = false;
+  for (const auto& [first, second] : touching)
+    for (const BodyIndex b : {first, second})
+      if (!b.is_none() && bodies[b].asleep) {
+        const BodyIndex island = bodies[b].island;
+        woke = wake_island(bodies, island) || woke;
+        std::erase_if(supports_, [&](const auto& s) { return s.first == island; });
+      }
+  return woke;
+}
+
+bool Sleeping::wake_moved_supports(Bodies& bodies) {
+  bool woke = false;
+  for (const auto& [island, scripted] : supports_)
+    if (bodies[scripted].is_moving()) woke = wake_island(bodies, island) || woke;
+  if (woke) std::erase_if(supports_, [&](const auto& s) { return !bodies[s.first].asleep; });
+  return woke;
+}
+
+void Sleeping::wake_all(Bodies& bodies) {
+  for (Body& body : bodies) {
+    body.asleep = false;
+    body.island = {};
+    body.rest_time = 0.0;
+  }
+  supports_.clear();
+}
+
+void Sleeping::save(ByteWriter& out) const {
+  out.put<std::uint64_t>(supports_.size());
+  for (const auto& [island, body] : supports_) out.put(island.value()), out.put(body.value());
+}
+
+void Sleeping::restore(ByteReader& in) {
+  supports_.clear();
+  for (std::uint64_t n = in.get<std::uint64_t>(); n > 0; --n) {
+    const BodyIndex island(in.get<int>());
+    supports_.emplace_back(island, BodyIndex(in.get<int>()));
+  }
+}
+
+}  // namespace impinge

@@ -1,0 +1,37 @@
+// Groups at rest sleep: they keep their poses to the last bit and cost nothing until something touches or changes them.
+#pragma once
+
+#include <span>
+
+#include "engine/bodies/bodies.hpp"
+#include "engine/contact/collision_groups.hpp"
+
+namespace impinge {
+
+class ByteReader;
+class ByteWriter;
+
+/// Two bodies that touch or are joined.
+using BodyEnds = std::pair<BodyIndex, BodyIndex>;
+
+class Sleeping {
+ public:
+  /// Counts resting time and puts groups to sleep in which every body has rested long enough. `supports` are the
+  /// (dynamic body, scripted body) contacts of this sub-step: who moves wakes what rests on it. A body that touches
+  /// nothing never sleeps.
+  void update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports, double speed,
+              double time, double time_step);
+  /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
+  bool wake_touched(Bodies& bodies, std::span<const BodyEnds> touching);
+  bool wake_moved_supports(Bodies& bodies);
+  void wake_all(Bodies& bodies);
+
+  void save(ByteWriter& out) const;
+  void restore(ByteReader& in);
+
+ private:
+  static bool wake_island(Bodies& bodies, BodyIndex island);
+  std::vector<BodyEnds> supports_;  // (island, scripted body)
+};
+
+}  // namespace impinge

@@ -1,0 +1,34 @@
+// One sub-step as the values that its stages hand on. Each stage is a function of a file of its own in this folder (or,
+// for what belongs to contacts, in contact/), takes what stands above it here, and fills what is its own; so a sub-step
+// can be looked at between any two stages, and a stage done again.
+#pragma once
+
+#include "engine/detection/collider.hpp"
+#include "engine/step/group_result.hpp"
+
+namespace impinge {
+
+struct SubStep {
+  double time = 0.0, time_step = 0.0;  ///< s, at its start; Δt
+
+  // 5, 6: detection at the free velocities
+  std::vector<Collider> colliders;           ///< by body
+  std::vector<BodyPair> pairs;               ///< sorted
+  std::vector<TrianglePair> triangle_pairs;  ///< sorted; of mesh-mesh pairs
+  std::vector<Collision> collisions;         ///< in pair order
+
+  // 7: what each contact starts from, on A, world axes, N·s; empty: from nothing
+  std::vector<Vec3> start;
+
+  // 8: the contacts of a group are those that something responds to, once it is solved
+  std::vector<CollisionGroup> groups;
+
+  // 9, 10: by group
+  std::vector<GroupResult> results;
+
+  ContactList contacts(std::span<const Attachment> attachments) const { return {collisions, attachments}; }
+  /// Of each body; none: nothing touches it.
+  std::vector<GroupIndex> group_of(const Bodies& bodies) const;
+};
+
+}  // namespace impinge

@@ -1,0 +1,46 @@
+// How loops over things of very different size are shared among threads.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "engine/bodies/bodies.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace impinge {
+
+/// work(i) for 0 <= i < count; tasks are runs of neighbours whose sizes sum to `enough` or more. What of several is
+/// thrown is what the lowest i throws.
+template <class Size, class Work>
+void for_each_in_tasks(std::size_t count, std::size_t enough, Size&& size, Work&& work) {
+  std::vector<std::size_t> begin = {0};
+  std::size_t sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    sum += size(i);
+    if (sum < enough) continue;
+    begin.push_back(i + 1);
+    sum = 0;
+  }
+  if (begin.back() < count) begin.push_back(count);
+  parallel_for(begin.size() - 1, 1, [&](std::size_t task) {
+    for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) work(i);
+  });
+}
+
+/// work(i, body) for every body.
+template <class BodyList, class Work>
+void for_each_body(BodyList& bodies, Work&& work) {
+  // a task should last longer than it takes to wake a thread: some 20 µs
+  constexpr std::size_t kEnough = 500;  // rigid bodies, or unknowns of deformable ones
+  const auto size = [&](std::size_t i) -> std::size_t {
+    const Body& body = bodies[i];
+    const std::size_t surface = body.world_vertices.size() / 16;
+    if (body.asleep) return 0;
+    return std::max(surface, body.dofs() > 6 ? static_cast<std::size_t>(body.dofs()) : 1);
+  };
+  for_each_in_tasks(static_cast<std::size_t>(bodies.size().value()), kEnough, size,
+                    [&](std::size_t i) { work(BodyIndex(i), bodies[i]); });
+}
+
+}  // namespace impinge
