@@ -41,6 +41,8 @@ std::uint64_t memory_limit() {
 
 void set_memory_limit(std::uint64_t bytes) { given_limit = bytes; }
 
+std::uint64_t given_memory_limit() { return given_limit; }
+
 std::uint64_t memory_in_use() {
   std::ifstream in("/proc/self/statm");
   std::uint64_t mapped = 0, resident = 0;

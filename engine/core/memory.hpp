@@ -12,6 +12,8 @@ namespace impinge {
 /// runs in, if that is less.
 std::uint64_t memory_limit();
 void set_memory_limit(std::uint64_t bytes);
+/// What was set, 0 for nothing.
+std::uint64_t given_memory_limit();
 
 /// Bytes of the program that are resident now.
 std::uint64_t memory_in_use();

@@ -218,6 +218,7 @@ class DebugCommand : public SubCommand {
     options.whole("--memory", given_.memory, 1, 1 << 20, "megabytes of states kept for going back (default: 256)");
     set_option(options, given_.overrides, "PATH=VALUE: override a parameter of the scene (repeatable)");
     quiet_option(options, given_.quiet, "say nothing but problems");
+    memory_option(options);
     threads_option(options);
   }
   int run() override { return debug(given_); }

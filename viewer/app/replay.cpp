@@ -53,6 +53,7 @@ class ReplayCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("DIR", folder_, "folder of the run");
+    memory_option(options);
     threads_option(options);
   }
   int run() override { return replay(folder_); }

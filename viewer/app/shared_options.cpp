@@ -1,5 +1,8 @@
 #include "viewer/app/shared_options.hpp"
 
+#include <fmt/format.h>
+
+#include "engine/core/memory.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace impinge {
@@ -11,6 +14,7 @@ void set_option(Options& options, std::vector<std::string>& overrides, const std
 void scene_options(Options& options, std::filesystem::path& scene, std::vector<std::string>& overrides) {
   options.word("SCENE", scene, "scene file (TOML), or the run.toml of a run");
   set_option(options, overrides);
+  memory_option(options);
 }
 
 void script_option(Options& options, std::filesystem::path& script, const std::string& doc) {
@@ -31,6 +35,19 @@ void images_option(Options& options, bool& images) {
 
 void tolerance_option(Options& options, int& tolerance, const std::string& doc) {
   options.whole("--tolerance", tolerance, 0, 255, doc);
+}
+
+void memory_option(Options& options) {
+  const auto take = [](const std::string& text) {
+    const auto bytes = parse_bytes(text);
+    if (!bytes)
+      refuse_option(fmt::format("--memory-limit is '{}'", text), "bytes, or a number with K, M, G or T, are wanted",
+                    "write --memory-limit 4G");
+    set_memory_limit(*bytes);
+  };
+  options.other("--memory-limit", take,
+                "SIZE such as 4G: what would take more memory is refused before it is taken (default: half of the "
+                "machine's)");
 }
 
 void threads_option(Options& options) {

@@ -24,6 +24,8 @@ void size_option(Options& options, int& width, int& height,
 void images_option(Options& options, bool& images);
 /// --tolerance of pictures: of a channel, of 255.
 void tolerance_option(Options& options, int& tolerance, const std::string& doc);
+/// --memory-limit, which counts for the whole program and the jobs it starts.
+void memory_option(Options& options);
 /// --threads, which counts for the whole program as soon as it is read.
 void threads_option(Options& options);
 /// --quiet.

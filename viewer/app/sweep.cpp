@@ -205,6 +205,7 @@ void SweepCommand::declare(Options& options) {
       "SCENE", run_.scene,
       "scene file (TOML), or the run.toml of a run, or a file with a [sweep] table that says the rest");
   set_option(options, run_.overrides, "PATH=VALUE: the same in every job; one or more");
+  memory_option(options);
   options.texts("--vary", vary_,
                 "PATH=a,b,c or PATH=lo:hi:n or PATH=log(lo,hi,n), one or more: a job for each value, and for each "
                 "combination of the values of several");

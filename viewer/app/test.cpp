@@ -17,6 +17,7 @@ class TestCommand : public SubCommand {
                 "WIDTHxHEIGHT of pictures without a baseline yet (default: 320x180)");
     options.flag("--update", suite_.update,
                  "write the pictures that `expect image` lines name where they differ or are missing, and say which");
+    memory_option(options);
     threads_option(options);
   }
   int run() override { return run_suite(suite_); }

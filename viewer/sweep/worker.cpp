@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "engine/core/error.hpp"
+#include "engine/core/memory.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/io/scene/toml.hpp"
@@ -34,6 +35,7 @@ std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   if (o.frames) add({"--frames", std::to_string(*o.frames)});
   for (const std::string& text : o.overrides) add({"--set", text});
   for (const std::string& text : job.changes) add({"--set", text});
+  if (given_memory_limit() > 0) add({"--memory-limit", std::to_string(given_memory_limit())});
   if (o.contacts) add({"--contacts"});
   if (o.export_ply) add({"--export", "ply"});
   if (o.images)
