@@ -129,7 +129,7 @@ TEST_CASE("every LCP solver: honest at the cap, at ease with nothing and with re
     const auto solver = e.make();
     DenseDelassus none(MatX(0, 0));
     std::vector<Vec3> empty;
-    CHECK(solver->solve({&none, {}, {}}, {1e-8, 10}, empty).iterations == 0);
+    CHECK(solver->solve({&none, {}, {}, {}}, {1e-8, 10}, empty).iterations == 0);
 
     Random random(23);
     RandomProblem hard(random, 30, 40, 1e-6, 0.5);
@@ -140,7 +140,7 @@ TEST_CASE("every LCP solver: honest at the cap, at ease with nothing and with re
     // the same contact four times: W is singular, λ is not unique, u is
     const Mat3 block = Vec3(1.0, 0.7, 0.7).asDiagonal();
     DenseDelassus redundant(block.replicate(4, 4));
-    ConeProblem problem{&redundant, std::vector<Vec3>(4, Vec3(-1, 0.2, 0.1)), std::vector<double>(4, 0.5)};
+    ConeProblem problem{&redundant, std::vector<Vec3>(4, Vec3(-1, 0.2, 0.1)), std::vector<double>(4, 0.5), {}};
     if (!solver->applies(problem).empty()) continue;
     std::vector<Vec3> a(4, Vec3::Zero()), b(4, Vec3::Zero());
     CHECK(solver->solve(problem, {1e-12, 10000}, a).reason == StopReason::converged);
@@ -159,7 +159,7 @@ TEST_CASE("every LCP solver: contradicting constraints end in a flagged, finite 
   w(0, 0) = w(3, 3) = 1.0;
   w(0, 3) = w(3, 0) = -1.0;
   DenseDelassus squeeze(w);
-  const ConeProblem problem{&squeeze, {Vec3(-1, 0, 0), Vec3(-1, 0, 0)}, {0.0, 0.0}};
+  const ConeProblem problem{&squeeze, {Vec3(-1, 0, 0), Vec3(-1, 0, 0)}, {0.0, 0.0}, {}};
   for (const auto& e : lcp_solvers()) {
     CAPTURE(e.name);
     std::vector<Vec3> lambda(2, Vec3::Zero());
@@ -228,7 +228,7 @@ TEST_CASE("Gauss-Seidel on two stacked boxes contracts by r/(1+r) a sweep") {
     const Vec3 truth(1.0 + r, r, 0.0);
     const VecX exact = (VecX(6) << truth.x(), 0, 0, truth.y(), 0, 0).finished();
     const VecX q = -w * exact;
-    ConeProblem problem{&operator_w, {q.head<3>(), q.tail<3>()}, {0.0, 0.0}};
+    ConeProblem problem{&operator_w, {q.head<3>(), q.tail<3>()}, {0.0, 0.0}, {}};
     const auto error_after = [&](int sweeps) {
       std::vector<Vec3> lambda(2, Vec3::Zero());
       find_entry(lcp_solvers(), "projected_gauss_seidel")->make()->solve(problem, {1e-300, sweeps}, lambda);

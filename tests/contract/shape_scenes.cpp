@@ -41,7 +41,7 @@ std::string scene() {
   for (const char* shape : kShapes) {
     text += body(fmt::format("rock_{}", i), "static", shape, Vec3(i, 0.15, 0), "rotation = [0, 0, 40]");
     text += body(
-        fmt::format("arm_{}", i), "scripted", shape, Vec3(),
+        fmt::format("arm_{}", i), "scripted", shape, Vec3::Zero(),
         fmt::format("motion = [ {{ time = 0, position = [{0}, 0.4, -0.6] }}, {{ time = 0.5, position = [{0}, 0.15, "
                     "-0.2], rotation = [0, 60, 0] }} ]",
                     i));
