@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/CholmodSupport>
+#include <mutex>
 #include <optional>
 
 #include "engine/algebra/serial_openmp.hpp"
@@ -17,12 +18,23 @@
 namespace impinge {
 namespace {
 
+/// One thread at a time calls CHOLMOD, and it uses that thread alone: Debian's serial OpenBLAS below it hands out its
+/// working memory without a lock, and two factorizations at a time spoil each other.
+class Turn {
+  static std::mutex& in_use() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  const std::lock_guard<std::mutex> alone_{in_use()};
+  const SerialOpenMp serial_;
+};
+
 class Cholmod : public LinearSolver {
  public:
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
-    const SerialOpenMp serial;
+    const Turn turn;
     llt_.analyzePattern(lower_->matrix());
     factored_ = is_taken_ = false;
   }
@@ -40,7 +52,7 @@ class Cholmod : public LinearSolver {
                    8.0 * static_cast<double>(llt_.factor().xsize),
                    "use fewer elements, or simulation.linear_solver = \"conjugate_gradient\"");
     is_taken_ = true;
-    const SerialOpenMp serial;
+    const Turn turn;
     llt_.factorize(lower_->matrix());
     factored_ = true;
     ++factorizations;
@@ -48,19 +60,19 @@ class Cholmod : public LinearSolver {
   }
   SolveReport solve(const VecX& b, VecX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    const SerialOpenMp serial;
+    const Turn turn;
     x = llt_.solve(b);
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
   SolveReport solve_many(const MatX& b, MatX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    const SerialOpenMp serial;
+    const Turn turn;
     x = llt_.solve(b);
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
   SolveReport gram(const SparseColumns& b, MatX& w) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    const SerialOpenMp serial;
+    const Turn turn;
     supernodal_gram(llt_.factor(), b, w);
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }

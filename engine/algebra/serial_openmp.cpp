@@ -17,14 +17,9 @@ const Runtime& runtime() {
   return loaded;
 }
 
-std::recursive_mutex& in_use() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
 }  // namespace
 
-SerialOpenMp::SerialOpenMp() : alone_(in_use()) {
+SerialOpenMp::SerialOpenMp() {
   if (!runtime().is_loaded()) return;
   levels_ = runtime().get();
   runtime().set(0);

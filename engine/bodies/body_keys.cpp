@@ -19,15 +19,13 @@ constexpr BodyKey kKeys[] = {
      "About x, then y, then z (fixed axes), round the file's origin; the angular velocity stays."},
     {"velocity", vector3, "m/s", kFar, "Of the centre of mass."},
     {"angular_velocity", vector3, "rad/s", kFar, "Angular velocity, world axes."},
-    {"mass", real, "kg", {1e-15, 1e15, true}, "What the body weighs.", {}, false},
-    {"self_collision", boolean, "", {}, "Whether a deformable body's surface meets itself.", {}, false},
+    {"mass", real, "kg", {1e-15, 1e15, true}, "What the body weighs."},
+    {"self_collision", boolean, "", {}, "Whether a deformable body's surface meets itself."},
     {"material.damping_alpha", real, "1/s", {0.0, 1e6, true}, "Rayleigh damping in proportion to mass."},
     {"material.damping_beta", real, "s", {0.0, 1e3, true}, "Rayleigh damping in proportion to stiffness."},
 };
 
 }  // namespace
-
-std::span<const BodyKey> body_keys() { return kKeys; }
 
 const BodyKey& body_key(std::string_view name) {
   const auto found = std::find_if(std::begin(kKeys), std::end(kKeys), [&](const BodyKey& k) { return k.name == name; });
@@ -47,8 +45,7 @@ Parameter body_row(const std::string& path, std::string_view name, std::function
   row.inherit = key.inherit;
   row.initial = get();
   row.get = std::move(get);
-  row.live = key.live;
-  if (key.live != (set != nullptr)) throw InternalError(row.path + " is live or not, and its row says otherwise");
+  row.live = set != nullptr;
   row.set = std::move(set);
   return row;
 }

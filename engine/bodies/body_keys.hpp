@@ -2,7 +2,6 @@
 // reads, changes or lists them. Keys with a form of their own (shape, surface, motion, volume, fixed) are io/scene's.
 #pragma once
 
-#include <span>
 #include <string_view>
 
 #include "engine/bodies/body_kind.hpp"
@@ -17,16 +16,13 @@ struct BodyKey {
   Range range;
   std::string_view doc;
   std::string_view inherit = {};  ///< the word that leaves it to the scene
-  /// Whether it may change between frames, of the bodies that have a row of it; else it is fixed with the scene.
-  bool live = true;
 };
 
-std::span<const BodyKey> body_keys();
 /// Throws InternalError on a name that is not there.
 const BodyKey& body_key(std::string_view name);
 
-/// The row `path`.NAME of a key, which reads and writes by `get` and `set`; without a `set` it can't change between
-/// frames.
+/// The row `path`.NAME of a key, which reads and writes by `get` and `set`; without a `set` it is fixed with the
+/// scene.
 Parameter body_row(const std::string& path, std::string_view name, std::function<ParameterValue()> get,
                    std::function<void(const ParameterValue&)> set);
 

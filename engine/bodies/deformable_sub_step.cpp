@@ -1,11 +1,10 @@
 // A deformable body's part in a sub-step: its open system A v = b, the solvers of A, and what follows from v.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/time_integration.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/finite.hpp"
 
 namespace impinge {
 
@@ -68,8 +67,8 @@ double DeformableBody::relinearize(const DeformableIntegrator& integrator, const
   const VecX v = step_.v_star + change;
   integrator.linearize(*this, v, step_);
   const VecX momentum = step_.a * v;
-  const double size = std::max({momentum.norm(), step_.b.norm(), impulse.norm()});
-  return size > 0.0 ? (momentum - step_.b - impulse).norm() / size : 0.0;
+  const double size = larger(larger(momentum.norm(), step_.b.norm()), impulse.norm());
+  return size == 0.0 ? 0.0 : (momentum - step_.b - impulse).norm() / size;  // what is no number is no root
 }
 
 void DeformableBody::solve_again() {

@@ -59,7 +59,7 @@ class SoftConstraint : public Response {
     ResponseResult result;
     for (; result.iterations < settings_.iterations; ++result.iterations)
       sweep(group, w, [&](std::size_t i, const Vec3& u) {
-        return deformable_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
+        return soft_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
       });
     if (!w.finish()) result.ended = StopReason::stagnated;
     // a deformable body's elastic forces count on positions that move by its velocities
@@ -101,8 +101,8 @@ class SoftConstraint : public Response {
     }
   }
 
-  static Vec3 deformable_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
-                                 const ResponseContext& context) {
+  static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
+                           const ResponseContext& context) {
     if (rows.kind != RowKind::contact || bounces(rows)) {
       u.x() -= rows.bound;
       return relaxed_impulse(rows, w, u, lambda);

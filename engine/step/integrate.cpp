@@ -38,11 +38,11 @@ void displace(Bodies& bodies, const SubStep& step) {
 
 /// Bodies don't know their groups.
 template <class Work>
-void naming_group(GroupIndex group, Work&& work) {
+void naming_group(const SubStep& step, BodyIndex body, Work&& work) {
   try {
     work();
   } catch (const DivergenceError& error) {
-    throw DivergenceError(fmt::format("group {}, {}", group.value(), error.what()));
+    throw DivergenceError(fmt::format("group {}, {}", step.group_of(body).value(), error.what()));
   }
 }
 
@@ -55,15 +55,14 @@ void change_velocities(Bodies& bodies, const SubStep& step) {
 }
 
 void integrate(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {
-  const std::vector<GroupIndex> group_of = step.group_of(bodies);
   const double end = step.time + step.time_step;
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
-    if (!body.asleep) naming_group(group_of[b], [&] { body.advance(how, end); });
+    if (!body.asleep) naming_group(step, b, [&] { body.advance(how, end); });
   });
   displace(bodies, step);
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
     if (!body.has_freedom() || body.asleep) return;
-    naming_group(group_of[b], [&] { body.check_finite(); });
+    naming_group(step, b, [&] { body.check_finite(); });
     body.update_world_vertices();
   });
 }

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "engine/contact/push_out.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/step/tasks.hpp"
@@ -68,9 +67,9 @@ class GroupSolve {
         const StageTimer timer(result_.assemble_ms);
         double residual = 0.0;
         for (std::size_t k = 0; k < now_.deformable.size(); ++k)
-          residual = std::max(residual, bodies_[now_.deformable[k]].relinearize(
-                                            how_.integrator, system().deformable_delta[k],
-                                            system().deformable_impulse(static_cast<int>(k), system().lambda)));
+          residual = larger(residual, bodies_[now_.deformable[k]].relinearize(
+                                          how_.integrator, system().deformable_delta[k],
+                                          system().deformable_impulse(static_cast<int>(k), system().lambda)));
         result_.is_at_root = residual <= newton->tolerance;
         if (result_.is_at_root) break;
         for (const BodyIndex b : now_.deformable) bodies_[b].solve_again();

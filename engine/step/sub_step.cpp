@@ -1,12 +1,13 @@
 #include "engine/step/sub_step.hpp"
 
+#include <algorithm>
+
 namespace impinge {
 
-std::vector<GroupIndex> SubStep::group_of(const Bodies& bodies) const {
-  std::vector<GroupIndex> group(static_cast<std::size_t>(bodies.size().value()));
+GroupIndex SubStep::group_of(BodyIndex body) const {
   for (GroupIndex g(0); g < groups.size(); ++g)
-    for (const BodyIndex b : groups[g].bodies) group[b] = g;
-  return group;
+    if (std::binary_search(groups[g].bodies.begin(), groups[g].bodies.end(), body)) return g;
+  return {};
 }
 
 }  // namespace impinge

@@ -27,8 +27,8 @@ struct SubStep {
   std::vector<GroupResult> results;
 
   ContactList contacts(std::span<const Attachment> attachments) const { return {collisions, attachments}; }
-  /// Of each body; none: nothing touches it.
-  std::vector<GroupIndex> group_of(const Bodies& bodies) const;
+  /// None: nothing touches the body.
+  GroupIndex group_of(BodyIndex body) const;
 };
 
 }  // namespace impinge

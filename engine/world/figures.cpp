@@ -1,6 +1,7 @@
 #include "engine/world/figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace impinge {
 
@@ -130,6 +131,13 @@ std::vector<double> figure_values(const FrameStats& stats, bool judged) {
   for (const Figure& figure : kFigures)
     if (is_number(figure, judged)) values.push_back(figure.value(stats));
   return values;
+}
+
+const Figure* first_not_finite(const FrameStats& stats, bool judged) {
+  const auto found = std::find_if(std::begin(kFigures), std::end(kFigures), [&](const Figure& figure) {
+    return (judged || figure.kind != FigureKind::judged) && !std::isfinite(figure.value(stats));
+  });
+  return found == std::end(kFigures) ? nullptr : found;
 }
 
 std::size_t figure_index(std::string_view name, bool judged) {

@@ -54,6 +54,8 @@ const Figure* find_figure(std::string_view name);
 /// The figures that are numbers, in order, with or without those that somebody judges; and a frame's values for them.
 const std::vector<std::string>& figure_names(bool judged);
 std::vector<double> figure_values(const FrameStats& stats, bool judged);
+/// The first of those that is not a finite number, or nullptr.
+const Figure* first_not_finite(const FrameStats& stats, bool judged);
 /// Where a figure stands among figure_names(judged). Throws InternalError if it does not.
 std::size_t figure_index(std::string_view name, bool judged = false);
 

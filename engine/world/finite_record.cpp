@@ -51,11 +51,8 @@ void check_contact(const StepRecord& record, const ContactRecord& c) {
 }  // namespace
 
 void check_finite(const StepRecord& record, Bodies& bodies) {
-  for (const Figure& figure : figures()) {
-    if (figure.is_hash() || figure.kind == FigureKind::judged) continue;
-    if (const double value = figure.value(record.stats); !std::isfinite(value))
-      refuse(record, to_blame(figure, record, bodies), std::string(figure.name), value);
-  }
+  if (const Figure* figure = first_not_finite(record.stats, false))
+    refuse(record, to_blame(*figure, record, bodies), std::string(figure->name), figure->value(record.stats));
   for (const ContactRecord& contact : record.contacts) check_contact(record, contact);
 }
 

@@ -90,9 +90,10 @@ void World::publish(std::span<const SolvedContact> contacts) {
   for (const Attachment& a : attachments_)
     next_record_.attachments.push_back(
         {a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), Vec3::Zero()});
+  const ContactList list = s.contacts(attachments_);
   for (const GroupResult& result : s.results)
     for (std::size_t i = 0; i < result.contacts.size(); ++i)
-      if (const ContactList list = s.contacts(attachments_); list.collision(result.contacts[i]) == nullptr)
+      if (list.collision(result.contacts[i]) == nullptr)
         next_record_.attachments[list.attachment_at(result.contacts[i])].impulse = result.impulses[i].impulse;
   next_record_.gravity = parameters.simulation.gravity;
   next_record_.frame_time = parameters.simulation.frame_time;

@@ -178,6 +178,30 @@ TEST_CASE("a folder holds at most 40 files") {
   }
 }
 
+TEST_CASE("a function has at most 80 lines") {
+  // as .clang-format writes them: a head at the margin, or two columns in as a class has it, up to the bracket below it
+  const std::regex none(R"(^\s*(namespace|class|struct|enum|union|extern|if|for|while|switch|do|try|\}).*)");
+  int functions = 0;
+  for (const fs::path& file : sources())
+    for (const std::string margin : {"", "  "}) {
+      std::istringstream in(text_of(file));
+      int line_number = 0, begin = 0;
+      for (std::string line; std::getline(in, line);) {
+        ++line_number;
+        if (line == margin + "}" || line == margin + "};") {
+          CAPTURE(fs::relative(file, kRoot).generic_string(), begin);
+          if (begin > 0) CHECK(line_number - begin < 80);
+          functions += begin > 0;
+          begin = 0;
+        } else if (line.size() > margin.size() && line.starts_with(margin) && line[margin.size()] != ' ' &&
+                   line.ends_with('{') && !std::regex_match(line, none)) {
+          begin = line_number;
+        }
+      }
+    }
+  CHECK(functions > 1000);
+}
+
 TEST_CASE("files stay small") {
   int long_files = 0;
   for (const fs::path& file : sources()) {

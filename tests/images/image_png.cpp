@@ -126,6 +126,13 @@ TEST_CASE("The PNG decoder agrees with pixels computed by hand") {
                            chunk("IHDR", be(60000) + be(60000) + std::string("\x08\x02\0\0\0", 5)) +
                            chunk("IDAT", zlib) + chunk("IEND", "");
   CHECK_THAT(complaint_of(huge), Contains("x.png: has 60000 x 60000 pixels"));
+  // so is one whose pixels are few and unpack to many
+  const std::string large = encode_png(plain(3000, 2000));
+  const std::size_t at = large.find("IDAT");
+  const std::string packed = large.substr(at + 4, large.find("IEND") - 8 - (at + 4));
+  const std::string bomb = "\x89PNG\r\n\x1a\n" + chunk("IHDR", be(16) + be(16) + std::string("\x08\x02\0\0\0", 5)) +
+                           chunk("IDAT", packed) + chunk("IEND", "");
+  CHECK_THAT(complaint_of(bomb), Contains("x.png: the PNG file unpacks to more than the 784 bytes of its pixels"));
   const std::string none =
       "\x89PNG\r\n\x1a\n" + chunk("IHDR", be(0) + be(2) + std::string("\x08\x02\0\0\0", 5)) + chunk("IEND", "");
   CHECK_THAT(complaint_of(none), Contains("has no pixels"));

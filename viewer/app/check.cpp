@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "viewer/app/shared_options.hpp"
-#include "viewer/study/soft_report.hpp"
+#include "viewer/study/deformable_report.hpp"
 
 namespace impinge {
 
@@ -20,7 +20,7 @@ class CheckCommand : public SubCommand {
     if (const std::string note = session.note_of_former_paths(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
     fmt::print("{}: {} bodies, {} surface files, no problems found\n", scene_.string(), session.world().bodies().size(),
                session.scene().surfaces.size());
-    print_soft_bodies(session);
+    print_deformable_bodies(session);
     return 0;
   }
 

@@ -109,10 +109,9 @@ void check_recording(const Given& options) {
   }
 }
 
-int debug(const Given& options) {
+void check_screen(const Given& options, bool windowed, int scale) {
   if (options.window && options.headless)
     refuse_option("--window and --headless", "one of them is allowed", "leave one out");
-  const bool windowed = options.window || (!options.headless && has_screen());
   if (!windowed && options.script.empty())
     throw InputError(
         "command line: debug without a screen and without --script; one of them is wanted; set DISPLAY, or write "
@@ -120,12 +119,28 @@ int debug(const Given& options) {
   if (options.window && !has_screen())
     throw InputError(
         "command line: --window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
-  const int scale = options.scale > 0 ? options.scale : debug_scale(options.height);
   if (options.width < scale * kLeastWidth || options.height < scale * kLeastHeight)
     throw InputError(fmt::format(
         "command line: --size is {}x{}; the panels want {}x{} at least with text of scale {}; choose a larger one{}",
         options.width, options.height, scale * kLeastWidth, scale * kLeastHeight, scale,
         scale > 1 ? ", or a smaller --scale" : ""));
+}
+
+std::unique_ptr<DebugWindow> make_window(const Given& options, int scale) {
+  try {
+    return std::make_unique<DebugWindow>(options.width, options.height, scale);
+  } catch (const InternalError& error) {
+    throw InputError(fmt::format("window of {}x{}: {}; a smaller one is wanted; change --size", options.width,
+                                 options.height, error.what()));
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("window: {}; OpenGL through OSMesa is wanted; install libosmesa6", error.what()));
+  }
+}
+
+int debug(const Given& options) {
+  const bool windowed = options.window || (!options.headless && has_screen());
+  const int scale = options.scale > 0 ? options.scale : debug_scale(options.height);
+  check_screen(options, windowed, scale);
   const Source source = source_of(options);
   const DebugScript script = read_script(options.script);
   if (!source.run_folder.empty() && script.has_timed)
@@ -135,15 +150,7 @@ int debug(const Given& options) {
                     script.name));
   check_recording(options);
 
-  std::unique_ptr<DebugWindow> window;
-  try {
-    window = std::make_unique<DebugWindow>(options.width, options.height, scale);
-  } catch (const InternalError& error) {
-    throw InputError(fmt::format("window of {}x{}: {}; a smaller one is wanted; change --size", options.width,
-                                 options.height, error.what()));
-  } catch (const std::runtime_error& error) {
-    throw InputError(fmt::format("window: {}; OpenGL through OSMesa is wanted; install libosmesa6", error.what()));
-  }
+  const std::unique_ptr<DebugWindow> window = make_window(options, scale);
   DebuggerOptions debugged;
   debugged.session.height = options.height;
   // what the camera is fitted to is the view

@@ -8,8 +8,8 @@
 #include "engine/core/parallel.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/study/ablation.hpp"
+#include "viewer/study/deformable_report.hpp"
 #include "viewer/study/model_report.hpp"
-#include "viewer/study/soft_report.hpp"
 
 namespace impinge {
 
@@ -50,9 +50,9 @@ void print_scene(const Session& session, const Counts& counts, const ModelFacts&
     fmt::print("  {}: {} vertices, {} {}{}\n", file.name, file.vertices, file.tets > 0 ? file.tets : file.triangles,
                file.tets > 0 ? "tetrahedra" : "triangles",
                file.welded > 0 ? fmt::format(", {} coinciding vertices welded", file.welded) : "");
-  print_soft_bodies(session);
+  print_deformable_bodies(session);
   fmt::print("freedom:      {} degrees ({} dynamic bodies of 6, {} of deformable bodies' nodes)\n", record.stats.dofs,
-             facts.dynamic, facts.soft_dofs);
+             facts.dynamic, facts.deformable_dofs);
   fmt::print("at the start: {} body pairs, {} triangle pairs, {} contacts\n", record.stats.broad_pairs,
              record.stats.triangle_pairs, record.stats.contacts);
   fmt::print("memory:       about {:.1f} MB for bodies and surfaces\n", static_cast<double>(counts.bytes) / 1e6);

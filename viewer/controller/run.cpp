@@ -27,6 +27,29 @@ RunRecord record_of(const RunOptions& options, const Session& session, int last_
   return record;
 }
 
+/// What the command line asks and the scene cannot give.
+void check_options(const RunOptions& options, const Session& session, int last_frame) {
+  if (!options.images && !session.script().images().empty())
+    throw InputError(session.script().images().front().place +
+                     ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
+  if (!options.images && options.ids)
+    throw InputError("command line: --ids in a run without pictures; pictures are wanted; leave out --no-images");
+  if (options.freeze && (*options.freeze < 1 || *options.freeze > last_frame))
+    throw InputError(
+        fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; "
+                    "change it, or --frames",
+                    *options.freeze, last_frame));
+}
+
+/// Of a run that goes on the frame to be frozen is not behind it, unless it was frozen then.
+void check_freeze(const RunOptions& options, const RunFolder& folder) {
+  if (options.freeze && *options.freeze <= folder.resume_frame() && !is_there(folder.frozen_step(*options.freeze)))
+    throw InputError(
+        fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose "
+                    "one, or another --out",
+                    *options.freeze, folder.resume_frame()));
+}
+
 }  // namespace
 
 int RunResult::exit_code() const {
@@ -40,16 +63,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   Session session(options.scene, options.overrides, options.script,
                   {options.width, options.height, options.judge, !options.compares_pictures});
   const int last_frame = options.frames.value_or(session.default_last_frame());
-  if (!options.images && !session.script().images().empty())
-    throw InputError(session.script().images().front().place +
-                     ": 'expect image' in a run without pictures; pictures are wanted; leave out --no-images");
-  if (!options.images && options.ids)
-    throw InputError("command line: --ids in a run without pictures; pictures are wanted; leave out --no-images");
-  if (options.freeze && (*options.freeze < 1 || *options.freeze > last_frame))
-    throw InputError(
-        fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; "
-                    "change it, or --frames",
-                    *options.freeze, last_frame));
+  check_options(options, session, last_frame);
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene().path.filename().string(), options.ids);
@@ -70,18 +84,13 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   };
 
   bool stop = false;
-  if (options.freeze && *options.freeze <= folder.resume_frame() && !is_there(folder.frozen_step(*options.freeze)))
-    throw InputError(
-        fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose "
-                    "one, or another --out",
-                    *options.freeze, folder.resume_frame()));
+  check_freeze(options, folder);
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
     for (int frame = 0; frame <= result.resumed_from && !stop; ++frame)
       stop = judge(frame, folder.kept()[frame].figures);
   }
-  result.last_frame = result.resumed_from;
   const auto make_frame = [&] {
     std::vector<Command> commands;
     FrozenStep frozen;

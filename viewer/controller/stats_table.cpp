@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <limits>
 
 #include "engine/core/error.hpp"
@@ -79,10 +78,9 @@ std::string StatsColumns::row(const FrameStats& stats) const {
 }
 
 void check_figures(const FrameStats& stats, bool judged) {
-  for (const Figure& figure : figures())
-    if (!figure.is_hash() && (judged || figure.kind != FigureKind::judged) && !std::isfinite(figure.value(stats)))
-      throw DivergenceError(fmt::format("frame {}: {} is {}, and every figure must be finite; use more sub-steps",
-                                        stats.frame, figure.name, figure.value(stats)));
+  if (const Figure* figure = first_not_finite(stats, judged))
+    throw DivergenceError(fmt::format("frame {}: {} is {}, and every figure must be finite; use more sub-steps",
+                                      stats.frame, figure->name, figure->value(stats)));
 }
 
 StatsLine StatsColumns::parse(std::string_view line) const {

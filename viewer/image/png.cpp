@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
@@ -68,6 +69,31 @@ std::vector<Chunk> split_chunks(std::string_view bytes, const std::string& name)
   }
 }
 
+/// Bytes of the rows as they are packed, at most: each has its filter before it, and interlacing makes more rows of them.
+std::uint64_t most_packed(std::string_view header) {
+  const std::uint64_t width = big_endian(header.substr(0, 4)), height = big_endian(header.substr(4, 4));
+  const std::uint64_t depth = std::min<std::uint64_t>(static_cast<std::uint8_t>(header[8]), 16);
+  const auto kind = static_cast<std::uint8_t>(header[9]);
+  const std::uint64_t channels = kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1;
+  const std::uint64_t rows = height * (1 + (width * channels * depth + 7) / 8);
+  return header[12] == 0 ? rows : 2 * rows + 64;
+}
+
+/// A few bytes can be packed so that they unpack to thousands of times as many, which stb would all take.
+void check_unpacked(const std::vector<Chunk>& chunks, const std::string& name) {
+  std::string packed;
+  for (const Chunk& chunk : chunks)
+    if (chunk.type == "IDAT") packed += chunk.data;
+  const std::uint64_t most = most_packed(chunks.front().data);
+  std::string rows(most, '\0');
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  std::size_t size = 0;
+  if (libdeflate_zlib_decompress(unpacker.get(), packed.data(), packed.size(), rows.data(), rows.size(), &size) ==
+      LIBDEFLATE_INSUFFICIENT_SPACE)
+    refuse(name, fmt::format("the PNG file unpacks to more than the {} bytes of its pixels", most));
+}
+
 }  // namespace
 
 std::string encode_png(const Image& image, const PngText& text) {
@@ -79,12 +105,14 @@ std::string encode_png(const Image& image, const PngText& text) {
 }
 
 Image decode_png(std::string_view bytes, const std::string& name) {
-  const std::string_view header = split_chunks(bytes, name).front().data;
+  const std::vector<Chunk> chunks = split_chunks(bytes, name);
+  const std::string_view header = chunks.front().data;
   const std::uint64_t width = big_endian(header.substr(0, 4)), height = big_endian(header.substr(4, 4));
   if (width == 0 || height == 0) refuse(name, "the PNG file has no pixels");
   if (width > kMaxPixels / height)
     throw InputError(fmt::format("{}: has {} x {} pixels; at most {} in all are taken; make it smaller", name, width,
                                  height, kMaxPixels));
+  check_unpacked(chunks, name);
   Image image;
   std::string reason;
   if (!decode_png_pixels(bytes, image, reason)) refuse(name, "the PNG file is damaged (" + reason + ")");

@@ -69,7 +69,7 @@ ModelFacts model_facts(const World& world) {
   for (const Body& body : world.bodies()) {
     count_body(body.kind(), body.shape->mesh() != nullptr, body.friction.value_or(p.contact.friction),
                body.restitution.value_or(p.contact.restitution), body.self_collision, meshes, facts);
-    if (body.kind() == BodyKind::deformable) facts.soft_dofs += body.dofs();
+    if (body.kind() == BodyKind::deformable) facts.deformable_dofs += body.dofs();
   }
   facts.mesh_pairs = meshes > 1 || facts.self_collision;
   facts.attachments = static_cast<int>(world.record().attachments.size());
@@ -99,7 +99,7 @@ bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& para
                    self != nullptr && self->flag, meshes, facts);
       }
     facts.mesh_pairs = meshes > 1 || facts.self_collision;
-    facts.soft_dofs = -1;
+    facts.deformable_dofs = -1;
     if (const TomlEntry* attachments = root.find("attachment"))
       facts.attachments = static_cast<int>(attachments->value.items.size());
     return true;
@@ -138,7 +138,8 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
                    shortest(p.simulation.sleep_time)),
        "switched off, or nothing can move");
   line("deformation", f.deformable > 0,
-       fmt::format("{}linear solver {}", f.soft_dofs < 0 ? "" : fmt::format("{} degrees of freedom, ", f.soft_dofs),
+       fmt::format("{}linear solver {}",
+                   f.deformable_dofs < 0 ? "" : fmt::format("{} degrees of freedom, ", f.deformable_dofs),
                    p.simulation.linear_solver.name()),
        "no body is deformable");
   line("self-contact", f.self_collision, "of the deformable bodies that ask for it", "no deformable body asks for it");

@@ -11,7 +11,7 @@ namespace impinge {
 
 struct ModelFacts {
   int fixed = 0, scripted = 0, dynamic = 0, deformable = 0, attachments = 0;
-  int soft_dofs = 0;          ///< degrees of freedom of the deformable bodies; -1: not known
+  int deformable_dofs = 0;    ///< degrees of freedom of the deformable bodies; -1: not known
   bool friction = false;      ///< some body has friction
   bool frictionless = false;  ///< some body has none, so that its contacts have one row
   bool restitution = false, mesh_pairs = false, self_collision = false;

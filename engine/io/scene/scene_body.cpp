@@ -7,10 +7,10 @@
 #include "engine/bodies/body_keys.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/utf8.hpp"
+#include "engine/io/scene/scene_deformable.hpp"
 #include "engine/io/scene/scene_motion.hpp"
 #include "engine/io/scene/scene_shape.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
-#include "engine/io/scene/scene_soft.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "engine/shapes/primitives.hpp"
 
@@ -42,7 +42,7 @@ BodyKind read_kind(const TomlNode& table, const std::string& what) {
 
 void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
   scene_table(node, what);
-  if (body.kind == BodyKind::deformable) return;  // scene_soft.cpp
+  if (body.kind == BodyKind::deformable) return;  // scene_deformable.cpp
   for (const std::string& key : deformable_material_keys())
     if (const TomlEntry* entry = node.find(key); entry != nullptr && key != "density")
       refuse(entry->place,
@@ -144,7 +144,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
 
   if (body.kind == BodyKind::deformable) {
     check_kind(table, what, body);
-    read_soft_body(table, what, scale, surfaces, body);
+    read_deformable_body(table, what, scale, surfaces, body);
     return body;
   }
   const TomlEntry *shape = table.find("shape"), *surface = table.find("surface");

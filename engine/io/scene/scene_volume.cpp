@@ -166,7 +166,7 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
            "the volume's own boundary or a surface file is its surface", "remove shape");
   const std::shared_ptr<const TetFile> file = files.load_volume(node, name);
   check_memory(node.place, fmt::format("{} of {} tetrahedra", name, file->mesh.tets.size()),
-               soft_body_memory(static_cast<double>(file->mesh.tets.size()), 0.0), "use a coarser mesh");
+               deformable_memory(static_cast<double>(file->mesh.tets.size()), 0.0), "use a coarser mesh");
   soft.mesh = file->mesh;
   for (Vec3& x : soft.mesh.vertices) x *= scale;
   check_extent(node, name, soft.mesh.vertices, scale);
@@ -207,7 +207,7 @@ void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string
   const Vec3 count = n.cast<double>();
   const double faces = count.x() * count.y() + count.y() * count.z() + count.z() * count.x();
   check_memory(way.value.place, fmt::format("{} of {} cells", name, cells),
-               soft_body_memory(5.0 * count.prod(), 4.0 * faces), "use fewer cells");
+               deformable_memory(5.0 * count.prod(), 4.0 * faces), "use fewer cells");
   soft.mesh = make_alternating_box(2.0 * half, n.x(), n.y(), n.z());
   for (Vec3& x : soft.mesh.vertices) x -= half;
   const MeshPointer boundary = checked_surface(boundary_of(soft.mesh), way.value, name);

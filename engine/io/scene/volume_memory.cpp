@@ -35,7 +35,7 @@ Extent extent_of(const TriangleMesh& surface) {
 
 }  // namespace
 
-double soft_body_memory(double tets, double triangles) { return kPerTet * tets + kPerTriangle * triangles; }
+double deformable_memory(double tets, double triangles) { return kPerTet * tets + kPerTriangle * triangles; }
 
 double cage_memory(const TriangleMesh& surface, int cells) {
   const Extent extent = extent_of(surface);
@@ -54,14 +54,14 @@ double cage_memory(const TriangleMesh& surface, int cells) {
       std::clamp(std::floor(std::sqrt(4e6 / face)), 4.0, static_cast<double>(TetCageSettings().rays_per_cell));
   const double spacing = cell / rays, crossings = 0.5 * extent.area / (spacing * spacing);
   const double making = 14.0 * lattice + 20.0 * face * rays * rays + 36.0 * crossings + 60.0 * tets;
-  return std::max(making, soft_body_memory(tets, triangles));
+  return std::max(making, deformable_memory(tets, triangles));
 }
 
 double tetrahedralize_memory(const TriangleMesh& surface, double max_size) {
   const Extent extent = extent_of(surface);
   // the longest edge is aimed at, so that a tetrahedron has far less than a regular one's 0.118 of its cube
   const double tets = 21.0 * extent.volume / std::pow(max_size, 3) + 9.0 * extent.area / (max_size * max_size);
-  return soft_body_memory(tets, static_cast<double>(surface.triangles.size()));
+  return deformable_memory(tets, static_cast<double>(surface.triangles.size()));
 }
 
 }  // namespace impinge

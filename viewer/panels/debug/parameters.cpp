@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -49,6 +50,52 @@ std::string about(const Parameter& row) {
 std::string short_name(const Parameter& row) { return row.path.substr(row.path.rfind('.') + 1); }
 std::string group_of(const Parameter& row) { return row.path.substr(0, row.path.rfind('.')); }
 
+/// A slider that can be typed into. `set` takes the text of the new value.
+void draw_number(Ui& ui, const Parameter& row, const ParameterValue& value, const std::string& name,
+                 const std::function<void(const std::string&)>& set) {
+  const bool whole = row.kind == ParameterKind::integer;
+  const bool inherits = std::holds_alternative<std::string>(value);
+  double now = number_in(value);
+  const Range range = slider_range(row, now);
+  std::string format = whole ? "%.0f" : "%.4g";
+  if (!row.unit.empty()) format += " " + row.unit;
+  const double before = now;
+  double at = range.logarithmic ? std::log10(std::max(now, range.low)) : now;
+  const double low = range.logarithmic ? std::log10(range.low) : range.low,
+               high = range.logarithmic ? std::log10(range.high) : range.high;
+  // ImGui's own logarithm loses small numbers
+  if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
+  if (inherits) format = "the " + row.inherit + "'s";
+  // a value that is being typed counts when it is entered, not letter by letter
+  UiTyping& typing = ui.typing();
+  if (typing.parameter == row.path) {
+    if (typing.begins) ImGui::SetKeyboardFocusHere();
+    double typed = now;
+    if (ImGui::InputDouble("##v", &typed, 0.0, 0.0, "%.6g",
+                           ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll))
+      set(shortest(typed));
+    if (!typing.begins && !ImGui::IsItemActive()) typing.parameter.clear();
+    typing.begins = false;
+    ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
+    return;
+  }
+  bool changed =
+      ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), ImGuiSliderFlags_NoInput);
+  if (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl) {
+    ImGui::ClearActiveID();
+    changed = false;
+    typing.parameter = row.path;
+    typing.begins = true;
+  }
+  if (changed) {
+    now = range.logarithmic ? std::pow(10.0, at) : at;
+    now = whole ? std::round(now) : rounded(now);
+    now = std::clamp(now, row.range.low, row.range.high);
+    if (now != before || inherits) set(whole ? fmt::format("{}", static_cast<std::int64_t>(now)) : shortest(now));
+  }
+  ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
+}
+
 /// The widget; writes `set PATH VALUE` where it was changed.
 void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
   const std::string name = "parameters/" + row.path;
@@ -75,50 +122,9 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       break;
     }
     case ParameterKind::integer:
-    case ParameterKind::real: {
-      const bool whole = row.kind == ParameterKind::integer;
-      const bool inherits = std::holds_alternative<std::string>(value);
-      double now = number_in(value);
-      const Range range = slider_range(row, now);
-      std::string format = whole ? "%.0f" : "%.4g";
-      if (!row.unit.empty()) format += " " + row.unit;
-      const double before = now;
-      double at = range.logarithmic ? std::log10(std::max(now, range.low)) : now;
-      const double low = range.logarithmic ? std::log10(range.low) : range.low,
-                   high = range.logarithmic ? std::log10(range.high) : range.high;
-      // ImGui's own logarithm loses small numbers
-      if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
-      if (inherits) format = "the " + row.inherit + "'s";
-      // a value that is being typed counts when it is entered, not letter by letter
-      UiTyping& typing = ui.typing();
-      if (typing.parameter == row.path) {
-        if (typing.begins) ImGui::SetKeyboardFocusHere();
-        double typed = now;
-        if (ImGui::InputDouble("##v", &typed, 0.0, 0.0, "%.6g",
-                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll))
-          set(shortest(typed));
-        if (!typing.begins && !ImGui::IsItemActive()) typing.parameter.clear();
-        typing.begins = false;
-        ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
-        break;
-      }
-      bool changed =
-          ImGui::SliderScalar("##v", ImGuiDataType_Double, &at, &low, &high, format.c_str(), ImGuiSliderFlags_NoInput);
-      if (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl) {
-        ImGui::ClearActiveID();
-        changed = false;
-        typing.parameter = row.path;
-        typing.begins = true;
-      }
-      if (changed) {
-        now = range.logarithmic ? std::pow(10.0, at) : at;
-        now = whole ? std::round(now) : rounded(now);
-        now = std::clamp(now, row.range.low, row.range.high);
-        if (now != before || inherits) set(whole ? fmt::format("{}", static_cast<std::int64_t>(now)) : shortest(now));
-      }
-      ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
+    case ParameterKind::real:
+      draw_number(ui, row, value, name, set);
       break;
-    }
     case ParameterKind::vector3: {
       Vec3 now = std::get<Vec3>(value);
       ImGui::InputScalarN("##v", ImGuiDataType_Double, now.data(), 3, nullptr, nullptr, "%.4g");

@@ -1,4 +1,4 @@
-#include "viewer/study/soft_report.hpp"
+#include "viewer/study/deformable_report.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::string solvers_of(const LinearSolverChoice& wanted, int dofs) {
 
 }  // namespace
 
-void print_soft_bodies(const Session& session) {
+void print_deformable_bodies(const Session& session) {
   for (const Body& body : session.world().bodies()) {
     const auto* deformable = body.as<DeformableBody>();
     if (deformable == nullptr) continue;

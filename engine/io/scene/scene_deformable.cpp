@@ -1,4 +1,4 @@
-#include "engine/io/scene/scene_soft.hpp"
+#include "engine/io/scene/scene_deformable.hpp"
 
 #include <fmt/format.h>
 
@@ -204,8 +204,8 @@ std::vector<std::string> deformable_material_keys() {
   return keys;
 }
 
-void read_soft_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
-                    BodyDescription& body) {
+void read_deformable_body(const TomlNode& table, const std::string& what, double scale, SurfaceFiles& files,
+                          BodyDescription& body) {
   auto soft = std::make_shared<DeformableDescription>();
   if (const TomlEntry* material = table.find("material")) read_elastic(material->value, what + ".material", *soft);
   const Regions regions = read_fixed(table, what, *soft);
