@@ -133,6 +133,18 @@ TEST_CASE("The PNG decoder agrees with pixels computed by hand") {
   const std::string bomb = "\x89PNG\r\n\x1a\n" + chunk("IHDR", be(16) + be(16) + std::string("\x08\x02\0\0\0", 5)) +
                            chunk("IDAT", packed) + chunk("IEND", "");
   CHECK_THAT(complaint_of(bomb), Contains("x.png: the PNG file unpacks to more than the 784 bytes of its pixels"));
+  // and a header of many pixels before next to nothing takes no memory for them
+  const auto peak = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // KB
+  };
+  const std::string hollow = "\x89PNG\r\n\x1a\n" +
+                             chunk("IHDR", be(8192) + be(8192) + std::string("\x10\x06\0\0\0", 5)) +
+                             chunk("IDAT", zlib) + chunk("IEND", "");
+  const long before = peak();
+  CHECK_FALSE(complaint_of(hollow).empty());
+  CHECK(peak() - before < 100'000);
   const std::string none =
       "\x89PNG\r\n\x1a\n" + chunk("IHDR", be(0) + be(2) + std::string("\x08\x02\0\0\0", 5)) + chunk("IEND", "");
   CHECK_THAT(complaint_of(none), Contains("has no pixels"));

@@ -21,6 +21,7 @@ constexpr auto kSignature = "\x89PNG\r\n\x1a\n"sv;
 constexpr std::size_t kHeaderEnd = 8 + 12 + 13;  // the signature and the chunk IHDR, which comes first
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 28;
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 26;
+constexpr std::uint64_t kDeflateMost = 1032;  // bytes that one packed byte can come to: four matches of 258
 
 struct Chunk {
   std::string_view type, data;
@@ -85,7 +86,8 @@ void check_unpacked(const std::vector<Chunk>& chunks, const std::string& name) {
   for (const Chunk& chunk : chunks)
     if (chunk.type == "IDAT") packed += chunk.data;
   const std::uint64_t most = most_packed(chunks.front().data);
-  std::string rows(most, '\0');
+  // no more than can come of what is there: a header alone takes no memory
+  std::string rows(std::min<std::uint64_t>(most, kDeflateMost * packed.size()), '\0');
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> unpacker(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
   std::size_t size = 0;
