@@ -46,6 +46,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/detection", 6},
                                                  {"engine/detection/broadphase", 7},
                                                  {"engine/detection/triangles", 7},
+                                                 {"engine/detection/continuous", 7},
                                                  {"engine/detection/contacts", 8},
                                                  {"engine/detection/pairs", 9},
                                                  {"engine/contact", 10},
