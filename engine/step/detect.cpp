@@ -1,5 +1,7 @@
 #include "engine/step/detect.hpp"
 
+#include <algorithm>
+
 #include "engine/core/interrupt.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
@@ -17,6 +19,23 @@ std::vector<BodyEnds> touching(const Bodies& bodies, const ContactList& contacts
   return ends;
 }
 
+/// Contacts that are asked for take the place of those of the same features.
+void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& collisions) {
+  if (asked.empty()) return;
+  const auto pair_of = [](const Collision& c) { return std::pair(c.body_a, c.body_b); };
+  for (const Collision& wanted : asked) {
+    const auto known = std::find_if(collisions.begin(), collisions.end(), [&](const Collision& c) {
+      return pair_of(c) == pair_of(wanted) && c.feature == wanted.feature;
+    });
+    if (known != collisions.end())
+      *known = wanted;
+    else
+      collisions.push_back(wanted);
+  }
+  std::stable_sort(collisions.begin(), collisions.end(),
+                   [&](const Collision& l, const Collision& r) { return pair_of(l) < pair_of(r); });
+}
+
 }  // namespace
 
 void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detecting& by, const TimeIntegration& how,
@@ -32,6 +51,7 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
       const StageTimer timer(times.narrow_ms);
       find_collisions(step.colliders, step.pairs, by.contact, step.time_step, by.narrow_phase, step.triangle_pairs,
                       step.collisions);
+      add_asked(step.asked, step.collisions);
     }
     std::vector<BodyIndex> sleepers;
     for (BodyIndex b(0); b < bodies.size(); ++b)

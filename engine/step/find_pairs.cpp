@@ -5,11 +5,6 @@
 namespace impinge {
 namespace {
 
-/// Whether the pair can give a contact that anything responds to.
-bool is_wanted(const Body& a, const Body& b) {
-  return (a.has_freedom() || b.has_freedom()) && (a.is_moving() || b.is_moving());
-}
-
 /// The box a body fills during the sub-step, plus half the activation distance.
 Aabb swept_bounds(const Collider& collider, double radius, double activation, double time_step) {
   Aabb box = collider.bounds;
@@ -72,7 +67,7 @@ void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const
     if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, activation});
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(first), b(second);
-    if (!is_wanted(bodies[a], bodies[b])) continue;
+    if (!may_respond(bodies[a], bodies[b])) continue;
     // the approach widens the search; for meshes by one edge length at most, since the triangles in reach grow with its
     // square: what is faster overlaps a little and is pushed out
     const double reach = approach(colliders[a], bodies[a].radius, colliders[b], bodies[b].radius, time_step);

@@ -9,6 +9,11 @@
 
 namespace impinge {
 
+/// Whether the pair can give a contact that anything responds to.
+inline bool may_respond(const Body& a, const Body& b) {
+  return (a.has_freedom() || b.has_freedom()) && (a.is_moving() || b.is_moving());
+}
+
 /// What detection sees of the bodies, at their free velocities. It refers to them.
 void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders);
 

@@ -26,6 +26,10 @@ struct SolvedContact {
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
                                double friction, const Bodies& bodies);
 
+/// Its normal and its gap, metres, at the bodies' present poses.
+Vec3 normal_of(const SolvedContact& contact, const Bodies& bodies);
+double gap_of(const SolvedContact& contact, const Bodies& bodies);
+
 struct GroupResult {
   // the answer, by body of the group
   std::vector<BodyVector> velocity;      ///< Δv

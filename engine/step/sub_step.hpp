@@ -16,6 +16,7 @@ struct SubStep {
   std::vector<BodyPair> pairs;               ///< sorted
   std::vector<TrianglePair> triangle_pairs;  ///< sorted; of mesh-mesh pairs
   std::vector<Collision> collisions;         ///< in pair order
+  std::vector<Collision> asked;              ///< contacts that a look at the motion asked for, beside those found
 
   // 7: what each contact starts from, on A, world axes, N·s; empty: from nothing
   std::vector<Vec3> start;

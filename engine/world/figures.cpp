@@ -52,6 +52,10 @@ constexpr Figure kFigures[] = {
      "Largest overlap of bodies, found without detection."},
     {"judged_intersections", "", judged, &S::judged_intersections,
      "Pairs of triangles of two bodies that share a point."},
+    {"substep_penetration_m", "m", state, &S::substep_penetration,
+     "Largest overlap of a contact at the end of any sub-step of the frame."},
+    {"unsafe_motions", "", state, &S::unsafe_motions,
+     "Bodies that passed another, or moved farther in a sub-step than contacts see."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.

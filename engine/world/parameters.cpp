@@ -1,6 +1,12 @@
 #include "engine/world/parameters.hpp"
 
 namespace impinge {
+namespace {
+
+const Words<Continuous> kContinuous = {
+    {Continuous::when_needed, "auto"}, {Continuous::on, "on"}, {Continuous::off, "off"}};
+
+}  // namespace
 
 void Parameters::bind(ParameterSet& set) {
   const Rows all(set), of_simulation = all.below("simulation"), of_lcp = all.below("lcp");
@@ -25,6 +31,10 @@ void Parameters::bind(ParameterSet& set) {
   broad_phase.method.declare(all.below("broad_phase"));
   all.below("narrow_phase").add("method", narrow_phase.method, "Which triangles of two meshes touch.");
   narrow_phase.method.declare(all.below("narrow_phase"));
+  all.below("narrow_phase")
+      .add("continuous", narrow_phase.continuous, kContinuous,
+           "Whether surfaces are kept from passing through one another between sub-steps: where they approach by more "
+           "than the search for contacts reaches (auto), always (on), or never (off).");
   all.below("response").add("method", response.method, "How contacts change velocities.");
   response.method.declare(all.below("response"));
   of_lcp.add("method", lcp.method, "Solver of the cone complementarity problem.");

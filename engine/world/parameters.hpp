@@ -9,6 +9,7 @@
 #include "engine/integrators/deformable_integrator.hpp"
 #include "engine/response/response.hpp"
 #include "engine/step/detect.hpp"
+#include "engine/step/motion_guard.hpp"
 #include "engine/step/respond.hpp"
 
 namespace impinge {
@@ -31,6 +32,7 @@ struct Parameters {
   } broad_phase;
   struct Narrow {
     MethodSet<NarrowPhase> method{narrow_phases()};
+    Continuous continuous = Continuous::when_needed;
   } narrow_phase;
   struct Responses {
     MethodSet<Response> method{responses()};

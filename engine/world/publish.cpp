@@ -17,8 +17,7 @@ ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
   record.triangle_a = c.triangle_a, record.triangle_b = c.triangle_b;
   record.point_a = bodies[c.body_a].position_of(contact.point_a);
   record.point_b = bodies[c.body_b].position_of(contact.point_b);
-  record.normal = c.normal;
-  if (!c.normal_owner.is_none()) record.normal = bodies[c.normal_owner].pose.rotation * contact.local_normal;
+  record.normal = normal_of(contact, bodies);
   record.gap = record.normal.dot(record.point_a - record.point_b);
   record.gap0 = c.gap;
   record.lambda = contact.lambda;

@@ -70,7 +70,10 @@ struct FrameStats {
   double max_penetration = 0.0;  ///< metres, over contacts at the end of the frame
   double residual = 0.0;         ///< m/s, maximum over sub-steps and groups, by the judge
   std::int64_t lcp_iterations = 0, outer_iterations = 0;
-  std::int64_t unconverged = 0;                          ///< group solves of the frame that ended without an answer
+  double substep_penetration = 0.0;  ///< metres, over contacts at the end of each sub-step
+  std::int64_t unsafe_motions = 0;   ///< bodies that moved farther in a sub-step than contacts see, or passed another
+  std::vector<std::string> unsafe;   ///< their names; of frames that this process made
+  std::int64_t unconverged = 0;      ///< group solves of the frame that ended without an answer
   std::vector<UnsolvedGroups> unsolved;                  ///< the same by cause; of frames that this process made
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();

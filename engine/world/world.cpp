@@ -67,6 +67,7 @@ FrozenStep World::step_and_freeze() {
 
 void World::advance(FrozenStep* frozen) {
   stats_ = {};
+  unsafe_.clear();
   ++frame_;
   try {
     const StageTimer timer(stats_.times.step_ms);
@@ -75,13 +76,16 @@ void World::advance(FrozenStep* frozen) {
   } catch (const DivergenceError& error) {  // the stages know no frame
     throw DivergenceError(fmt::format("frame {}, {}", frame_, error.what()));
   }
+  stats_.unsafe_motions = static_cast<std::int64_t>(unsafe_.size());
+  for (const BodyIndex b : unsafe_) stats_.unsafe.push_back(bodies_[b].name);
   publish_solved();
 }
 
-void World::substep(double h, int left, FrozenStep* frozen) {
+void World::make_motion(double h, double share, bool freezes) {
   SubStep& s = *sub_step_;
   StageTimes& times = stats_.times;
-  const TimeIntegration how = time_integration(parameters);
+  TimeIntegration how = time_integration(parameters);
+  how.time_step = h;
   const auto timed = [](double& total_ms, auto&& stage) {
     const StageTimer timer(total_ms);
     stage();
@@ -89,7 +93,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
 
   // 2 begin
   s.time = time_, s.time_step = h;
-  drive(bodies_, time_, h, 1.0 / left);
+  drive(bodies_, time_, h, share);
   sleeping_.wake_moved_supports(bodies_);
 
   // 3 external forces, 4 A v* = b
@@ -109,25 +113,20 @@ void World::substep(double h, int left, FrozenStep* frozen) {
 
   // 9 Jacobian and group systems, 10 response
   Solving solve = solving(parameters);
-  solve.freezes = frozen != nullptr;
+  solve.context.time_step = h;
+  solve.freezes = freezes;
   s.results = respond(bodies_, contacts, s.start, s.groups, solve, times);
-  take_results();
-  if (frozen != nullptr)
-    for (GroupResult& result : s.results) frozen->groups.push_back(std::move(*result.frozen));
 
   check_interrupt();
   // 11 integrate
   timed(times.integrate_ms, [&] {
     change_velocities(bodies_, s);
+    guard_.follow(bodies_, how, time_ + h);
     integrate(bodies_, how, s);
-    time_ += h;
-    const Parameters::Simulation& p = parameters.simulation;
-    if (p.sleeping)
-      sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), p.sleep_speed, p.sleep_time, h);
   });
 }
 
-void World::take_results() {
+void World::take_results(FrozenStep* frozen) {
   SubStep& s = *sub_step_;
   cache_.assign(impulses_to_remember(bodies_, cache_, s.results));
   for (GroupIndex g(0); g < s.groups.size(); ++g) {
@@ -140,7 +139,15 @@ void World::take_results() {
       count_unsolved(stats_.unsolved, cause_of(result));
     }
     stats_.residual = larger(stats_.residual, result.verdict.residual());
+    for (const SolvedContact& c : result.solved)
+      stats_.substep_penetration = larger(stats_.substep_penetration, -gap_of(c, bodies_));
   }
+  if (frozen != nullptr)
+    for (GroupResult& result : s.results) frozen->groups.push_back(std::move(*result.frozen));
+  time_ += s.time_step;
+  const Parameters::Simulation& p = parameters.simulation;
+  if (p.sleeping)
+    sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), p.sleep_speed, p.sleep_time, s.time_step);
 }
 
 void World::parameters_changed() {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <set>
 
 #include "engine/bodies/body_description.hpp"
 #include "engine/contact/attachments.hpp"
 #include "engine/contact/contact_cache.hpp"
+#include "engine/step/motion_guard.hpp"
 #include "engine/step/sleeping.hpp"
 #include "engine/world/parameters.hpp"
 #include "engine/world/step_record.hpp"
@@ -61,7 +63,8 @@ class World {
  private:
   void advance(FrozenStep* frozen);
   void substep(double time_step, int left, FrozenStep* frozen);
-  void take_results();
+  void make_motion(double time_step, double share, bool freezes);
+  void take_results(FrozenStep* frozen);
   void save_state(ByteWriter& out) const;
   void publish_solved();
   void publish_found();
@@ -72,9 +75,11 @@ class World {
   ContactCache cache_;
   Sleeping sleeping_;
   std::unique_ptr<SubStep> sub_step_;  // the last one
-  FrameStats stats_;                   // of the frame being made: sums and maxima over its sub-steps
-  std::uint64_t settings_seen_ = 0;    // hash of what parameters_changed compares with
-  StepRecord record_, next_record_;    // the published one; the one of the frame being made
+  MotionGuard guard_;
+  std::set<BodyIndex> unsafe_;       // of the frame being made: bodies whose motion nobody vouches for
+  FrameStats stats_;                 // of the frame being made: sums and maxima over its sub-steps
+  std::uint64_t settings_seen_ = 0;  // hash of what parameters_changed compares with
+  StepRecord record_, next_record_;  // the published one; the one of the frame being made
   int frame_ = 0;
   double time_ = 0.0;
 };

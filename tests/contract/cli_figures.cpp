@@ -9,11 +9,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The table without its last column, as a version wrote it that had no such figure.
+/// The table without the columns from `asleep` on, as a version wrote it that had no such figures.
 void make_older(const TempFolder& folder, const std::string& stats) {
   std::istringstream in(slurp(folder / stats));
-  std::string out;
-  for (std::string line; std::getline(in, line);) out += line.substr(0, line.rfind(',')) + "\n";
+  std::string out, line;
+  std::getline(in, line);
+  const std::string rest = line.substr(line.find(",asleep"));
+  const auto columns = std::count(rest.begin(), rest.end(), ',');
+  for (bool more = true; more; more = static_cast<bool>(std::getline(in, line))) {
+    for (auto i = columns; i > 0; --i) line.resize(line.rfind(','));
+    out += line + "\n";
+  }
   folder.write(stats, out);
 }
 

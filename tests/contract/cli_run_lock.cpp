@@ -41,6 +41,16 @@ std::vector<std::string> run_words(const std::string& out, int frames, const std
   return words;
 }
 
+/// Until a frame stands in it: before that there is nothing to replay.
+void wait_for_frame(const fs::path& stats) {
+  const auto lines = [&] {
+    const std::string text = slurp(stats);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  for (int i = 0; i < 6000 && lines() < 2; ++i) std::this_thread::sleep_for(10ms);
+  REQUIRE(lines() >= 2);
+}
+
 void wait_for(const fs::path& file) {
   for (int i = 0; i < 6000 && !fs::exists(file); ++i) std::this_thread::sleep_for(10ms);
   REQUIRE(fs::exists(file));
@@ -64,6 +74,7 @@ TEST_CASE("a second run in a folder is refused at once, says who has it, and cha
   REQUIRE(impinge_run(folder.path(), run_words("alone", 200)).code == 0);
   RunningProgram first(folder.path(), run_words("two", 200));
   wait_for(folder / "two/stats.csv");
+  wait_for_frame(folder / "two/stats.csv");
   first.signal(SIGSTOP);
   const auto before = listing(folder / "two");
   for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--resume"}})

@@ -87,9 +87,12 @@ Threads threads_of(const TempFolder& folder, const std::string& out, const std::
   REQUIRE(outcome.code == 0);
   for (const auto& [task, used] : ticks) threads.running += used > 0 && is_ours(task);
   std::istringstream text(slurp(folder / (out + "/stats.csv")));
+  std::ptrdiff_t column = -1;  // of the hash
   for (std::string line; std::getline(text, line);) {
-    for (int k = 0; k < 2; ++k) line.erase(line.rfind(','));
-    threads.hashes += line.substr(line.rfind(',')) + '\n';
+    if (column < 0) column = std::count(line.begin(), line.begin() + line.find(",state_hash"), ',');
+    for (auto k = column; k > 0; --k) line.erase(0, line.find(',') + 1);
+    line.erase(0, line.find(','));
+    threads.hashes += line.substr(0, line.find(',', 1)) + '\n';
   }
   return threads;
 }

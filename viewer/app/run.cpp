@@ -11,6 +11,7 @@
 #include "engine/io/paths.hpp"
 #include "viewer/app/convergence_note.hpp"
 #include "viewer/app/frame_progress.hpp"
+#include "viewer/app/motion_note.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/controller/run.hpp"
@@ -108,8 +109,10 @@ int RunCommand::run() {
   if (!video_.empty()) check_video_path(video_, options_.out);
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   ConvergenceNote convergence;
+  MotionNote motion;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
+    motion.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
   watcher.message = [&](const std::string& line) {
@@ -127,7 +130,7 @@ int RunCommand::run() {
   const bool filmed = !sheet.empty() && !video_.empty() && write_video(options_.out, video_, result.frames_per_second);
   if (quiet_) return result.exit_code();
 
-  fmt::print("{}", convergence.text());
+  fmt::print("{}{}", convergence.text(), motion.text());
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options_.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);

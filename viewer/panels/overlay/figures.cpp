@@ -80,6 +80,7 @@ std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   rows.push_back({"asleep", fmt::format("{} of {}", s.asleep, dynamic)});
   add_deformable(rows, record);
   if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), true, kWarning});
+  if (s.unsafe_motions > 0) rows.push_back({"unsafe motions", grouped(s.unsafe_motions), true, kWarning});
   if (timings)
     for (const Figure& figure : figures())
       if (is_stage(figure))

@@ -1,0 +1,199 @@
+#include "engine/step/motion_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/geometry/rotation.hpp"
+#include "engine/shapes/primitives.hpp"
+#include "engine/step/find_pairs.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kTurn = 0.25;     // radians between the poses of a path
+constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found before the motion see well
+constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
+
+bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
+
+/// The box round everything the body covers on its way, and how far a point of it moves at most.
+struct Sweep {
+  Aabb box;
+  Vec3 shift = Vec3::Zero();  // of the centre; of a deforming body: none, its points stand for themselves
+  double turn = 0.0;          // what its points do beside that, metres
+};
+
+Sweep sweep_of(const Body& body, const Pose& start, const std::vector<Pose>& turns, const std::vector<Vec3>& nodes) {
+  Sweep s;
+  s.box = body.bounds();
+  if (deforms(body)) {
+    for (const Vec3& x : nodes) s.box.include(x);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      s.turn = std::max(s.turn, (body.world_vertices[i] - nodes[i]).norm());
+    return s;
+  }
+  s.shift = body.pose.position - start.position;
+  if (s.shift.isZero(0.0) && body.pose.rotation == start.rotation) return s;
+  double angle = 0.0;
+  Pose last = start;
+  const auto go = [&](const Pose& to) {
+    angle += rotation_log(to.rotation * last.rotation.transpose()).norm();
+    last = to;
+  };
+  for (const Pose& pose : turns) go(pose);
+  go(body.pose);
+  s.turn = angle * body.radius;
+  // about its centre it stays within its radius
+  for (const Vec3& at : {start.position, body.pose.position}) s.box.include(Aabb{at, at}.inflated(body.radius));
+  for (const Pose& pose : turns) s.box.include(Aabb{pose.position, pose.position}.inflated(body.radius));
+  return s;
+}
+
+bool is_plane(const Body& body) { return body.shape->as<Plane>() != nullptr; }
+
+double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).norm() + a.turn + b.turn; }
+
+}  // namespace
+
+struct MotionGuard::Known {
+  double thickness = 0.0;  // smallest side of its box at rest, metres; 0: not looked at
+  MeshPointer made;        // the triangles of a shape that is no mesh
+  std::unique_ptr<PathSurface> surface;
+};
+
+MotionGuard::MotionGuard() = default;
+MotionGuard::~MotionGuard() = default;
+
+const PathSurface& MotionGuard::surface_of(const Body& body) {
+  Known& known = known_[body.shape.get()];
+  if (known.surface == nullptr) {
+    const SurfaceMesh* mesh = body.shape->mesh();
+    if (mesh == nullptr) known.made = make_surface(body.shape->drawn()), mesh = known.made.get();
+    known.surface = std::make_unique<PathSurface>(*mesh);
+  }
+  return *known.surface;
+}
+
+double MotionGuard::safe_approach(const Body& body) {
+  const double share = kSafe * thickness_of(body);
+  return body.world_vertices.empty() ? share : std::min(share, body.mean_edge);
+}
+
+double MotionGuard::thickness_of(const Body& body) {
+  Known& known = known_[body.shape.get()];
+  if (known.thickness == 0.0) {
+    Aabb box;
+    if (const SurfaceMesh* mesh = body.shape->mesh())
+      for (const Vec3& x : mesh->mesh.vertices) box.include(x);
+    else
+      box = body.shape->bounds({});
+    known.thickness = box.extent().minCoeff();
+  }
+  return known.thickness;
+}
+
+void MotionGuard::open(const Bodies& bodies) {
+  const std::size_t count = static_cast<std::size_t>(bodies.size().value());
+  start_.resize(count), turns_.resize(count), nodes_.resize(count);
+  for (BodyIndex b(0); b < bodies.size(); ++b) {
+    start_[b] = bodies[b].pose;
+    nodes_[b].clear();
+    if (deforms(bodies[b])) nodes_[b] = bodies[b].world_vertices;
+  }
+}
+
+void MotionGuard::follow(Bodies& bodies, const TimeIntegration& how, double end) {
+  for (BodyIndex b(0); b < bodies.size(); ++b) {
+    Body& body = bodies[b];
+    turns_[b].clear();
+    if (body.asleep || !body.is_moving() || deforms(body)) continue;
+    const double angle = body.twist().angular.norm() * how.time_step;
+    int pieces = 1;
+    while (pieces * kTurn < angle && pieces < kMostPieces) pieces *= 2;
+    if (pieces == 1) continue;
+    ByteWriter kept;
+    body.save(kept);
+    try {
+      for (int k = 1; k < pieces; ++k) {
+        TimeIntegration part = how;
+        part.time_step = how.time_step * k / pieces;
+        body.advance(part, end - how.time_step + part.time_step);
+        turns_[b].push_back(body.pose);
+        ByteReader back(kept.bytes());
+        body.restore(back);
+      }
+    } catch (const DivergenceError&) {  // integrate() will meet it too, and knows the group
+      turns_[b].clear();
+      ByteReader back(kept.bytes());
+      body.restore(back);
+    }
+    body.update_world_vertices();
+  }
+}
+
+SurfacePath MotionGuard::path_of(const Body& body, BodyIndex b) {
+  SurfacePath path;
+  path.of = &surface_of(body);
+  if (deforms(body)) {
+    path.start = nodes_[b], path.end = body.world_vertices;
+    return path;
+  }
+  path.poses.push_back(start_[b]);
+  path.poses.insert(path.poses.end(), turns_[b].begin(), turns_[b].end());
+  path.poses.push_back(body.pose);
+  return path;
+}
+
+std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies, bool all) {
+  std::vector<Sweep> sweeps;
+  std::vector<double> far;
+  double least = INFINITY;  // of how far pairs may approach unseen
+  for (BodyIndex b(0); b < bodies.size(); ++b) {
+    sweeps.push_back(sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]));
+    far.push_back(sweeps.back().shift.norm() + sweeps.back().turn);
+    if (!is_plane(bodies[b])) least = std::min(least, safe_approach(bodies[b]));
+  }
+  // a pair approaches by no more than the two that move farthest: most scenes are done here
+  const auto two = far.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(far.size()));
+  std::partial_sort(far.begin(), two, far.end(), std::greater<>());
+  const double most = std::accumulate(far.begin(), two, 0.0);
+  if (most == 0.0 || (!all && most <= least)) return {};
+
+  std::vector<Aabb> boxes;
+  for (const Sweep& s : sweeps) boxes.push_back(s.box);
+  if (broad_phase_ == nullptr) broad_phase_ = broad_phases().front().make();
+  std::vector<BoxPair> box_pairs;
+  broad_phase_->find(boxes, box_pairs);
+  std::vector<UnsafeMotion::Pair> pairs;
+  for (const auto& [first, second] : box_pairs) {
+    const BodyIndex a(std::min(first, second)), b(std::max(first, second));
+    const Body &of_a = bodies[a], &of_b = bodies[b];
+    if (!may_respond(of_a, of_b) || is_plane(of_a) || is_plane(of_b)) continue;
+    const double safe = std::min(safe_approach(of_a), safe_approach(of_b));
+    if (all || approach(sweeps[a], sweeps[b]) > safe) pairs.push_back({a, b, {}});
+  }
+  std::sort(pairs.begin(), pairs.end(),
+            [](const auto& l, const auto& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); });
+  return pairs;
+}
+
+std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassageSettings& settings) {
+  std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which == Continuous::on);
+  if (pairs.empty()) return std::nullopt;
+  if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
+  std::vector<std::pair<SurfacePath, SurfacePath>> paths;
+  for (const UnsafeMotion::Pair& pair : pairs)
+    paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
+  parallel_for(pairs.size(), 1,
+               [&](std::size_t i) { pairs[i].passages = first_passages(paths[i].first, paths[i].second, settings); });
+  std::erase_if(pairs, [](const UnsafeMotion::Pair& pair) { return pair.passages.empty(); });
+  if (pairs.empty()) return std::nullopt;
+  return UnsafeMotion{std::move(pairs)};
+}
+
+}  // namespace impinge

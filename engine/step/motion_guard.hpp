@@ -1,0 +1,58 @@
+// Whether the motion of a sub-step takes a surface through another. Contacts are found from where bodies stand; what moves
+// farther than that search reaches may meet, and leave again, what it never had a contact with.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "engine/bodies/bodies.hpp"
+#include "engine/bodies/time_integration.hpp"
+#include "engine/detection/broadphase/broad_phase.hpp"
+#include "engine/detection/continuous/passages.hpp"
+
+namespace impinge {
+
+/// Which motions are looked at.
+enum class Continuous {
+  when_needed,  ///< of pairs that approach by more than the search for contacts reaches
+  on,           ///< of every pair with a mesh
+  off
+};
+
+/// Pairs of bodies of which one passes through the other, in their order, each with its earliest passages.
+struct UnsafeMotion {
+  struct Pair {
+    BodyIndex a, b;
+    std::vector<Passage> passages;  ///< time: of the sub-step; none where nobody looked for them (Continuous::off)
+  };
+  std::vector<Pair> pairs;
+};
+
+class MotionGuard {
+ public:
+  MotionGuard();
+  ~MotionGuard();
+  /// Keeps where the sub-step begins.
+  void open(const Bodies& bodies);
+  /// Once velocities are final: how bodies that turn far get through the sub-step, which ends at `end`, s.
+  void follow(Bodies& bodies, const TimeIntegration& how, double end);
+  /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
+  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassageSettings& settings);
+
+ private:
+  struct Known;
+  const PathSurface& surface_of(const Body& body);
+  double thickness_of(const Body& body);
+  double safe_approach(const Body& body);
+  SurfacePath path_of(const Body& body, BodyIndex b);
+  std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, bool all);
+
+  std::vector<Pose> start_;               // by body
+  std::vector<std::vector<Pose>> turns_;  // by body: poses on the way of what turns far; else empty
+  std::vector<std::vector<Vec3>> nodes_;  // by body: where the vertices of deforming surfaces were
+  std::unique_ptr<BroadPhase> broad_phase_;
+  std::map<const Shape*, Known> known_;
+};
+
+}  // namespace impinge

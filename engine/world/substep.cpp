@@ -1,0 +1,97 @@
+// A sub-step, in one piece or, where a surface would pass through another, in several: each ends shortly before a meeting,
+// so that the next one finds contacts where they are. What is met from so close by gets contacts of its own.
+#include <algorithm>
+#include <set>
+
+#include "engine/core/archive.hpp"
+#include "engine/step/sub_step.hpp"
+#include "engine/world/world.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr int kMostPieces = 64;       // of a sub-step
+constexpr int kMostMotions = 32;      // tried for a piece
+constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
+constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
+constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
+constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
+constexpr double kReach = 0.1;        // of the activation distance: paths are straight to this
+
+/// The share of a motion after which the points of the earliest meeting are `stand_off` metres apart; none: they are no
+/// farther from one another to begin with.
+std::optional<double> safe_share(const UnsafeMotion& motion, double stand_off) {
+  double safe = 1.0;
+  for (const UnsafeMotion::Pair& pair : motion.pairs)
+    for (const Passage& p : pair.passages) {
+      const double way = (p.point_a - p.point_b).norm();
+      if (way <= 2.0 * stand_off) return std::nullopt;
+      safe = std::min(safe, p.time * (1.0 - stand_off / way));
+    }
+  return safe;
+}
+
+/// Contacts of all features that pass and have none of this normal yet. False: each had one.
+bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
+  bool is_new = false;
+  for (const UnsafeMotion::Pair& pair : motion.pairs)
+    for (const Passage& p : pair.passages) {
+      const auto same = std::find_if(asked.begin(), asked.end(), [&](const Collision& c) {
+        return c.body_a == pair.a && c.body_b == pair.b && c.feature == p.feature;
+      });
+      if (same != asked.end()) continue;
+      const double gap = p.normal.dot(p.point_a - p.point_b);
+      asked.push_back({pair.a, pair.b, p.triangle_a, p.triangle_b, p.point_a, p.point_b, p.normal, gap, {}, p.feature});
+      is_new = true;
+    }
+  return is_new;
+}
+
+std::set<BodyIndex> bodies_of(const UnsafeMotion& motion) {
+  std::set<BodyIndex> bodies;
+  for (const UnsafeMotion::Pair& pair : motion.pairs) bodies.insert(pair.a), bodies.insert(pair.b);
+  return bodies;
+}
+
+}  // namespace
+
+void World::substep(double h, int left, FrozenStep* frozen) {
+  const Continuous which = parameters.narrow_phase.continuous;
+  const double size = parameters.contact.activation_distance;
+  // what lives on overlap is only watched: no contact at a distance would hold it
+  const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
+  const PassageSettings passage{is_kept ? kDepth * size : size, kReach * size};
+  double rest = 1.0;  // of the sub-step
+  for (int piece = 1; rest > 0.0; ++piece) {
+    ByteWriter state;
+    if (is_kept) {
+      for (const Body& body : bodies_) body.save(state);
+      sleeping_.save(state);
+    }
+    sub_step_->asked.clear();
+    guard_.open(bodies_);
+    double share = rest;
+    for (int motion = 1;; ++motion) {
+      const bool is_last = share == rest;
+      make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && is_last);
+      const std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passage);
+      if (!unsafe) break;
+      if (!is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare) {
+        const std::set<BodyIndex> passed = bodies_of(*unsafe);
+        unsafe_.insert(passed.begin(), passed.end());
+        break;
+      }
+      if (const std::optional<double> safe = safe_share(*unsafe, kStandOff * size))
+        share *= motion <= kPatience ? *safe : 0.5 * *safe;
+      else if (!ask_for(*unsafe, sub_step_->asked))
+        share *= 0.5;
+      ByteReader back(state.bytes());
+      for (Body& body : bodies_) body.restore(back), body.update_world_vertices();
+      sleeping_.restore(back);
+    }
+    rest = share == rest ? 0.0 : rest - share;
+    take_results(rest == 0.0 ? frozen : nullptr);
+  }
+}
+
+}  // namespace impinge
