@@ -31,7 +31,7 @@ struct TetCage {
 
 /// surface: closed, oriented outwards, welded (check_mesh finds no problem; self-intersections are allowed).
 /// Fractions are sampled by parallel rays, exact along each: with 64 rays a cell edge the error of a fraction is below
-/// 0.015 (0.003 root mean square), that of the volume about 1e-4 (tests/unit/tet_cage.cpp). A tetrahedron that the
+/// 0.015 (0.003 root mean square), that of the volume about 1e-4 (tests/unit/geometry/tet_cage.cpp). A tetrahedron that the
 /// surface doesn't touch has exactly 1.
 TetCage make_tet_cage(const TriangleMesh& surface, const TetCageSettings& settings);
 

@@ -4,9 +4,9 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/tet_cage.hpp"
-#include "tests/support/closed_form_cube.hpp"
-#include "tests/support/fem.hpp"
-#include "tests/support/meshes.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/mechanics/closed_form_cube.hpp"
+#include "tests/support/mechanics/fem.hpp"
 
 using namespace impinge;
 using test::BodyOptions;

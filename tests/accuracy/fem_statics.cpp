@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "tests/support/fem.hpp"
+#include "tests/support/mechanics/fem.hpp"
 
 using namespace impinge;
 using test::BodyOptions;

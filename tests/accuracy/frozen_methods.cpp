@@ -6,9 +6,9 @@
 #include "engine/response/augmented_lagrangian.hpp"
 #include "engine/response/delassus_columns.hpp"
 #include "engine/response/response.hpp"
-#include "tests/support/frozen_dragon.hpp"
-#include "tests/support/frozen_reference.hpp"
-#include "tests/support/soft_stack.hpp"
+#include "tests/support/mechanics/deformable_stack.hpp"
+#include "tests/support/mechanics/frozen_dragon.hpp"
+#include "tests/support/mechanics/frozen_reference.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -3,7 +3,7 @@
 // in tests/README.md.
 #include <catch2/catch.hpp>
 
-#include "tests/support/pile.hpp"
+#include "tests/support/mechanics/pile.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

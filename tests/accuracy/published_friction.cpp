@@ -4,7 +4,7 @@
 
 #include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
-#include "tests/support/meshes.hpp"
+#include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

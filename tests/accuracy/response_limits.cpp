@@ -7,12 +7,12 @@
 #include "engine/response/group_judge.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/world/judge.hpp"
-#include "tests/support/deformable_bodies.hpp"
-#include "tests/support/frozen_reference.hpp"
-#include "tests/support/methods.hpp"
+#include "tests/support/mechanics/deformable_bodies.hpp"
+#include "tests/support/mechanics/deformable_stack.hpp"
+#include "tests/support/mechanics/frozen_reference.hpp"
+#include "tests/support/mechanics/methods.hpp"
+#include "tests/support/mechanics/response_worlds.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/response_worlds.hpp"
-#include "tests/support/soft_stack.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/deformable_bodies.hpp"
-#include "tests/support/methods.hpp"
-#include "tests/support/response_worlds.hpp"
+#include "tests/support/mechanics/deformable_bodies.hpp"
+#include "tests/support/mechanics/methods.hpp"
+#include "tests/support/mechanics/response_worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <iostream>
 
+#include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -3,8 +3,8 @@
 
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/world/judge_convex.hpp"
-#include "tests/support/sample_shapes.hpp"
-#include "tests/support/shapes.hpp"
+#include "tests/support/geometry/sample_shapes.hpp"
+#include "tests/support/geometry/shapes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/geometry/rotation.hpp"
-#include "tests/support/sample_shapes.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/geometry/sample_shapes.hpp"
+#include "tests/support/mechanics/worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

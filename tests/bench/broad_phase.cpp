@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/detection/broadphase/broad_phase.hpp"
-#include "tests/support/moving_boxes.hpp"
+#include "tests/support/geometry/moving_boxes.hpp"
 
 #ifdef IMPINGE_HAS_FCL
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>

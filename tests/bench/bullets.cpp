@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/support/bullets.hpp"
+#include "tests/support/mechanics/bullets.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

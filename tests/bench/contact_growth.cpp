@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/frozen/frozen_comparison.hpp"
-#include "tests/support/frozen_reference.hpp"
+#include "tests/support/mechanics/frozen_reference.hpp"
 #include "viewer/controller/session.hpp"
 
 using namespace impinge;

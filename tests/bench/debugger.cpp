@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "engine/core/parallel.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/debugger/loop.hpp"
 
 using namespace impinge;

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/support/frozen_dragon.hpp"
-#include "tests/support/frozen_reference.hpp"
+#include "tests/support/mechanics/frozen_dragon.hpp"
+#include "tests/support/mechanics/frozen_reference.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

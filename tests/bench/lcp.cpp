@@ -6,7 +6,7 @@
 
 #include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
-#include "tests/support/meshes.hpp"
+#include "tests/support/geometry/meshes.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "engine/core/parallel.hpp"
-#include "tests/support/meshes.hpp"
+#include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "engine/response/response.hpp"
-#include "tests/support/pile.hpp"
+#include "tests/support/mechanics/pile.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -8,7 +8,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/shapes/primitives.hpp"
-#include "tests/support/hand_made_record.hpp"
+#include "tests/support/pictures/hand_made_record.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"

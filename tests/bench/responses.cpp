@@ -10,8 +10,8 @@
 #include "engine/core/parallel.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/response.hpp"
-#include "tests/support/methods.hpp"
-#include "tests/support/soft_stack.hpp"
+#include "tests/support/mechanics/deformable_stack.hpp"
+#include "tests/support/mechanics/methods.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -9,7 +9,7 @@
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "engine/io/scene/toml_prescan.hpp"
-#include "tests/support/mesh_text.hpp"
+#include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

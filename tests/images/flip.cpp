@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/error.hpp"
-#include "tests/support/pictures.hpp"
+#include "tests/support/pictures/pictures.hpp"
 #include "viewer/image/flip.hpp"
 
 using namespace impinge;

@@ -5,10 +5,10 @@
 #include <set>
 
 #include "engine/core/error.hpp"
-#include "tests/support/hand_made_record.hpp"
-#include "tests/support/meshes.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/pictures/hand_made_record.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/image/id_image.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"

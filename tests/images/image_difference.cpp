@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "engine/core/error.hpp"
-#include "tests/support/pictures.hpp"
+#include "tests/support/pictures/pictures.hpp"
 #include "viewer/image/difference.hpp"
 
 using namespace impinge;

@@ -7,8 +7,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
-#include "tests/support/pictures.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/pictures/pictures.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/image/png.hpp"
 
 using namespace impinge;

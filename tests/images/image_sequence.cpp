@@ -7,8 +7,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
-#include "tests/support/pictures.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/pictures/pictures.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/png_sequence.hpp"
 #include "viewer/present/video.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/error.hpp"
-#include "tests/support/pictures.hpp"
-#include "tests/support/temp_folder.hpp"
+#include "tests/support/pictures/pictures.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
 

@@ -5,9 +5,9 @@
 #include <fstream>
 
 #include "engine/core/error.hpp"
-#include "tests/support/pictures.hpp"
-#include "tests/support/temp_folder.hpp"
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/pictures/pictures.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/compare/picture_comparison.hpp"
 #include "viewer/present/frame_painter.hpp"
 #include "viewer/report/html.hpp"

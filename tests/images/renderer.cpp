@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/shapes/primitives.hpp"
-#include "tests/support/easel.hpp"
-#include "tests/support/meshes.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/pictures/easel.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

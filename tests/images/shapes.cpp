@@ -1,9 +1,9 @@
 // Every shape on the list is drawn where it is, and as big as it is.
 #include <catch2/catch.hpp>
 
-#include "tests/support/hand_made_record.hpp"
-#include "tests/support/sample_shapes.hpp"
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/geometry/sample_shapes.hpp"
+#include "tests/support/pictures/hand_made_record.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
 #include "viewer/image/id_image.hpp"
 #include "viewer/present/frame_painter.hpp"
 

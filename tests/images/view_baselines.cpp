@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/layers/layer.hpp"

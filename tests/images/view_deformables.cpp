@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/tet_cage.hpp"
-#include "tests/support/meshes.hpp"
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

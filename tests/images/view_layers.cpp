@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
 #include "viewer/layers/layer.hpp"
 
 using namespace impinge;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "tests/support/view_scenes.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"
 

@@ -1,11 +1,11 @@
 // Fast bodies don't pass thin ones: a fixed part of the grid that bench_bullets runs.
-#include "tests/support/bullets.hpp"
+#include "tests/support/mechanics/bullets.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
-#include "tests/support/meshes.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/mechanics/worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -4,8 +4,8 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/random.hpp"
-#include "tests/support/worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

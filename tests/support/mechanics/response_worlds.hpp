@@ -1,0 +1,19 @@
+// What tests that ask every response the same question share.
+#pragma once
+
+#include "engine/response/response.hpp"
+#include "tests/support/mechanics/worlds.hpp"
+
+namespace impinge::test {
+
+inline constexpr double kGravity = 9.81;  ///< m/s², the default scene's
+
+/// Whether loads are carried by overlap and friction is not Coulomb's own.
+inline bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->lives_on_overlap(); }
+
+inline void use(World& world, std::string_view response) {
+  world.parameters.response.method = response;
+  world.parameters.simulation.sleeping = false;
+}
+
+}  // namespace impinge::test

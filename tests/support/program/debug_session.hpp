@@ -1,0 +1,78 @@
+// The debugger without a screen, run as a program.
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+#include "tests/support/program/program.hpp"
+#include "tests/support/program/temp_folder.hpp"
+
+namespace impinge::test {
+
+/// A crate and a ball fall on a floor that leans a little.
+inline constexpr const char* kRigid = R"([simulation]
+substeps = 2
+[contact]
+friction = 0.4
+[[body]]
+name = "floor"
+kind = "static"
+shape = { box = { size = [3, 0.2, 3] } }
+position = [0, -0.1, 0]
+rotation = [0, 0, 8]
+[[body]]
+name = "crate"
+kind = "dynamic"
+shape = { box = { size = [1, 0.5, 1] } }
+material = { density = 500 }
+position = [0, 0.5, 0]
+rotation = [10, 20, 0]
+[[body]]
+name = "ball"
+kind = "dynamic"
+shape = { sphere = { radius = 0.3 } }
+position = [0.1, 1.3, 0]
+[view]
+backdrop = "flat"
+)";
+
+inline constexpr const char* kSize = "960x600";
+
+inline Outcome debug(const TempFolder& folder, const std::string& scene, const std::string& script,
+                     std::vector<std::string> more = {}) {
+  std::vector<std::string> words = {"debug", scene, "--headless", "--script", script};
+  if (std::find(more.begin(), more.end(), "--size") == more.end()) words.insert(words.end(), {"--size", kSize});
+  words.insert(words.end(), more.begin(), more.end());
+  return impinge_run(folder.path(), words);
+}
+
+/// "frame 3, state 0123456789abcdef" of the program's last line.
+inline std::pair<int, std::string> end_of(const Outcome& outcome) {
+  int frame = -1;
+  char hash[32] = "";
+  INFO(outcome.out << outcome.err);
+  REQUIRE(std::sscanf(outcome.out.c_str(), "frame %d, state %16[0-9a-f]", &frame, hash) == 2);
+  return {frame, hash};
+}
+
+/// The state_hash of a frame in stats.csv, found by its column's name.
+inline std::string hash_in(const std::filesystem::path& stats, int frame) {
+  std::istringstream text(slurp(stats));
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> parts;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) parts.push_back(cell);
+    return parts;
+  };
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> names = cells(line);
+  const auto column = static_cast<std::size_t>(std::find(names.begin(), names.end(), "state_hash") - names.begin());
+  while (std::getline(text, line))
+    if (const auto row = cells(line); row.at(0) == std::to_string(frame)) return row.at(column);
+  return "";
+}
+
+}  // namespace impinge::test

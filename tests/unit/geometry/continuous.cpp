@@ -1,0 +1,151 @@
+// Vertex–face and edge–edge in motion against formulas, planted meetings and the exact answers of a published set.
+#include "engine/geometry/continuous.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/geometry/ccd_queries.hpp"
+#include "tests/support/random.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+using Method = std::optional<Impact> (*)(const MovingCorners&, const ContinuousSettings&);
+
+const Method kVertexFace[] = {vertex_face_impact, vertex_face_advancement};
+const Method kEdgeEdge[] = {edge_edge_impact, edge_edge_advancement};
+
+/// A vertex falls from z = 1 to z = -1 on a triangle in z = 0.
+MovingCorners falling() {
+  MovingCorners c;
+  c.start = {Vec3(0.2, 0.2, 1.0), Vec3(0.0, 0.0, 0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0)};
+  c.end = c.start;
+  c.end[0].z() = -1.0;
+  return c;
+}
+
+MovingCorners crossing_edges() {
+  MovingCorners c;
+  c.start = {Vec3(-1.0, 0.0, 1.0), Vec3(1.0, 0.0, 1.0), Vec3(0.0, -1.0, 0.0), Vec3(0.0, 1.0, 0.0)};
+  c.end = c.start;
+  c.end[0].z() = c.end[1].z() = -1.0;
+  return c;
+}
+
+/// Four corners moving at random of which the features meet at a time and place that are known, to rounding.
+MovingCorners planted(Random& r, bool edges, double& time) {
+  MovingCorners c;
+  const double size = std::pow(10.0, r.in(-3.0, 3.0)), far = r.below(4) == 0 ? 1e3 * size : 0.0;
+  const Vec3 shift = far * r.vector();
+  for (int k = 0; k < 4; ++k) c.start[k] = size * r.vector() + shift, c.end[k] = size * r.vector() + shift;
+  if (r.below(5) == 0) c.end[1] = c.start[1], c.end[2] = c.start[2], c.end[3] = c.start[3];
+  time = r.in(0.05, 1.0);
+  double u = r.u(), v = r.u();
+  if (!edges && u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+  std::array<Vec3, 4> p;
+  for (int k = 0; k < 4; ++k) p[k] = c.start[k] + time * (c.end[k] - c.start[k]);
+  const Vec3 meeting = edges ? Vec3(p[2] + v * (p[3] - p[2])) : Vec3(p[1] + u * (p[2] - p[1]) + v * (p[3] - p[1]));
+  // the first corner's end is chosen so that it is there, or that its edge is
+  const Vec3 corner = edges ? Vec3((meeting - u * p[1]) / (1.0 - std::min(u, 0.9))) : meeting;
+  if (edges && u > 0.9) return planted(r, edges, time);
+  c.end[0] = c.start[0] + (corner - c.start[0]) / time;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("a point that falls on a triangle, and crossing edges, meet halfway", "[continuous]") {
+  for (const double separation : {0.0, 0.1}) {
+    const ContinuousSettings settings{separation, 1e-7};
+    const double truth = 0.5 - 0.5 * separation;
+    for (const Method find : kVertexFace) {
+      const std::optional<Impact> impact = find(falling(), settings);
+      REQUIRE(impact);
+      CHECK(impact->time <= truth);
+      CHECK(impact->time == Approx(truth).margin(1e-6));
+      CHECK((impact->place - Vec2(0.2, 0.2)).norm() < (separation == 0.0 ? 1e-5 : 0.2));
+    }
+    for (const Method find : kEdgeEdge) {
+      const std::optional<Impact> impact = find(crossing_edges(), settings);
+      REQUIRE(impact);
+      CHECK(impact->time <= truth);
+      CHECK(impact->time == Approx(truth).margin(1e-6));
+    }
+  }
+  MovingCorners beside = falling();
+  beside.start[0].x() = beside.end[0].x() = 1.2;
+  for (const Method find : kVertexFace) CHECK_FALSE(find(beside, {}));
+  MovingCorners still = falling();
+  still.end = still.start;
+  for (const Method find : kVertexFace) CHECK_FALSE(find(still, {}));
+}
+
+TEST_CASE("what degenerates is met or not, and no number is lost", "[continuous]") {
+  MovingCorners flat = falling();  // a triangle without area
+  flat.start[3] = flat.end[3] = Vec3(0.5, 0.0, 0.0);
+  flat.start[0] = Vec3(0.4, 0.0, 1.0), flat.end[0] = Vec3(0.4, 0.0, -1.0);
+  MovingCorners parallel = crossing_edges();
+  parallel.start[2] = parallel.end[2] = Vec3(-1.0, 0.0, 0.0);
+  parallel.start[3] = parallel.end[3] = Vec3(1.0, 0.0, 0.0);
+  for (const Method find : kVertexFace) {
+    const std::optional<Impact> impact = find(flat, {0.0, 1e-6, 100'000});
+    REQUIRE(impact);
+    CHECK(impact->time == Approx(0.5).margin(1e-3));
+    CHECK(impact->place.allFinite());
+  }
+  for (const Method find : kEdgeEdge) {
+    const std::optional<Impact> impact = find(parallel, {0.0, 1e-6, 100'000});
+    REQUIRE(impact);
+    CHECK(impact->time <= 0.5);
+    CHECK(impact->time > 0.45);
+    CHECK(impact->place.allFinite());
+  }
+}
+
+namespace {
+
+void check_planted(int count, std::uint64_t seed) {
+  Random r(seed);
+  int missed = 0, late = 0;
+  for (int i = 0; i < count; ++i) {
+    const bool edges = i % 2 == 1;
+    double time = 0.0;
+    const MovingCorners c = planted(r, edges, time);
+    double size = 0.0;
+    for (int k = 0; k < 4; ++k) size = std::max({size, (c.start[k] - c.start[1]).norm(), (c.end[k] - c.end[1]).norm()});
+    const double rounding = 1e-13 * (size + c.start[0].norm() + c.end[0].norm());
+    for (const Method find : edges ? kEdgeEdge : kVertexFace) {
+      const std::optional<Impact> impact = find(c, {rounding, 1e-3 * size, 1'000'000});
+      if (!impact) ++missed;
+      if (impact && impact->time > time + 1e-12) ++late;
+    }
+  }
+  INFO("seed " << seed << ", " << count << " planted meetings");
+  CHECK(missed == 0);
+  CHECK(late == 0);
+}
+
+}  // namespace
+
+TEST_CASE("no planted meeting is missed or found too late", "[continuous]") { check_planted(20'000, 1); }
+
+TEST_CASE("no planted meeting of a million is missed or found too late", "[continuous][long]") {
+  check_planted(1'000'000, 2);
+}
+
+TEST_CASE("no meeting of the published queries is missed", "[continuous]") {
+  const std::vector<CcdQuery> queries = read_ccd_queries();
+  if (queries.empty()) {
+    WARN("skipped: no ccd-queries in the shared data folder");
+    return;
+  }
+  int hits = 0, missed = 0;
+  for (const CcdQuery& query : queries) {
+    hits += query.meets ? 1 : 0;
+    for (const Method find : query.edges ? kEdgeEdge : kVertexFace)
+      if (query.meets && !find(query.corners, {0.0, 1e-6, 20'000})) ++missed;
+  }
+  CHECK(hits == 302);
+  CHECK(missed == 0);
+}
