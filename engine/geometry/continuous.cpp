@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
 
 #include "engine/geometry/distance.hpp"
@@ -44,12 +45,14 @@ struct VertexFace {
   static Vec3 between(const std::array<Vec3, 4>& p, double u, double v) {
     return (p[0] - p[1]) - (u * (p[2] - p[1]) + v * (p[3] - p[1]));
   }
+  static Vec3 normal(const std::array<Vec3, 4>& p) { return (p[2] - p[1]).cross(p[3] - p[1]); }
 };
 struct EdgeEdge {
   static constexpr bool kTriangle = false;
   static Vec3 between(const std::array<Vec3, 4>& p, double u, double v) {
     return (p[0] - p[2]) + (u * (p[1] - p[0]) - v * (p[3] - p[2]));
   }
+  static Vec3 normal(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[3] - p[2]); }
 };
 
 /// The corners about their common middle: large coordinates cost no accuracy beyond their own rounding.
@@ -97,6 +100,18 @@ Vec3 reach(const LocalCorners& local) {
   return {time, most(s[1] - s[0], e[1] - e[0]), most(s[3] - s[2], e[3] - e[2])};
 }
 
+/// Whether all that lies between the ends of a box is farther than the margin on one side of a plane through zero.
+bool are_beyond(const Vec3& normal, const std::array<Vec3, 8>& ends, double margin) {
+  double low = INFINITY, high = -INFINITY, size = 0.0;
+  for (const Vec3& d : ends) {
+    const double height = normal.dot(d);
+    low = std::min(low, height), high = std::max(high, height);
+    size = std::max(size, d.cwiseAbs().maxCoeff());
+  }
+  const double least = (margin + 16.0 * kRounding * size) * (1.0 + 8.0 * kRounding) * normal.norm();
+  return low > least || high < -least;
+}
+
 template <class Pair>
 std::optional<Impact> bisect(const MovingCorners& given, const ContinuousSettings& settings) {
   const LocalCorners local(given);
@@ -110,16 +125,21 @@ std::optional<Impact> bisect(const MovingCorners& given, const ContinuousSetting
     const auto& [t, u, v] = box.part;
     if (Pair::kTriangle && u.low() + v.low() > 1.0) continue;
     Vec3 low = Vec3::Constant(INFINITY), high = -low;
+    std::array<Vec3, 8> ends;
+    std::size_t next = 0;
     for (double time : {t.low(), t.high()}) {
       const std::array<Vec3, 4> p = local.at(time);
       for (double a : {u.low(), u.high()})
         for (double b : {v.low(), v.high()}) {
-          const Vec3 d = Pair::between(p, a, b);
+          const Vec3 d = ends[next++] = Pair::between(p, a, b);
           low = low.cwiseMin(d), high = high.cwiseMax(d);
         }
     }
     const Vec3 gap = low.cwiseMax(-high).cwiseMax(0.0);  // from zero to the range, by axis
     if (gap.squaredNorm() > margin * margin * (1.0 + 8.0 * kRounding)) continue;
+    // features that slide along each other are told apart by a slanted plane long before boxes do
+    if (are_beyond(Pair::normal(local.at(t.low())), ends, margin)) continue;
+    if (are_beyond(std::accumulate(ends.begin(), ends.end(), Vec3(Vec3::Zero())), ends, margin)) continue;
     const Vec2 place(0.5 * (u.low() + u.high()), 0.5 * (v.low() + v.high()));
     const Vec3 extent(side[0] * t.width(), side[1] * u.width(), side[2] * v.width());
     // √3: of a range this wide in each axis the farthest point

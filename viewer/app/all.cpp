@@ -13,6 +13,7 @@ const Registry<SubCommand>& sub_commands() {
     IMPINGE_LIST(all, info_command);
     IMPINGE_LIST(all, list_command);
     IMPINGE_LIST(all, step_command);
+    IMPINGE_LIST(all, verify_command);
     IMPINGE_LIST(all, test_command);
     IMPINGE_LIST(all, compare_command);
     IMPINGE_LIST(all, debug_command);

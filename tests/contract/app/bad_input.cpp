@@ -296,7 +296,10 @@ TEST_CASE("the command line names what is wrong with it") {
     check_refused(folder, words, "command line: ", contains);
   };
   refused({"rum", "s.toml"}, "did you mean 'run'?");
-  refused({"verify"}, "not part of this version");
+  refused({"why"}, "not part of this version");
+  refused({"verify"}, "NAME");
+  refused({"verify", "stacks"}, "no case 'stacks'");
+  refused({"verify", "ccd"}, "--queries");
   refused({"debug", "s.toml", "--vnc", "5900"}, "not part of this version");
   refused({"debug", "s.toml", "--headless"}, "--script");
   refused({"run"}, "SCENE");

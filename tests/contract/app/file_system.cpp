@@ -15,6 +15,11 @@ using namespace impinge::test;
 
 namespace {
 
+/// A vertex that stays above a face.
+const std::string kQuery =
+    "1,4,1,4,1,2,0\n0,1,0,1,0,1,0\n1,1,0,1,0,1,0\n0,1,1,1,0,1,0\n"
+    "1,4,1,4,1,2,0\n0,1,0,1,0,1,0\n1,1,0,1,0,1,0\n0,1,1,1,0,1,0\n";
+
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
@@ -37,6 +42,7 @@ struct Files {
     folder.write("a.script", "at 1 set contact.friction 0.4\n");
     folder.write("d.script", "shot x.png\n");
     folder.write("suite/t.toml", scene);
+    folder.write("queries/one/vertex-face/1.csv", kQuery);
     folder.write("suite/t.script", "expect bodies == 2 at 1\n");
     run({"run", "s.toml", "--out", "a", "--frames", "3", "--size", "64x36", "--freeze", "3"});
     run({"run", "s.toml", "--out", "b", "--frames", "3", "--size", "64x36", "--set",
@@ -82,6 +88,7 @@ struct Files {
             {{"diff", "a", "b", "--mask", "X"}, file},
             {{"diff", "a", "b", "--out", "X"}, new_folder},
             {{"diff", "X", "b", "--update"}, new_folder},
+            {{"verify", "ccd", "--queries", "X"}, Wants::folder},
             {{"debug", "X", "--headless", "--script", "d.script"}, file},
             {{"debug", "X", "--headless", "--script", "d.script"}, Wants::folder},
             {{"debug", "s.toml", "--headless", "--script", "X"}, file},
@@ -234,6 +241,7 @@ TEST_CASE("a full disk behind stdout is one message and exit code 2 from every c
       {"compare", "a", "a"},
       {"diff", "a", "b"},
       {"diff", "a", "a"},
+      {"verify", "ccd", "--queries", "queries"},
       {"debug", "s.toml", "--headless", "--script", "d.script"}};
   for (const Words& words : all) {
     const Outcome outcome = files.outcome_of(words, "", {.out = "/dev/full"});
