@@ -9,9 +9,10 @@ namespace impinge {
 
 struct Collider {
   const Shape* shape = nullptr;
-  const SurfaceMesh* surface = nullptr;     ///< the triangles it is looked at as, if they are not a mesh's own
-  Pose pose;                                ///< of the body's frame; exact shapes are placed by it
-  std::span<const Vec3> vertices;           ///< world positions of a mesh's vertices (empty for exact shapes)
+  const SurfaceMesh* surface = nullptr;  ///< the triangles it is looked at as, if they are not a mesh's own
+  Pose pose;                             ///< of the body's frame; exact shapes are placed by it
+  /// World positions of a mesh's vertices (empty for exact shapes): of a rigid one, the pose applied to the mesh's own.
+  std::span<const Vec3> vertices;
   Aabb bounds;                              ///< world bounds, not inflated
   Vec3 velocity = Vec3::Zero();             ///< of the frame's origin, m/s: the free velocity v* of this sub-step
   Vec3 angular_velocity = Vec3::Zero();     ///< rad/s

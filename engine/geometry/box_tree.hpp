@@ -3,9 +3,9 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "engine/geometry/aabb.hpp"
-#include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {
 
@@ -36,7 +36,7 @@ class BoxTree {
   std::vector<int> order_;
 };
 
-/// Boxes of the triangles of a mesh whose vertices stand at `vertices`.
-std::vector<Aabb> triangle_boxes(const TriangleMesh& mesh, std::span<const Vec3> vertices);
+/// Boxes of triangles whose corners stand at `vertices`.
+std::vector<Aabb> triangle_boxes(std::span<const Triangle> triangles, std::span<const Vec3> vertices);
 
 }  // namespace impinge

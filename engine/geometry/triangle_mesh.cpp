@@ -49,6 +49,10 @@ MeshTopology make_topology(const TriangleMesh& mesh) {
   return topology;
 }
 
+const BoxTree& SurfaceMesh::tree() const {
+  return lazy_tree.get([&] { return BoxTree(triangle_boxes(mesh.triangles, mesh.vertices)); });
+}
+
 MeshPointer make_surface(TriangleMesh mesh) {
   auto surface = std::make_shared<SurfaceMesh>();
   surface->mesh = std::move(mesh);

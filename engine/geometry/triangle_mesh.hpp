@@ -3,7 +3,9 @@
 
 #include <memory>
 
+#include "engine/core/lazily.hpp"
 #include "engine/core/types.hpp"
+#include "engine/geometry/box_tree.hpp"
 
 namespace impinge {
 
@@ -35,6 +37,9 @@ MeshTopology make_topology(const TriangleMesh& mesh);
 struct SurfaceMesh {
   TriangleMesh mesh;
   MeshTopology topology;
+  Lazily<BoxTree> lazy_tree = {};
+  /// Boxes over the triangles where `mesh` has them, made when they are asked for first.
+  const BoxTree& tree() const;
 };
 using MeshPointer = std::shared_ptr<const SurfaceMesh>;
 

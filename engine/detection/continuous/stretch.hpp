@@ -11,7 +11,7 @@ namespace impinge {
 /// One surface at the two ends of an interval of time.
 class Stretch {
  public:
-  Stretch(const SurfacePath& path, double t0, double t1) : path_(&path), t_{t0, t1} {
+  Stretch(const SurfacePath& path, double t0, double t1) : path_(&path), tree_(&path.of->surface->tree()), t_{t0, t1} {
     if (path.is_rigid()) {
       for (int k : {0, 1}) pose_[k] = path.pose_at(t_[k]), turned_[k] = pose_[k].rotation.cwiseAbs();
     } else {
@@ -20,14 +20,14 @@ class Stretch {
         moved_[k].resize(path.start.size());
         for (std::size_t v = 0; v < path.start.size(); ++v)
           moved_[k][v] = path.start[v] + t_[k] * (path.end[v] - path.start[v]);
-        path.of->tree.fit(triangle_boxes(mesh, moved_[k]), fitted_[k]);
+        tree_->fit(triangle_boxes(mesh.triangles, moved_[k]), fitted_[k]);
       }
     }
   }
 
   const SurfacePath& path() const { return *path_; }
-  const BoxTree::Node& node(int n) const { return path_->of->tree.nodes()[n]; }
-  int triangle(int i) const { return path_->of->tree.order()[i]; }
+  const BoxTree::Node& node(int n) const { return tree_->nodes()[n]; }
+  int triangle(int i) const { return tree_->order()[i]; }
   /// At the interval's start (0) or end (1).
   Vec3 vertex(int v, int k) const {
     return path_->is_rigid() ? pose_[k].apply(path_->of->surface->mesh.vertices[v]) : moved_[k][v];
@@ -41,6 +41,7 @@ class Stretch {
 
  private:
   const SurfacePath* path_;
+  const BoxTree* tree_;
   double t_[2];
   Pose pose_[2];
   Mat3 turned_[2];

@@ -19,8 +19,6 @@ std::pair<std::size_t, double> place_of(const SurfacePath& path, double t) {
 
 PathSurface::PathSurface(const SurfaceMesh& of) : surface(&of) {
   const TriangleMesh& mesh = of.mesh;
-  const std::vector<Aabb> boxes = triangle_boxes(mesh, mesh.vertices);
-  tree = BoxTree(boxes);
   for (const Vec3& x : mesh.vertices) radius = std::max(radius, x.norm());
   owned.assign(mesh.triangles.size(), 0);
   std::vector<char> vertex_taken(mesh.vertices.size(), 0), edge_taken(of.topology.edges.size(), 0);

@@ -3,16 +3,15 @@
 
 #include <span>
 
-#include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {
 
-/// What stays the same of a surface however it moves: its triangles, a tree over them, and which triangle answers for
+/// What stays the same of a surface however it moves: its triangles with their tree, and which triangle answers for
 /// each vertex and edge, so that a feature that several triangles share is looked at once.
 struct PathSurface {
   explicit PathSurface(const SurfaceMesh& surface);
   const SurfaceMesh* surface;
-  BoxTree tree;                     ///< at rest, in the frame of the mesh
   double radius = 0.0;              ///< of the farthest vertex from the frame's origin, metres
   std::vector<std::uint8_t> owned;  ///< by triangle: bits 0-2 its corners, 3-5 its edges
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/detection/pairs/triangles_near.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
 namespace impinge {
@@ -54,8 +55,7 @@ class BallTest {
   void search() {
     const double limit = ball_.radius + sink_.reach(), limit_sq = limit * limit;
     const bool may_be_inside = distance_sq(sink_.second().bounds, ball_.center) == 0.0;
-    const int count = static_cast<int>(sink_.second().mesh().mesh.triangles.size());
-    for (int t = 0; t < count; ++t) {
+    for (int t : triangles_round(sink_.second(), ball_.center, limit, may_be_inside)) {
       const double lower_sq = distance_sq(triangle_bounds(mesh_, t), ball_.center);
       if (lower_sq > limit_sq && !(may_be_inside && lower_sq < nearest_.distance_sq)) continue;
       const PointTriangle p = closest_on_triangle(ball_.center, mesh_.corners(t));
@@ -100,9 +100,8 @@ class BallTest {
     swept.include(ball_.center + way);
     double first = 1.0;
     Nearest hit;
-    const int count = static_cast<int>(sink_.second().mesh().mesh.triangles.size());
-    for (int t = 0; t < count; ++t) {
-      if (!overlap(triangle_bounds(mesh_, t), swept) || mesh_.face_normal(t).dot(way) >= 0.0) continue;
+    for (int t : triangles_near(sink_.second(), swept)) {
+      if (mesh_.face_normal(t).dot(way) >= 0.0) continue;
       const std::optional<RayHit> ray = intersect_line(ball_.center, way, mesh_.corners(t), 1e-9);
       if (!ray || ray->t < 0.0 || ray->t > first || (hit.triangle >= 0 && ray->t == first)) continue;
       first = ray->t;
@@ -139,13 +138,6 @@ class BallTest {
 
 bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball) {
   return BallTest(sink, mesh, ball).run();
-}
-
-std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box) {
-  std::vector<int> near;
-  for (int t = 0; t < count; ++t)
-    if (overlap(triangle_bounds(mesh, t), box)) near.push_back(t);
-  return near;
 }
 
 }  // namespace impinge

@@ -19,13 +19,4 @@ struct Ball {
 /// centre inside gives one, out through the nearest point. Returns whether the centre is inside.
 bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball);
 
-/// Bounds of triangle t of the mesh.
-inline Aabb triangle_bounds(const SurfaceView& mesh, int t) {
-  const Triangle& c = mesh.triangle(t);
-  return bounds_of(mesh.vertex(c[0]), mesh.vertex(c[1]), mesh.vertex(c[2]));
-}
-
-/// The mesh's triangles whose bounds overlap the box, ascending.
-std::vector<int> triangles_near(const SurfaceView& mesh, int count, const Aabb& box);
-
 }  // namespace impinge

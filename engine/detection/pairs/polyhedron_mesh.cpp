@@ -5,6 +5,7 @@
 
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/pairs/ball_against_mesh.hpp"
+#include "engine/detection/pairs/triangles_near.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 
 namespace impinge {
@@ -42,12 +43,13 @@ Candidate candidate_of(const Collision& f) {
 }
 
 /// The mesh's triangles that reach into the polyhedron's frame, grown by the margin.
-std::vector<int> triangles_in_frame(const SurfaceView& view, const OrientedBox& frame, double margin, int count) {
+std::vector<int> triangles_in_frame(const Collider& mesh, const OrientedBox& frame, double margin) {
+  const SurfaceView view(mesh, 1);
   // wider by rounding: triangles that touch must not be lost
   const Vec3 reach = frame.half + Vec3::Constant(margin + 1e-9 * (margin + frame.half.sum()));
   const Vec3 extent = frame.axes.cwiseAbs() * reach;
   std::vector<int> near;
-  for (int t : triangles_near(view, count, {frame.center - extent, frame.center + extent})) {
+  for (int t : triangles_near(mesh, {frame.center - extent, frame.center + extent})) {
     const TriangleCorners c = view.corners(t);
     if (overlap(bounds_of(frame.to_local(c[0]), frame.to_local(c[1]), frame.to_local(c[2])), Aabb{-reach, reach}))
       near.push_back(t);
@@ -85,8 +87,7 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const double margin =
       query.activation + std::min(sink.reach(), std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge));
   const SurfaceView view(mesh, 1);
-  const std::vector<int> near =
-      triangles_in_frame(view, solid.frame, margin, static_cast<int>(mesh.mesh().mesh.triangles.size()));
+  const std::vector<int> near = triangles_in_frame(mesh, solid.frame, margin);
   if (near.empty()) {
     add_enclosed(sink, solid.frame.center, solid.reach_against);
     return;

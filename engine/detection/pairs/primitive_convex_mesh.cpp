@@ -10,6 +10,7 @@
 #include "engine/detection/pairs/convex_manifold.hpp"
 #include "engine/detection/pairs/polyhedron_mesh.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
+#include "engine/detection/pairs/triangles_near.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
 namespace impinge {
@@ -45,10 +46,8 @@ class CurvedTest {
         mesh_(sink.second(), 1),
         solid_{std::get<const ConvexSet*>(sink.first().shape->form()), sink.first().pose},
         bounds_(sink.first().bounds),
-        touch_(1e-9 * (bounds_.extent().norm() + sink.second().mean_edge)) {
-    const int count = static_cast<int>(sink.second().mesh().mesh.triangles.size());
-    near_ = triangles_near(mesh_, count, bounds_.inflated(sink.reach() + touch_));
-  }
+        touch_(1e-9 * (bounds_.extent().norm() + sink.second().mean_edge)),
+        near_(triangles_near(sink.second(), bounds_.inflated(sink.reach() + touch_))) {}
 
   void run() {
     if (near_.empty()) {

@@ -5,6 +5,7 @@
 #include "engine/detection/contacts/edge_cone.hpp"
 #include "engine/detection/pairs/ball_against_mesh.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
+#include "engine/detection/pairs/triangles_near.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
 namespace impinge {
@@ -26,8 +27,7 @@ class CylinderTest {
     Aabb box;
     box.include(axis_.p0);
     box.include(axis_.p1);
-    const int count = static_cast<int>(sink.second().mesh().mesh.triangles.size());
-    near_ = triangles_near(mesh, count, box.inflated(radius_ + sink.reach()));
+    near_ = triangles_near(sink.second(), box.inflated(radius_ + sink.reach()));
   }
 
   void add_edges() {

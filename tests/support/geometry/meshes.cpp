@@ -168,6 +168,7 @@ int ColliderSet::add(MeshPointer mesh, const Pose& pose) {
   c.mean_edge = mean_edge_length(mesh->mesh);
   shapes_.emplace_back(std::move(mesh));
   vertices_.emplace_back();
+  still_.emplace_back();
   colliders_.push_back(c);
   const int body = static_cast<int>(colliders_.size()) - 1;
   colliders_[body].shape = shapes_.back().get();
@@ -179,14 +180,16 @@ void ColliderSet::place(int body, const Pose& pose) {
   const std::vector<Vec3>& local = colliders_[body].mesh().mesh.vertices;
   std::vector<Vec3> world(local.size());
   for (std::size_t i = 0; i < local.size(); ++i) world[i] = pose.apply(local[i]);
-  colliders_[body].pose = pose;
   place(body, std::move(world));
+  colliders_[body].pose = pose;
+  colliders_[body].vertex_velocities = {};
 }
 
 void ColliderSet::place(int body, std::vector<Vec3> world) {
   vertices_[body] = std::move(world);
   Collider& c = colliders_[body];
   c.vertices = vertices_[body];
+  c.vertex_velocities = still_[body] = std::vector<Vec3>(c.vertices.size(), Vec3::Zero());
   c.bounds = {};
   for (const Vec3& v : c.vertices) c.bounds.include(v);
 }

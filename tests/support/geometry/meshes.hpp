@@ -37,14 +37,14 @@ class ColliderSet {
   int add(MeshPointer mesh, const Pose& pose = {});
   /// Moves a body and its world vertices.
   void place(int body, const Pose& pose);
-  /// Sets world vertices as they are (of a deformed body).
+  /// Sets world vertices as they are: it is a deforming body then.
   void place(int body, std::vector<Vec3> world);
   Collider& operator[](int body) { return colliders_[body]; }
   std::span<const Collider> all() const { return colliders_; }
 
  private:
   std::deque<SharedShape> shapes_;
-  std::deque<std::vector<Vec3>> vertices_;
+  std::deque<std::vector<Vec3>> vertices_, still_;
   std::vector<Collider> colliders_;
 };
 

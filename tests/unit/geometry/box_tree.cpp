@@ -30,14 +30,14 @@ void check_holds(const BoxTree& tree, const std::vector<Aabb>& boxes, const std:
 
 TEST_CASE("a box tree holds every triangle once, at rest and fitted to another shape", "[box_tree]") {
   for (const TriangleMesh& mesh : {bumpy_torus(30, 20), box(Vec3::Ones()), icosphere(3)}) {
-    const std::vector<Aabb> boxes = triangle_boxes(mesh, mesh.vertices);
+    const std::vector<Aabb> boxes = triangle_boxes(mesh.triangles, mesh.vertices);
     const BoxTree tree(boxes);
     std::vector<Aabb> own;
     for (const BoxTree::Node& node : tree.nodes()) own.push_back(node.box);
     check_holds(tree, boxes, own);
     std::vector<Vec3> moved = mesh.vertices;
     for (Vec3& x : moved) x = Vec3(x.y() * x.y(), 3.0 * x.x(), x.z() - x.x());
-    const std::vector<Aabb> moved_boxes = triangle_boxes(mesh, moved);
+    const std::vector<Aabb> moved_boxes = triangle_boxes(mesh.triangles, moved);
     std::vector<Aabb> fitted;
     tree.fit(moved_boxes, fitted);
     check_holds(tree, moved_boxes, fitted);

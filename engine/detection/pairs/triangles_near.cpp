@@ -1,0 +1,112 @@
+#include "engine/detection/pairs/triangles_near.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/distance.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr int kFewest = 64;  // triangles: below, looking at each is as quick
+
+int count_of(const Collider& mesh) { return static_cast<int>(mesh.mesh().mesh.triangles.size()); }
+
+/// A deforming surface would have to be fitted first, which costs as much as looking at each triangle.
+bool has_tree(const Collider& mesh) { return mesh.vertex_velocities.empty() && count_of(mesh) > kFewest; }
+
+double magnitude(const Aabb& box) { return box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff(); }
+
+double distance_sq(const Aabb& box, const Vec3& x) { return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm(); }
+
+/// What world coordinates lose on the way into the frame of the mesh, generously.
+double slack(const Collider& mesh, const Aabb& box) { return 1e-12 * (magnitude(box) + magnitude(mesh.bounds)); }
+
+/// Triangles in leaves that `meets` finds with all that holds them.
+template <class Meets>
+std::vector<int> search(const BoxTree& tree, Meets&& meets) {
+  std::vector<int> found, waiting = {0};
+  while (!waiting.empty()) {
+    const int n = waiting.back();
+    waiting.pop_back();
+    const BoxTree::Node& node = tree.nodes()[n];
+    if (!meets(node.box)) continue;
+    if (node.is_leaf()) {
+      for (int i = node.first; i < node.first + node.count; ++i) found.push_back(tree.order()[i]);
+    } else {
+      waiting.push_back(node.second);
+      waiting.push_back(n + 1);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// Distance of x (in the frame of the mesh) to its surface, metres.
+double distance_to(const BoxTree& tree, const TriangleMesh& mesh, const Vec3& x) {
+  double least_sq = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, int>> waiting = {{0.0, 0}};
+  while (!waiting.empty()) {
+    const auto [bound_sq, n] = waiting.back();
+    waiting.pop_back();
+    if (bound_sq >= least_sq) continue;
+    const BoxTree::Node& node = tree.nodes()[n];
+    if (node.is_leaf()) {
+      for (int i = node.first; i < node.first + node.count; ++i) {
+        const Triangle& t = mesh.triangles[tree.order()[i]];
+        const TriangleCorners corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+        least_sq = std::min(least_sq, closest_on_triangle(x, corners).squared_distance);
+      }
+      continue;
+    }
+    std::pair<double, int> first = {distance_sq(tree.nodes()[n + 1].box, x), n + 1},
+                           second = {distance_sq(tree.nodes()[node.second].box, x), node.second};
+    if (second < first) std::swap(first, second);
+    waiting.push_back(second);  // the nearer one first, so that the farther can be left out
+    waiting.push_back(first);
+  }
+  return std::sqrt(least_sq);
+}
+
+}  // namespace
+
+std::vector<int> triangles_near(const Collider& mesh, const Aabb& box) {
+  std::vector<int> near;
+  const SurfaceView view(mesh, 0);
+  const auto look = [&](int t) {
+    if (overlap(triangle_bounds(view, t), box)) near.push_back(t);
+  };
+  if (box.is_empty() || !has_tree(mesh)) {
+    for (int t = 0; t < count_of(mesh); ++t) look(t);
+    return near;
+  }
+  // nodes are looked at in the world, where the bounds of a triangle are larger than in the mesh's own frame
+  const Mat3 turned = mesh.pose.rotation.cwiseAbs();
+  const Aabb wide = box.inflated(slack(mesh, box));
+  const auto meets = [&](const Aabb& node) {
+    const Vec3 center = mesh.pose.apply(node.center()), half = turned * (0.5 * node.extent());
+    return overlap(Aabb{center - half, center + half}, wide);
+  };
+  for (int t : search(mesh.mesh().tree(), meets)) look(t);
+  return near;
+}
+
+std::vector<int> triangles_round(const Collider& mesh, const Vec3& x, double distance, bool and_nearest) {
+  if (!has_tree(mesh)) {
+    std::vector<int> all(static_cast<std::size_t>(count_of(mesh)));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  const BoxTree& tree = mesh.mesh().tree();
+  const Vec3 local = mesh.pose.apply_inverse(x);
+  double reach = distance;
+  if (and_nearest) reach = std::max(reach, distance_to(tree, mesh.mesh().mesh, local));
+  // the box's, whose corner is farther by rounding than the sphere's
+  reach = reach * (1.0 + 1e-9) + slack(mesh, {x, x});
+  return search(tree, [&](const Aabb& node) { return distance_sq(node, local) <= reach * reach; });
+}
+
+}  // namespace impinge
