@@ -1,6 +1,7 @@
 #include "engine/geometry/distance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/geometry/triangle_intersection.hpp"
@@ -133,7 +134,31 @@ TriangleTriangle closest_features(const TriangleCorners& a, const TriangleCorner
   return best;
 }
 
+namespace {
+
+/// Whether planes at right angles to n with more than the limit between them separate the two, by more than rounding.
+bool are_apart_along(const Vec3& n, const TriangleCorners& a, const TriangleCorners& b, double limit) {
+  double low_a = 0.0, high_a = 0.0, low_b = INFINITY, high_b = -INFINITY;  // from a[0]
+  for (int k = 0; k < 3; ++k) {
+    const double x = n.dot(a[k] - a[0]), y = n.dot(b[k] - a[0]);
+    low_a = std::min(low_a, x), high_a = std::max(high_a, x);
+    low_b = std::min(low_b, y), high_b = std::max(high_b, y);
+  }
+  const double gap = std::max(low_a - high_b, low_b - high_a);
+  return gap > 0.0 && gap * gap > limit * limit * n.squaredNorm();
+}
+
+}  // namespace
+
 bool features_within(const TriangleCorners& a, const TriangleCorners& b, double limit) {
+  // most pairs whose boxes meet are told apart by a plane
+  Vec3 largest = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) largest = largest.cwiseMax(a[k].cwiseAbs()).cwiseMax(b[k].cwiseAbs());
+  const double certain = limit * (1.0 + 1e-6) + 1e-13 * largest.maxCoeff();
+  if (are_apart_along((a[1] - a[0]).cross(a[2] - a[0]), a, b, certain) ||
+      are_apart_along((b[1] - b[0]).cross(b[2] - b[0]), a, b, certain) ||
+      are_apart_along(a[0] + a[1] + a[2] - b[0] - b[1] - b[2], a, b, certain))
+    return false;
   const double limit2 = limit * limit;
   for (int k = 0; k < 3; ++k) {
     if (closest_on_triangle(a[k], b).squared_distance <= limit2) return true;

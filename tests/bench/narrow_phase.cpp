@@ -50,10 +50,13 @@ Result measure(const char* name, const ColliderSet& set, const std::vector<BodyP
   return {times[times.size() / 2], found.size()};
 }
 
-void row(const std::string& series, std::size_t triangles, const Result& hash, const Result& brute) {
-  fmt::print("{},{},{},{:.4f},{}\n", series, triangles, hash.pairs, hash.ms,
+void row(const std::string& series, std::size_t triangles, const Result& tree, const Result& hash,
+         const Result& brute) {
+  fmt::print("{},{},{},{:.4f},{:.4f},{}\n", series, triangles, hash.pairs, tree.ms, hash.ms,
              brute.ms > 0.0 ? fmt::format("{:.4f}", brute.ms) : "");
 }
+
+const char* difference(const Result& a, const Result& b) { return a.pairs == b.pairs ? "" : "  DIFFERENT PAIRS"; }
 
 // least squares slope of log(ms) over log(n)
 double exponent(const std::vector<std::pair<double, double>>& points) {
@@ -71,19 +74,20 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
 void figure_6_4() {
   fmt::print(stderr,
              "\nFig. 6.4 of the seed: 2,560 triangles, more and more of them intersecting\n{:>10} {:>12} {:>14} {:>14} "
-             "{:>8}\n",
-             "bodies", "collisions", "spatial_hash", "brute_force", "ratio");
+             "{:>14}\n",
+             "bodies", "collisions", "bvh", "spatial_hash", "brute_force");
   const auto show = [&](const ColliderSet& set) {
     std::vector<BodyPair> pairs;
     const int bodies = static_cast<int>(set.all().size());
     for (int i = 0; i < bodies; ++i)
       for (int j = i + 1; j < bodies; ++j)
-        if (overlap(set.all()[i].bounds, set.all()[j].bounds))
-          pairs.push_back({i, j, 0.0});  // as a broad phase hands them on
-    const Result hash = measure("spatial_hash", set, pairs), brute = measure("brute_force", set, pairs);
-    row(fmt::format("fig64_{}_bodies", bodies), 2560, hash, brute);
-    fmt::print(stderr, "{:>10} {:>12} {:>11.3f} ms {:>11.3f} ms {:>8.1f}{}\n", bodies, hash.pairs, hash.ms, brute.ms,
-               brute.ms / hash.ms, hash.pairs == brute.pairs ? "" : "  DIFFERENT PAIRS");
+        if (overlap(set.all()[static_cast<std::size_t>(i)].bounds, set.all()[static_cast<std::size_t>(j)].bounds))
+          pairs.push_back({BodyIndex(i), BodyIndex(j), 0.0});  // as a broad phase hands them on
+    const Result tree = measure("bvh", set, pairs), hash = measure("spatial_hash", set, pairs),
+                 brute = measure("brute_force", set, pairs);
+    row(fmt::format("fig64_{}_bodies", bodies), 2560, tree, hash, brute);
+    fmt::print(stderr, "{:>10} {:>12} {:>11.3f} ms {:>11.3f} ms {:>11.3f} ms{}{}\n", bodies, hash.pairs, tree.ms,
+               hash.ms, brute.ms, difference(hash, brute), difference(tree, hash));
   };
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   const MeshPointer large = surface(icosphere(3)), small = surface(icosphere(2));
@@ -107,8 +111,8 @@ void figure_6_4() {
 void growth(int finest) {
   fmt::print(stderr,
              "\nGrowth: two icospheres, far pose (rotated 0.7 rad, moved (0.35, 0.22, 0.13)) and near pose\n{:>6} "
-             "{:>10} {:>8} {:>14} {:>14} {:>9}   {}\n",
-             "pose", "triangles", "pairs", "spatial_hash", "brute_force", "ratio",
+             "{:>10} {:>8} {:>14} {:>14} {:>14}   {}\n",
+             "pose", "triangles", "pairs", "bvh", "spatial_hash", "brute_force",
              "peers, ms, printed figures of another machine");
   const char* peers[] = {"",
                          "Embree query 0.25, refit+query 0.6-0.8; FCL AABB refit+query 1.5-1.9",
@@ -119,7 +123,7 @@ void growth(int finest) {
   const std::size_t expected[] = {174, 346, 702, 1400, 2798, 5598};
   const Vec3 axis = Vec3(1, 2, 3).normalized();
   for (const bool is_far : {true, false}) {
-    std::vector<std::pair<double, double>> hash_points, brute_points;
+    std::vector<std::pair<double, double>> tree_points, hash_points, brute_points;
     const char* pose = is_far ? "far" : "near";
     for (int k = 3; k <= finest; ++k) {
       const MeshPointer mesh = surface(icosphere(k));
@@ -128,23 +132,24 @@ void growth(int finest) {
       set.add(mesh);
       set.add(mesh, is_far ? Pose{Eigen::AngleAxisd(0.7, axis).toRotationMatrix(), Vec3(0.35, 0.22, 0.13)}
                            : Pose{Eigen::AngleAxisd(0.05, axis).toRotationMatrix(), Vec3(0.010, 0.007, 0.003)});
-      const Result hash = measure("spatial_hash", set, {{0, 1, 0.0}});
+      const std::vector<BodyPair> pair = {{BodyIndex(0), BodyIndex(1), 0.0}};
+      const Result tree = measure("bvh", set, pair), hash = measure("spatial_hash", set, pair);
       Result brute;
-      if (k <= 5) brute = measure("brute_force", set, {{0, 1, 0.0}});
+      if (k <= 5) brute = measure("brute_force", set, pair);
+      tree_points.emplace_back(static_cast<double>(triangles), tree.ms);
       hash_points.emplace_back(static_cast<double>(triangles), hash.ms);
       if (k <= 5) brute_points.emplace_back(static_cast<double>(triangles), brute.ms);
       const double extrapolated =
           brute_points.back().second * std::pow(static_cast<double>(triangles) / brute_points.back().first, 2.0);
-      row(fmt::format("growth_{}", pose), triangles, hash, brute);
-      fmt::print(stderr, "{:>6} {:>10} {:>8} {:>11.3f} ms {:>11.1f} ms {:>9.1f}{} {}{}\n", pose, triangles, hash.pairs,
-                 hash.ms, extrapolated, extrapolated / hash.ms, k <= 5 ? " " : "*",
-                 is_far && k >= 4 ? peers[k - 3] : "",
-                 is_far && hash.pairs != expected[k - 3] ? "  WRONG NUMBER OF PAIRS" : "");
+      row(fmt::format("growth_{}", pose), triangles, tree, hash, brute);
+      fmt::print(stderr, "{:>6} {:>10} {:>8} {:>11.3f} ms {:>11.3f} ms {:>11.1f} ms{} {}{}{}\n", pose, triangles,
+                 hash.pairs, tree.ms, hash.ms, extrapolated, k <= 5 ? " " : "*", is_far && k >= 4 ? peers[k - 3] : "",
+                 is_far && hash.pairs != expected[k - 3] ? "  WRONG NUMBER OF PAIRS" : "", difference(tree, hash));
     }
     fmt::print(stderr,
-               "  {} pose: time grows as n^{:.2f} (spatial_hash), n^{:.2f} (brute_force, measured to 40,960 triangles; "
-               "* extrapolated with n^2)\n",
-               pose, exponent(hash_points), exponent(brute_points));
+               "  {} pose: time grows as n^{:.2f} (bvh), n^{:.2f} (spatial_hash), n^{:.2f} (brute_force, measured to "
+               "40,960 triangles; * extrapolated with n^2)\n",
+               pose, exponent(tree_points), exponent(hash_points), exponent(brute_points));
   }
 }
 
@@ -166,7 +171,7 @@ int main(int argc, char** argv) {
     }
   }
   set_thread_count(threads);
-  fmt::print("series,triangles,pairs,spatial_hash_ms,brute_force_ms\n");
+  fmt::print("series,triangles,pairs,bvh_ms,spatial_hash_ms,brute_force_ms\n");
   fmt::print(stderr, "processor time of {} thread{}\n", threads, threads == 1 ? "" : "s");
   figure_6_4();
   growth(finest);

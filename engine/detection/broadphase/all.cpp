@@ -7,6 +7,7 @@ const Registry<BroadPhase>& broad_phases() {
   static const Registry<BroadPhase> list = [] {
     Registry<BroadPhase> all;
     IMPINGE_LIST(all, sweep_and_prune_broad_phase);
+    IMPINGE_LIST(all, bvh_broad_phase);
     IMPINGE_LIST(all, brute_force_broad_phase);
     return all;
   }();

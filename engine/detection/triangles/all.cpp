@@ -6,6 +6,7 @@ namespace impinge {
 const Registry<NarrowPhase>& narrow_phases() {
   static const Registry<NarrowPhase> list = [] {
     Registry<NarrowPhase> all;
+    IMPINGE_LIST(all, bvh_narrow_phase);
     IMPINGE_LIST(all, spatial_hash_narrow_phase);
     IMPINGE_LIST(all, brute_force_narrow_phase);
     return all;

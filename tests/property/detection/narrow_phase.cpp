@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/core/parallel.hpp"
+#include "engine/core/rows.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 #include "tests/support/geometry/indices.hpp"
 #include "tests/support/geometry/meshes.hpp"
@@ -48,13 +49,25 @@ std::vector<TrianglePair> reference(std::span<const Collider> colliders, std::sp
 // one phase of each kind, kept over all scenes: what an old step left in a table must not show
 struct Phases {
   std::vector<std::unique_ptr<NarrowPhase>> all;
+  std::vector<std::string> names;
   Phases() {
-    for (const auto& e : narrow_phases()) all.push_back(e.make());
+    for (const auto& e : narrow_phases()) add(e, "", "");
+    for (const auto& e : narrow_phases())
+      if (e.name == "bvh")
+        for (const char* volume : {"obb", "sphere"}) add(e, "volume", volume);
+    CHECK(all.size() == narrow_phases().size() + 2);
+  }
+  void add(const Entry<NarrowPhase>& entry, const std::string& setting, const std::string& value) {
+    all.push_back(entry.make());
+    names.push_back(std::string(entry.name) + " " + value);
+    ParameterSet rows;
+    all.back()->declare(Rows(rows));
+    if (!setting.empty()) rows.find(setting)->set(value);
   }
   std::size_t check(const ColliderSet& set, const std::vector<BodyPair>& pairs) {
     const std::vector<TrianglePair> expected = reference(set.all(), pairs);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      INFO(narrow_phases()[i].name << ", expected " << expected.size());
+      INFO(names[i] << ", expected " << expected.size());
       std::vector<TrianglePair> found;
       for (int threads : {1, 2}) {
         set_thread_count(threads);
