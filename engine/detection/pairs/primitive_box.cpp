@@ -1,8 +1,10 @@
 // Box against box. Separating axes say how the boxes lie; a pair of faces gives a clipped manifold, a pair of edges its
 // crossing, and separated boxes whose nearest features are corners or edges the exact distance between them.
 #include <array>
+#include <optional>
 
 #include "engine/detection/pairs/face_manifold.hpp"
+#include "engine/detection/pairs/ridge_contacts.hpp"
 #include "engine/geometry/distance.hpp"
 
 namespace impinge {
@@ -11,6 +13,9 @@ namespace {
 /// Normals within about 14 degrees of a face's get that face's manifold too: a box that lands nearly flat is held by
 /// all the points it is about to rest on, not by its lowest one alone.
 constexpr double kNearlyFace = 0.97;
+
+/// Of the smaller box's thickness: a box that stands this much below the level of another's face passes over it.
+constexpr double kLevel = 1e-5;
 
 struct FaceAxis {
   double separation = -1e300;
@@ -34,18 +39,22 @@ struct Boxes {
   double tie;  ///< metres: separations closer than this are equal (rounding of the axes, not geometry)
 };
 
+/// Axis 0 to 2 of the first box, 3 to 5 of the second.
+FaceAxis face_axis(const Boxes& boxes, int i) {
+  const OrientedBox& owner = i < 3 ? boxes.first : boxes.second;
+  const OrientedBox& other = i < 3 ? boxes.second : boxes.first;
+  const Vec3 axis = owner.axes.col(i % 3);
+  const double along = axis.dot(boxes.first.center - boxes.second.center);
+  const double separation = std::abs(along) - owner.half[i % 3] - other.radius_along(axis);
+  return {separation, i < 3, i % 3, along < 0.0 ? Vec3(-axis) : axis};
+}
+
 FaceAxis best_face(const Boxes& boxes) {
-  const Vec3 offset = boxes.first.center - boxes.second.center;
   FaceAxis best;
   for (int i = 0; i < 6; ++i) {
-    const OrientedBox& owner = i < 3 ? boxes.first : boxes.second;
-    const OrientedBox& other = i < 3 ? boxes.second : boxes.first;
-    const Vec3 axis = owner.axes.col(i % 3);
-    const double along = axis.dot(offset);
-    const double separation = std::abs(along) - owner.half[i % 3] - other.radius_along(axis);
+    const FaceAxis face = face_axis(boxes, i);
     // strictly better by more than rounding: equal faces go to the first box and the first axis, in every step
-    if (i == 0 || separation > best.separation + boxes.tie)
-      best = {separation, i < 3, i % 3, along < 0.0 ? Vec3(-axis) : axis};
+    if (i == 0 || face.separation > best.separation + boxes.tie) best = face;
   }
   return best;
 }
@@ -195,15 +204,54 @@ void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
     if (d.normal().dot(normal) > kNearlyFace) add(corner_candidate(d));
 }
 
+Vec3 approach(const ContactSink& sink, const Boxes& boxes) {
+  return sink.first().velocity_at(boxes.first.center) - sink.second().velocity_at(boxes.first.center);
+}
+
+/// The face whose plane the boxes are level with beside the one that keeps them apart: what slides over a floor of boxes is
+/// level with the next one's top. None if there is none.
+std::optional<FaceAxis> level_face(const Boxes& boxes, const FaceAxis& face) {
+  const double level = kLevel * std::min(boxes.first.half.minCoeff(), boxes.second.half.minCoeff());
+  for (int i = 0; i < 6; ++i) {
+    const FaceAxis other = face_axis(boxes, i);
+    if (std::abs(other.normal.dot(face.normal)) < 0.5 && std::abs(other.separation) <= level) return other;
+  }
+  return std::nullopt;
+}
+
+/// Edge along edge, if that is all that touches.
+std::vector<Candidate> ridge_of(const ContactSink& sink, const Boxes& boxes, const FaceAxis& face,
+                                const EdgeAxis& edge) {
+  const ConvexPolyhedron &first = *shape_of<Box>(sink.first()).polyhedron(),
+                         &second = *shape_of<Box>(sink.second()).polyhedron();
+  const double separation = std::max(face.separation, edge.separation);
+  if (std::abs(separation) > ridge_tolerance(first, second)) return {};
+  // one axis of each runs the same way; all three do where faces lie on faces, mostly
+  if (((boxes.first.axes.transpose() * boxes.second.axes).cwiseAbs().array() > 0.9998).count() == 0) return {};
+  return ridge_contacts(sink, {first, sink.first().pose}, {second, sink.second().pose}, face.normal);
+}
+
 }  // namespace
 
 void box_box(ContactSink& sink) {
   Boxes boxes{world_box(sink.first()), world_box(sink.second()), 0.0};
   boxes.tie = 1e-10 * (boxes.first.half.sum() + boxes.second.half.sum());
-  const FaceAxis face = best_face(boxes);
+  FaceAxis face = best_face(boxes);
   if (face.separation > sink.reach()) return;
   const EdgeAxis edge = best_edge(boxes);
   if (edge.separation > sink.reach()) return;
+  if (const std::vector<Candidate> ridge = ridge_of(sink, boxes, face, edge); !ridge.empty()) {
+    for (const Candidate& c : ridge) sink.add_new(c);
+    return;
+  }
+  // A rounding below the level of the next box's top does not make its side a wall: what moves along that level passes,
+  // and where both faces are as near, the one that the motion runs along decides.
+  if (const std::optional<FaceAxis> level = level_face(boxes, face)) {
+    const Vec3 v = approach(sink, boxes);
+    const double along = std::abs(v.dot(face.normal)), across = std::abs(v.dot(level->normal));
+    if (face.separation > boxes.tie && across * sink.query().time_step <= sink.query().activation) return;
+    if (across < along) face = *level;
+  }
   // within rounding of touching the crossing's own axis is a direction, and the points' difference is none
   if (std::max(face.separation, edge.separation) > boxes.tie)
     separated(sink, boxes, face);

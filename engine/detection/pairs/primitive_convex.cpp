@@ -1,17 +1,33 @@
 // Any convex solid against a half-space and against any other convex solid.
+#include <algorithm>
+#include <cmath>
+
 #include "engine/detection/pairs/convex_manifold.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
+#include "engine/detection/pairs/ridge_contacts.hpp"
 
 namespace impinge {
 namespace {
+
+double gap_of(const Candidate& c) { return c.normal.dot(c.point_first - c.point_second); }
 
 PlacedConvex placed(const Collider& c) { return {std::get<const ConvexSet*>(c.shape->form()), c.pose}; }
 
 }  // namespace
 
 void convex_convex(ContactSink& sink) {
-  for (const Candidate& c : convex_candidates(placed(sink.first()), placed(sink.second()), sink.reach()))
-    sink.add_new(c);
+  const PlacedConvex first = placed(sink.first()), second = placed(sink.second());
+  std::vector<Candidate> found = convex_candidates(first, second, sink.reach());
+  const ConvexPolyhedron *a = first.set->polyhedron(), *b = second.set->polyhedron();
+  if (!found.empty() && a != nullptr && b != nullptr) {
+    const Candidate& lowest = *std::min_element(found.begin(), found.end(),
+                                                [](const auto& l, const auto& r) { return gap_of(l) < gap_of(r); });
+    if (std::abs(gap_of(lowest)) <= ridge_tolerance(*a, *b)) {
+      std::vector<Candidate> ridge = ridge_contacts(sink, {*a, first.pose}, {*b, second.pose}, lowest.normal);
+      if (!ridge.empty()) found = std::move(ridge);
+    }
+  }
+  for (const Candidate& c : found) sink.add_new(c);
 }
 
 void plane_convex(ContactSink& sink) {
