@@ -1,4 +1,5 @@
 #include "engine/step/respond.hpp"
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -92,13 +93,13 @@ class GroupSolve {
 
   void push_out() {
     const auto move = [&](const std::vector<Vec3>& linear, const std::vector<Vec3>& angular,
-                          const std::vector<VecX>& nodes) {
-      const double h = input_.time_step;
+                          const std::vector<VecX>& nodes, double share) {
+      const double h = share * input_.time_step;
       result_.displacement = now_.by_body(group_, linear, angular, nodes);
       for (BodyVector& by : result_.displacement) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
     };
     const GroupSystem& s = system();
-    if (!s.position_velocity.empty()) return move(s.position_velocity, s.position_angular_velocity, {});
+    if (!s.position_velocity.empty()) return move(s.position_velocity, s.position_angular_velocity, {}, 1.0);
     if (how_.response.lives_on_overlap() || !needs_push_out(s, how_.contact, input_.time_step)) return;
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, how_.contact, input_.time_step);
@@ -108,7 +109,20 @@ class GroupSolve {
     const ResponseResult solved = how_.response.solve(recovery, how_.lcp, loose);
     count(solved);
     if (!solved.converged()) settle_contradiction(recovery);
-    move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta);
+    // where bodies are wedged the way out is longer than the overlap: it is gone a part a sub-step, in the same proportions
+    const double fastest = fastest_point(recovery), most = how_.contact.max_push_out;
+    move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta,
+         fastest > most ? most / fastest : 1.0);
+  }
+
+  double fastest_point(const GroupSystem& moving) const {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < now_.rigid.size(); ++i)
+      fastest = std::max(fastest, moving.delta_velocity[i].norm() +
+                                      moving.delta_angular_velocity[i].norm() * bodies_[now_.rigid[i]].radius);
+    for (const VecX& nodes : moving.deformable_delta)
+      for (Eigen::Index k = 0; k + 2 < nodes.size(); k += 3) fastest = std::max(fastest, nodes.segment<3>(k).norm());
+    return fastest;
   }
 
   void hand_on() {
