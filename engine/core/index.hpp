@@ -25,6 +25,15 @@ class Index {
   }
   friend constexpr bool operator==(Index l, Index r) { return l.value_ == r.value_; }
   friend constexpr auto operator<=>(Index l, Index r) { return l.value_ <=> r.value_; }
+  // with the size of a list: none is no place of it
+  template <std::unsigned_integral Count>
+  friend constexpr bool operator==(Index l, Count r) {
+    return static_cast<Count>(l.value_) == r;
+  }
+  template <std::unsigned_integral Count>
+  friend constexpr std::strong_ordering operator<=>(Index l, Count r) {
+    return static_cast<Count>(l.value_) <=> r;
+  }
   template <class Other>
   friend bool operator==(Index, Index<Other>) = delete;
   template <class Other>

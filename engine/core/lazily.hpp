@@ -3,11 +3,10 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 
 namespace impinge {
 
-/// A copy starts anew: what was made belongs to the original.
+/// A copy starts anew: what was made belongs to the original. T may be incomplete but where it is made.
 template <class T>
 class Lazily {
  public:
@@ -20,14 +19,14 @@ class Lazily {
 
   template <class Make>
   const T& get(Make&& make) const {
-    std::call_once(state_->once, [&] { state_->value.emplace(make()); });
+    std::call_once(state_->once, [&] { state_->value = std::make_shared<const T>(make()); });
     return *state_->value;
   }
 
  private:
   struct State {
     std::once_flag once;
-    std::optional<T> value;
+    std::shared_ptr<const T> value;
   };
   std::shared_ptr<State> state_ = std::make_shared<State>();
 };

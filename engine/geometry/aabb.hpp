@@ -29,6 +29,16 @@ inline bool overlap(const Aabb& a, const Aabb& b) {
   return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
 }
 
+/// From a point to the box; 0 inside. Metres².
+inline double squared_distance(const Aabb& box, const Vec3& x) {
+  return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
+}
+
+/// What rounding of a coordinate in the box is relative to, metres; 0 for an empty one.
+inline double largest_coordinate(const Aabb& box) {
+  return box.is_empty() ? 0.0 : box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+}
+
 inline Aabb bounds_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/geometry/box_tree.hpp"
+
 namespace impinge {
 
 MeshTopology make_topology(const TriangleMesh& mesh) {

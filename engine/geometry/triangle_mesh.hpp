@@ -5,7 +5,6 @@
 
 #include "engine/core/lazily.hpp"
 #include "engine/core/types.hpp"
-#include "engine/geometry/box_tree.hpp"
 
 namespace impinge {
 
@@ -32,6 +31,8 @@ struct MeshTopology {
 };
 
 MeshTopology make_topology(const TriangleMesh& mesh);
+
+class BoxTree;
 
 /// A surface ready for contact, shared by all that are made from the same source.
 struct SurfaceMesh {

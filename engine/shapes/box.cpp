@@ -1,24 +1,16 @@
 // A box about the origin, its sides along the axes.
 #include <algorithm>
 #include <map>
-#include <mutex>
-#include <optional>
 
 #include "engine/shapes/primitives.hpp"
 #include "engine/shapes/shape_entry.hpp"
 
 namespace impinge {
 
-struct Box::Solid {
-  std::once_flag once;
-  std::optional<ConvexPolyhedron> polyhedron;
-};
-
-Box::Box(const Vec3& half_lengths) : ConvexShape("box"), half(half_lengths), solid_(std::make_shared<Solid>()) {}
+Box::Box(const Vec3& half_lengths) : ConvexShape("box"), half(half_lengths) {}
 
 const ConvexPolyhedron* Box::polyhedron() const {
-  std::call_once(solid_->once, [&] { solid_->polyhedron.emplace(make_box_mesh(half)->mesh); });
-  return &*solid_->polyhedron;
+  return &solid_.get([&] { return ConvexPolyhedron(make_box_mesh(half)->mesh); });
 }
 
 Aabb Box::bounds(const Pose& pose) const {

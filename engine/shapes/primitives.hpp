@@ -2,6 +2,7 @@
 // without end. Sphere, box and capsule are centred at their frame's origin.
 #pragma once
 
+#include "engine/core/lazily.hpp"
 #include "engine/geometry/convex/convex_polyhedron.hpp"
 #include "engine/shapes/shape.hpp"
 
@@ -58,8 +59,7 @@ class Box final : public ConvexShape {
   std::vector<double> dimensions() const override { return {half.x(), half.y(), half.z()}; }
 
  private:
-  struct Solid;
-  std::shared_ptr<Solid> solid_;  ///< made when it is first asked for: most boxes meet nothing that needs it
+  Lazily<ConvexPolyhedron> solid_;  ///< made when it is first asked for: most boxes meet nothing that needs it
 };
 
 /// Axis y; the cap centres lie at y = ±half_length.

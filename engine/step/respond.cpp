@@ -1,7 +1,8 @@
 #include "engine/step/respond.hpp"
-#include <algorithm>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "engine/contact/push_out.hpp"
 #include "engine/core/error.hpp"

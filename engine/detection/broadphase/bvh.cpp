@@ -5,12 +5,10 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/broadphase/broad_phase.hpp"
-#include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/fitted_tree.hpp"
 
 namespace impinge {
 namespace {
-
-constexpr double kDecay = 1.5;  // times the boxes' sizes when the tree was made
 
 class Bvh final : public BroadPhase {
  public:
@@ -22,7 +20,7 @@ class Bvh final : public BroadPhase {
         if (overlap(boxes[i], boxes[j]) && i != j && (is_bounded_[j] || i < j))
           pairs.emplace_back(std::min(i, j), std::max(i, j));
     if (bounded_.size() > 1) {
-      refresh();
+      fitted_.fit(own_);
       walk(pairs);
     }
     std::sort(pairs.begin(), pairs.end());
@@ -39,45 +37,28 @@ class Bvh final : public BroadPhase {
       (is_bounded_[i] ? bounded : unbounded_).push_back(i);
       if (is_bounded_[i]) own_.push_back(boxes[i]);
     }
-    if (bounded != bounded_) tree_ = {};
+    if (bounded != bounded_) fitted_.forget();
     bounded_.swap(bounded);
   }
 
-  double size() const {
-    double sum = 0.0;
-    for (const Aabb& box : fitted_) sum += box.extent().norm();
-    return sum;
-  }
-
-  void refresh() {
-    const bool is_new = tree_.is_empty();
-    if (is_new) tree_ = BoxTree(own_, 1);
-    tree_.fit(own_, fitted_);
-    if (!is_new && !(size() <= kDecay * size_when_made_)) {
-      tree_ = BoxTree(own_, 1);
-      tree_.fit(own_, fitted_);
-      size_when_made_ = size();
-    }
-    if (is_new) size_when_made_ = size();
-  }
-
   void walk(std::vector<BoxPair>& pairs) const {
+    const BoxTree& tree = fitted_.tree();
+    const std::vector<Aabb>& box = fitted_.boxes();
     std::vector<std::pair<int, int>> waiting = {{0, 0}};
     InterruptPoll poll;
     while (!waiting.empty()) {
       const auto [a, b] = waiting.back();
       waiting.pop_back();
       poll();
-      if (a != b && !overlap(fitted_[a], fitted_[b])) continue;
-      const BoxTree::Node &na = tree_.nodes()[a], &nb = tree_.nodes()[b];
+      if (a != b && !overlap(box[a], box[b])) continue;
+      const BoxTree::Node &na = tree.nodes()[a], &nb = tree.nodes()[b];
       if (na.is_leaf() && nb.is_leaf()) {
         if (a == b) continue;
-        const int i = bounded_[tree_.order()[na.first]], j = bounded_[tree_.order()[nb.first]];
+        const int i = bounded_[tree.order()[na.first]], j = bounded_[tree.order()[nb.first]];
         pairs.emplace_back(std::min(i, j), std::max(i, j));
       } else if (a == b) {
         waiting.insert(waiting.end(), {{a + 1, a + 1}, {a + 1, na.second}, {na.second, na.second}});
-      } else if (nb.is_leaf() ||
-                 (!na.is_leaf() && fitted_[a].extent().squaredNorm() >= fitted_[b].extent().squaredNorm())) {
+      } else if (nb.is_leaf() || (!na.is_leaf() && box[a].extent().squaredNorm() >= box[b].extent().squaredNorm())) {
         waiting.insert(waiting.end(), {{a + 1, b}, {na.second, b}});
       } else {
         waiting.insert(waiting.end(), {{a, b + 1}, {a, nb.second}});
@@ -87,9 +68,8 @@ class Bvh final : public BroadPhase {
 
   std::vector<int> bounded_, unbounded_;  // bodies
   std::vector<bool> is_bounded_;
-  std::vector<Aabb> own_, fitted_;  // of bounded bodies; of the tree's nodes
-  BoxTree tree_;
-  double size_when_made_ = 0.0;
+  std::vector<Aabb> own_;  // of bounded bodies
+  FittedTree fitted_{1};
 };
 
 }  // namespace

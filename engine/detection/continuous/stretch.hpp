@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/detection/continuous/surface_path.hpp"
+#include "engine/geometry/box_tree.hpp"
 
 namespace impinge {
 

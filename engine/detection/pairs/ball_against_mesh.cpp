@@ -47,16 +47,12 @@ class BallTest {
   }
 
  private:
-  static double distance_sq(const Aabb& box, const Vec3& x) {
-    return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
-  }
-
   /// Collects what lies within reach, and the nearest of all if the centre may be inside.
   void search() {
     const double limit = ball_.radius + sink_.reach(), limit_sq = limit * limit;
-    const bool may_be_inside = distance_sq(sink_.second().bounds, ball_.center) == 0.0;
+    const bool may_be_inside = squared_distance(sink_.second().bounds, ball_.center) == 0.0;
     for (int t : triangles_round(sink_.second(), ball_.center, limit, may_be_inside)) {
-      const double lower_sq = distance_sq(triangle_bounds(mesh_, t), ball_.center);
+      const double lower_sq = squared_distance(triangle_bounds(mesh_, t), ball_.center);
       if (lower_sq > limit_sq && !(may_be_inside && lower_sq < nearest_.distance_sq)) continue;
       const PointTriangle p = closest_on_triangle(ball_.center, mesh_.corners(t));
       const Nearest n{mesh_.feature(t, p.feature), t, p.point, p.squared_distance};

@@ -24,6 +24,9 @@ struct Candidate {
   int triangle_first = -1, triangle_second = -1;
 };
 
+/// Negative: overlap, metres.
+inline double gap_of(const Candidate& c) { return c.normal.dot(c.point_first - c.point_second); }
+
 class ContactSink {
  public:
   /// `swapped`: the first shape of the test is body b of the pair.

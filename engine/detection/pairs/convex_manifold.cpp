@@ -189,8 +189,6 @@ std::vector<Candidate> line_candidates(const ContactFace& first, const ContactFa
   return result;
 }
 
-double gap_of(const Candidate& c) { return c.normal.dot(c.point_first - c.point_second); }
-
 }  // namespace
 
 ContactFace world_face(const ContactFace& face, const Pose& pose) {

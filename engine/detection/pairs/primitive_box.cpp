@@ -222,13 +222,12 @@ std::optional<FaceAxis> level_face(const Boxes& boxes, const FaceAxis& face) {
 /// Edge along edge, if that is all that touches.
 std::vector<Candidate> ridge_of(const ContactSink& sink, const Boxes& boxes, const FaceAxis& face,
                                 const EdgeAxis& edge) {
-  const ConvexPolyhedron &first = *shape_of<Box>(sink.first()).polyhedron(),
-                         &second = *shape_of<Box>(sink.second()).polyhedron();
   const double separation = std::max(face.separation, edge.separation);
-  if (std::abs(separation) > ridge_tolerance(first, second)) return {};
+  if (std::abs(separation) > ridge_tolerance(2.0 * boxes.first.half.norm(), 2.0 * boxes.second.half.norm())) return {};
   // one axis of each runs the same way; all three do where faces lie on faces, mostly
   if (((boxes.first.axes.transpose() * boxes.second.axes).cwiseAbs().array() > 0.9998).count() == 0) return {};
-  return ridge_contacts(sink, {first, sink.first().pose}, {second, sink.second().pose}, face.normal);
+  return ridge_contacts(sink, {*shape_of<Box>(sink.first()).polyhedron(), sink.first().pose},
+                        {*shape_of<Box>(sink.second()).polyhedron(), sink.second().pose}, face.normal);
 }
 
 }  // namespace

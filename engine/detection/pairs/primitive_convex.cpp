@@ -9,8 +9,6 @@
 namespace impinge {
 namespace {
 
-double gap_of(const Candidate& c) { return c.normal.dot(c.point_first - c.point_second); }
-
 PlacedConvex placed(const Collider& c) { return {std::get<const ConvexSet*>(c.shape->form()), c.pose}; }
 
 }  // namespace
@@ -22,7 +20,7 @@ void convex_convex(ContactSink& sink) {
   if (!found.empty() && a != nullptr && b != nullptr) {
     const Candidate& lowest = *std::min_element(found.begin(), found.end(),
                                                 [](const auto& l, const auto& r) { return gap_of(l) < gap_of(r); });
-    if (std::abs(gap_of(lowest)) <= ridge_tolerance(*a, *b)) {
+    if (std::abs(gap_of(lowest)) <= ridge_tolerance(a->size(), b->size())) {
       std::vector<Candidate> ridge = ridge_contacts(sink, {*a, first.pose}, {*b, second.pose}, lowest.normal);
       if (!ridge.empty()) found = std::move(ridge);
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace impinge {
 namespace {
@@ -96,13 +95,11 @@ std::vector<Candidate> along_both(const Ridge& first, const Ridge& second, const
 
 }  // namespace
 
-double ridge_tolerance(const ConvexPolyhedron& first, const ConvexPolyhedron& second) {
-  return kPlace * std::min(first.size(), second.size());
-}
+double ridge_tolerance(double size_first, double size_second) { return kPlace * std::min(size_first, size_second); }
 
 std::vector<Candidate> ridge_contacts(const ContactSink& sink, const PlacedPolyhedron& first,
                                       const PlacedPolyhedron& second, const Vec3& toward_first) {
-  const double near = ridge_tolerance(first.solid, second.solid);
+  const double near = ridge_tolerance(first.solid.size(), second.solid.size());
   const std::vector<Ridge> of_second = foremost(second, toward_first, near);
   if (of_second.empty()) return {};
   for (const Ridge& a : foremost(first, -toward_first, near))

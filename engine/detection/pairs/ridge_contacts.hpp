@@ -18,7 +18,7 @@ struct PlacedPolyhedron {
 std::vector<Candidate> ridge_contacts(const ContactSink& sink, const PlacedPolyhedron& first,
                                       const PlacedPolyhedron& second, const Vec3& toward_first);
 
-/// How near two ridges have to be to be one place, metres.
-double ridge_tolerance(const ConvexPolyhedron& first, const ConvexPolyhedron& second);
+/// How near two ridges have to be to be one place, metres; of solids of these sizes (diagonals of their boxes).
+double ridge_tolerance(double size_first, double size_second);
 
 }  // namespace impinge

@@ -18,12 +18,10 @@ int count_of(const Collider& mesh) { return static_cast<int>(mesh.mesh().mesh.tr
 /// A deforming surface would have to be fitted first, which costs as much as looking at each triangle.
 bool has_tree(const Collider& mesh) { return mesh.vertex_velocities.empty() && count_of(mesh) > kFewest; }
 
-double magnitude(const Aabb& box) { return box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff(); }
-
-double distance_sq(const Aabb& box, const Vec3& x) { return (x - x.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm(); }
-
 /// What world coordinates lose on the way into the frame of the mesh, generously.
-double slack(const Collider& mesh, const Aabb& box) { return 1e-12 * (magnitude(box) + magnitude(mesh.bounds)); }
+double slack(const Collider& mesh, const Aabb& box) {
+  return 1e-12 * (largest_coordinate(box) + largest_coordinate(mesh.bounds));
+}
 
 /// Triangles in leaves that `meets` finds with all that holds them.
 template <class Meets>
@@ -62,8 +60,8 @@ double distance_to(const BoxTree& tree, const TriangleMesh& mesh, const Vec3& x)
       }
       continue;
     }
-    std::pair<double, int> first = {distance_sq(tree.nodes()[n + 1].box, x), n + 1},
-                           second = {distance_sq(tree.nodes()[node.second].box, x), node.second};
+    std::pair<double, int> first = {squared_distance(tree.nodes()[n + 1].box, x), n + 1},
+                           second = {squared_distance(tree.nodes()[node.second].box, x), node.second};
     if (second < first) std::swap(first, second);
     waiting.push_back(second);  // the nearer one first, so that the farther can be left out
     waiting.push_back(first);
@@ -106,7 +104,7 @@ std::vector<int> triangles_round(const Collider& mesh, const Vec3& x, double dis
   if (and_nearest) reach = std::max(reach, distance_to(tree, mesh.mesh().mesh, local));
   // the box's, whose corner is farther by rounding than the sphere's
   reach = reach * (1.0 + 1e-9) + slack(mesh, {x, x});
-  return search(tree, [&](const Aabb& node) { return distance_sq(node, local) <= reach * reach; });
+  return search(tree, [&](const Aabb& node) { return squared_distance(node, local) <= reach * reach; });
 }
 
 }  // namespace impinge

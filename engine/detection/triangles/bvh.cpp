@@ -10,7 +10,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
-#include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/fitted_tree.hpp"
 
 namespace impinge {
 namespace {
@@ -21,8 +21,7 @@ struct Settings {
   Volume volume = Volume::aabb;
 };
 
-constexpr int kLeaf = 4;        // triangles; trees have at most 2
-constexpr double kDecay = 2.0;  // times the boxes' sizes when the tree was made
+constexpr int kLeaf = 4;  // triangles; trees have at most 2
 constexpr std::size_t kTasksAPair = 32;
 constexpr int kFewest = 256;  // triangles of both that are worth more than one task
 
@@ -97,20 +96,6 @@ class Bvh final : public NarrowPhase {
   }
 
  private:
-  /// A deforming body's tree, of this surface.
-  struct Fitted {
-    const SurfaceMesh* surface = nullptr;
-    BoxTree tree;
-    double size_when_made = 0.0;
-    std::vector<Aabb> boxes;
-  };
-
-  static double size_of(const std::vector<Aabb>& boxes) {
-    double sum = 0.0;
-    for (const Aabb& box : boxes) sum += box.extent().norm();
-    return sum;
-  }
-
   void prepare(std::span<const Collider> colliders, std::span<const BodyPair> pairs) {
     sides_.assign(colliders.size(), {});
     if (fitted_.size() < colliders.size()) fitted_.resize(colliders.size());
@@ -127,19 +112,10 @@ class Bvh final : public NarrowPhase {
     for (const BodyPair& pair : pairs) views_.push_back(view_of(colliders[pair.a], colliders[pair.b], pair.margin));
   }
 
-  static Side side_of(const Collider& collider, Fitted& fitted) {
+  static Side side_of(const Collider& collider, FittedTree& fitted) {
     if (collider.vertex_velocities.empty()) return {&collider.mesh().tree(), nullptr};
-    const std::vector<Aabb> triangles = triangle_boxes(collider.mesh().mesh.triangles, collider.vertices);
-    if (fitted.surface != &collider.mesh() || fitted.tree.order().size() != triangles.size())
-      fitted = {&collider.mesh(), BoxTree(triangles), 0.0, {}};
-    fitted.tree.fit(triangles, fitted.boxes);
-    if (fitted.size_when_made > 0.0 && size_of(fitted.boxes) > kDecay * fitted.size_when_made) {
-      fitted.tree = BoxTree(triangles);
-      fitted.tree.fit(triangles, fitted.boxes);
-      fitted.size_when_made = 0.0;
-    }
-    if (fitted.size_when_made == 0.0) fitted.size_when_made = size_of(fitted.boxes);
-    return {&fitted.tree, &fitted.boxes};
+    fitted.fit(triangle_boxes(collider.mesh().mesh.triangles, collider.vertices));
+    return {&fitted.tree(), &fitted.boxes()};
   }
 
   View view_of(const Collider& a, const Collider& b, double margin) const {
@@ -148,9 +124,7 @@ class Bvh final : public NarrowPhase {
     View view;
     view.b_in_a = {in.rotation.transpose() * of.rotation, in.apply_inverse(of.position)};
     view.turned = view.b_in_a.rotation.cwiseAbs();
-    double magnitude = 0.0;
-    for (const Aabb& box : {a.bounds, b.bounds})
-      if (!box.is_empty()) magnitude = std::max(magnitude, box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
+    const double magnitude = std::max(largest_coordinate(a.bounds), largest_coordinate(b.bounds));
     // as search_box has it, and what poses round
     view.margin = margin * (1.0 + 1e-9) + (4.0 * kTouchTolerance + 1e-13) * magnitude;
     view.volume = settings_.volume;
@@ -252,9 +226,9 @@ class Bvh final : public NarrowPhase {
   }
 
   Settings settings_;
-  std::vector<Side> sides_;     // by body
-  std::vector<Fitted> fitted_;  // by body
-  std::vector<View> views_;     // by pair
+  std::vector<Side> sides_;         // by body
+  std::vector<FittedTree> fitted_;  // by body
+  std::vector<View> views_;         // by pair
 };
 
 }  // namespace

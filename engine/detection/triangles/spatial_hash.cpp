@@ -178,8 +178,7 @@ class SpatialHash final : public NarrowPhase {
   Aabb widened(int body, double margin) const {
     const Aabb& box = colliders_[body].bounds;
     if (box.is_empty()) return box;
-    return box.inflated(0.5 * margin * (1.0 + 1e-9) +
-                        2.0 * kTouchTolerance * box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff());
+    return box.inflated(0.5 * margin * (1.0 + 1e-9) + 2.0 * kTouchTolerance * largest_coordinate(box));
   }
 
   // the triangles that reach into their body's region, block by block, and which bodies come to which entry. The order

@@ -66,8 +66,8 @@ std::string where(const std::string& text, const std::string& mark) {
 }
 
 /// The scene with one body of that shape is refused at `mark`.
-void refused(const std::string& shape, const std::string& mark, const std::string& contains,
-             const std::string& kind = "dynamic", const std::string& more = "") {
+void check_shape_refused(const std::string& shape, const std::string& mark, const std::string& contains,
+                         const std::string& kind = "dynamic", const std::string& more = "") {
   const TempFolder folder;
   write_ball(folder);
   const std::string text = body("thing", kind, shape, Vec3(0, 1, 0), more);
@@ -164,10 +164,10 @@ TEST_CASE("cylinder, cone and hull can be deformable, a compound says why it can
       impinge_run(folder.path(), {"run", "s.toml", "--out", "out", "--frames", "12", "--no-images", "--judge"});
   INFO(run.err);
   CHECK(run.code == 0);
-  refused(kShapes[4], "{ compound", "is several solids, not one closed surface", "deformable",
-          "volume = { cage = { cells = 4 } }");
-  refused("{ plane = { normal = [0, 1, 0] } }", "{ plane", "has no bounds", "deformable",
-          "volume = { cage = { cells = 4 } }");
+  check_shape_refused(kShapes[4], "{ compound", "is several solids, not one closed surface", "deformable",
+                      "volume = { cage = { cells = 4 } }");
+  check_shape_refused("{ plane = { normal = [0, 1, 0] } }", "{ plane", "has no bounds", "deformable",
+                      "volume = { cage = { cells = 4 } }");
 }
 
 TEST_CASE("deformable bodies lie on new shapes, and new shapes on them") {
@@ -204,44 +204,51 @@ TEST_CASE("deformable bodies lie on new shapes, and new shapes on them") {
 }
 
 TEST_CASE("each key of the new shapes is refused where it stands") {
-  refused("{ cylinder = { radius = 0.1 } }", "{ radius", "has no length; length = a length in metres is wanted");
-  refused("{ cylinder = { length = 0.1 } }", "{ length", "has no radius");
-  refused("{ cylinder = { radius = -1, length = 1 } }", "-1", "greater than 0");
-  refused("{ cylinder = { radius = 0.1, length = true } }", "true", "length");
-  refused("{ cone = { radius = 0.1, height = 1 } }", "height", "unknown key 'height'");
-  refused("{ cone = { radius = 0, length = 1 } }", "0, length", "greater than 0");
-  refused("{ cone = 3 }", "3 }", "a table { ... } is wanted");
-  refused("{ cylindre = { radius = 1, length = 1 } }", "cylindre", "did you mean 'cylinder'?");
-  refused("{ cone = { radius = 1, length = 1 }, cylinder = { radius = 1, length = 1 } }", "{ cone", "names 2 shapes");
-  refused("{ mesh = { surface = \"ball.off\" } }", "mesh", "unknown key 'mesh'");
+  check_shape_refused("{ cylinder = { radius = 0.1 } }", "{ radius",
+                      "has no length; length = a length in metres is wanted");
+  check_shape_refused("{ cylinder = { length = 0.1 } }", "{ length", "has no radius");
+  check_shape_refused("{ cylinder = { radius = -1, length = 1 } }", "-1", "greater than 0");
+  check_shape_refused("{ cylinder = { radius = 0.1, length = true } }", "true", "length");
+  check_shape_refused("{ cone = { radius = 0.1, height = 1 } }", "height", "unknown key 'height'");
+  check_shape_refused("{ cone = { radius = 0, length = 1 } }", "0, length", "greater than 0");
+  check_shape_refused("{ cone = 3 }", "3 }", "a table { ... } is wanted");
+  check_shape_refused("{ cylindre = { radius = 1, length = 1 } }", "cylindre", "did you mean 'cylinder'?");
+  check_shape_refused("{ cone = { radius = 1, length = 1 }, cylinder = { radius = 1, length = 1 } }", "{ cone",
+                      "names 2 shapes");
+  check_shape_refused("{ mesh = { surface = \"ball.off\" } }", "mesh", "unknown key 'mesh'");
 
-  refused("{ convex_hull = {} }", "{} }", "has neither points nor a surface; one of points, surface is wanted");
-  refused("{ convex_hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], surface = \"ball.off\" } }",
-          "{ points", "has points and a surface");
-  refused("{ convex_hull = { points = 3 } }", "3 }", "a list [ ... ] is wanted");
-  refused("{ convex_hull = { points = [[0, 0, 0], [1, 2]] } }", "[1, 2]", "has 2 numbers");
-  refused("{ convex_hull = { points = [[0, 0, 0], [1, 2, \"x\"]] } }", "\"x\"", "a real number is wanted");
-  refused("{ convex_hull = { points = [[0, 0, 0], [1, 2, inf]] } }", "inf", "is allowed");
-  refused("{ convex_hull = { points = [[0, 0, 0], [0, 0, 0]] } }", "[[0", "has 1 different point");
-  refused("{ convex_hull = { points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [5, 0, 0]] } }", "[[0",
-          "has all points on a line");
-  refused("{ convex_hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.2, 0.3, 0]] } }", "[[0",
-          "has all points in a plane");
-  refused("{ convex_hull = { surface = \"none.off\" } }", "\"none.off\"", "there is no such file");
-  refused("{ convex_hull = { surface = \"../ball.off\" } }", "\"../ball.off\"", "leads out of the scene's folder");
-  refused("{ convex_hull = { surface = 3 } }", "3 }", "a text is wanted");
+  check_shape_refused("{ convex_hull = {} }", "{} }",
+                      "has neither points nor a surface; one of points, surface is wanted");
+  check_shape_refused(
+      "{ convex_hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], surface = \"ball.off\" } }", "{ points",
+      "has points and a surface");
+  check_shape_refused("{ convex_hull = { points = 3 } }", "3 }", "a list [ ... ] is wanted");
+  check_shape_refused("{ convex_hull = { points = [[0, 0, 0], [1, 2]] } }", "[1, 2]", "has 2 numbers");
+  check_shape_refused("{ convex_hull = { points = [[0, 0, 0], [1, 2, \"x\"]] } }", "\"x\"", "a real number is wanted");
+  check_shape_refused("{ convex_hull = { points = [[0, 0, 0], [1, 2, inf]] } }", "inf", "is allowed");
+  check_shape_refused("{ convex_hull = { points = [[0, 0, 0], [0, 0, 0]] } }", "[[0", "has 1 different point");
+  check_shape_refused("{ convex_hull = { points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [5, 0, 0]] } }", "[[0",
+                      "has all points on a line");
+  check_shape_refused("{ convex_hull = { points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0.2, 0.3, 0]] } }",
+                      "[[0", "has all points in a plane");
+  check_shape_refused("{ convex_hull = { surface = \"none.off\" } }", "\"none.off\"", "there is no such file");
+  check_shape_refused("{ convex_hull = { surface = \"../ball.off\" } }", "\"../ball.off\"",
+                      "leads out of the scene's folder");
+  check_shape_refused("{ convex_hull = { surface = 3 } }", "3 }", "a text is wanted");
 
-  refused("{ compound = {} }", "{} }", "has no parts");
-  refused("{ compound = { parts = [] } }", "[] }", "has no parts");
-  refused("{ compound = { parts = { shape = 1 } } }", "{ shape", "a list [ ... ] is wanted");
-  refused("{ compound = { parts = [ 3 ] } }", "3 ]", "a table { ... } is wanted");
-  refused("{ compound = { parts = [ { position = [0, 0, 0] } ] } }", "{ position", "parts[0] has no shape");
-  refused("{ compound = { parts = [ { shape = { sphere = { radius = 1 } }, place = [0, 0, 0] } ] } }", "place",
-          "unknown key 'place'");
-  refused("{ compound = { parts = [ { shape = { sphere = { radius = 1 } }, position = [0, 0] } ] } }", "[0, 0]",
-          "has 2 numbers");
-  refused("{ compound = { parts = [ { shape = { sphere = { radius = 1 } }, rotation = 90 } ] } }", "90", "a vector");
-  refused("{ compound = { parts = [ { shape = { sphere = { radius = \"big\" } } } ] } }", "\"big\"", "radius");
-  refused("{ compound = { parts = [ { shape = { plane = { normal = [0, 1, 0] } } } ] } }", "[ { shape",
-          "has a plane as part 0, which has no bounds");
+  check_shape_refused("{ compound = {} }", "{} }", "has no parts");
+  check_shape_refused("{ compound = { parts = [] } }", "[] }", "has no parts");
+  check_shape_refused("{ compound = { parts = { shape = 1 } } }", "{ shape", "a list [ ... ] is wanted");
+  check_shape_refused("{ compound = { parts = [ 3 ] } }", "3 ]", "a table { ... } is wanted");
+  check_shape_refused("{ compound = { parts = [ { position = [0, 0, 0] } ] } }", "{ position", "parts[0] has no shape");
+  check_shape_refused("{ compound = { parts = [ { shape = { sphere = { radius = 1 } }, place = [0, 0, 0] } ] } }",
+                      "place", "unknown key 'place'");
+  check_shape_refused("{ compound = { parts = [ { shape = { sphere = { radius = 1 } }, position = [0, 0] } ] } }",
+                      "[0, 0]", "has 2 numbers");
+  check_shape_refused("{ compound = { parts = [ { shape = { sphere = { radius = 1 } }, rotation = 90 } ] } }", "90",
+                      "a vector");
+  check_shape_refused("{ compound = { parts = [ { shape = { sphere = { radius = \"big\" } } } ] } }", "\"big\"",
+                      "radius");
+  check_shape_refused("{ compound = { parts = [ { shape = { plane = { normal = [0, 1, 0] } } } ] } }", "[ { shape",
+                      "has a plane as part 0, which has no bounds");
 }
