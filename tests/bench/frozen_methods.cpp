@@ -42,12 +42,12 @@ void iterative(const FrozenStep& step, const FrozenRuler& ruler) {
 void routes(const FrozenStep& step) {
   double symmetric = 0.0, eigen = 0.0, whole = 0.0, dense = 0.0;
   for (const FrozenGroup& group : step.groups) {
-    const MatX w = w_assembled(group, "automatic");
+    const MatX w = w_assembled(group, LinearSolverChoice("automatic"));
     const double size = w.norm();
-    const MatX solves = w_by_whole_solves(group, "automatic");
+    const MatX solves = w_by_whole_solves(group, LinearSolverChoice("automatic"));
     symmetric = std::max(symmetric, (solves - solves.transpose()).norm() / size);
     whole = std::max(whole, (solves - w).norm() / size);
-    eigen = std::max(eigen, (w_assembled(group, "simplicial_llt") - w).norm() / size);
+    eigen = std::max(eigen, (w_assembled(group, LinearSolverChoice("simplicial_llt")) - w).norm() / size);
     dense = std::max(dense, (w_by_dense_inverse(group) - w).norm() / size);
   }
   std::printf(

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
       tight.lcp = {1e-11, 100000};
       make_response("constraint_anticipation")->solve(truth, *lcp, tight);
       Eigen::Index unknowns = 0;
-      for (const DeformableBlock& block : truth.soft) unknowns += block.velocity.size();
+      for (const DeformableBlock& block : truth.deformable) unknowns += block.velocity.size();
       double exact_ms = 0.0;
       for (const Way& method : methods) {
         GroupSystem group = stack.group;
