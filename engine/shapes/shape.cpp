@@ -50,4 +50,11 @@ double ConvexShape::signed_distance(const Vec3& x) const {
   return convex_gap({&point, {Mat3::Identity(), x}}, {this, {}}).gap;
 }
 
+double thickness_of(const Shape& shape) {
+  if (shape.mesh() == nullptr) return shape.bounds({}).extent().minCoeff();
+  Aabb box;
+  for (const Vec3& x : shape.mesh()->mesh.vertices) box.include(x);
+  return box.extent().minCoeff();
+}
+
 }  // namespace impinge

@@ -95,6 +95,9 @@ class SharedShape {
   std::shared_ptr<const Shape> shape_;
 };
 
+/// Smallest side of the box round it at rest, metres: what an overlap or a motion is held against. A plane's is infinite.
+double thickness_of(const Shape& shape);
+
 /// A convex solid as a part of a compound, at its place in the compound's frame.
 struct ShapePart {
   SharedShape shape;

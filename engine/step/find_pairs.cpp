@@ -50,30 +50,38 @@ void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders) {
   }
 }
 
-void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
-                double time_step, BroadPhase& broad_phase, std::vector<BodyPair>& pairs) {
+std::vector<Aabb> search_boxes(const Bodies& bodies, std::span<const Collider> colliders,
+                               const ContactSettings& settings, double time_step) {
   const bool proximity = settings.points == ContactPoints::proximity;
-  const double activation = settings.activation();
   std::vector<Aabb> boxes;
   boxes.reserve(colliders.size());
   for (BodyIndex i(0); i < bodies.size(); ++i)
-    boxes.push_back(proximity ? swept_bounds(colliders[i], bodies[i].radius, activation, time_step)
+    boxes.push_back(proximity ? swept_bounds(colliders[i], bodies[i].radius, settings.activation(), time_step)
                               : colliders[i].bounds);
+  return boxes;
+}
+
+double search_margin(const Bodies& bodies, std::span<const Collider> colliders, BodyIndex a, BodyIndex b,
+                     const ContactSettings& settings, double time_step) {
+  if (settings.points != ContactPoints::proximity) return 0.0;
+  // the approach widens the search; for meshes by one edge length at most, since the triangles in reach grow with its
+  // square: what is faster overlaps a little and is pushed out
+  const double reach = approach(colliders[a], bodies[a].radius, colliders[b], bodies[b].radius, time_step);
+  return settings.activation() + std::min(reach, std::max(bodies[a].mean_edge, bodies[b].mean_edge));
+}
+
+void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
+                double time_step, BroadPhase& broad_phase, std::vector<BodyPair>& pairs) {
   std::vector<BoxPair> box_pairs;
-  broad_phase.find(boxes, box_pairs);
+  broad_phase.find(search_boxes(bodies, colliders, settings, time_step), box_pairs);
 
   pairs.clear();
   for (BodyIndex i(0); i < bodies.size(); ++i)
-    if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, activation});
+    if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, settings.activation()});
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(first), b(second);
     if (!may_respond(bodies[a], bodies[b])) continue;
-    // the approach widens the search; for meshes by one edge length at most, since the triangles in reach grow with its
-    // square: what is faster overlaps a little and is pushed out
-    const double reach = approach(colliders[a], bodies[a].radius, colliders[b], bodies[b].radius, time_step);
-    const double margin =
-        proximity ? activation + std::min(reach, std::max(bodies[a].mean_edge, bodies[b].mean_edge)) : 0.0;
-    pairs.push_back({a, b, margin});
+    pairs.push_back({a, b, search_margin(bodies, colliders, a, b, settings, time_step)});
   }
   std::sort(pairs.begin(), pairs.end());
 }

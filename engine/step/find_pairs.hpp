@@ -17,6 +17,13 @@ inline bool may_respond(const Body& a, const Body& b) {
 /// What detection sees of the bodies, at their free velocities. It refers to them.
 void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders);
 
+/// The boxes that bodies sweep in the sub-step of time_step seconds, each with half the activation distance round it.
+std::vector<Aabb> search_boxes(const Bodies& bodies, std::span<const Collider> colliders,
+                               const ContactSettings& settings, double time_step);
+/// How far apart features of the two still are looked at, metres: the activation distance and how far they approach.
+double search_margin(const Bodies& bodies, std::span<const Collider> colliders, BodyIndex a, BodyIndex b,
+                     const ContactSettings& settings, double time_step);
+
 /// Fills `pairs`, sorted, from the boxes that the bodies sweep in the sub-step of time_step seconds.
 void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
                 double time_step, BroadPhase& broad_phase, std::vector<BodyPair>& pairs);

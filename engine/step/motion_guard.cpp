@@ -56,6 +56,8 @@ Sweep sweep_of(const Body& body, const Pose& start, const std::vector<Pose>& tur
 
 bool is_plane(const Body& body) { return body.shape->as<Plane>() != nullptr; }
 
+double way_of(const Sweep& s) { return s.shift.norm() + s.turn; }
+
 double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).norm() + a.turn + b.turn; }
 
 }  // namespace
@@ -87,12 +89,7 @@ double MotionGuard::safe_approach(const Body& body) {
 double MotionGuard::thickness_of(const Body& body) {
   Known& known = known_[body.shape.get()];
   if (known.thickness == 0.0) {
-    Aabb box;
-    if (const SurfaceMesh* mesh = body.shape->mesh())
-      for (const Vec3& x : mesh->mesh.vertices) box.include(x);
-    else
-      box = body.shape->bounds({});
-    known.thickness = box.extent().minCoeff();
+    known.thickness = impinge::thickness_of(*body.shape);
   }
   return known.thickness;
 }
@@ -155,7 +152,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   double least = INFINITY;  // of how far pairs may approach unseen
   for (BodyIndex b(0); b < bodies.size(); ++b) {
     sweeps.push_back(sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]));
-    far.push_back(sweeps.back().shift.norm() + sweeps.back().turn);
+    far.push_back(way_of(sweeps.back()));
     if (!is_plane(bodies[b])) least = std::min(least, safe_approach(bodies[b]));
   }
   // a pair approaches by no more than the two that move farthest: most scenes are done here
@@ -175,22 +172,44 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
     const Body &of_a = bodies[a], &of_b = bodies[b];
     if (!may_respond(of_a, of_b) || is_plane(of_a) || is_plane(of_b)) continue;
     const double safe = std::min(safe_approach(of_a), safe_approach(of_b));
-    if (all || approach(sweeps[a], sweeps[b]) > safe) pairs.push_back({a, b, {}});
+    const double both = approach(sweeps[a], sweeps[b]);
+    if (all || both > safe) pairs.push_back({a, b, {}, way_of(sweeps[a]), way_of(sweeps[b]), both, safe});
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const auto& l, const auto& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); });
   return pairs;
 }
 
+void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassageSettings& settings,
+                         bool is_deep) {
+  std::vector<std::pair<SurfacePath, SurfacePath>> paths;
+  for (const UnsafeMotion::Pair& pair : pairs)
+    paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
+  parallel_for(pairs.size(), 1, [&](std::size_t i) {
+    PassageSettings own = settings;
+    if (is_deep) own.depth = pairs[i].safe;
+    pairs[i].passages = first_passages(paths[i].first, paths[i].second, own);
+  });
+}
+
+MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  const Sweep of_a = sweep_of(bodies[a], start_[a], turns_[a], nodes_[a]),
+              of_b = sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]);
+  PairMotion motion{is_plane(bodies[a]) || is_plane(bodies[b]), overlap(of_a.box, of_b.box), way_of(of_a), way_of(of_b),
+                    approach(of_a, of_b)};
+  motion.safe = std::min(safe_approach(bodies[a]), safe_approach(bodies[b]));
+  return motion;
+}
+
+void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassageSettings& settings) {
+  search(bodies, motion.pairs, settings, true);
+}
+
 std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassageSettings& settings) {
   std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which == Continuous::on);
   if (pairs.empty()) return std::nullopt;
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
-  std::vector<std::pair<SurfacePath, SurfacePath>> paths;
-  for (const UnsafeMotion::Pair& pair : pairs)
-    paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
-  parallel_for(pairs.size(), 1,
-               [&](std::size_t i) { pairs[i].passages = first_passages(paths[i].first, paths[i].second, settings); });
+  search(bodies, pairs, settings, false);
   std::erase_if(pairs, [](const UnsafeMotion::Pair& pair) { return pair.passages.empty(); });
   if (pairs.empty()) return std::nullopt;
   return UnsafeMotion{std::move(pairs)};

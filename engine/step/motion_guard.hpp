@@ -24,7 +24,10 @@ enum class Continuous {
 struct UnsafeMotion {
   struct Pair {
     BodyIndex a, b;
-    std::vector<Passage> passages;  ///< time: of the sub-step; none where nobody looked for them (Continuous::off)
+    std::vector<Passage> passages;    ///< time: of the sub-step; none where nobody looked for them (Continuous::off)
+    double way_a = 0.0, way_b = 0.0;  ///< how far the farthest moving point of each went, metres, or a bound of it
+    double approach = 0.0;            ///< of the two at most, metres
+    double safe = 0.0;                ///< the approach that contacts found before the motion see well, metres
   };
   std::vector<Pair> pairs;
 };
@@ -39,6 +42,16 @@ class MotionGuard {
   void follow(Bodies& bodies, const TimeIntegration& how, double end);
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
   std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassageSettings& settings);
+  /// What `look` holds against each other of two bodies after the motion.
+  struct PairMotion {
+    bool is_planar = false;  ///< a plane is among them: what is through it is still inside
+    bool meets = false;      ///< the boxes round their ways do
+    double way_a = 0.0, way_b = 0.0, approach = 0.0, safe = 0.0;  ///< metres, as UnsafeMotion::Pair has them
+    bool is_at_risk() const { return !is_planar && meets && approach > safe; }
+  };
+  PairMotion motion_of(const Bodies& bodies, BodyIndex a, BodyIndex b);
+  /// For pairs that nobody vouches for: which of them pass, each by more than its safe approach.
+  void find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassageSettings& settings);
 
  private:
   struct Known;
@@ -47,6 +60,8 @@ class MotionGuard {
   double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
   std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, bool all);
+  void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassageSettings& settings,
+              bool is_deep);
 
   std::vector<Pose> start_;               // by body
   std::vector<std::vector<Pose>> turns_;  // by body: poses on the way of what turns far; else empty

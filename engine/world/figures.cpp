@@ -56,6 +56,8 @@ constexpr Figure kFigures[] = {
      "Largest overlap of a contact at the end of any sub-step of the frame."},
     {"unsafe_motions", "", state, &S::unsafe_motions,
      "Bodies that passed another, or moved farther in a sub-step than contacts see."},
+    {"self_crossings", "", state, &S::self_crossings,
+     "Crossing pairs of triangles of deformable bodies' own surfaces; with --judge=substeps the most of any sub-step."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.

@@ -168,6 +168,9 @@ OverlapVerdict judge_overlap(const Bodies& bodies) {
           if (a.shape->mesh() != nullptr && b.shape->mesh() != nullptr)
             verdict.intersections += crossing_triangles(a, b);
           const double depth = pair_penetration(a, b);
+          const double thickness = std::min(thickness_of(*bodies[i].shape), thickness_of(*bodies[j].shape));
+          if (depth / thickness > verdict.crossing.share())
+            verdict.crossing = {bodies[i].name, bodies[j].name, depth, thickness, 0};
           if (depth <= verdict.penetration) continue;
           verdict.penetration = depth;
           verdict.body_a = static_cast<int>(i);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/bodies/bodies.hpp"
+#include "engine/world/step_record.hpp"
 
 namespace impinge {
 
@@ -13,7 +14,10 @@ struct OverlapVerdict {
   /// (sphere and capsule by their centre line, two other convex solids by the least motion that parts them, a compound
   /// part by part). 0 without overlap.
   double penetration = 0.0;
-  int body_a = -1, body_b = -1;    ///< where it is deepest
+  int body_a = -1, body_b = -1;  ///< where it is deepest
+  /// The pair whose overlap is the largest share of the thinner one's thickness, which is the smallest side of its box
+  /// at rest.
+  Crossing crossing;
   std::int64_t intersections = 0;  ///< triangle pairs of different meshes that share a point
 };
 

@@ -5,6 +5,7 @@
 #include "engine/contact/pair_coefficients.hpp"
 #include "engine/step/sub_step.hpp"
 #include "engine/world/finite_record.hpp"
+#include "engine/world/self_crossings.hpp"
 #include "engine/world/world.hpp"
 
 namespace impinge {
@@ -115,6 +116,7 @@ void World::publish(std::span<const SolvedContact> contacts) {
   stats_.max_penetration = 0.0;
   for (const ContactRecord& c : next_record_.contacts)
     stats_.max_penetration = std::max(stats_.max_penetration, -c.gap);
+  stats_.self_crossings = count_self_crossings(bodies_);
   stats_.take(balance);
   stats_.state_hash = state_hash();
   next_record_.stats = stats_;

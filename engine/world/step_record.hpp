@@ -61,6 +61,30 @@ struct UnsolvedGroups {
 /// Adds to the entry of the same reason and limit, or a new one at the end.
 void count_unsolved(std::vector<UnsolvedGroups>& all, const UnsolvedGroups& more);
 
+/// A body whose motion nobody vouches for, beside the other one that it may have passed.
+struct UnsafeBody {
+  enum Cause : std::uint8_t {
+    unwatched,     ///< narrow_phase.continuous = "off"
+    soft_contact,  ///< the response lets bodies overlap, so motions are not undone
+    cut_limit      ///< the sub-step was cut as often as it may be
+  };
+  std::string name, other;
+  Cause cause = unwatched;
+  int substep = 0;            ///< of the frame, from 1
+  double displacement = 0.0;  ///< of the body in it, metres; of what is left of it where it was cut
+  double approach = 0.0;      ///< of the two, metres
+  double safe = 0.0;          ///< the approach that contacts see well, metres
+  bool has_passed = false;    ///< it was looked for and found; else it only moved too far
+};
+
+/// Two bodies that overlap, as deep as a share of the thinner one's thickness.
+struct Crossing {
+  std::string a, b;
+  double depth = 0.0, thickness = 0.0;  ///< metres
+  int substep = 0;                      ///< of the frame, from 1; 0: its end
+  double share() const { return thickness > 0.0 ? depth / thickness : 0.0; }
+};
+
 /// A frame in numbers; what they mean: figures.cpp.
 struct FrameStats {
   int frame = 0;
@@ -72,7 +96,8 @@ struct FrameStats {
   std::int64_t lcp_iterations = 0, outer_iterations = 0;
   double substep_penetration = 0.0;  ///< metres, over contacts at the end of each sub-step
   std::int64_t unsafe_motions = 0;   ///< bodies that moved farther in a sub-step than contacts see, or passed another
-  std::vector<std::string> unsafe;   ///< their names; of frames that this process made
+  std::vector<UnsafeBody> unsafe;    ///< the first of each body; of frames that this process made
+  std::int64_t self_crossings = 0;   ///< pairs of triangles of a deformable body's own surface, at the end
   std::int64_t unconverged = 0;      ///< group solves of the frame that ended without an answer
   std::vector<UnsolvedGroups> unsolved;                  ///< the same by cause; of frames that this process made
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
@@ -86,6 +111,7 @@ struct FrameStats {
   // Filled in by who asks the judge of overlap (judge.hpp).
   double judged_penetration = 0.0;  ///< metres
   std::int64_t judged_intersections = 0;
+  Crossing crossing;  ///< the deepest by its share; of frames that this process made
 };
 
 struct StepRecord {

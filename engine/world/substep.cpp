@@ -1,10 +1,9 @@
 // A sub-step, in one piece or, where a surface would pass through another, in several: each ends shortly before a meeting,
 // so that the next one finds contacts where they are. What is met from so close by gets contacts of its own.
 #include <algorithm>
-#include <set>
 
 #include "engine/core/archive.hpp"
-#include "engine/step/sub_step.hpp"
+#include "engine/step/step_watcher.hpp"
 #include "engine/world/world.hpp"
 
 namespace impinge {
@@ -47,17 +46,28 @@ bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
   return is_new;
 }
 
-std::set<BodyIndex> bodies_of(const UnsafeMotion& motion) {
-  std::set<BodyIndex> bodies;
-  for (const UnsafeMotion::Pair& pair : motion.pairs) bodies.insert(pair.a), bodies.insert(pair.b);
-  return bodies;
-}
-
 }  // namespace
+
+void World::note_unsafe(const UnsafeMotion& motion, int substep) {
+  UnsafeBody::Cause cause = UnsafeBody::cut_limit;
+  if (parameters.response.method->lives_on_overlap()) cause = UnsafeBody::soft_contact;
+  if (parameters.narrow_phase.continuous == Continuous::off) cause = UnsafeBody::unwatched;
+  for (const UnsafeMotion::Pair& pair : motion.pairs)
+    for (const bool is_a : {true, false}) {
+      const BodyIndex body = is_a ? pair.a : pair.b, other = is_a ? pair.b : pair.a;
+      // what lives on overlap is let in by a little, and nobody asked how far it came
+      const bool has_passed = !pair.passages.empty() && cause != UnsafeBody::soft_contact;
+      const UnsafeBody now{bodies_[body].name, bodies_[other].name, cause,     substep, is_a ? pair.way_a : pair.way_b,
+                           pair.approach,      pair.safe,           has_passed};
+      UnsafeBody& known = unsafe_.try_emplace(body, now).first->second;
+      if (has_passed && !known.has_passed) known = now;
+    }
+}
 
 void World::substep(double h, int left, FrozenStep* frozen) {
   const Continuous which = parameters.narrow_phase.continuous;
   const double size = parameters.contact.activation_distance;
+  const int substep = parameters.simulation.substeps - left + 1;
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
   const PassageSettings passage{is_kept ? kDepth * size : size, kReach * size};
@@ -74,11 +84,14 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     for (int motion = 1;; ++motion) {
       const bool is_last = share == rest;
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && is_last);
-      const std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passage);
+      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passage);
+      const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
+      if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
       if (!unsafe) break;
-      if (!is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare) {
-        const std::set<BodyIndex> passed = bodies_of(*unsafe);
-        unsafe_.insert(passed.begin(), passed.end());
+      if (is_end) {
+        if (which == Continuous::off && watcher_ != nullptr && watcher_->wants_passages())
+          guard_.find_passages(bodies_, *unsafe, passage);
+        note_unsafe(*unsafe, substep);
         break;
       }
       if (const std::optional<double> safe = safe_share(*unsafe, kStandOff * size))
@@ -92,6 +105,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }
+  if (watcher_ != nullptr) watcher_->finished(bodies_, substep);
 }
 
 }  // namespace impinge

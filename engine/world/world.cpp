@@ -9,6 +9,7 @@
 #include "engine/step/free_velocities.hpp"
 #include "engine/step/integrate.hpp"
 #include "engine/step/remember.hpp"
+#include "engine/step/step_watcher.hpp"
 
 namespace impinge {
 namespace {
@@ -48,6 +49,11 @@ void World::start() {
   publish_found();
 }
 
+void World::show_start(StepWatcher& watcher) const {
+  IMPINGE_ASSERT(frame_ == 0 && !sub_step_->colliders.empty());
+  watcher.found(bodies_, *sub_step_);
+}
+
 void World::step() { advance(nullptr); }
 
 FrozenStep World::step_and_freeze() {
@@ -77,7 +83,7 @@ void World::advance(FrozenStep* frozen) {
     throw DivergenceError(fmt::format("frame {}, {}", frame_, error.what()));
   }
   stats_.unsafe_motions = static_cast<std::int64_t>(unsafe_.size());
-  for (const BodyIndex b : unsafe_) stats_.unsafe.push_back(bodies_[b].name);
+  for (const auto& [body, unsafe] : unsafe_) stats_.unsafe.push_back(unsafe);
   publish_solved();
 }
 
@@ -101,6 +107,7 @@ void World::make_motion(double h, double share, bool freezes) {
 
   // 5 broad phase, 6 narrow phase
   detect(bodies_, attachments_, detecting(parameters), how, sleeping_, s, times);
+  if (watcher_ != nullptr) watcher_->found(bodies_, s);
   const ContactList contacts = s.contacts(attachments_);
 
   timed(times.assemble_ms, [&] {

@@ -1,8 +1,8 @@
 // The model: bodies, parameters and the step that turns one frame into the next. Knows no view and no files.
 #pragma once
 
+#include <map>
 #include <memory>
-#include <set>
 
 #include "engine/bodies/body_description.hpp"
 #include "engine/contact/attachments.hpp"
@@ -17,6 +17,7 @@ namespace impinge {
 class ByteReader;
 class ByteWriter;
 struct FrozenStep;
+class StepWatcher;
 
 class World {
  public:
@@ -49,6 +50,12 @@ class World {
   /// To be called after parameters were changed between frames: sleeping bodies must feel the change.
   void parameters_changed();
 
+  /// Who looks on while step() works, none: null. It must outlive what it watches, or be taken away.
+  void watch(StepWatcher* watcher) { watcher_ = watcher; }
+  /// Frame 0, which no step made: calls its found().
+  void show_start(StepWatcher& watcher) const;
+  std::span<const Attachment> attachments() const { return attachments_; }
+
   int frame() const { return frame_; }
   double time() const { return time_; }
   const StepRecord& record() const { return record_; }
@@ -64,6 +71,7 @@ class World {
   void advance(FrozenStep* frozen);
   void substep(double time_step, int left, FrozenStep* frozen);
   void make_motion(double time_step, double share, bool freezes);
+  void note_unsafe(const UnsafeMotion& motion, int substep);
   void take_results(FrozenStep* frozen);
   void save_state(ByteWriter& out) const;
   void publish_solved();
@@ -76,7 +84,8 @@ class World {
   Sleeping sleeping_;
   std::unique_ptr<SubStep> sub_step_;  // the last one
   MotionGuard guard_;
-  std::set<BodyIndex> unsafe_;       // of the frame being made: bodies whose motion nobody vouches for
+  std::map<BodyIndex, UnsafeBody> unsafe_;  // of the frame being made
+  StepWatcher* watcher_ = nullptr;
   FrameStats stats_;                 // of the frame being made: sums and maxima over its sub-steps
   std::uint64_t settings_seen_ = 0;  // hash of what parameters_changed compares with
   StepRecord record_, next_record_;  // the published one; the one of the frame being made

@@ -139,7 +139,23 @@ void Options::texts(const char* name, std::vector<std::string>& to, const std::s
   app_.add_option(name, to, doc)->take_all()->allow_extra_args(false);
 }
 
+void Options::two_texts(const char* name, std::pair<std::string, std::string>& to, const std::string& doc) {
+  app_.add_option(name, to, doc)->required();
+}
+
 void Options::flag(const char* name, bool& to, const std::string& doc) { app_.add_flag(name, to, doc); }
+
+void Options::flag_or_word(const char* name, std::function<void(const std::string&)> take, const std::string& word,
+                           const std::string& doc) {
+  const auto given = [=](const std::string& text) {
+    if (text != "true" && text != word)
+      refuse_option(fmt::format("{} is '{}'", name, text), fmt::format("{} or nothing is wanted", word),
+                    fmt::format("write {}, or {}={}", name, name, word));
+    take(text == word ? word : "");
+  };
+  texts_.emplace_back("", given);
+  app_.add_flag(name, texts_.back().first, doc);
+}
 
 void Options::flag_off(const char* name, bool& to, const std::string& doc) {
   app_.add_flag_callback(

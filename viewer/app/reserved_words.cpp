@@ -9,8 +9,8 @@ constexpr std::string_view kCommands[] = {
     "why", "mesh", "export", "shrink", "clean", "show", "judge", "trace",
 };
 constexpr ReservedOption kOptions[] = {
-    {"run", "--force"}, {"run", "--strict"}, {"check", "--strict"}, {"check", "--trial"},         {"list", "--json"},
-    {"debug", "--vnc"}, {"debug", "--web"},  {"debug", "--listen"}, {"debug", "--password-file"},
+    {"run", "--force"}, {"check", "--strict"}, {"check", "--trial"},  {"list", "--json"},
+    {"debug", "--vnc"}, {"debug", "--web"},    {"debug", "--listen"}, {"debug", "--password-file"},
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "engine/io/paths.hpp"
 #include "viewer/app/convergence_note.hpp"
 #include "viewer/app/frame_progress.hpp"
-#include "viewer/app/motion_note.hpp"
 #include "viewer/app/shared_options.hpp"
+#include "viewer/app/watchdog_note.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/controller/run.hpp"
 #include "viewer/image/contact_sheet.hpp"
@@ -66,7 +66,7 @@ class RunCommand : public SubCommand {
  private:
   RunOptions options_;
   std::filesystem::path video_;
-  bool quiet_ = false;
+  bool quiet_ = false, strict_ = false;
 };
 
 void RunCommand::declare(Options& options) {
@@ -89,8 +89,15 @@ void RunCommand::declare(Options& options) {
       1 << 20,
       "megabytes for the states of the frames (default: 256): from these a run is resumed, and opened in the debugger "
       "without being simulated again; where they don't fit every second one is given up, and so on");
-  options.flag("--judge", options_.judge,
-               "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections");
+  options.flag_or_word(
+      "--judge",
+      [this](const std::string& word) { options_.judge = true, options_.judge_substeps = word == "substeps"; },
+      "substeps",
+      "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections; "
+      "--judge=substeps: at the end of every sub-step, and the worst of a frame counts, self_crossings too");
+  options.flag("--strict", strict_,
+               "exit code 1 if a body may have passed another, or overlaps one by more than 10 % of a thickness where "
+               "--judge looks");
   options.whole("--freeze", options_.freeze, 0, 100'000'000,
                 "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_option(options);
@@ -109,12 +116,13 @@ int RunCommand::run() {
   if (!video_.empty()) check_video_path(video_, options_.out);
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   ConvergenceNote convergence;
-  MotionNote motion;
+  WatchdogNote watchdog;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
-    motion.add(stats);
+    watchdog.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
+  watcher.earlier_frame = [&](int frame, double unsafe_motions) { watchdog.add_earlier(frame, unsafe_motions); };
   watcher.message = [&](const std::string& line) {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
@@ -128,9 +136,15 @@ int RunCommand::run() {
   const std::string sheet =
       options_.images && result.exit_code() < 2 ? write_contact_sheet(options_.out, result.last_frame) : "";
   const bool filmed = !sheet.empty() && !video_.empty() && write_video(options_.out, video_, result.frames_per_second);
-  if (quiet_) return result.exit_code();
+  watchdog.set_judged(result.is_judged);
+  const bool is_too_bad = strict_ && watchdog.has_barked();
+  const int code = result.exit_code() == 0 && is_too_bad ? 1 : result.exit_code();
+  if (quiet_) {
+    if (is_too_bad) fmt::print(stderr, "{}", watchdog.closing_line());
+    return code;
+  }
 
-  fmt::print("{}{}", convergence.text(), motion.text());
+  fmt::print("{}{}", convergence.text(), watchdog.text());
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options_.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);
@@ -142,7 +156,8 @@ int RunCommand::run() {
   if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
   if (filmed) fmt::print("video:    {}\n", video_.string());
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");
-  return result.exit_code();
+  fmt::print("{}", watchdog.closing_line());
+  return code;
 }
 
 }  // namespace

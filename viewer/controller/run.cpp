@@ -6,7 +6,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/frozen/frozen_step.hpp"
 #include "engine/io/paths.hpp"
-#include "engine/world/judge.hpp"
+#include "engine/world/frame_judge.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
@@ -61,7 +61,11 @@ int RunResult::exit_code() const {
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   FolderLock::check_free(options.out);  // at once, however long the scene takes to read
   Session session(options.scene, options.overrides, options.script,
-                  {options.width, options.height, options.judge, !options.compares_pictures});
+                  {.width = options.width,
+                   .height = options.height,
+                   .judge = options.judge,
+                   .pictures_may_be_missing = !options.compares_pictures,
+                   .judge_substeps = options.judge_substeps});
   const int last_frame = options.frames.value_or(session.default_last_frame());
   check_options(options, session, last_frame);
   const RunRecord record = record_of(options, session, last_frame);
@@ -73,6 +77,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   if (const std::string note = session.note_of_former_paths(); !note.empty() && watcher.message)
     watcher.message("note: " + note);
   RunResult result;
+  result.is_judged = session.is_judged();
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = session.is_judged();
   Expectations expectations(session.script(), judged, options.compares_pictures, watcher.message);
@@ -83,13 +88,18 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     return true;
   };
 
+  FrameJudge overlap(session.is_judged_by_substep() ? FrameJudge::each_substep : FrameJudge::each_frame);
+  if (judged) session.watch(&overlap);
   bool stop = false;
   check_freeze(options, folder);
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
-    for (int frame = 0; frame <= result.resumed_from && !stop; ++frame)
-      stop = judge(frame, folder.kept()[frame].figures);
+    for (int frame = 0; frame <= result.resumed_from && !stop; ++frame) {
+      const std::vector<double>& figures = folder.kept()[frame].figures;
+      if (watcher.earlier_frame) watcher.earlier_frame(frame, figures[figure_index("unsafe_motions", judged)]);
+      stop = judge(frame, figures);
+    }
   }
   const auto make_frame = [&] {
     std::vector<Command> commands;
@@ -97,11 +107,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
     commands = session.advance(freezes ? &frozen : nullptr);
     FrameStats stats = session.record().stats;
-    if (judged) {
-      const OverlapVerdict verdict = judge_overlap(session.world().bodies());
-      stats.judged_penetration = verdict.penetration;
-      stats.judged_intersections = verdict.intersections;
-    }
+    if (judged) overlap.judge(session.world().bodies(), stats);
     check_figures(stats, judged);
     const int frame = session.frame();
     stats.times.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;

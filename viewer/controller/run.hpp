@@ -18,6 +18,7 @@ struct RunOptions {
   std::uint64_t snapshot_megabytes = 256;  ///< room for the states of the frames
   int width = 1280, height = 720;          ///< pixels
   bool images = true, ids = false, contacts = false, export_ply = false, judge = false, resume = false;
+  bool judge_substeps = false;  ///< at the end of each sub-step, not only of each frame
   /// false: `expect image` lines are left to the caller, and their files may be missing
   bool compares_pictures = true;
 };
@@ -25,6 +26,8 @@ struct RunOptions {
 /// Whoever watches a run. Called in the thread of run().
 struct RunWatcher {
   std::function<void(const FrameStats& stats, int last_frame)> frame;
+  /// Of a run that goes on: frames that are there already. Not a number where the table has no such column.
+  std::function<void(int frame, double unsafe_motions)> earlier_frame;
   std::function<void(const std::string& line)> message;  ///< a failed expectation, a break, a note
 };
 
@@ -33,6 +36,7 @@ struct RunResult {
   int resumed_from = -1;  ///< the frame of the snapshot that was continued, -1: none
   int failures = 0;       ///< expectations not met
   bool stopped_by_break = false;
+  bool is_judged = false;  ///< somebody looked for overlap, --judge or a run.toml that says so
   bool interrupted = false;
   std::filesystem::path frozen_step;  ///< written, "" if none
   std::size_t frozen_contacts = 0, frozen_groups = 0;

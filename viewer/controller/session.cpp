@@ -83,7 +83,8 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   world_.parameters.bind(rows_);
   view_.bind(rows_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
-  judge_ = options.judge || (scene_.run && scene_.run->judge);
+  judge_substeps_ = options.judge_substeps || (scene_.run && scene_.run->judge_substeps);
+  judge_ = options.judge || judge_substeps_ || (scene_.run && scene_.run->judge);
   fs::path folder = script_file.parent_path();
   if (!script_file.empty()) {
     script_name_ = script_file.string();
@@ -165,6 +166,7 @@ RunRecord Session::run_record() const {
   run.script_file = script_name_.empty() ? "" : from_anywhere(script_name_);
   run.script = script_lines_;
   run.judge = judge_;
+  run.judge_substeps = judge_substeps_;
   return run;
 }
 

@@ -18,6 +18,7 @@ struct SessionOptions {
   bool judge = false;              ///< whether the judged figures exist, for scripts to name
   bool pictures_may_be_missing = false;                       ///< those that the script's `expect image` lines name
   std::optional<std::vector<std::string>> script_lines = {};  ///< instead of what the script file holds
+  bool judge_substeps = false;  ///< judged at the end of each sub-step, and the worst counts
 };
 
 class Session {
@@ -54,6 +55,9 @@ class Session {
   /// Which present paths to write for the former ones that scene, overrides and script name; "" if they name none.
   std::string note_of_former_paths() const;
   bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
+  bool is_judged_by_substep() const { return judge_substeps_; }
+  /// Who looks on while frames are made, none: null.
+  void watch(StepWatcher* watcher) { world_.watch(watcher); }
   /// The scene's, script's and program's part of run.toml.
   RunRecord run_record() const;
 
@@ -68,7 +72,7 @@ class Session {
   Script script_;
   std::vector<std::string> script_lines_;
   std::string script_name_;
-  bool judge_ = false;
+  bool judge_ = false, judge_substeps_ = false;
   bool changed_ = false;  // by hand, since the last frame
   int frame_ = -1;
 };

@@ -11,8 +11,9 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kKeys = {"version", "scene",    "folder", "script_file", "script", "frames",  "images",
-                                        "ids",     "contacts", "judge",  "export",      "size",   "surfaces"};
+const std::vector<std::string> kKeys = {"version", "scene",  "folder",   "script_file",   "script",
+                                        "frames",  "images", "ids",      "contacts",      "judge",
+                                        "export",  "size",   "surfaces", "judge_substeps"};
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
@@ -52,6 +53,8 @@ RunRecord read_run_record(const TomlNode& table) {
   if (const TomlEntry* ids = table.find("ids")) run.ids = scene_flag(ids->value, "run.ids");
   run.contacts = scene_flag(need("contacts"), "run.contacts");
   run.judge = scene_flag(need("judge"), "run.judge");
+  if (const TomlEntry* substeps = table.find("judge_substeps"))
+    run.judge_substeps = scene_flag(substeps->value, "run.judge_substeps");
   run.export_ply = scene_text(need("export"), "run.export") == "ply";
   const TomlNode& size = need("size");
   if (size.items.size() != 2)
@@ -82,9 +85,9 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
   out += "script = [\n";
   for (const std::string& line : run.script) out += fmt::format("  {},\n", toml_string(line));
   out += fmt::format(
-      "]\nframes = {}\nimages = {}\n{}contacts = {}\njudge = {}\nexport = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n",
-      run.frames, run.images, run.ids ? "ids = true\n" : "", run.contacts, run.judge, run.export_ply ? "ply" : "",
-      run.width, run.height);
+      "]\nframes = {}\nimages = {}\n{}contacts = {}\njudge = {}\n{}export = \"{}\"\nsize = [{}, {}]\nsurfaces = [\n",
+      run.frames, run.images, run.ids ? "ids = true\n" : "", run.contacts, run.judge,
+      run.judge_substeps ? "judge_substeps = true\n" : "", run.export_ply ? "ply" : "", run.width, run.height);
   for (const SurfaceFile& file : scene.surfaces)
     out += fmt::format("  {{ file = {}, hash = \"{}\" }},\n", toml_string(file.name), hex64(file.hash));
   out += "]\n";

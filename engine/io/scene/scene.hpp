@@ -17,7 +17,7 @@ struct RunRecord {
   std::string script_file;          ///< path of the script, "" without one
   std::vector<std::string> script;  ///< its lines
   int frames = 0;                   ///< the last frame's number
-  bool images = true, ids = false, contacts = false, export_ply = false, judge = false;
+  bool images = true, ids = false, contacts = false, export_ply = false, judge = false, judge_substeps = false;
   int width = 1280, height = 720;  ///< pixels
 };
 

@@ -1,0 +1,163 @@
+// What a run says of bodies that may have passed one another, and what becomes of it under --strict.
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/support/geometry/mesh_text.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/program/program.hpp"
+#include "tests/support/program/temp_folder.hpp"
+#include "viewer/app/watchdog_note.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+constexpr double kSpeed = 200.0, kThick = 0.01;  // m/s, m
+
+/// A cube of 0.1 m that flies at a thin plate and begins 4 m above it. Every frame is one sub-step of 1/60 s.
+std::string shot() {
+  return fmt::format(
+      "[simulation]\nsubsteps = 1\ngravity = [0, 0, 0]\n"
+      "[[body]]\nname = \"plate\"\nkind = \"static\"\nsurface = \"plate.off\"\n"
+      "[[body]]\nname = \"bullet\"\nkind = \"dynamic\"\nsurface = \"cube.off\"\n"
+      "position = [0, 4, 0]\nvelocity = [0, {}, 0]\n",
+      -kSpeed);
+}
+
+/// Two boxes of 0.2 m that overlap by `depth`.
+std::string overlap(double depth) {
+  return fmt::format(
+      "[simulation]\ngravity = [0, 0, 0]\n[contact]\nmax_push_out = 1e-9\n"
+      "[[body]]\nname = \"below\"\nkind = \"static\"\nshape = {{ box = {{ size = [0.4, 0.2, 0.4] }} }}\n"
+      "[[body]]\nname = \"above\"\nkind = \"dynamic\"\nshape = {{ box = {{ size = [0.3, 0.2, 0.3] }} }}\n"
+      "position = [0, {}, 0]\n",
+      0.2 - depth);
+}
+
+Outcome run(const std::string& scene, std::vector<std::string> more) {
+  TempFolder folder;
+  folder.write("s.toml", scene);
+  folder.write("plate.off", off_text(box({0.5, 0.5 * kThick, 0.5}, {10, 1, 10})));
+  folder.write("cube.off", off_text(box(Vec3::Constant(0.05))));
+  std::vector<std::string> words = {"run", "s.toml", "--no-images", "--frames", "3", "--out", "o"};
+  words.insert(words.end(), more.begin(), more.end());
+  return impinge_run(folder.path(), words);
+}
+
+const std::vector<std::string> kOff = {"--set", "narrow_phase.continuous=off"};
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::string last_line(const std::string& text) {
+  if (text.size() < 2) return text;
+  return text.substr(text.rfind('\n', text.size() - 2) + 1);
+}
+
+bool says(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a body that moved farther than is safe is named with frame, sub-step, displacement and remedy") {
+  const Outcome outcome = run(shot(), kOff);
+  INFO(outcome.out);
+  CHECK(outcome.code == 0);
+  CHECK(says(outcome.out, "'bullet'"));
+  CHECK(says(outcome.out, "'plate'"));
+  CHECK(says(outcome.out, "frame 2"));  // from 4 - 200/60 = 0.67 to -2.67 m
+  CHECK(says(outcome.out, "sub-step 1"));
+  CHECK(says(outcome.out, fmt::format("{:.3g} m", kSpeed / 60.0)));
+  CHECK(says(outcome.out, fmt::format("{:.3g} m are safe", 0.1 * kThick)));
+  CHECK(says(outcome.out, "narrow_phase.continuous"));
+  // sub-steps so short that they are safe: the way over what is safe
+  CHECK(says(outcome.out,
+             fmt::format("divide simulation.frame_time by {:.0f}", std::ceil(kSpeed / 60.0 / (0.1 * kThick)))));
+}
+
+TEST_CASE("the sub-steps that the note asks for are as many as make the motion safe") {
+  FrameStats stats;
+  stats.frame = 7;
+  stats.substeps = 4;
+  stats.unsafe_motions = 1;
+  stats.unsafe = {{"a", "b", UnsafeBody::soft_contact, 3, 0.3, 0.5, 0.011, false}};
+  WatchdogNote note;
+  CHECK(note.text().empty());
+  CHECK(note.closing_line().empty());
+  note.add(stats);
+  CHECK(note.text() ==
+        "note:     'a' moved 0.3 m beside 'b' in frame 7, sub-step 3 and may have passed it, 0.011 m are safe; choose "
+        "a response.method that lets nothing overlap, or simulation.substeps = 182\n");  // 4 * 0.5 / 0.011 = 181.8
+  CHECK(note.closing_line() == "watch:    'a' may have passed 'b' in frame 7, sub-step 3; --judge tells whether\n");
+  CHECK(note.has_barked());
+}
+
+TEST_CASE("what was named is what helps") {
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, std::vector<std::string>{"--set", "narrow_phase.continuous=on"}}) {
+    const Outcome outcome = run(shot(), with(more, {"--strict", "--judge"}));
+    INFO(outcome.out);
+    CHECK(outcome.code == 0);
+    CHECK_FALSE(says(outcome.out, "note: "));
+    CHECK(last_line(outcome.out) == "judge:    nothing passed, nothing overlaps by more than 10 % of a thickness\n");
+  }
+}
+
+TEST_CASE("a pass is a warning, and the end of a strict run") {
+  CHECK(run(shot(), kOff).code == 0);
+  const Outcome outcome = run(shot(), with(kOff, {"--strict"}));
+  CHECK(outcome.code == 1);
+  CHECK(says(last_line(outcome.out), "'bullet'"));
+  const Outcome quiet = run(shot(), with(kOff, {"--strict", "--quiet"}));  // an exit code without a word is no answer
+  CHECK(quiet.code == 1);
+  CHECK(quiet.out.empty());
+  CHECK(says(quiet.err, "'bullet'"));
+  CHECK(quiet.error_lines() == 1);
+  CHECK(run(shot(), with(kOff, {"--quiet"})).err.empty());
+}
+
+TEST_CASE("the judge tells who passed from who only moved too far") {
+  const Outcome passed = run(shot(), with(kOff, {"--judge"}));
+  INFO(passed.out);
+  CHECK(passed.code == 0);
+  CHECK(says(last_line(passed.out), "judge:    'bullet' passed through 'plate' in frame 2, sub-step 1"));
+
+  // beside the plate, so near that the boxes of their ways meet
+  std::string beside = shot();
+  const std::string place = "position = [0, 4, 0]", other = "position = [0.56, 4, 0.56]";
+  beside.replace(beside.find(place), place.size(), other);
+  const Outcome missed = run(beside, with(kOff, {"--judge"}));
+  INFO(missed.out);
+  CHECK_FALSE(says(missed.out, "passed through"));
+  CHECK(says(missed.out, "'bullet' moved"));
+}
+
+TEST_CASE("the judge's closing line names an overlap of more than 10 % of a thickness") {
+  for (const char* judge : {"--judge", "--judge=substeps"}) {
+    CAPTURE(judge);
+    const Outcome deep = run(overlap(0.03), {judge});
+    INFO(deep.out);
+    CHECK(deep.code == 0);
+    const std::string line = last_line(deep.out);
+    CHECK(says(line, "'below' and 'above' overlap by 0.03 m, 15 % of 0.2 m, in frame 0"));
+    CHECK(run(overlap(0.03), {judge, "--strict"}).code == 1);
+    const Outcome shallow = run(overlap(0.018), {judge, "--strict"});
+    CHECK(shallow.code == 0);
+    CHECK(says(last_line(shallow.out), "nothing overlaps by more than 10 % of a thickness"));
+  }
+  // nobody looked, so nothing is said
+  const Outcome unjudged = run(overlap(0.03), {"--strict"});
+  CHECK(unjudged.code == 0);
+  CHECK_FALSE(says(unjudged.out, "judge:"));
+}
+
+TEST_CASE("--judge takes substeps or nothing") {
+  const Outcome outcome = run(overlap(0.01), {"--judge=frames"});
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "--judge"));
+  CHECK(says(outcome.err, "substeps"));
+}

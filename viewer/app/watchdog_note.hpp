@@ -1,0 +1,40 @@
+// What a run must not keep to its table: bodies that may have passed others, and, where somebody judged, how deep bodies
+// overlap.
+#pragma once
+
+#include <map>
+
+#include "engine/world/step_record.hpp"
+
+namespace impinge {
+
+class WatchdogNote {
+ public:
+  /// Whether somebody looked for overlap and passages.
+  void set_judged(bool judged) { judged_ = judged; }
+  void add(const FrameStats& stats);
+  /// Frames of an earlier process, of which only the number of unsafe motions is known.
+  void add_earlier(int frame, double unsafe_motions);
+
+  bool has_barked() const { return frames_ > 0 || is_deep(); }
+  /// Lines with their ends: each body with frame, sub-step, displacement and remedy; "" if every motion was safe.
+  std::string text() const;
+  /// The last line of a run, with its end; "" if there is nothing to say and nobody judged.
+  std::string closing_line() const;
+
+ private:
+  struct Seen {
+    UnsafeBody what;
+    int frame = 0, substeps = 0;
+  };
+  bool is_deep() const;
+  std::vector<const Seen*> worth_naming() const;
+
+  bool judged_ = false;
+  std::map<std::string, Seen> bodies_;  // the first of each, or the first that passed
+  int frames_ = 0, first_frame_ = 0;    // with unsafe motions
+  Crossing deepest_;                    // by its share
+  int deepest_frame_ = 0;
+};
+
+}  // namespace impinge
