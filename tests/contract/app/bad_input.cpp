@@ -296,7 +296,7 @@ TEST_CASE("the command line names what is wrong with it") {
     check_refused(folder, words, "command line: ", contains);
   };
   refused({"rum", "s.toml"}, "did you mean 'run'?");
-  refused({"why"}, "not part of this version");
+  refused({"trace"}, "not part of this version");
   refused({"verify"}, "NAME");
   refused({"verify", "stacks"}, "no case 'stacks'");
   refused({"verify", "ccd"}, "--queries");

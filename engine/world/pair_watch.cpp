@@ -1,0 +1,82 @@
+#include "engine/world/pair_watch.hpp"
+
+#include <algorithm>
+
+#include "engine/world/world.hpp"
+
+namespace impinge {
+
+namespace {
+
+bool is_among(const std::optional<UnsafeMotion>& unsafe, BodyIndex a, BodyIndex b) {
+  return unsafe && std::any_of(unsafe->pairs.begin(), unsafe->pairs.end(),
+                               [&](const UnsafeMotion::Pair& pair) { return pair.a == a && pair.b == b; });
+}
+
+}  // namespace
+
+PairWatch::PairWatch(const World& world, BodyIndex first, BodyIndex second, std::optional<Asked> asked)
+    : world_(world), a_(std::min(first, second)), b_(std::max(first, second)), asked_(asked) {}
+
+void PairWatch::look_at_start() {
+  world_.show_start(*this);
+  has_contact_ = has_contact_now_;
+  kept_ = std::move(now_);
+  take(0);
+}
+
+void PairWatch::found(const Bodies&, const SubStep& step) {
+  has_contact_now_ = std::any_of(step.collisions.begin(), step.collisions.end(),
+                                 [&](const Collision& c) { return c.body_a == a_ && c.body_b == b_; });
+  const auto may_be_nearer = [&] {
+    return box_gap(step.colliders[a_].bounds, step.colliders[b_].bounds) < nearest_distance_;
+  };
+  now_.reset();
+  if (is_asked_for(world_.frame()) || (!first_contact_ && (has_contact_now_ || may_be_nearer() || !telling_)))
+    now_ = pair_verdict(world_, step, a_, b_, search_);
+}
+
+void PairWatch::moved(const Bodies&, const SubStep& step, MotionGuard& guard, const std::optional<UnsafeMotion>& unsafe,
+                      bool is_kept) {
+  const Passage* passage = passage_of(unsafe, a_, b_);
+  if (!is_kept) {
+    if (passage != nullptr && undone_.motions++ == 0) undone_.first_time = step.time + passage->time * step.time_step;
+    return;
+  }
+  ++pieces_;
+  is_unsafe_ = is_unsafe_ || is_among(unsafe, a_, b_);
+  if (now_) {
+    now_->undone = undone_;
+    add_outcome(*now_, world_, step, guard, passage);
+    if (has_contact_now_ && !has_contact_) touching_ = now_;
+  }
+  has_contact_ = has_contact_ || has_contact_now_;
+  kept_ = std::move(now_);
+}
+
+void PairWatch::finished(const Bodies&, int substep) { take(substep); }
+
+void PairWatch::take(int substep) {
+  const Moment here{world_.frame(), substep};
+  for (std::optional<PairVerdict>* verdict : {&kept_, &touching_})
+    if (*verdict) (*verdict)->substep = substep, (*verdict)->pieces = std::max(1, pieces_);
+  if (has_contact_) {
+    ++contacts_;
+    last_contact_ = here;
+    if (!first_contact_) first_contact_ = here, telling_ = touching_ ? touching_ : kept_;
+  } else if (!first_contact_ && kept_) {
+    const double distance = kept_->nearest ? kept_->nearest->distance : INFINITY;
+    if (distance < nearest_distance_) nearest_ = here, nearest_distance_ = distance, telling_ = kept_;
+    if (!telling_) telling_ = kept_;
+  }
+  if (kept_ && is_asked_for(here.frame) && (!asked_->substep || *asked_->substep == substep)) at_asked_ = kept_;
+  if (is_unsafe_ && unsafe_motions_++ == 0) first_unsafe_ = here;
+  is_unsafe_ = false;
+  kept_.reset();
+  touching_.reset();
+  undone_ = {};
+  pieces_ = 0;
+  has_contact_ = false;
+}
+
+}  // namespace impinge
