@@ -153,6 +153,10 @@ class Report {
     margin_ = is_listed ? it->margin : 0.0;
     Numbers numbers = {{"pairs", static_cast<double>(step_.pairs.size())}};
     if (is_listed) numbers.push_back({"margin_m", margin_});
+    if (is_self_ && is_listed)
+      return add("broad_phase", true,
+                 fmt::format("not needed: triangles are looked at up to {} apart", metres(margin_)),
+                 std::move(numbers));
     const std::string_view method = world_.parameters.broad_phase.method.name();
     add("broad_phase", is_listed,
         is_listed ? fmt::format("{} hands the pair on, to be looked at up to {} apart", method, metres(margin_))

@@ -1,6 +1,6 @@
 // Why two bodies have a contact in a sub-step, or none: what each stage of detection had to say of the pair, with its
-// numbers and what they were held against. Taken from the stages' own values and functions while the sub-step is made, so
-// that it can't say anything else than what happened.
+// numbers and what they were held against. Taken from the stages' own values and functions while the sub-step is made,
+// so that it can't say anything else than what happened.
 #pragma once
 
 #include "engine/detection/pairs/nearest_features.hpp"

@@ -1,5 +1,5 @@
-// Follows two bodies through a run: what became of the pair at one moment that was asked for, when they first had a contact,
-// and how near they came if they never had one.
+// Follows two bodies through a run: what became of the pair at one moment that was asked for, when they first had a
+// contact, and how near they came if they never had one.
 #pragma once
 
 #include "engine/world/pair_verdict.hpp"

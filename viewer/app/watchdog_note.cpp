@@ -100,8 +100,8 @@ std::string WatchdogNote::closing_line() const {
     passes = fmt::format("'{}' {} '{}' {}{}", first.what.name, has_passed ? "passed through" : "may have passed",
                          first.what.other, place_of(first.frame, first.what.substep), and_more(named.size() - 1));
   } else if (named.empty() && frames_ > 0) {
-    passes = fmt::format("bodies may have passed others in {} frame{} before this one went on, the first {}", frames_,
-                         frames_ == 1 ? "" : "s", first_frame_);
+    passes = fmt::format("bodies may have passed others in {} frame{} before the run was resumed, the first {}",
+                         frames_, frames_ == 1 ? "" : "s", first_frame_);
   }
   if (!judged_) return fmt::format("watch:    {}{}\n", passes, has_passed ? "" : "; --judge tells whether");
   if (!is_deep())

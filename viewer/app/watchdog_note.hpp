@@ -1,5 +1,5 @@
-// What a run must not keep to its table: bodies that may have passed others, and, where somebody judged, how deep bodies
-// overlap.
+// What a run must not keep to its table: bodies that may have passed others, and, where somebody judged, how deep
+// bodies overlap.
 #pragma once
 
 #include <map>

@@ -40,8 +40,8 @@ std::string history_text(const PairWatch& watch, int last_frame) {
                      std::abs(distance), distance < 0.0 ? "within each other" : "apart", place_text(*nearest));
 }
 
-/// JSON has no infinity: a plane's box ends nowhere.
-std::string number(double x) { return std::isfinite(x) ? shortest(x) : "null"; }
+/// JSON has no infinity: a plane's box ends nowhere. A zero has no sign.
+std::string number(double x) { return std::isfinite(x) ? shortest(x + 0.0) : "null"; }
 std::string vector_json(const Vec3& v) {
   return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
 }
@@ -86,7 +86,7 @@ std::string nearest_json(const PairVerdict& v) {
 std::string contact_json(const Collision& c) {
   return fmt::format(
       "{{\"triangle_a\": {}, \"triangle_b\": {}, \"point_a\": {}, \"point_b\": {}, \"normal\": {}, \"gap_m\": {}, "
-      "\"pair_id\": {}}}",
+      "\"pair_id\": \"{}\"}}",
       triangle_json(c.triangle_a), triangle_json(c.triangle_b), vector_json(c.point_a), vector_json(c.point_b),
       vector_json(c.normal), number(c.gap), c.feature);
 }

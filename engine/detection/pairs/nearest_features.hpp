@@ -31,7 +31,7 @@ class NearestSearch {
   std::optional<NearestFeatures> find(std::span<const Collider> colliders, BodyIndex a, BodyIndex b, double limit);
 
  private:
-  std::optional<NearestFeatures> within(std::span<const Collider> colliders, BodyPair pair);
+  std::optional<NearestFeatures> within(std::span<const Collider> colliders, BodyPair pair, bool looks_for_overlap);
 
   std::unique_ptr<NarrowPhase> triangles_;
 };

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/geometry/meshes.hpp"
@@ -160,4 +162,84 @@ TEST_CASE("--judge takes substeps or nothing") {
   CHECK(outcome.code == 2);
   CHECK(says(outcome.err, "--judge"));
   CHECK(says(outcome.err, "substeps"));
+}
+
+TEST_CASE("a run that is resumed is as strict about the frames before") {
+  TempFolder folder;
+  folder.write("s.toml", shot());
+  folder.write("plate.off", off_text(box({0.5, 0.5 * kThick, 0.5}, {10, 1, 10})));
+  folder.write("cube.off", off_text(box(Vec3::Constant(0.05))));
+  std::vector<std::string> words = {
+      "run", "s.toml", "--no-images", "--out", "o", "--set", "narrow_phase.continuous=off"};
+  REQUIRE(impinge_run(folder.path(), with(words, {"--frames", "4"})).code == 0);
+  const Outcome outcome = impinge_run(folder.path(), with(words, {"--frames", "6", "--resume", "--strict"}));
+  INFO(outcome.out);
+  CHECK(outcome.code == 1);
+  CHECK(says(last_line(outcome.out), "in 1 frame before the run was resumed, the first 2"));
+}
+
+TEST_CASE("a frame judged by its sub-steps is the worst of as many frames of one sub-step") {
+  TempFolder folder;
+  // a soft response, so that there is overlap; powers of two, so that both have the same time step to the last bit
+  folder.write("s.toml", R"([response]
+method = "penalty"
+[[body]]
+name = "floor"
+kind = "static"
+shape = { plane = { normal = [0, 1, 0], offset = 0 } }
+[[body]]
+name = "strip"
+kind = "deformable"
+shape = { box = { size = [1, 0.05, 0.1] } }
+volume = { cage = { cells = 12 } }
+material = { young = 2e3, poisson = 0.3, density = 500 }
+position = [0, 0.06, 0]
+velocity = [0, -8, 0]
+)");
+  const auto run = [&](const std::string& name, const std::string& time, const std::string& substeps,
+                       const std::string& frames, const std::string& judge) {
+    const Outcome outcome =
+        impinge_run(folder.path(), {"run", "s.toml", "--no-images", "--out", name, "--frames", frames, judge, "--set",
+                                    "simulation.frame_time=" + time, "--set", "simulation.substeps=" + substeps});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return slurp(folder / (name + "/stats.csv"));
+  };
+  const auto column = [](const std::string& table, const std::string& name) {
+    std::vector<double> values;
+    std::istringstream lines(table);
+    std::string line, cell;
+    std::getline(lines, line);
+    std::istringstream names(line);
+    int place = -1, k = 0;
+    for (; std::getline(names, cell, ','); ++k)
+      if (cell == name) place = k;
+    REQUIRE(place >= 0);
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      for (int i = 0; i <= place; ++i) std::getline(cells, cell, ',');
+      values.push_back(std::stod(cell));
+    }
+    return values;
+  };
+  const std::string coarse = run("coarse", "0.015625", "4", "8", "--judge=substeps"),
+                    fine = run("fine", "0.00390625", "1", "32", "--judge"),
+                    ends = run("ends", "0.015625", "4", "8", "--judge");
+  bool differs = false;
+  for (const char* name : {"judged_penetration_m", "judged_intersections", "self_crossings"}) {
+    const std::vector<double> by_frame = column(coarse, name), by_step = column(fine, name),
+                              at_end = column(ends, name);
+    REQUIRE((by_frame.size() == 9 && by_step.size() == 33));
+    for (std::size_t k = 1; k < by_frame.size(); ++k) {
+      CAPTURE(name, k);
+      CHECK(by_frame[k] == *std::max_element(&by_step[4 * k - 3], &by_step[4 * k] + 1));
+      differs |= by_frame[k] != at_end[k];
+    }
+  }
+  CHECK(differs);  // else there was nothing to tell apart
+  // run.toml repeats it
+  CHECK(says(slurp(folder / "coarse/run.toml"), "judge_substeps = true"));
+  REQUIRE(impinge_run(folder.path(), {"run", "coarse/run.toml", "--no-images", "--out", "again"}).code == 0);
+  CHECK(column(slurp(folder / "again/stats.csv"), "judged_penetration_m") == column(coarse, "judged_penetration_m"));
+  CHECK(impinge_run(folder.path(), {"replay", "coarse"}).code == 0);
 }

@@ -127,6 +127,42 @@ TEST_CASE("an exact shape beside a mesh is as near as to its nearest triangle") 
   }
 }
 
+TEST_CASE("a box beside a mesh is as near as its own triangles, and a rounded solid as its core less the rounding") {
+  Random r(25);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 half(0.3, 0.1, 0.2);
+    Bodies bodies, made;
+    const Pose at_a = random_pose(r, 4.0), at_b = random_pose(r, 2.0);
+    bodies.add(Box{half}, at_a);
+    bodies.add(surface(bumpy_torus(12, 6)), at_b);
+    made.add(surface(box(half)), at_a);
+    made.add(surface(bumpy_torus(12, 6)), at_b);
+    const double truth = brute_distance(made[0], made[1]);
+    const auto found = nearest(bodies);
+    REQUIRE(found);
+    INFO(i << ": " << found->distance << " against " << truth);
+    if (truth == 0.0)
+      CHECK(found->distance <= 1e-3);
+    else
+      CHECK(found->distance == Approx(truth).epsilon(1e-9));
+
+    Bodies rounded;
+    rounded.add(Capsule{0.1, 0.3}, at_a);
+    rounded.add(surface(bumpy_torus(12, 6)), at_b);
+    double core = INFINITY;  // of the capsule's line
+    const auto& x = rounded[1].vertices;
+    for (const Triangle& t : rounded[1].mesh().mesh.triangles)
+      core = std::min(core, triangle_distance({at_a.apply(Vec3(0, -0.3, 0)), at_a.apply(Vec3(0, 0.3, 0)),
+                                               at_a.apply(Vec3(0, 0.3, 0))},
+                                              {x[t[0]], x[t[1]], x[t[2]]}));
+    if (core < 0.1) continue;
+    const auto near = nearest(rounded);
+    REQUIRE(near);
+    INFO(near->distance << " against " << core - 0.1);
+    CHECK(near->distance == Approx(core - 0.1).margin(1e-9));
+  }
+}
+
 TEST_CASE("beyond the limit there is nothing, and between planes neither") {
   Bodies balls;
   balls.add(Sphere{0.5});
