@@ -27,6 +27,14 @@ RunRecord record_of(const RunOptions& options, const Session& session, int last_
   return record;
 }
 
+SessionOptions session_options(const RunOptions& options) {
+  SessionOptions session;
+  session.width = options.width, session.height = options.height;
+  session.judge = options.judge, session.judge_substeps = options.judge_substeps;
+  session.pictures_may_be_missing = !options.compares_pictures;
+  return session;
+}
+
 /// What the command line asks and the scene cannot give.
 void check_options(const RunOptions& options, const Session& session, int last_frame) {
   if (!options.images && !session.script().images().empty())
@@ -60,12 +68,7 @@ int RunResult::exit_code() const {
 
 RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   FolderLock::check_free(options.out);  // at once, however long the scene takes to read
-  Session session(options.scene, options.overrides, options.script,
-                  {.width = options.width,
-                   .height = options.height,
-                   .judge = options.judge,
-                   .pictures_may_be_missing = !options.compares_pictures,
-                   .judge_substeps = options.judge_substeps});
+  Session session(options.scene, options.overrides, options.script, session_options(options));
   const int last_frame = options.frames.value_or(session.default_last_frame());
   check_options(options, session, last_frame);
   const RunRecord record = record_of(options, session, last_frame);
