@@ -171,6 +171,7 @@ TEST_CASE("every command that computes ends soon after a signal") {
   const std::vector<std::vector<std::string>> all = {
       {"replay", "a"},
       {"compare", "a", "b", "--out", "apart"},
+      {"why", "slow.toml", "--pair", "b0", "b1"},
       {"debug", "slow.toml", "--headless", "--script", "step.script", "--record", "r.script"},
       {"debug", "slow.toml", "--headless", "--script", "play.script"},
       {"test", "suite", "--out", "tested", "--junit", "junit.xml"},
