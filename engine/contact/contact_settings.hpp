@@ -18,6 +18,12 @@ enum class PushOut {
   velocity  ///< velocities too, as in the seed
 };
 
+/// Which of the contacts found respond.
+enum class Reduction {
+  none,  ///< all of them
+  patch  ///< those that can come to carry: contact_reduction.hpp, flat_crossings.hpp
+};
+
 struct ContactSettings {
   ContactPoints points = ContactPoints::proximity;
   double activation_distance = 1e-3;
@@ -27,6 +33,8 @@ struct ContactSettings {
   double max_push_out = 1.0;
   PushOut push_out = PushOut::split;
   bool warm_start = true;
+  Reduction reduction = Reduction::patch;
+  int most_contacts = 100;
 
   void declare(const Rows& rows);
 

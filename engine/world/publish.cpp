@@ -3,6 +3,8 @@
 
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/contact/pair_coefficients.hpp"
+#include "engine/detection/contacts/deepest_vertex.hpp"
+#include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
 #include "engine/world/finite_record.hpp"
 #include "engine/world/self_crossings.hpp"
@@ -27,6 +29,59 @@ ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
   record.group = contact.group;
   record.pair_id = c.feature;
   return record;
+}
+
+/// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
+/// The deepest of two meshes is put where they overlap most, and none shows an overlap where there is none, or more than
+/// twice what there is.
+void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, const Bodies& bodies, StepRecord& record) {
+  const double depth = overlap.deepest ? -overlap.deepest->gap : 0.0;
+  const bool is_known = !overlap.crosses || depth > 0.0;  // how deep edges cross, only their contacts tell
+  ContactRecord* deepest = nullptr;
+  for (ContactRecord& c : record.contacts) {
+    if (c.body_a != pair.a || c.body_b != pair.b) continue;
+    if (is_known && c.gap < -2.0 * depth) c.point_b += (c.gap + 2.0 * depth) * c.normal, c.gap = -2.0 * depth;
+    if (deepest == nullptr || c.gap < deepest->gap) deepest = &c;
+  }
+  if (depth == 0.0 || (deepest != nullptr && deepest->gap <= -depth)) return;
+  const Collision& where = *overlap.deepest;
+  if (deepest == nullptr) {
+    deepest = &record.contacts.emplace_back();
+    deepest->body_a = pair.a, deepest->body_b = pair.b;
+    deepest->pair_id = where.feature;
+    deepest->group = record.bodies[bodies[pair.a].is_moving() ? pair.a : pair.b].group;
+  }
+  deepest->triangle_a = where.triangle_a, deepest->triangle_b = where.triangle_b;
+  deepest->point_a = where.point_a, deepest->point_b = where.point_b;
+  deepest->normal = where.normal;
+  deepest->gap = where.gap;
+}
+
+void show_overlaps(const Bodies& bodies, std::span<const Collider> colliders, std::span<const TrianglePair> triangles,
+                   StepRecord& record) {
+  for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
+    const BodyPair pair{triangles[first].a, triangles[first].b};
+    while (last < triangles.size() && triangles[last].a == pair.a && triangles[last].b == pair.b) ++last;
+    if (pair.a == pair.b) continue;
+    show_overlap(pair, find_overlap(colliders, pair, triangles.subspan(first, last - first)), bodies, record);
+  }
+}
+
+void show_overlaps_at_end(const Bodies& bodies, const SubStep& step, const Parameters& parameters, StepRecord& record) {
+  std::vector<BodyPair> mesh_pairs;
+  for (const BodyPair& pair : step.pairs)
+    if (bodies[pair.a].shape->mesh() != nullptr && bodies[pair.b].shape->mesh() != nullptr)
+      mesh_pairs.push_back({pair.a, pair.b, 0.0});
+  if (mesh_pairs.empty()) return;
+  std::vector<Collider> colliders;
+  make_colliders(bodies, colliders);
+  // where motions are not kept short, triangles may meet that were out of reach when contacts were sought
+  if (parameters.narrow_phase.continuous == Continuous::off || parameters.response.method->lives_on_overlap()) {
+    std::vector<TrianglePair> now;
+    parameters.narrow_phase.method->find(colliders, mesh_pairs, now);
+    return show_overlaps(bodies, colliders, now, record);
+  }
+  show_overlaps(bodies, colliders, step.triangle_pairs, record);
 }
 
 BodyRecord record_of(const Body& body) {
@@ -86,6 +141,7 @@ void World::publish(std::span<const SolvedContact> contacts) {
   next_record_.triangle_pairs = s.triangle_pairs;
   next_record_.contacts.clear();
   for (const SolvedContact& contact : contacts) next_record_.contacts.push_back(carried(contact, bodies_));
+  show_overlaps_at_end(bodies_, s, parameters, next_record_);
   next_record_.attachments.clear();
   for (const Attachment& a : attachments_)
     next_record_.attachments.push_back(
@@ -117,6 +173,7 @@ void World::publish(std::span<const SolvedContact> contacts) {
   for (const ContactRecord& c : next_record_.contacts)
     stats_.max_penetration = std::max(stats_.max_penetration, -c.gap);
   stats_.self_crossings = count_self_crossings(bodies_);
+  stats_.substep_penetration = std::max(stats_.substep_penetration, stats_.max_penetration);
   stats_.take(balance);
   stats_.state_hash = state_hash();
   next_record_.stats = stats_;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "engine/bodies/scale.hpp"
+#include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/step/drive.hpp"
@@ -46,6 +48,7 @@ void World::start() {
   sub_step_->time = time_, sub_step_->time_step = h;
   detect(bodies_, attachments_, detecting(parameters), time_integration(parameters), sleeping_, *sub_step_,
          stats_.times);
+  drop_what_never_carries();
   publish_found();
 }
 
@@ -87,6 +90,16 @@ void World::advance(FrozenStep* frozen) {
   publish_solved();
 }
 
+void World::drop_what_never_carries() {
+  const ContactSettings& contact = parameters.contact;
+  // what lives on overlap has a spring a contact: fewer would be softer
+  if (contact.reduction == Reduction::none || contact.points != ContactPoints::proximity ||
+      parameters.response.method->lives_on_overlap())
+    return;
+  reduce_contacts(bodies_, cache_, sub_step_->asked, {contact.activation(), contact.most_contacts},
+                  sub_step_->collisions);
+}
+
 void World::make_motion(double h, double share, bool freezes) {
   SubStep& s = *sub_step_;
   StageTimes& times = stats_.times;
@@ -107,6 +120,7 @@ void World::make_motion(double h, double share, bool freezes) {
 
   // 5 broad phase, 6 narrow phase
   detect(bodies_, attachments_, detecting(parameters), how, sleeping_, s, times);
+  timed(times.narrow_ms, [&] { drop_what_never_carries(); });
   if (watcher_ != nullptr) watcher_->found(bodies_, s);
   const ContactList contacts = s.contacts(attachments_);
 

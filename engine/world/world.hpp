@@ -70,6 +70,7 @@ class World {
  private:
   void advance(FrozenStep* frozen);
   void substep(double time_step, int left, FrozenStep* frozen);
+  void drop_what_never_carries();
   void make_motion(double time_step, double share, bool freezes);
   void note_unsafe(const UnsafeMotion& motion, int substep);
   void take_results(FrozenStep* frozen);

@@ -157,7 +157,7 @@ TEST_CASE("the judge's closing line names an overlap of more than 10 % of a thic
   CHECK_FALSE(says(unjudged.out, "judge:"));
 }
 
-TEST_CASE("--judge takes substeps or nothing") {
+TEST_CASE("the option --judge takes substeps or nothing") {
   const Outcome outcome = run(overlap(0.01), {"--judge=frames"});
   CHECK(outcome.code == 2);
   CHECK(says(outcome.err, "--judge"));

@@ -1,0 +1,87 @@
+// What max_penetration says of meshes that overlap, beside the judge, which shares nothing with it.
+#include "engine/detection/contacts/deepest_vertex.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "engine/world/judge.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/mechanics/worlds.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+TriangleMesh mesh_number(int k) {
+  if (k == 0) return box(Vec3(0.3, 0.2, 0.25), {3, 2, 4});
+  if (k == 1) return icosphere(2, 0.3);
+  if (k == 2) return bumpy_sphere(3, 0.25);
+  return torus(0.4, 0.12, 24, 10);
+}
+
+BodyDescription posed(const char* name, MeshPointer mesh, const Vec3& at, Random& random) {
+  BodyDescription d = dynamic_body(name, std::move(mesh), at);
+  d.rotation = 120.0 * random.vector();
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("max_penetration of 300 random poses of two meshes is the judge's") {
+  Random random(20);
+  int overlapping = 0;
+  for (int i = 0; i < 300; ++i) {
+    World world;
+    world.parameters.simulation.gravity.setZero();
+    world.add_body(posed("a", surface(mesh_number(random.below(4))), Vec3::Zero(), random));
+    world.add_body(
+        posed("b", surface(mesh_number(random.below(4))), random.in(0.05, 0.7) * random.direction(), random));
+    world.start();
+    const OverlapVerdict truth = judge_overlap(world.bodies());
+    const double shown = world.record().stats.max_penetration;
+    CAPTURE(i, truth.penetration, truth.intersections, shown);
+    if (truth.intersections == 0) continue;  // apart, or the one wholly inside the other
+    if (truth.penetration > 1e-6) {
+      ++overlapping;
+      CHECK(shown >= truth.penetration * (1.0 - 1e-9));
+      CHECK(shown <= 2.0 * truth.penetration);
+    }
+    double deepest = 0.0;
+    for (const ContactRecord& c : world.record().contacts) {
+      CHECK(c.gap == Approx(c.normal.dot(c.point_a - c.point_b)).margin(1e-12));
+      CHECK(c.normal.norm() == Approx(1.0));
+      deepest = std::max(deepest, -c.gap);
+    }
+    CHECK(shown == deepest);
+  }
+  CHECK(overlapping > 150);
+}
+
+TEST_CASE("max_penetration of meshes that meet faster than contacts see is the judge's") {
+  Random random(21);
+  int overlapping = 0;
+  for (int i = 0; i < 60; ++i) {
+    World world;
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.simulation.substeps = 1;
+    world.parameters.narrow_phase.continuous = Continuous::off;
+    world.add_body(posed("a", surface(mesh_number(random.below(4))), Vec3::Zero(), random));
+    BodyDescription b = posed("b", surface(mesh_number(random.below(4))), 0.8 * random.direction(), random);
+    b.velocity = -random.in(2.0, 8.0) * b.position / b.position.norm();
+    b.angular_velocity = 5.0 * random.vector();
+    world.add_body(b);
+    world.start();
+    for (int frame = 0; frame < 12; ++frame) {
+      world.step();
+      const OverlapVerdict truth = judge_overlap(world.bodies());
+      if (truth.intersections == 0 || truth.penetration < 1e-6) continue;
+      ++overlapping;
+      const double shown = world.record().stats.max_penetration;
+      CAPTURE(i, frame, truth.penetration, truth.intersections, shown);
+      CHECK(shown >= 0.5 * truth.penetration);
+      CHECK(shown <= 2.0 * truth.penetration);
+      CHECK(world.record().stats.substep_penetration >= shown);
+    }
+  }
+  CHECK(overlapping > 100);
+}
