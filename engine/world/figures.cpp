@@ -57,7 +57,9 @@ constexpr Figure kFigures[] = {
     {"unsafe_motions", "", state, &S::unsafe_motions,
      "Bodies that passed another, or moved farther in a sub-step than contacts see."},
     {"self_crossings", "", state, &S::self_crossings,
-     "Crossing pairs of triangles of deformable bodies' own surfaces; with --judge=substeps the most of any sub-step."},
+     "Crossing pairs of triangles of deformable bodies' own surfaces: of those with self_collision, with --judge of "
+     "all, "
+     "with --judge=substeps the most of any sub-step."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.

@@ -172,7 +172,7 @@ void World::publish(std::span<const SolvedContact> contacts) {
   stats_.max_penetration = 0.0;
   for (const ContactRecord& c : next_record_.contacts)
     stats_.max_penetration = std::max(stats_.max_penetration, -c.gap);
-  stats_.self_crossings = count_self_crossings(bodies_);
+  stats_.self_crossings = count_self_crossings(bodies_, CrossingsOf::self_colliding);
   stats_.substep_penetration = std::max(stats_.substep_penetration, stats_.max_penetration);
   stats_.take(balance);
   stats_.state_hash = state_hash();

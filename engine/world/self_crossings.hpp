@@ -7,8 +7,12 @@
 
 namespace impinge {
 
-/// Pairs of triangles of one and the same deformable body that share a point and no vertex, summed over the bodies,
-/// whether they look for contact with themselves or not.
-std::int64_t count_self_crossings(const Bodies& bodies);
+enum class CrossingsOf {
+  all,             ///< deformable bodies
+  self_colliding,  ///< those that look for contact with themselves: others have nothing to pay for
+};
+
+/// Pairs of triangles of one and the same deformable body that share a point and no vertex, summed over the bodies.
+std::int64_t count_self_crossings(const Bodies& bodies, CrossingsOf which = CrossingsOf::all);
 
 }  // namespace impinge
