@@ -19,12 +19,27 @@ namespace impinge {
 namespace {
 
 // beyond these a number is a slip, not a quantity
-constexpr double kMostScale = 1e6, kMostDensity = 1e9;
+constexpr double kMostScale = 1e6, kMostDensity = 1e9, kMostThickness = 1e6;
 
-const std::vector<std::string> kKeys = {
-    "name",           "kind",     "shape",    "surface",          "scale",  "material", "mass",
-    "position",       "rotation", "velocity", "angular_velocity", "motion", "friction", "restitution",
-    "self_collision", "volume",   "fixed"};
+const std::vector<std::string> kKeys = {"name",
+                                        "kind",
+                                        "shape",
+                                        "surface",
+                                        "scale",
+                                        "material",
+                                        "mass",
+                                        "position",
+                                        "rotation",
+                                        "velocity",
+                                        "angular_velocity",
+                                        "motion",
+                                        "friction",
+                                        "restitution",
+                                        "self_collision",
+                                        "volume",
+                                        "fixed",
+                                        "sides",
+                                        "thickness"};
 
 BodyKind read_kind(const TomlNode& table, const std::string& what) {
   const TomlEntry* entry = table.find("kind");
@@ -51,6 +66,24 @@ void read_material(const TomlNode& node, const std::string& what, BodyDescriptio
   check_keys(node, what, {"density"});
   if (const TomlEntry* density = node.find("density"))
     body.density = scene_positive(density->value, what + ".density", kMostDensity);
+}
+
+SurfaceSides read_sides(const TomlNode& node, const std::string& what) {
+  const std::string& word = scene_text(node, what);
+  if (word == "both") return SurfaceSides::both;
+  if (word == "front") return SurfaceSides::front;
+  refuse(node.place, fmt::format("{} is {}", what, toml_string(word)), "both or front is allowed", "use one of them");
+}
+
+MeshPointer read_surface(const TomlNode& table, const std::string& what, double scale, BodyKind kind,
+                         SurfaceFiles& surfaces) {
+  const TomlNode& surface = table.find("surface")->value;
+  if (kind == BodyKind::dynamic) return surfaces.load(surface, what + ".surface", scale);
+  const TomlEntry *sides = table.find("sides"), *thickness = table.find("thickness");
+  ThinSurface how;
+  if (sides != nullptr) how.sides = read_sides(sides->value, what + ".sides");
+  if (thickness != nullptr) how.thickness = scene_positive(thickness->value, what + ".thickness", kMostThickness);
+  return surfaces.load_thin(surface, what + ".surface", scale, how, sides != nullptr || thickness != nullptr);
 }
 
 // what has no meaning for the body's kind is refused: taken and ignored it would mislead
@@ -112,6 +145,13 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
                fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
                "kind = \"deformable\" has it", "make it deformable, or remove it");
 
+  if (table.find("surface") == nullptr || (body.kind != BodyKind::fixed && body.kind != BodyKind::scripted))
+    for (const char* key : {"sides", "thickness"})
+      if (const TomlEntry* entry = table.find(key))
+        refuse(entry->place,
+               fmt::format("{}.{} belongs to the open surface of a body that is static or scripted", what, key),
+               "kind = \"static\" with surface = \"file\" has it", "remove it");
+
   const auto with = [&](const char* key, auto&& read) {
     if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
   };
@@ -161,7 +201,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
     return body;
   }
   check_kind(table, what, body);
-  body.shape = surfaces.load(surface->value, what + ".surface", scale);
+  body.shape = read_surface(table, what, scale, body.kind, surfaces);
   body.surface_file = surface->value.string;
   return body;
 }

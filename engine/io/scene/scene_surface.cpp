@@ -75,7 +75,6 @@ MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
       surface->topology = make_topology(surface->mesh);
     }
   }
-  if (const auto problem = check_mesh(surface->mesh, surface->topology)) refuse_mesh(*problem);
   file.vertices = surface->mesh.vertices.size();
   file.triangles = surface->mesh.triangles.size();
   files_.push_back(file);
@@ -127,10 +126,56 @@ std::vector<Vec3> SurfaceFiles::load_points(const TomlNode& node, const std::str
   return place->second;
 }
 
+MeshPointer SurfaceFiles::load_thin(const TomlNode& node, const std::string& what, double scale, const ThinSurface& how,
+                                    bool is_asked) {
+  const fs::path path = find(node, what);
+  MeshPointer& surface = unscaled_[node.string];
+  if (surface == nullptr) surface = read(path, node);
+  if (surface->topology.is_closed()) {
+    if (is_asked)
+      refuse(node.place, fmt::format("surface {} is closed", toml_string(node.string)),
+             "sides and thickness belong to open surfaces", "remove them");
+    return load(node, what, scale);
+  }
+  if (how.sides == SurfaceSides::front && surface->topology.misoriented_edges > 0)
+    refuse(node.place,
+           fmt::format("surface {} has no front: neighbouring triangles face opposite ways across {} edges",
+                       toml_string(node.string), surface->topology.misoriented_edges),
+           "sides = \"both\" takes it as it is", "use that, or make the normals consistent");
+  const std::string key =
+      fmt::format("{} {} {} {}", static_cast<int>(how.sides), how.thickness.value_or(0.0), scale, node.string);
+  MeshPointer& result = thin_[key];
+  if (result != nullptr) return result;
+  check_memory(node.place, fmt::format("surface {}, thickened,", toml_string(node.string)),
+               2.0 * surface_bytes(static_cast<double>(surface->mesh.triangles.size())), "simplify it");
+  TriangleMesh scaled = surface->mesh;
+  for (Vec3& x : scaled.vertices) x *= scale;
+  auto solid = make_surface(thickened(scaled, how));
+  check_extent(node, what, solid->mesh.vertices, scale);
+  if (const auto problem = check_mesh(solid->mesh, solid->topology))
+    refuse(node.place,
+           fmt::format("surface {}, open and thickened by {:.3g} m, {}", toml_string(node.string),
+                       how.thickness_of(scaled), *problem),
+           "a thin solid is wanted", "set another thickness");
+  for (SurfaceFile& file : files_)
+    if (file.name == node.string)
+      file.notes.push_back(fmt::format(
+          "the surface is open ({} border edges{}): a solid {:.3g} m thick, {}", surface->topology.border_edges,
+          surface->topology.nonmanifold_edges > 0 ? ", and cut where sheets meet" : "", how.thickness_of(scaled),
+          how.sides == SurfaceSides::both ? "met from both sides" : "behind its front"));
+  return result = std::move(solid);
+}
+
 MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, double scale) {
   const fs::path path = find(node, what);
   MeshPointer& surface = unscaled_[node.string];
   if (surface == nullptr) surface = read(path, node);
+  if (scaled_.find({node.string, scale}) == scaled_.end())
+    if (const auto problem = check_mesh(surface->mesh, surface->topology)) {
+      const bool is_open = !check_indices(surface->mesh) && !surface->topology.is_closed();
+      throw InputError(fmt::format("{}: surface {} {}{}", node.place, toml_string(node.string), *problem,
+                                   is_open ? "; a static or scripted body takes it as it is" : ""));
+    }
   if (scale == 1.0) {
     check_extent(node, what, surface->mesh.vertices, scale);
     return surface;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "engine/geometry/thickened_surface.hpp"
 #include "engine/io/file_guard.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "engine/io/tets/tet_file.hpp"
@@ -30,6 +31,10 @@ class SurfaceFiles {
   /// The closed, outward surface of the file that `node` names, its vertices times `scale`. Throws InputError located
   /// at the node, or in the file where its text is at fault.
   MeshPointer load(const TomlNode& node, const std::string& what, double scale);
+  /// The same of a body that does not move by itself, whose surface may be open: then the thin solid round it.
+  /// `is_asked`: the scene says how thick or which sides, which a closed surface has no use for.
+  MeshPointer load_thin(const TomlNode& node, const std::string& what, double scale, const ThinSurface& how,
+                        bool is_asked);
 
   /// The vertices of the mesh file that `node` names, whatever its triangles are like.
   std::vector<Vec3> load_points(const TomlNode& node, const std::string& what);
@@ -47,6 +52,7 @@ class SurfaceFiles {
 
  private:
   std::filesystem::path find(const TomlNode& node, const std::string& what) const;
+  /// As the file has it: its indices are right, and equal vertices are one where they kept it from being closed.
   MeshPointer read(const std::filesystem::path& path, const TomlNode& node);
 
   std::filesystem::path folder_;
@@ -55,6 +61,7 @@ class SurfaceFiles {
   VolumeCache made_;
   std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
   std::map<std::string, MeshPointer> unscaled_;                   // by name
+  std::map<std::string, MeshPointer> thin_;                       // by name, scale and how
   std::map<std::pair<std::string, double>, MeshPointer> scaled_;  // by name and scale
   std::map<std::string, std::vector<Vec3>> points_;               // by name
   std::map<std::pair<std::string, double>, SharedShape> shapes_;
