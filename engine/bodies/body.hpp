@@ -44,6 +44,7 @@ class Body {
   std::string surface_file;    ///< of a mesh, as the scene names it
   Vec3 center = Vec3::Zero();  ///< centre of mass in the file's frame
   double radius = 0.0;         ///< farthest point from the centre of mass, metres; 0 of planes and deformable bodies
+  double size = 0.0;           ///< at rest, metres: see size_of (shapes/shape_size.hpp); infinite of a plane
   double mean_edge = 0.0;      ///< of a mesh, metres
   double mass = 0.0;           ///< kg; 0: has no freedom
 

@@ -42,7 +42,7 @@ Parameter body_row(const std::string& path, std::string_view name, std::function
   row.unit = key.unit;
   row.range = key.range;
   row.doc = key.doc;
-  row.inherit = key.inherit;
+  row.word = key.word;
   row.initial = get();
   row.get = std::move(get);
   row.live = set != nullptr;

@@ -15,7 +15,7 @@ struct BodyKey {
   std::string_view unit;
   Range range;
   std::string_view doc;
-  std::string_view inherit = {};  ///< the word that leaves it to the scene
+  std::string_view word = {};  ///< the word that leaves it to the scene
 };
 
 /// Throws InternalError on a name that is not there.

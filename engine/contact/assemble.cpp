@@ -5,6 +5,7 @@
 
 #include "engine/contact/contact_frame.hpp"
 #include "engine/contact/pair_coefficients.hpp"
+#include "engine/contact/pair_scale.hpp"
 #include "engine/contact/row_bound.hpp"
 
 namespace impinge {
@@ -71,8 +72,9 @@ class Assembly {
     ContactRows& row = system().contacts.back();
     row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
-    row.bound =
-        row_bound({c.gap, free_velocity, row.velocity_before, row.restitution}, input_.settings, input_.time_step);
+    row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
+    row.bound = row_bound({c.gap, free_velocity, row.velocity_before, row.restitution, row.scale.speed},
+                          input_.settings, input_.time_step);
   }
 
   void add_attachment(ContactIndex index, const Attachment& attachment) {
@@ -83,8 +85,12 @@ class Assembly {
     Vec3 velocity_before = Vec3::Zero();
     fill_side(attachment.a.body, attachment.a.point, common, 1.0, rows, rows.a, velocity_before);
     fill_side(attachment.b.body, attachment.b.point, common, -1.0, rows, rows.b, velocity_before);
+    const BodyIndex first = attachment.a.body.is_none() ? attachment.b.body : attachment.a.body,
+                    second = attachment.b.body.is_none() ? first : attachment.b.body;
+    rows.scale = pair_scale(bodies_[first], bodies_[second], input_.gravity);
+    const double most = input_.settings.max_push_out.at(rows.scale.speed);
     Vec3 recovery = (a - b) / input_.time_step;
-    if (recovery.norm() > input_.settings.max_push_out) recovery *= input_.settings.max_push_out / recovery.norm();
+    if (recovery.norm() > most) recovery *= most / recovery.norm();
     rows.surface += recovery;
     add(index, std::move(rows), {attachment.a.point, attachment.b.point});
   }

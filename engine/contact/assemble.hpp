@@ -15,6 +15,7 @@ struct AssemblyInput {
   std::span<const Vec3> start;
   const ContactSettings& settings;
   double time_step = 0.0;  ///< s
+  double gravity = 0.0;    ///< that automatic thresholds go by, m/s²
 };
 
 /// A group's system, and what its parts are in the scene.

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/contact/pair_scale.hpp"
+
 namespace impinge {
 namespace {
 
-// fewer are not worth a look
-constexpr std::size_t kFew = 4;
+// no more are not worth a look: of a pair (two boxes have eight), of a patch
+constexpr std::size_t kFewOfPair = 8, kFewOfPatch = 4;
 // of the patch's size: how far a corner must stand out to be one
 constexpr double kFlat = 1e-3;
 // of the activation distance: how much deeper a contact must be to take the place of one that carries
@@ -123,7 +125,7 @@ class PairReduction {
   }
 
   void keep_of(const std::vector<std::size_t>& patch, const Vec3& normal, const Fineness& how) {
-    if (patch.size() <= kFew) {
+    if (patch.size() <= kFewOfPatch) {
       for (const std::size_t i : patch) is_kept_[i] = 1;
       return;
     }
@@ -174,30 +176,39 @@ std::vector<char> contacts_that_stay(std::span<const Collision> contacts, const 
   return PairReduction(contacts, is_preferred, how).run();
 }
 
-void reduce_contacts(const Bodies& bodies, const ContactCache& carried, std::span<const Collision> asked,
-                     const ReductionSettings& how, std::vector<Collision>& collisions) {
+std::vector<DroppedContacts> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
+                                             std::span<const Collision> asked, const ContactSettings& contact,
+                                             std::vector<Collision>& collisions) {
   const auto is_asked = [&](const Collision& c) {
     return std::any_of(asked.begin(), asked.end(), [&](const Collision& a) {
       return a.body_a == c.body_a && a.body_b == c.body_b && a.feature == c.feature;
     });
   };
   std::vector<Collision> kept;
+  std::vector<DroppedContacts> dropped;
   std::vector<char> is_preferred;
   for (std::size_t first = 0, last = 0; first < collisions.size(); first = last) {
     const BodyIndex a = collisions[first].body_a, b = collisions[first].body_b;
     while (last < collisions.size() && collisions[last].body_a == a && collisions[last].body_b == b) ++last;
     const std::span<const Collision> of_pair(collisions.data() + first, last - first);
-    if (of_pair.size() <= kFew || deforms(bodies, a) || deforms(bodies, b)) {
+    if (of_pair.size() <= kFewOfPair || deforms(bodies, a) || deforms(bodies, b)) {
       kept.insert(kept.end(), of_pair.begin(), of_pair.end());
       continue;
     }
+    const ReductionSettings how{contact.activation(pair_size(bodies[a], bodies[b])), contact.most_contacts};
     is_preferred.clear();
     for (const Collision& c : of_pair) is_preferred.push_back(carried.find({a, b, c.feature}).isZero(0.0) ? 0 : 1);
     const std::vector<char> is_kept = contacts_that_stay(of_pair, is_preferred, how);
+    std::size_t count = 0;
     for (std::size_t i = 0; i < of_pair.size(); ++i)
-      if (is_kept[i] != 0 || is_asked(of_pair[i])) kept.push_back(of_pair[i]);
+      if (is_kept[i] != 0 || is_asked(of_pair[i]))
+        kept.push_back(of_pair[i]);
+      else
+        ++count;
+    if (count > 0) dropped.push_back({a, b, count});
   }
   collisions.swap(kept);
+  return dropped;
 }
 
 }  // namespace impinge

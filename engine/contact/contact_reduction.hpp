@@ -12,6 +12,7 @@
 
 #include "engine/bodies/bodies.hpp"
 #include "engine/contact/contact_cache.hpp"
+#include "engine/contact/contact_settings.hpp"
 #include "engine/detection/collision.hpp"
 
 namespace impinge {
@@ -21,11 +22,18 @@ struct ReductionSettings {
   int most = 100;            ///< contacts of a pair from which on its patches are made coarser
 };
 
+/// How many contacts of a pair were dropped.
+struct DroppedContacts {
+  BodyIndex a, b;
+  std::size_t count = 0;
+};
+
 /// Drops contacts of pairs of bodies of which neither deforms; the order stays. Contacts of the features of `asked`
 /// always stay. What carried an impulse in the last sub-step (`carried`) is preferred, so that a set of contacts
 /// lasts. Pairs are sorted in `collisions`.
-void reduce_contacts(const Bodies& bodies, const ContactCache& carried, std::span<const Collision> asked,
-                     const ReductionSettings& how, std::vector<Collision>& collisions);
+std::vector<DroppedContacts> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
+                                             std::span<const Collision> asked, const ContactSettings& contact,
+                                             std::vector<Collision>& collisions);
 
 /// Which contacts of one pair of rigid bodies stay: 1 or 0 by contact. `is_preferred` by contact.
 std::vector<char> contacts_that_stay(std::span<const Collision> contacts, const std::vector<char>& is_preferred,

@@ -26,11 +26,11 @@ enum class Reduction {
 
 struct ContactSettings {
   ContactPoints points = ContactPoints::proximity;
-  double activation_distance = 1e-3;
+  Threshold activation_distance{2.4e-3};  ///< part of the length of a pair's scale (pair_scale.hpp)
   double friction = 0.3;
   double restitution = 0.0;
-  double restitution_threshold = 0.01;
-  double max_push_out = 1.0;
+  Threshold restitution_threshold{4.9e-3};  ///< part of its speed
+  Threshold max_push_out{0.65};             ///< part of its speed
   PushOut push_out = PushOut::split;
   bool warm_start = true;
   Reduction reduction = Reduction::patch;
@@ -38,8 +38,10 @@ struct ContactSettings {
 
   void declare(const Rows& rows);
 
-  /// How far apart features still are contacts, metres; 0 where only those that intersect are.
-  double activation() const { return points == ContactPoints::proximity ? activation_distance : 0.0; }
+  /// How far apart features of bodies of a size still are contacts, metres; 0 where only those that intersect are.
+  double activation(double size) const {
+    return points == ContactPoints::proximity ? activation_distance.at(size) : 0.0;
+  }
 };
 
 }  // namespace impinge

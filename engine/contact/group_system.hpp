@@ -5,6 +5,7 @@
 
 #include "engine/bodies/material_point.hpp"
 #include "engine/bodies/system_block.hpp"
+#include "engine/contact/contact_scale.hpp"
 #include "engine/contact/row_kind.hpp"
 
 namespace impinge {
@@ -32,6 +33,7 @@ struct ContactRows {
   double friction = 0.0;         ///< 0: a contact without tangential rows
   double restitution = 0.0;      ///< e of the pair; where this is an impact the bound holds its bounce already
   double velocity_before = 0.0;  ///< J v along n before the sub-step, m/s: what a bounce is a part of
+  ContactScale scale;            ///< of the two bodies
   bool has_one_row() const { return kind == RowKind::sliding || (kind == RowKind::contact && friction == 0.0); }
 };
 

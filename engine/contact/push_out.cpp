@@ -6,12 +6,14 @@ namespace impinge {
 namespace {
 
 /// Overlap below this is rounding, not overlap: pushing it out would cost a solve a sub-step for nothing.
-double slop(const ContactSettings& settings) { return 1e-6 * settings.activation_distance; }
+double slop(const ContactRows& rows, const ContactSettings& settings) {
+  return 1e-6 * settings.activation_distance.at(rows.scale.length);
+}
 
 }  // namespace
 
 bool needs_push_out(const GroupSystem& solved, const ContactSettings& settings, double time_step) {
-  if (settings.push_out != PushOut::split || settings.max_push_out <= 0.0) return false;
+  if (settings.push_out != PushOut::split) return false;
   // rows whose positions move by Δt v leave no overlap that wasn't there; others (Newmark) are asked
   const bool all_move = std::all_of(solved.deformable.begin(), solved.deformable.end(),
                                     [](const DeformableBlock& b) { return b.displacement_scale == 1.0; });
@@ -19,7 +21,7 @@ bool needs_push_out(const GroupSystem& solved, const ContactSettings& settings, 
     const ContactRows& c = solved.contacts[i];
     if (c.kind != RowKind::contact) continue;
     const double gap = all_move ? c.gap : std::min(c.gap, c.gap + time_step * solved.displacement_velocity(i).x());
-    if (gap < -slop(settings)) return true;
+    if (gap < -slop(c, settings) && settings.max_push_out.at(c.scale.speed) > 0.0) return true;
   }
   return false;
 }
@@ -39,7 +41,8 @@ GroupSystem make_push_out_system(const GroupSystem& solved, const ContactSetting
     rows.surface.setZero();
     rows.friction = rows.restitution = 0.0;
     // an overlap is measured after the velocities have moved the bodies: separation that they bring is not added twice
-    rows.bound = gap_after >= 0.0 ? -gap_after / time_step : std::min(-gap_after / time_step, settings.max_push_out);
+    const double most = settings.max_push_out.at(rows.scale.speed);
+    rows.bound = gap_after >= 0.0 ? -gap_after / time_step : std::min(-gap_after / time_step, most);
   }
   return push;
 }

@@ -1,6 +1,7 @@
 // What the normal row of a contact asks of the velocity at the end of a sub-step.
 #pragma once
 
+#include "engine/contact/contact_scale.hpp"
 #include "engine/contact/contact_settings.hpp"
 
 namespace impinge {
@@ -10,7 +11,8 @@ struct NormalMotion {
   double gap = 0.0;            ///< g0, metres
   double free_velocity = 0.0;  ///< J v*, m/s
   double velocity_before = 0.0;
-  double restitution = 0.0;  ///< e of the pair
+  double restitution = 0.0;                   ///< e of the pair
+  double speed_scale = ContactScale().speed;  ///< of the pair, m/s: what automatic thresholds are parts of
 };
 
 /// J v >= -g0/Δt, raised to the rebound -e·min(0, J v⁻) where the gap closes in this sub-step; for overlap that exists

@@ -169,7 +169,7 @@ ParameterValue parse_value(const Parameter& row, std::string_view text) {
       refuse(row, found);
     case ParameterKind::real:
       if (const auto value = number<double>(text)) return checked_value(row, *value);
-      if (!row.inherit.empty() && unquoted(text) == row.inherit) return row.inherit;
+      if (!row.word.empty() && unquoted(text) == row.word) return row.word;
       refuse(row, found);
     case ParameterKind::vector3: {
       const auto items = list_items(text);
@@ -208,7 +208,7 @@ ParameterValue checked_value(const Parameter& row, ParameterValue value) {
       check_number(row, static_cast<double>(std::get<std::int64_t>(value)), found);
       break;
     case ParameterKind::real:
-      if (!row.inherit.empty() && value == ParameterValue(row.inherit)) break;
+      if (!row.word.empty() && value == ParameterValue(row.word)) break;
       if (!std::holds_alternative<double>(value)) wrong_kind();
       check_number(row, std::get<double>(value), found);
       break;
@@ -270,7 +270,7 @@ std::string describe_allowed(const Parameter& row) {
     case ParameterKind::integer:
       return numbers("an integer");
     case ParameterKind::real:
-      return numbers("a real number") + (row.inherit.empty() ? "" : " or the word " + row.inherit);
+      return numbers("a real number") + (row.word.empty() ? "" : " or the word " + row.word);
     case ParameterKind::vector3:
       return "[x, y, z], each " + numbers("a real number");
     case ParameterKind::text:

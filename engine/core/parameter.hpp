@@ -35,9 +35,9 @@ struct Parameter {
   std::function<ParameterValue()> get;
   std::function<void(const ParameterValue&)> set;  ///< null: fixed with the scene
   bool live = true;                                ///< may change between frames; else only before the first
-  /// Of a real number that may be left to what stands above it: the word that says so, beside numbers; the value then
-  /// is that word, as a text. "" where a number is a must.
-  std::string inherit = {};
+  /// Of a real number that may be left open, to what stands above it or to the program: the word that says so, beside
+  /// numbers; the value then is that word, as a text. "" where a number is a must.
+  std::string word = {};
 };
 
 class ParameterSet {

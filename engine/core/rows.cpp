@@ -47,6 +47,25 @@ Rows::Declared Rows::add(std::string_view name, double& variable, Range range, s
   return add(std::move(row));
 }
 
+Rows::Declared Rows::add(std::string_view name, Threshold& variable, Range range, std::string unit,
+                         std::string doc) const {
+  Parameter row;
+  row.path = name;
+  row.range = range;
+  row.unit = std::move(unit);
+  row.doc = std::move(doc);
+  row.word = "auto";
+  row.get = [&variable, word = row.word] {
+    return variable.given ? ParameterValue(*variable.given) : ParameterValue(word);
+  };
+  row.set = [&variable](const ParameterValue& value) {
+    const double* number = std::get_if<double>(&value);
+    variable.given = number == nullptr ? std::optional<double>() : *number;
+  };
+  row.initial = row.get();
+  return add(std::move(row));
+}
+
 Rows::Declared Rows::add(std::string_view name, Vec3& variable, Range range, std::string unit, std::string doc) const {
   Parameter row = row_for(name, variable, ParameterKind::vector3, std::move(doc));
   row.range = range;

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
+#include "engine/core/threshold.hpp"
 
 namespace impinge {
 
@@ -51,6 +52,8 @@ class Rows {
   Declared add(std::string_view name, bool& variable, std::string doc) const;
   Declared add(std::string_view name, int& variable, Range range, std::string unit, std::string doc) const;
   Declared add(std::string_view name, double& variable, Range range, std::string unit, std::string doc) const;
+  /// A number, or the word "auto".
+  Declared add(std::string_view name, Threshold& variable, Range range, std::string unit, std::string doc) const;
   Declared add(std::string_view name, Vec3& variable, Range range, std::string unit, std::string doc) const;
   Declared add(std::string_view name, std::string& variable, std::string doc) const;
   Declared add(std::string_view name, std::vector<std::string>& variable, std::string doc) const;

@@ -19,6 +19,7 @@ struct Collider {
   std::span<const Vec3> vertex_velocities;  ///< of a deformable body's surface; empty for a rigid one
   bool self_collision = false;
   double mean_edge = 0.0;  ///< mean edge length of a mesh, metres
+  double size = 0.0;       ///< of the body at rest, metres; infinite of a plane
 
   const SurfaceMesh& mesh() const { return surface != nullptr ? *surface : *shape->mesh(); }
   /// Velocity of the material point of a rigid body that is at `point` (world).

@@ -13,7 +13,7 @@ namespace impinge {
 namespace {
 
 constexpr std::string_view kMagic = "impinge frozen step\n";
-constexpr std::uint32_t kVersion = 3, kOldest = 2;
+constexpr std::uint32_t kVersion = 4, kOldest = 2;
 constexpr std::size_t kHead = kMagic.size() + 24;
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
@@ -51,7 +51,7 @@ void put_group(LittleEndianWriter& out, const FrozenGroup& group) {
       out.put(std::int32_t{index});
     out.put(at.point_a), out.put(at.point_b), out.put(at.feature);
     out.put(rows.directions), out.put(rows.surface), out.put(rows.gap), out.put(rows.bound), out.put(rows.friction);
-    out.put(rows.restitution), out.put(rows.velocity_before);
+    out.put(rows.restitution), out.put(rows.velocity_before), out.put(rows.scale.length), out.put(rows.scale.speed);
     out.put(system.lambda[i]), out.put(group.answer.lambda[i]);
     put_side(out, rows.a), put_side(out, rows.b);
   }
@@ -166,7 +166,7 @@ ContactSide read_side(Reader& in, const FrozenGroup& group) {
   return side;
 }
 
-void read_contact(Reader& in, std::int64_t bodies, FrozenGroup& group) {
+void read_contact(Reader& in, std::uint32_t version, std::int64_t bodies, FrozenGroup& group) {
   ContactRows rows;
   FrozenContact at;
   const std::size_t start = in.at();
@@ -180,6 +180,9 @@ void read_contact(Reader& in, std::int64_t bodies, FrozenGroup& group) {
   rows.directions = in.mat3(), rows.surface = in.vec3(), rows.gap = in.get<double>(), rows.bound = in.get<double>();
   rows.friction = in.positive("friction", true);
   rows.restitution = in.positive("restitution", true), rows.velocity_before = in.get<double>();
+  // before version 4 every threshold was a number
+  if (version >= 4)
+    rows.scale.length = in.positive("a length", false), rows.scale.speed = in.positive("a speed", false);
   group.system.lambda.push_back(in.vec3());
   group.answer.lambda.push_back(in.vec3());
   rows.a = read_side(in, group), rows.b = read_side(in, group);
@@ -187,7 +190,7 @@ void read_contact(Reader& in, std::int64_t bodies, FrozenGroup& group) {
   group.geometry.push_back(at);
 }
 
-FrozenGroup read_group(Reader& in, std::int64_t bodies) {
+FrozenGroup read_group(Reader& in, std::uint32_t version, std::int64_t bodies) {
   FrozenGroup group;
   const std::size_t rigid = in.count("rigid bodies", 132);
   for (std::size_t b = 0; b < rigid; ++b) {
@@ -208,8 +211,8 @@ FrozenGroup read_group(Reader& in, std::int64_t bodies) {
     block.velocity = in.numbers(unknowns), block.displacement_velocity = in.numbers(unknowns);
     group.system.deformable.push_back(std::move(block));
   }
-  const std::size_t contacts = in.count("contacts", 316);
-  for (std::size_t i = 0; i < contacts; ++i) read_contact(in, bodies, group);
+  const std::size_t contacts = in.count("contacts", version >= 4 ? 332 : 316);
+  for (std::size_t i = 0; i < contacts; ++i) read_contact(in, version, bodies, group);
   for (std::size_t b = 0; b < rigid; ++b)
     group.answer.delta_velocity.push_back(in.vec3()), group.answer.delta_angular_velocity.push_back(in.vec3());
   for (const BlockMatrix& a : group.matrices)
@@ -295,9 +298,9 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   if (std::string_view(bytes).substr(0, kMagic.size()) != kMagic)
     in.fail(0, "the file is no frozen step", "'impinge frozen step' is wanted at its beginning");
   const auto version = in.get<std::uint32_t>();
-  if (version != kVersion && version != kOldest)
+  if (version < kOldest || version > kVersion)
     in.fail(kMagic.size(), fmt::format("version {} of the format", version),
-            fmt::format("version {} or {} is wanted", kOldest, kVersion));
+            fmt::format("version {} to {} is wanted", kOldest, kVersion));
   if (in.get<std::uint32_t>() != 0) in.fail(kMagic.size() + 4, "the file is damaged", "0 is wanted here");
   const auto length = in.get<std::uint64_t>(), checksum = in.get<std::uint64_t>();
   if (bytes.size() - kHead != length)
@@ -312,11 +315,11 @@ FrozenStep read_frozen_step(const std::filesystem::path& path) {
   step.scene = in.text(), step.frame = in.index("the frame", 0, std::int64_t{1} << 31), step.time = in.get<double>();
   step.time_step = in.positive("Δt", false), step.gravity = in.vec3();
   const std::size_t settings_at = in.at();
-  step.settings = version == kVersion ? read_settings(in) : read_settings_2(in);
+  step.settings = version > 2 ? read_settings(in) : read_settings_2(in);
   step.linear_solver = linear_solver_of(in, settings_at, step.settings);
   for (std::size_t n = in.count("bodies", 4); n > 0; --n) step.bodies.push_back(in.text());
   for (std::size_t n = in.count("groups", 12); n > 0; --n)
-    step.groups.push_back(read_group(in, static_cast<std::int64_t>(step.bodies.size())));
+    step.groups.push_back(read_group(in, version, static_cast<std::int64_t>(step.bodies.size())));
   if (!in.at_end()) in.fail(in.at(), "more behind the last group", "the file ends there");
   return step;
 }

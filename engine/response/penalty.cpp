@@ -36,9 +36,9 @@ enum class Form { end_of_step, start_of_step };
 
 struct Settings {
   Form form = Form::end_of_step;
-  double stiffness = 0.0;  // k, N/m, of one contact; 0: by the mass that it feels and Δt
-  double damping = 0.0;    // b, N·s/m; 0 beside an automatic stiffness: critical
-  double slip_speed = 1e-3;
+  double stiffness = 0.0;        // k, N/m, of one contact; 0: by the mass that it feels and Δt
+  double damping = 0.0;          // b, N·s/m; 0 beside an automatic stiffness: critical
+  Threshold slip_speed{4.9e-4};  // ε, part of the speed of a contact's scale
   int max_iterations = 200;
 };
 
@@ -78,7 +78,9 @@ class Penalty : public Response {
              "Damper of each contact; 0 beside an automatic stiffness: critical damping.")
         .formerly("response.penalty_damping");
     rows.add("slip_speed", settings_.slip_speed, {0.0, 1e3, true}, "m/s",
-             "Friction is full from this sliding speed on, and less below it.")
+             "Friction is full from this sliding speed on, and less below it; auto: 4.9e-4 √(g·size) of the smaller "
+             "body "
+             "that moves freely.")
         .formerly("response.penalty_slip_speed");
     limit_ = rows.add("max_iterations", settings_.max_iterations, {1, 1000000, true}, "",
                       "implicit: Newton steps at most for a group and sub-step.")
@@ -103,7 +105,7 @@ class Penalty : public Response {
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         const double mobility = a.block_mobility(i)(0, 0);
         const Spring spring = spring_of(settings_, h, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0);
-        law.push_back(implicit_law(group.contacts[i], spring, h, settings_.slip_speed));
+        law.push_back(implicit_law(group.contacts[i], spring, h, slip_speed(group.contacts[i])));
       }
       const SpringsResult springs =
           solve_springs(a, law, std::max(1e-12, context.lcp.tolerance), settings_.max_iterations, group);
@@ -117,6 +119,8 @@ class Penalty : public Response {
   }
 
  private:
+  double slip_speed(const ContactRows& rows) const { return settings_.slip_speed.at(rows.scale.speed); }
+
   void take_explicit(GroupSystem& group, const GroupOperator& a, double h) const {
     std::vector<char> act;  // a gap has no spring yet, so there is nothing to share with it
     for (const ContactRows& rows : group.contacts) act.push_back(rows.kind != RowKind::contact || rows.gap < 0.0);
@@ -127,7 +131,7 @@ class Penalty : public Response {
       const Mat3& mobility = shared[i];
       double mass = mobility(0, 0) > 0.0 ? 1.0 / mobility(0, 0) : 0.0;
       if (together > 0.0 && act[i]) mass = std::max(mass, 1.0 / (together * a.block_mobility(i)(0, 0)));
-      const SpringLaw law = explicit_law(rows, spring_of(settings_, h, mass, kExplicitPart), h, settings_.slip_speed);
+      const SpringLaw law = explicit_law(rows, spring_of(settings_, h, mass, kExplicitPart), h, slip_speed(rows));
       Vec3 u = group.contact_velocity(i, false);
       if (rows.kind == RowKind::contact) u.x() = rows.velocity_before;
       Vec3& lambda = group.lambda[i] = law.impulse(u, law.normal(u));

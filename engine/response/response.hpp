@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "engine/contact/contact_settings.hpp"
 #include "engine/contact/group_system.hpp"
 #include "engine/core/method.hpp"
 #include "engine/lcp/lcp_solver.hpp"
@@ -11,10 +12,12 @@ namespace impinge {
 
 /// What a response is told of the sub-step, beside the settings of its own.
 struct ResponseContext {
-  LcpSettings lcp;                      ///< of cone problems; the tolerance holds for whatever else a method iterates
-  double time_step = 1.0 / 240.0;       ///< Δt, s
-  double max_push_out = 1.0;            ///< m/s, of recovery from overlap
-  double restitution_threshold = 0.01;  ///< m/s: slower impacts do not bounce
+  LcpSettings lcp;                 ///< of cone problems; the tolerance holds for whatever else a method iterates
+  double time_step = 1.0 / 240.0;  ///< Δt, s
+  /// Parts of the speed of a contact's scale, m/s, or numbers: of recovery from overlap, and slower impacts do not
+  /// bounce.
+  Threshold max_push_out = ContactSettings().max_push_out;
+  Threshold restitution_threshold = ContactSettings().restitution_threshold;
   /// The rows ask for positions that no longer overlap, not for velocities: to be solved to its residual, in whatever
   /// way of the method's does that.
   bool recovers_overlap = false;

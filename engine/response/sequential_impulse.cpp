@@ -104,8 +104,8 @@ class SequentialImpulse : public Response {
         if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(w.diagonal(i)(0, 0) > 0.0)) continue;
         const Vec3 u = w.velocity(i);
         const double closing = u.x() + approach[i];
-        if (!(closing < -std::max(slow, context.restitution_threshold)) || rows.gap + context.time_step * u.x() >= 0.0)
-          continue;
+        const double least = std::max(slow, context.restitution_threshold.at(rows.scale.speed));
+        if (!(closing < -least) || rows.gap + context.time_step * u.x() >= 0.0) continue;
         Vec3 next = group.lambda[i];
         next.x() -= (1.0 + rows.restitution) * closing / w.diagonal(i)(0, 0);
         if (rows.friction > 0.0)

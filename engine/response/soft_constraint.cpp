@@ -108,8 +108,9 @@ class SoftConstraint : public Response {
       return relaxed_impulse(rows, w, u, lambda);
     }
     if (!(w(0, 0) > 0.0)) return lambda;
-    const double bias =
-        rows.gap > 0.0 ? rows.gap / context.time_step : std::max(soft.bias_rate * rows.gap, -context.max_push_out);
+    const double bias = rows.gap > 0.0
+                            ? rows.gap / context.time_step
+                            : std::max(soft.bias_rate * rows.gap, -context.max_push_out.at(rows.scale.speed));
     const double before = lambda.x();
     lambda.x() = std::max(0.0, before - soft.mass_scale * (u.x() + bias) / w(0, 0) - soft.impulse_scale * before);
     if (rows.has_one_row()) return lambda;

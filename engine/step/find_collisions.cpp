@@ -29,7 +29,6 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
                      const ContactSettings& settings, double time_step, NarrowPhase& narrow_phase,
                      std::vector<TrianglePair>& triangle_pairs, std::vector<Collision>& collisions) {
   const bool proximity = settings.points == ContactPoints::proximity;
-  const ContactQuery query{proximity, settings.activation_distance, time_step};
   std::vector<BodyPair> mesh_pairs;
   for (const BodyPair& pair : pairs)
     if (is_mesh_pair(colliders, pair)) mesh_pairs.push_back(pair);
@@ -40,6 +39,8 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
   std::vector<std::vector<Collision>> found(pairs.size());  // one slot a pair, so that threads don't share
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const BodyPair& pair = pairs[i];
+    const double size = std::min(colliders[pair.a].size, colliders[pair.b].size);
+    const ContactQuery query{proximity, settings.activation_distance.at(size), time_step};
     if (!is_mesh_pair(colliders, pair)) return primitive_contacts(colliders, pair, query, found[i]);
     const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
     if (triangles.empty()) return;

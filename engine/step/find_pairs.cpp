@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/contact/pair_scale.hpp"
+
 namespace impinge {
 namespace {
 
@@ -47,16 +49,21 @@ void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders) {
     c.angular_velocity = twist.angular;
     c.self_collision = body.self_collision;
     c.mean_edge = body.mean_edge;
+    c.size = body.size;
   }
 }
 
 std::vector<Aabb> search_boxes(const Bodies& bodies, std::span<const Collider> colliders,
                                const ContactSettings& settings, double time_step) {
   const bool proximity = settings.points == ContactPoints::proximity;
+  double largest = 0.0;  // of bodies that move freely: a pair is no larger
+  for (const Body& body : bodies)
+    if (body.has_freedom()) largest = std::max(largest, body.size);
   std::vector<Aabb> boxes;
   boxes.reserve(colliders.size());
   for (BodyIndex i(0); i < bodies.size(); ++i)
-    boxes.push_back(proximity ? swept_bounds(colliders[i], bodies[i].radius, settings.activation(), time_step)
+    boxes.push_back(proximity ? swept_bounds(colliders[i], bodies[i].radius,
+                                             settings.activation(std::min(bodies[i].size, largest)), time_step)
                               : colliders[i].bounds);
   return boxes;
 }
@@ -67,7 +74,8 @@ double search_margin(const Bodies& bodies, std::span<const Collider> colliders, 
   // the approach widens the search; for meshes by one edge length at most, since the triangles in reach grow with its
   // square: what is faster overlaps a little and is pushed out
   const double reach = approach(colliders[a], bodies[a].radius, colliders[b], bodies[b].radius, time_step);
-  return settings.activation() + std::min(reach, std::max(bodies[a].mean_edge, bodies[b].mean_edge));
+  return settings.activation(pair_size(bodies[a], bodies[b])) +
+         std::min(reach, std::max(bodies[a].mean_edge, bodies[b].mean_edge));
 }
 
 void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
@@ -77,7 +85,7 @@ void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const
 
   pairs.clear();
   for (BodyIndex i(0); i < bodies.size(); ++i)
-    if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, settings.activation()});
+    if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, settings.activation(bodies[i].size)});
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(first), b(second);
     if (!may_respond(bodies[a], bodies[b])) continue;

@@ -180,13 +180,13 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   return pairs;
 }
 
-void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassageSettings& settings,
+void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings,
                          bool is_deep) {
   std::vector<std::pair<SurfacePath, SurfacePath>> paths;
   for (const UnsafeMotion::Pair& pair : pairs)
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
-    PassageSettings own = settings;
+    PassageSettings own = settings(bodies[pairs[i].a], bodies[pairs[i].b]);
     if (is_deep) own.depth = pairs[i].safe;
     pairs[i].passages = first_passages(paths[i].first, paths[i].second, own);
   });
@@ -201,11 +201,11 @@ MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a
   return motion;
 }
 
-void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassageSettings& settings) {
+void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassagesOf& settings) {
   search(bodies, motion.pairs, settings, true);
 }
 
-std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassageSettings& settings) {
+std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassagesOf& settings) {
   std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which == Continuous::on);
   if (pairs.empty()) return std::nullopt;
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};

@@ -2,6 +2,7 @@
 // farther than that search reaches may meet, and leave again, what it never had a contact with.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,6 +33,9 @@ struct UnsafeMotion {
   std::vector<Pair> pairs;
 };
 
+/// What counts as a passage of two bodies.
+using PassagesOf = std::function<PassageSettings(const Body& a, const Body& b)>;
+
 class MotionGuard {
  public:
   MotionGuard();
@@ -41,7 +45,7 @@ class MotionGuard {
   /// Once velocities are final: how bodies that turn far get through the sub-step, which ends at `end`, s.
   void follow(Bodies& bodies, const TimeIntegration& how, double end);
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
-  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassageSettings& settings);
+  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings);
   /// What `look` holds against each other of two bodies after the motion.
   struct PairMotion {
     bool is_planar = false;  ///< a plane is among them: what is through it is still inside
@@ -51,7 +55,7 @@ class MotionGuard {
   };
   PairMotion motion_of(const Bodies& bodies, BodyIndex a, BodyIndex b);
   /// For pairs that nobody vouches for: which of them pass, each by more than its safe approach.
-  void find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassageSettings& settings);
+  void find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassagesOf& settings);
 
  private:
   struct Known;
@@ -60,8 +64,7 @@ class MotionGuard {
   double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
   std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, bool all);
-  void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassageSettings& settings,
-              bool is_deep);
+  void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings, bool is_deep);
 
   std::vector<Pose> start_;               // by body
   std::vector<std::vector<Pose>> turns_;  // by body: poses on the way of what turns far; else empty

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/bodies/scale.hpp"
 #include "engine/contact/push_out.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/finite.hpp"
@@ -111,19 +112,26 @@ class GroupSolve {
     count(solved);
     if (!solved.converged()) settle_contradiction(recovery);
     // where bodies are wedged the way out is longer than the overlap: it is gone a part a sub-step, in the same proportions
-    const double fastest = fastest_point(recovery), most = how_.contact.max_push_out;
-    move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta,
-         fastest > most ? most / fastest : 1.0);
+    move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta, share_of(recovery));
   }
 
-  double fastest_point(const GroupSystem& moving) const {
-    double fastest = 0.0;
+  /// The largest part of a recovery that moves no point of a body faster than max_push_out allows.
+  double share_of(const GroupSystem& moving) const {
+    double share = 1.0;
+    const auto slow_down = [&](BodyIndex b, double fastest) {
+      const double most = how_.contact.max_push_out.at(speed_scale(input_.gravity, bodies_[b].size));
+      if (fastest > most) share = std::min(share, most / fastest);
+    };
     for (std::size_t i = 0; i < now_.rigid.size(); ++i)
-      fastest = std::max(fastest, moving.delta_velocity[i].norm() +
-                                      moving.delta_angular_velocity[i].norm() * bodies_[now_.rigid[i]].radius);
-    for (const VecX& nodes : moving.deformable_delta)
+      slow_down(now_.rigid[i], moving.delta_velocity[i].norm() +
+                                   moving.delta_angular_velocity[i].norm() * bodies_[now_.rigid[i]].radius);
+    for (std::size_t i = 0; i < now_.deformable.size(); ++i) {
+      const VecX& nodes = moving.deformable_delta[i];
+      double fastest = 0.0;
       for (Eigen::Index k = 0; k + 2 < nodes.size(); k += 3) fastest = std::max(fastest, nodes.segment<3>(k).norm());
-    return fastest;
+      slow_down(now_.deformable[i], fastest);
+    }
+    return share;
   }
 
   void hand_on() {
@@ -211,7 +219,7 @@ GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const C
 
 std::vector<GroupResult> respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
                                  std::span<const CollisionGroup> groups, const Solving& how, StageTimes& times) {
-  const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step};
+  const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step, how.gravity};
   std::vector<GroupResult> results(groups.size());
   double wall_ms = 0.0;
   {

@@ -13,6 +13,7 @@ struct Solving {
   ResponseContext context;
   const ContactSettings& contact;
   const DeformableIntegrator& integrator;
+  double gravity;        ///< that automatic thresholds go by, m/s²
   bool freezes = false;  ///< the groups are wanted as they were handed to the response
 };
 

@@ -2,20 +2,23 @@
 
 #include <algorithm>
 
+#include "engine/bodies/scale.hpp"
 #include "engine/core/archive.hpp"
 
 namespace impinge {
 
 void Sleeping::update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
-                      double speed, double time, double time_step) {
+                      const RestThresholds& rest, double time_step) {
   for (Body& body : bodies) {
     if (!body.has_freedom() || body.asleep) continue;
-    body.rest_time = body.fastest_point() <= speed ? body.rest_time + time_step : 0.0;
+    const double slow = rest.speed.at(speed_scale(rest.gravity, body.size));
+    body.rest_time = body.fastest_point() <= slow ? body.rest_time + time_step : 0.0;
   }
   for (const CollisionGroup& group : groups) {
     if (group.contacts.empty()) continue;
-    if (!std::all_of(group.bodies.begin(), group.bodies.end(),
-                     [&](BodyIndex b) { return bodies[b].rest_time >= time; }))
+    if (!std::all_of(group.bodies.begin(), group.bodies.end(), [&](BodyIndex b) {
+          return bodies[b].rest_time >= rest.time.at(time_scale(rest.gravity, bodies[b].size));
+        }))
       continue;
     const BodyIndex island = group.bodies.front();
     for (BodyIndex b : group.bodies) {

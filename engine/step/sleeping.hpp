@@ -5,6 +5,7 @@
 
 #include "engine/bodies/bodies.hpp"
 #include "engine/contact/collision_groups.hpp"
+#include "engine/core/threshold.hpp"
 
 namespace impinge {
 
@@ -14,13 +15,20 @@ class ByteWriter;
 /// Two bodies that touch or are joined.
 using BodyEnds = std::pair<BodyIndex, BodyIndex>;
 
+/// When a body rests. Automatic: by √(g·size) and √(size/g) of the body.
+struct RestThresholds {
+  const Threshold& speed;  ///< m/s, of its fastest point
+  const Threshold& time;   ///< s in a row
+  double gravity;          ///< m/s²
+};
+
 class Sleeping {
  public:
   /// Counts resting time and puts groups to sleep in which every body has rested long enough. `supports` are the
   /// (dynamic body, scripted body) contacts of this sub-step: who moves wakes what rests on it. A body that touches
   /// nothing never sleeps.
-  void update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports, double speed,
-              double time, double time_step);
+  void update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
+              const RestThresholds& rest, double time_step);
   /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
   bool wake_touched(Bodies& bodies, std::span<const BodyEnds> touching);
   bool wake_moved_supports(Bodies& bodies);

@@ -29,7 +29,7 @@ class BodyRows {
   using Optional = std::optional<double>;
 
   void coefficient(const char* name, Optional Body::*member) {
-    const std::string word(body_key(name).inherit);
+    const std::string word(body_key(name).word);
     set_.add(body_row(
         path_, name,
         [b = &body_, member, word] {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/contact/pair_scale.hpp"
 #include "engine/detection/pairs/contact_sink.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/world/world.hpp"
@@ -222,12 +223,16 @@ class Report {
          {"normal_z", c.normal.z()}});
   }
 
-  /// All that is found is handed on: equal contacts were left out when they were made.
   void reduction() {
     if (is_stopped_) return add_idle("reduction", "");
-    const auto count = static_cast<double>(v_.contacts.size());
-    add("reduction", true, fmt::format("{0} found, {0} handed to the response", v_.contacts.size()),
-        {{"found", count}, {"kept", count}});
+    const std::size_t kept = v_.contacts.size();
+    std::size_t found = kept;
+    for (const DroppedContacts& d : step_.dropped)
+      if (d.a == v_.a && d.b == v_.b) found += d.count;
+    add("reduction", true,
+        fmt::format("{} found, {} handed to the response{}", found, kept,
+                    found > kept ? ": the others can't come to carry before these do" : ""),
+        {{"found", static_cast<double>(found)}, {"kept", static_cast<double>(kept)}});
   }
 
   const World& world_;
@@ -278,8 +283,8 @@ const FilterVerdict* PairVerdict::stopped_by() const {
   return it == filters.end() ? nullptr : &*it;
 }
 
-double activation_between(const Parameters& parameters, const Body&, const Body&) {
-  return parameters.contact.activation();
+double activation_between(const Parameters& parameters, const Body& a, const Body& b) {
+  return parameters.contact.activation(pair_size(a, b));
 }
 
 PairVerdict pair_verdict(const World& world, const SubStep& step, BodyIndex a, BodyIndex b, NearestSearch& search) {

@@ -1,5 +1,7 @@
 #include "engine/world/parameters.hpp"
 
+#include "engine/bodies/scale.hpp"
+
 namespace impinge {
 namespace {
 
@@ -22,9 +24,9 @@ void Parameters::bind(ParameterSet& set) {
                     "Whether groups at rest are put to sleep: they cost nothing, and have no contacts in figures and "
                     "pictures, until they are touched.");
   of_simulation.add("sleep_speed", simulation.sleep_speed, {0.0, 10.0, true}, "m/s",
-                    "A body whose every point is slower than this counts as resting.");
+                    "A body whose every point is slower than this counts as resting; auto: 4.9e-5 √(g·size).");
   of_simulation.add("sleep_time", simulation.sleep_time, {0.0, 1000.0}, "s",
-                    "How long a whole group must rest before it sleeps.");
+                    "How long a whole group must rest before it sleeps; auto: 2.4 √(size/g) of each body.");
   simulation.integrator.declare(all.below("integrator"));
   contact.declare(all.below("contact"));
   all.below("broad_phase").add("method", broad_phase.method, "Which bodies may touch.");
@@ -76,7 +78,9 @@ TimeIntegration time_integration(const Parameters& p) {
 Detecting detecting(const Parameters& p) { return {p.contact, *p.broad_phase.method, *p.narrow_phase.method}; }
 
 Solving solving(const Parameters& p) {
-  return {*p.response.method, *p.lcp.method, response_context(p), p.contact, *p.simulation.integrator};
+  return {*p.response.method,       *p.lcp.method,
+          response_context(p),      p.contact,
+          *p.simulation.integrator, scale_gravity(p.simulation.gravity)};
 }
 
 }  // namespace impinge

@@ -21,8 +21,8 @@ struct Parameters {
     Vec3 gravity{0.0, -9.81, 0.0};
     MethodSet<DeformableIntegrator> integrator{integrators()};
     bool sleeping = true;
-    double sleep_speed = 1e-4;
-    double sleep_time = 0.5;
+    Threshold sleep_speed{4.9e-5};  ///< part of √(g·size) of a body
+    Threshold sleep_time{2.4};      ///< part of √(size/g) of a body
     LinearSolverChoice linear_solver;
     double time_step() const { return frame_time / substeps; }  ///< Δt of every formula
   } simulation;

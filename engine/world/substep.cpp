@@ -1,7 +1,9 @@
 // A sub-step, in one piece or, where a surface would pass through another, in several: each ends shortly before a meeting,
 // so that the next one finds contacts where they are. What is met from so close by gets contacts of its own.
 #include <algorithm>
+#include <functional>
 
+#include "engine/contact/pair_scale.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/step/step_watcher.hpp"
 #include "engine/world/world.hpp"
@@ -17,16 +19,21 @@ constexpr double kStandOff = 0.25;    // of the activation distance: how near a 
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
 constexpr double kReach = 0.1;        // of the activation distance: paths are straight to this
 
-/// The share of a motion after which the points of the earliest meeting are `stand_off` metres apart; none: they are no
+/// Of a pair, metres.
+using PairLength = std::function<double(const UnsafeMotion::Pair&)>;
+
+/// The share of a motion after which the points of the earliest meeting are kStandOff apart; none: they are no
 /// farther from one another to begin with.
-std::optional<double> safe_share(const UnsafeMotion& motion, double stand_off) {
+std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& activation) {
   double safe = 1.0;
-  for (const UnsafeMotion::Pair& pair : motion.pairs)
+  for (const UnsafeMotion::Pair& pair : motion.pairs) {
+    const double stand_off = kStandOff * activation(pair);
     for (const Passage& p : pair.passages) {
       const double way = (p.point_a - p.point_b).norm();
       if (way <= 2.0 * stand_off) return std::nullopt;
       safe = std::min(safe, p.time * (1.0 - stand_off / way));
     }
+  }
   return safe;
 }
 
@@ -66,11 +73,17 @@ void World::note_unsafe(const UnsafeMotion& motion, int substep) {
 
 void World::substep(double h, int left, FrozenStep* frozen) {
   const Continuous which = parameters.narrow_phase.continuous;
-  const double size = parameters.contact.activation_distance;
+  const auto activation = [&](const Body& a, const Body& b) {
+    return parameters.contact.activation_distance.at(pair_size(a, b));
+  };
   const int substep = parameters.simulation.substeps - left + 1;
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
-  const PassageSettings passage{is_kept ? kDepth * size : size, kReach * size};
+  const PassagesOf passages = [&](const Body& a, const Body& b) {
+    const double size = activation(a, b);
+    return PassageSettings{is_kept ? kDepth * size : size, kReach * size};
+  };
+  const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
   double rest = 1.0;  // of the sub-step
   for (int piece = 1; rest > 0.0; ++piece) {
     ByteWriter state;
@@ -84,17 +97,17 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     for (int motion = 1;; ++motion) {
       const bool is_last = share == rest;
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && is_last);
-      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passage);
+      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
       if (!unsafe) break;
       if (is_end) {
         if (which == Continuous::off && watcher_ != nullptr && watcher_->wants_passages())
-          guard_.find_passages(bodies_, *unsafe, passage);
+          guard_.find_passages(bodies_, *unsafe, passages);
         note_unsafe(*unsafe, substep);
         break;
       }
-      if (const std::optional<double> safe = safe_share(*unsafe, kStandOff * size))
+      if (const std::optional<double> safe = safe_share(*unsafe, of_pair))
         share *= motion <= kPatience ? *safe : 0.5 * *safe;
       else if (!ask_for(*unsafe, sub_step_->asked))
         share *= 0.5;

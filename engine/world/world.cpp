@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "engine/bodies/scale.hpp"
-#include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/step/drive.hpp"
@@ -92,12 +91,12 @@ void World::advance(FrozenStep* frozen) {
 
 void World::drop_what_never_carries() {
   const ContactSettings& contact = parameters.contact;
+  sub_step_->dropped.clear();
   // what lives on overlap has a spring a contact: fewer would be softer
   if (contact.reduction == Reduction::none || contact.points != ContactPoints::proximity ||
       parameters.response.method->lives_on_overlap())
     return;
-  reduce_contacts(bodies_, cache_, sub_step_->asked, {contact.activation(), contact.most_contacts},
-                  sub_step_->collisions);
+  sub_step_->dropped = reduce_contacts(bodies_, cache_, sub_step_->asked, contact, sub_step_->collisions);
 }
 
 void World::make_motion(double h, double share, bool freezes) {
@@ -168,7 +167,8 @@ void World::take_results(FrozenStep* frozen) {
   time_ += s.time_step;
   const Parameters::Simulation& p = parameters.simulation;
   if (p.sleeping)
-    sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), p.sleep_speed, p.sleep_time, s.time_step);
+    sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results),
+                     {p.sleep_speed, p.sleep_time, scale_gravity(p.gravity)}, s.time_step);
 }
 
 void World::parameters_changed() {

@@ -58,7 +58,7 @@ std::string range_of(const Parameter& row) {
       row.kind == ParameterKind::integer || row.kind == ParameterKind::real || row.kind == ParameterKind::vector3;
   if (number)
     return fmt::format("[{}, {}]{}", shortest(row.range.low), shortest(row.range.high),
-                       row.inherit.empty() ? "" : " | " + row.inherit);
+                       row.word.empty() ? "" : " | " + row.word);
   return row.names.empty() ? "" : fmt::format("{}", fmt::join(row.names, " | "));
 }
 

@@ -152,7 +152,7 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
     try {
       const ParameterValue end_of_ramp =
           parse_value(row, {rest[begin].text.data(), static_cast<std::size_t>(end - rest[begin].text.data())});
-      if (std::holds_alternative<std::string>(end_of_ramp))  // the word of a row that may inherit
+      if (std::holds_alternative<std::string>(end_of_ramp))  // the word of a row that may be left open
         throw InputError(fmt::format("'{}' for {}; a ramp goes from number to number", rest[begin].text, row.path));
       return end_of_ramp;
     } catch (const InputError& error) {

@@ -47,12 +47,12 @@ void put_value(ByteWriter& out, const ParameterValue& value) {
   std::visit(Writer{out}, value);
 }
 
-// what a snapshot holds of a number that is left to the scene
-constexpr double kInherited = -1.0;
+// what a snapshot holds of a number that is left open
+constexpr double kOpen = -1.0;
 
 ParameterValue written(const Parameter& row) {
   const ParameterValue value = row.get();
-  return !row.inherit.empty() && value == ParameterValue(row.inherit) ? ParameterValue(kInherited) : value;
+  return !row.word.empty() && value == ParameterValue(row.word) ? ParameterValue(kOpen) : value;
 }
 
 // of the kind that `like` has
@@ -187,12 +187,12 @@ void Session::restore(ByteReader& in) {
   for (const Parameter& row : rows_.all()) {
     if (get_text(in) != row.path)
       throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
-    if (row.inherit.empty()) {
+    if (row.word.empty()) {
       const ParameterValue value = get_value(in, row.initial);
       if (row.set) row.set(value);  // else it is fixed with the scene
     } else {
       const double number = in.get<double>();
-      row.set(number == kInherited ? ParameterValue(row.inherit) : ParameterValue(number));
+      row.set(number == kOpen ? ParameterValue(row.word) : ParameterValue(number));
     }
   }
   world_.parameters_changed();

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "engine/bodies/scale.hpp"
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
@@ -60,6 +64,14 @@ std::string response_text(const Parameters& p) {
                      summary.empty() ? "" : ", ", summary);
 }
 
+/// A number, or what an automatic one comes to between the least and the largest of its scale.
+std::string threshold_text(const Threshold& threshold, double least, double most, const char* unit) {
+  if (threshold.given) return fmt::format("{} {}", shortest(*threshold.given), unit);
+  const std::string low = fmt::format("{:.2g}", threshold.at(least)), high = fmt::format("{:.2g}", threshold.at(most));
+  if (!(most > 0.0)) return "what the bodies' sizes say (auto)";
+  return low == high ? fmt::format("{} {} (auto)", low, unit) : fmt::format("{} to {} {} (auto)", low, high, unit);
+}
+
 }  // namespace
 
 ModelFacts model_facts(const World& world) {
@@ -70,6 +82,13 @@ ModelFacts model_facts(const World& world) {
     count_body(body.kind(), body.shape->mesh() != nullptr, body.friction.value_or(p.contact.friction),
                body.restitution.value_or(p.contact.restitution), body.self_collision, meshes, facts);
     if (body.kind() == BodyKind::deformable) facts.deformable_dofs += body.dofs();
+  }
+  facts.thinnest = facts.smallest = INFINITY;
+  for (const Body& body : world.bodies()) {
+    facts.thinnest = std::min(facts.thinnest, body.size);
+    if (!body.has_freedom()) continue;
+    facts.smallest = std::min(facts.smallest, body.size);
+    facts.largest = std::max(facts.largest, body.size);
   }
   facts.mesh_pairs = meshes > 1 || facts.self_collision;
   facts.attachments = static_cast<int>(world.record().attachments.size());
@@ -113,7 +132,11 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
   const auto line = [&](const char* stage, bool used, const std::string& what, const char* why) {
     lines.push_back({stage, used, used ? what : why});
   };
-  const bool moves = f.moving() > 0, meets = f.meets();
+  const bool moves = f.moving() > 0, meets = f.meets(), proximity = p.contact.points == ContactPoints::proximity;
+  const double g = scale_gravity(p.simulation.gravity);
+  const auto speed = [&](const Threshold& threshold) {
+    return threshold_text(threshold, speed_scale(g, f.smallest), speed_scale(g, f.largest), "m/s");
+  };
   line("integrator", moves,
        fmt::format("{}{}", p.simulation.integrator.name(),
                    f.deformable == 0 ? " (rigid: A = M)"
@@ -124,18 +147,25 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
   line("narrow phase", meets && f.mesh_pairs,
        fmt::format("{}, contacts by {}", p.narrow_phase.method.name(), name_of(p.contact.points)),
        "no two meshes can meet; exact shapes are tested by formula");
+  line(
+      "contacts", meets && proximity,
+      fmt::format("features closer than {}", threshold_text(p.contact.activation_distance, f.thinnest, f.largest, "m")),
+      meets ? "only what intersects is a contact" : "no two bodies can meet");
   line("response", meets, response_text(p), "no two bodies can meet");
+  line("push-out", meets && p.contact.max_push_out.given.value_or(1.0) > 0.0,
+       fmt::format("overlap goes at {} at most", speed(p.contact.max_push_out)),
+       meets ? "switched off" : "no two bodies can meet");
   line("friction", meets && f.friction,
        fmt::format("Coulomb cone, three rows a contact, coefficient {} unless a body names one",
                    shortest(p.contact.friction)),
        "no body has any, so contacts have one row");
   line("restitution", meets && f.restitution,
-       fmt::format("{} unless a body names one, above {} m/s", shortest(p.contact.restitution),
-                   shortest(p.contact.restitution_threshold)),
+       fmt::format("{} unless a body names one, above {}", shortest(p.contact.restitution),
+                   speed(p.contact.restitution_threshold)),
        "no body bounces");
   line("sleeping", p.simulation.sleeping && moves,
-       fmt::format("groups slower than {} m/s for {} s", shortest(p.simulation.sleep_speed),
-                   shortest(p.simulation.sleep_time)),
+       fmt::format("groups slower than {} for {}", speed(p.simulation.sleep_speed),
+                   threshold_text(p.simulation.sleep_time, time_scale(g, f.smallest), time_scale(g, f.largest), "s")),
        "switched off, or nothing can move");
   line("deformation", f.deformable > 0,
        fmt::format("{}linear solver {}",

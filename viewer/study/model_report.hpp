@@ -15,6 +15,8 @@ struct ModelFacts {
   bool friction = false;      ///< some body has friction
   bool frictionless = false;  ///< some body has none, so that its contacts have one row
   bool restitution = false, mesh_pairs = false, self_collision = false;
+  /// Sizes of bodies, metres: the least of all, and of those that move freely; 0: not known.
+  double thinnest = 0.0, smallest = 0.0, largest = 0.0;
   int moving() const { return dynamic + deformable; }
   bool meets() const { return moving() > 0 && (moving() + fixed + scripted > 1 || self_collision); }
 };

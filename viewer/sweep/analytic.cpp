@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/bodies/rigid_body.hpp"
+#include "engine/bodies/scale.hpp"
 #include "engine/core/error.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "viewer/sweep/reference.hpp"
@@ -116,8 +117,9 @@ AnalyticMotion sliding(const Session& session) {
 AnalyticMotion bouncing(const Session& session) {
   const OnPlane scene = on_plane("bouncing", session, true);
   const Vec3 g = session.world().parameters.simulation.gravity, n = scene.normal, v = scene.body->velocity;
-  const double pull = -g.dot(n), slow = session.world().parameters.contact.restitution_threshold, start = v.dot(n),
-               gap = scene.gap, e = scene.restitution;
+  const double pull = -g.dot(n), start = v.dot(n), gap = scene.gap, e = scene.restitution,
+               slow = session.world().parameters.contact.restitution_threshold.at(
+                   speed_scale(scale_gravity(g), scene.body->size));
   if (pull <= 0.0 || (g + pull * n).norm() > 1e-9 * pull || (v - start * n).norm() > 1e-9 * (1.0 + v.norm()))
     unfit("bouncing", "the sphere moves along the plane", "gravity and velocity along the plane's normal");
   if (gap < 0.0) unfit("bouncing", "the sphere starts inside the plane", "a sphere above it");

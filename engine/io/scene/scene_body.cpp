@@ -113,7 +113,7 @@ void check_kind(const TomlNode& table, const std::string& what, const BodyDescri
 // a body's own, or nothing by the word that `set` and --set give it back to the scene with
 std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, const char* name) {
   const BodyKey& key = body_key(name);
-  if (node.kind == TomlNode::text && node.string == key.inherit) return std::nullopt;
+  if (node.kind == TomlNode::text && node.string == key.word) return std::nullopt;
   return scene_real(node, what, key.range);
 }
 

@@ -19,6 +19,7 @@ namespace {
 /// stand; a soft cube lies apart; two boxes of triangles rest on the floor, touching.
 constexpr const char* kScene = R"([simulation]
 substeps = 2
+sleep_time = 0.5
 [contact]
 activation_distance = 1e-3
 [[body]]

@@ -97,6 +97,17 @@ std::string hashes(const TempFolder& folder, const std::string& run) {
   return all;
 }
 
+/// The run's answer comes out again.
+void check_solved_again(const FrozenStep& step, Parameters& p) {
+  ResponseContext context = response_context(p);
+  context.time_step = step.time_step;
+  const FrozenOutcome again = solve_frozen(step, *p.response.method, *p.lcp.method, context);
+  const GroupAnswer& before = step.groups[0].answer;
+  REQUIRE(again.answers[0].lambda.size() == before.lambda.size());
+  for (std::size_t i = 0; i < before.lambda.size(); ++i)
+    CHECK((again.answers[0].lambda[i] - before.lambda[i]).norm() <= 1e-12 * before.lambda[0].norm());
+}
+
 }  // namespace
 
 TEST_CASE("former paths: the list has them all, and no present one") {
@@ -274,12 +285,20 @@ TEST_CASE("former paths: a frozen step of version 2 is read, its settings under 
     CAPTURE(path);
     CHECK(format_value(rows.find(path)->get()) == value);
   }
-  // the run's answer comes out again
-  ResponseContext context = response_context(p);
-  context.time_step = step.time_step;
-  const FrozenOutcome again = solve_frozen(step, *p.response.method, *p.lcp.method, context);
-  const GroupAnswer& before = step.groups[0].answer;
-  REQUIRE(again.answers[0].lambda.size() == before.lambda.size());
-  for (std::size_t i = 0; i < before.lambda.size(); ++i)
-    CHECK((again.answers[0].lambda[i] - before.lambda[i]).norm() <= 1e-12 * before.lambda[0].norm());
+  check_solved_again(step, p);
+}
+
+TEST_CASE("a frozen step of version 3 keeps its numbers where thresholds are automatic now") {
+  // a crate of 0.4 m that slides by 2 mm/s, twice the slip speed of then and almost that of now
+  const FrozenStep step = read_frozen_step(IMPINGE_SOURCE_DIR "/tests/support/data/version_3.step");
+  CHECK(step.frame == 3);
+  CHECK(step.contacts() == 4);
+  Parameters p;
+  take_settings(step.settings, p);
+  CHECK(p.response.method.name() == "penalty");
+  ParameterSet rows;
+  p.bind(rows);
+  CHECK(format_value(rows.find("response.penalty.slip_speed")->get()) == "0.001");
+  CHECK(format_value(rows.find("contact.activation_distance")->get()) == "0.001");
+  check_solved_again(step, p);
 }

@@ -93,7 +93,8 @@ TEST_CASE("a pair has the contacts that the record shows, and one filter that st
         ++stopped[std::string(v.stopped_by()->filter)];
         if (v.pieces == 1) CHECK(!watch->first_contact());  // else it may have had one in a piece before the last
         // whoever is nearer than the activation distance is no victim of the boxes
-        if (v.nearest && v.nearest->distance <= world.parameters.contact.activation_distance)
+        if (v.nearest &&
+            v.nearest->distance <= activation_between(world.parameters, world.bodies()[v.a], world.bodies()[v.b]))
           CHECK(v.stopped_by()->filter != "boxes");
       }
     }

@@ -17,7 +17,7 @@ namespace {
 /// A number that a person would write.
 double rounded(double v) { return std::stod(fmt::format("{:.4g}", v)); }
 
-/// 0 of a number that is left to what stands above it.
+/// 0 of a number that is left open.
 double number_in(const ParameterValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
   const auto* real = std::get_if<double>(&value);
@@ -29,7 +29,7 @@ Range slider_range(const Parameter& row, double now) {
   Range r = row.range;
   const double first = number_in(row.initial);
   if (r.logarithmic) {
-    const double middle = std::abs(first) > 0.0 ? std::abs(first) : 1.0;
+    const double middle = std::abs(first) > 0.0 ? std::abs(first) : row.word.empty() ? 1.0 : 0.01;
     return {std::max(r.low, std::min(1e-4 * middle, now > 0.0 ? now : middle)),
             std::min(r.high, std::max(1e4 * middle, now)), true};
   }
@@ -54,7 +54,7 @@ std::string group_of(const Parameter& row) { return row.path.substr(0, row.path.
 void draw_number(Ui& ui, const Parameter& row, const ParameterValue& value, const std::string& name,
                  const std::function<void(const std::string&)>& set) {
   const bool whole = row.kind == ParameterKind::integer;
-  const bool inherits = std::holds_alternative<std::string>(value);
+  const bool is_open = std::holds_alternative<std::string>(value);
   double now = number_in(value);
   const Range range = slider_range(row, now);
   std::string format = whole ? "%.0f" : "%.4g";
@@ -65,7 +65,7 @@ void draw_number(Ui& ui, const Parameter& row, const ParameterValue& value, cons
                high = range.logarithmic ? std::log10(range.high) : range.high;
   // ImGui's own logarithm loses small numbers
   if (range.logarithmic) format = fmt::format("{:.4g} {}", now, row.unit);
-  if (inherits) format = "the " + row.inherit + "'s";
+  if (is_open) format = row.word;
   // a value that is being typed counts when it is entered, not letter by letter
   UiTyping& typing = ui.typing();
   if (typing.parameter == row.path) {
@@ -91,7 +91,7 @@ void draw_number(Ui& ui, const Parameter& row, const ParameterValue& value, cons
     now = range.logarithmic ? std::pow(10.0, at) : at;
     now = whole ? std::round(now) : rounded(now);
     now = std::clamp(now, row.range.low, row.range.high);
-    if (now != before || inherits) set(whole ? fmt::format("{}", static_cast<std::int64_t>(now)) : shortest(now));
+    if (now != before || is_open) set(whole ? fmt::format("{}", static_cast<std::int64_t>(now)) : shortest(now));
   }
   ui.name(name, {{}, false, true, false, low, high, range.logarithmic});
 }
