@@ -121,7 +121,9 @@ double pair_penetration(const Solid& a, const Solid& b) {
   double radius = 0.0;
   for (const auto& [line, other] : {std::pair(&a, &b), std::pair(&b, &a)})
     if (centre_line(*line, p, q, radius))
-      return std::max(0.0, radius - lowest_on_segment(p, q, [&](const Vec3& x) { return signed_distance(*other, x); }));
+      return std::max(0.0, radius - lowest_on_segment(p, q, [&, solid = other](const Vec3& x) {
+                             return signed_distance(*solid, x);
+                           }));
   const Plane *plane_a = a.shape->as<Plane>(), *plane_b = b.shape->as<Plane>();
   if (plane_a != nullptr && plane_b != nullptr) return 0.0;
   if (plane_a == nullptr && plane_b == nullptr) return least_overlap({convex_of(a), a.pose}, {convex_of(b), b.pose});
