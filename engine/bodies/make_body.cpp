@@ -10,7 +10,6 @@
 #include "engine/core/memory.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
-#include "engine/shapes/shape_size.hpp"
 
 namespace impinge {
 namespace {
@@ -22,7 +21,7 @@ template <class Kind>
 std::unique_ptr<Kind> identified(std::unique_ptr<Kind> body, const BodyDescription& d) {
   body->name = d.name;
   body->shape = d.shape;
-  body->size = size_of(*d.shape);
+  body->size = d.shape->size();
   body->surface_file = d.surface_file;
   body->friction = d.friction;
   body->restitution = d.restitution;

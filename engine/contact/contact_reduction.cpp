@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/contact/pair_scale.hpp"
+#include "engine/detection/contacts/contact_points.hpp"
 
 namespace impinge {
 namespace {
@@ -177,35 +178,37 @@ std::vector<char> contacts_that_stay(std::span<const Collision> contacts, const 
 }
 
 std::vector<DroppedContacts> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
-                                             std::span<const Collision> asked, const ContactSettings& contact,
-                                             std::vector<Collision>& collisions) {
+                                             std::span<const Collider> colliders, std::span<const Collision> asked,
+                                             const ContactSettings& contact, std::vector<Collision>& collisions) {
   const auto is_asked = [&](const Collision& c) {
     return std::any_of(asked.begin(), asked.end(), [&](const Collision& a) {
       return a.body_a == c.body_a && a.body_b == c.body_b && a.feature == c.feature;
     });
   };
+  const auto is_mesh = [&](BodyIndex b) { return bodies[b].shape->mesh() != nullptr; };
+  const auto which_stay = [&](BodyIndex a, BodyIndex b, std::span<const Collision> of_pair) -> std::vector<char> {
+    if (of_pair.size() <= kFewOfPair || a == b) return {};
+    if (deforms(bodies, a) || deforms(bodies, b)) {
+      if (!is_mesh(a) || !is_mesh(b)) return {};
+      return without_flat_crossings(colliders, {a, b}, of_pair);
+    }
+    std::vector<char> is_preferred;
+    for (const Collision& c : of_pair) is_preferred.push_back(carried.find({a, b, c.feature}).isZero(0.0) ? 0 : 1);
+    return contacts_that_stay(of_pair, is_preferred,
+                              {contact.activation(pair_size(bodies[a], bodies[b])), contact.most_contacts});
+  };
   std::vector<Collision> kept;
   std::vector<DroppedContacts> dropped;
-  std::vector<char> is_preferred;
   for (std::size_t first = 0, last = 0; first < collisions.size(); first = last) {
     const BodyIndex a = collisions[first].body_a, b = collisions[first].body_b;
     while (last < collisions.size() && collisions[last].body_a == a && collisions[last].body_b == b) ++last;
     const std::span<const Collision> of_pair(collisions.data() + first, last - first);
-    if (of_pair.size() <= kFewOfPair || deforms(bodies, a) || deforms(bodies, b)) {
-      kept.insert(kept.end(), of_pair.begin(), of_pair.end());
-      continue;
-    }
-    const ReductionSettings how{contact.activation(pair_size(bodies[a], bodies[b])), contact.most_contacts};
-    is_preferred.clear();
-    for (const Collision& c : of_pair) is_preferred.push_back(carried.find({a, b, c.feature}).isZero(0.0) ? 0 : 1);
-    const std::vector<char> is_kept = contacts_that_stay(of_pair, is_preferred, how);
-    std::size_t count = 0;
+    const std::vector<char> stays = which_stay(a, b, of_pair);  // empty: all
+    const std::size_t before = kept.size();
     for (std::size_t i = 0; i < of_pair.size(); ++i)
-      if (is_kept[i] != 0 || is_asked(of_pair[i]))
-        kept.push_back(of_pair[i]);
-      else
-        ++count;
-    if (count > 0) dropped.push_back({a, b, count});
+      if (stays.empty() || stays[i] != 0 || is_asked(of_pair[i])) kept.push_back(of_pair[i]);
+    if (const std::size_t left = kept.size() - before; left < of_pair.size())
+      dropped.push_back({a, b, of_pair.size() - left});
   }
   collisions.swap(kept);
   return dropped;

@@ -50,4 +50,15 @@ inline std::uint64_t feature_key(Feature kind_a, int index_a, Feature kind_b, in
          (static_cast<std::uint64_t>(kind_b) << 30) | (static_cast<std::uint32_t>(index_b) & 0x3fffffffu);
 }
 
+/// What feature_key was made of.
+struct FeaturePair {
+  Feature kind_a, kind_b;
+  int index_a, index_b;
+  bool is(Feature a, Feature b) const { return kind_a == a && kind_b == b; }
+};
+inline FeaturePair features_of_key(std::uint64_t key) {
+  return {static_cast<Feature>(key >> 62), static_cast<Feature>(key >> 30 & 3u),
+          static_cast<int>(key >> 32 & 0x3fffffffu), static_cast<int>(key & 0x3fffffffu)};
+}
+
 }  // namespace impinge

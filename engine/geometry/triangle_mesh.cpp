@@ -55,6 +55,19 @@ const BoxTree& SurfaceMesh::tree() const {
   return lazy_tree.get([&] { return BoxTree(triangle_boxes(mesh.triangles, mesh.vertices)); });
 }
 
+std::vector<int> edge_uses(const MeshTopology& topology) {
+  std::vector<int> uses(topology.edges.size(), 0);
+  for (const std::array<int, 3>& edges : topology.triangle_edges)
+    for (const int e : edges) ++uses[e];
+  return uses;
+}
+
+bool runs_along(const Triangle& triangle, int from, int to) {
+  for (int k = 0; k < 3; ++k)
+    if (triangle[k] == from && triangle[(k + 1) % 3] == to) return true;
+  return false;
+}
+
 MeshPointer make_surface(TriangleMesh mesh) {
   auto surface = std::make_shared<SurfaceMesh>();
   surface->mesh = std::move(mesh);

@@ -32,6 +32,12 @@ struct MeshTopology {
 
 MeshTopology make_topology(const TriangleMesh& mesh);
 
+/// By edge, how many triangles have it: an Edge names two of them at most.
+std::vector<int> edge_uses(const MeshTopology& topology);
+
+/// Whether a corner `from` of the triangle is followed by `to`.
+bool runs_along(const Triangle& triangle, int from, int to);
+
 class BoxTree;
 
 /// A surface ready for contact, shared by all that are made from the same source.
@@ -39,6 +45,7 @@ struct SurfaceMesh {
   TriangleMesh mesh;
   MeshTopology topology;
   Lazily<BoxTree> lazy_tree = {};
+  Lazily<double> lazy_size = {};  ///< size_of (shapes/shape_size.hpp)
   /// Boxes over the triangles where `mesh` has them, made when they are asked for first.
   const BoxTree& tree() const;
 };

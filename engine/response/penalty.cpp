@@ -79,8 +79,7 @@ class Penalty : public Response {
         .formerly("response.penalty_damping");
     rows.add("slip_speed", settings_.slip_speed, {0.0, 1e3, true}, "m/s",
              "Friction is full from this sliding speed on, and less below it; auto: 4.9e-4 √(g·size) of the smaller "
-             "body "
-             "that moves freely.")
+             "body that moves freely.")
         .formerly("response.penalty_slip_speed");
     limit_ = rows.add("max_iterations", settings_.max_iterations, {1, 1000000, true}, "",
                       "implicit: Newton steps at most for a group and sub-step.")

@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/shapes/shape_entry.hpp"
+#include "engine/shapes/shape_size.hpp"
 
 namespace impinge {
 namespace {
@@ -48,6 +49,10 @@ double ConvexShape::bounding_radius() const {
 double ConvexShape::signed_distance(const Vec3& x) const {
   const Point point;
   return convex_gap({&point, {Mat3::Identity(), x}}, {this, {}}).gap;
+}
+
+double Shape::size() const {
+  return size_.get([&] { return size_of(*this); });
 }
 
 double thickness_of(const Shape& shape) {

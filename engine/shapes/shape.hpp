@@ -52,6 +52,9 @@ class Shape : public std::enable_shared_from_this<Shape> {
   /// The numbers that tell it from others of its type; none if there are too many: then it equals nothing but itself.
   virtual std::vector<double> dimensions() const { return {}; }
 
+  /// How large it is where it matters for contact, metres: size_of (shape_size.hpp), found when it is first asked for.
+  double size() const;
+
   /// The triangles if it is a mesh, else null; quicker than form().
   const SurfaceMesh* mesh() const { return mesh_; }
   /// The parts if it is a compound, else null.
@@ -75,6 +78,7 @@ class Shape : public std::enable_shared_from_this<Shape> {
  private:
   int type_;
   const SurfaceMesh* mesh_;
+  Lazily<double> size_;
 };
 
 /// A shape that many share; made from any concrete one, or from the triangles of a mesh.

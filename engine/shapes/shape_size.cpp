@@ -21,7 +21,8 @@ double size_of(const Shape& shape) {
   if (shape.as<Plane>() != nullptr) return INFINITY;
   if (const auto* sphere = shape.as<Sphere>()) return 2.0 * sphere->radius;
   if (const auto* box = shape.as<Box>()) return 6.0 / box->half.cwiseInverse().sum();
-  if (const SurfaceMesh* mesh = shape.mesh()) return size_of(mesh->mesh);
+  if (const SurfaceMesh* mesh = shape.mesh())  // which many shapes may share
+    return mesh->lazy_size.get([&] { return size_of(mesh->mesh); });
   return size_of(shape.drawn());
 }
 

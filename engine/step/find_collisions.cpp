@@ -44,9 +44,10 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
     if (!is_mesh_pair(colliders, pair)) return primitive_contacts(colliders, pair, query, found[i]);
     const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
     if (triangles.empty()) return;
-    if (!proximity) return intersection_contacts(colliders, pair, triangles, found[i]);
-    proximity_contacts(colliders, pair, triangles, query.activation, time_step, found[i]);
-    if (settings.reduction == Reduction::patch && !(pair.a == pair.b)) drop_flat_crossings(colliders, pair, found[i]);
+    if (proximity)
+      proximity_contacts(colliders, pair, triangles, query.activation, time_step, found[i]);
+    else
+      intersection_contacts(colliders, pair, triangles, found[i]);
   });
   collisions.clear();
   for (const std::vector<Collision>& list : found) collisions.insert(collisions.end(), list.begin(), list.end());

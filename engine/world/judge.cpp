@@ -170,6 +170,7 @@ OverlapVerdict judge_overlap(const Bodies& bodies) {
           if (a.shape->mesh() != nullptr && b.shape->mesh() != nullptr)
             verdict.intersections += crossing_triangles(a, b);
           const double depth = pair_penetration(a, b);
+          if (depth == 0.0) continue;
           const double thickness = std::min(thickness_of(*bodies[i].shape), thickness_of(*bodies[j].shape));
           if (depth / thickness > verdict.crossing.share())
             verdict.crossing = {bodies[i].name, bodies[j].name, depth, thickness, 0};

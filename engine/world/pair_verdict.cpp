@@ -141,7 +141,7 @@ class Report {
       const double along = apart.maxCoeff(&axis);
       words = fmt::format("the swept boxes are {} apart along {}", metres(along), "xyz"[axis]);
     }
-    words += fmt::format("; half of {} is counted in by each", metres(activation()));
+    words += "; each counts in half of an activation distance";
     add("boxes", meet, std::move(words), std::move(numbers));
   }
 

@@ -1,5 +1,6 @@
 // Stage 12: the step record, with every quantity at the end of the frame.
 #include <algorithm>
+#include <map>
 
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/contact/pair_coefficients.hpp"
@@ -33,13 +34,14 @@ ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
 
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
 /// The deepest of two meshes is put where they overlap most, and none shows an overlap where there is none, or more than
-/// twice what there is.
-void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, const Bodies& bodies, StepRecord& record) {
+/// twice what there is. `of_pair`: theirs, as places in the record.
+void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<const std::size_t> of_pair,
+                  const Bodies& bodies, StepRecord& record) {
   const double depth = overlap.deepest ? -overlap.deepest->gap : 0.0;
   const bool is_known = !overlap.crosses || depth > 0.0;  // how deep edges cross, only their contacts tell
   ContactRecord* deepest = nullptr;
-  for (ContactRecord& c : record.contacts) {
-    if (c.body_a != pair.a || c.body_b != pair.b) continue;
+  for (const std::size_t i : of_pair) {
+    ContactRecord& c = record.contacts[i];
     if (is_known && c.gap < -2.0 * depth) c.point_b += (c.gap + 2.0 * depth) * c.normal, c.gap = -2.0 * depth;
     if (deepest == nullptr || c.gap < deepest->gap) deepest = &c;
   }
@@ -59,11 +61,16 @@ void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, const Bodies
 
 void show_overlaps(const Bodies& bodies, std::span<const Collider> colliders, std::span<const TrianglePair> triangles,
                    StepRecord& record) {
+  if (triangles.empty()) return;
+  std::map<std::pair<BodyIndex, BodyIndex>, std::vector<std::size_t>> contacts;
+  for (std::size_t i = 0; i < record.contacts.size(); ++i)
+    contacts[{record.contacts[i].body_a, record.contacts[i].body_b}].push_back(i);
   for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
     const BodyPair pair{triangles[first].a, triangles[first].b};
     while (last < triangles.size() && triangles[last].a == pair.a && triangles[last].b == pair.b) ++last;
     if (pair.a == pair.b) continue;
-    show_overlap(pair, find_overlap(colliders, pair, triangles.subspan(first, last - first)), bodies, record);
+    const MeshOverlap overlap = find_overlap(colliders, pair, triangles.subspan(first, last - first));
+    show_overlap(pair, overlap, contacts[{pair.a, pair.b}], bodies, record);
   }
 }
 

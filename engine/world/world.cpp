@@ -96,7 +96,8 @@ void World::drop_what_never_carries() {
   if (contact.reduction == Reduction::none || contact.points != ContactPoints::proximity ||
       parameters.response.method->lives_on_overlap())
     return;
-  sub_step_->dropped = reduce_contacts(bodies_, cache_, sub_step_->asked, contact, sub_step_->collisions);
+  SubStep& s = *sub_step_;
+  s.dropped = reduce_contacts(bodies_, cache_, s.colliders, s.asked, contact, s.collisions);
 }
 
 void World::make_motion(double h, double share, bool freezes) {

@@ -18,8 +18,10 @@ void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pai
                         std::span<const TrianglePair> triangles, double activation, double time_step,
                         std::vector<Collision>& contacts);
 
-/// Drops, of the proximity contacts of two different meshes, crossings of two edges between faces that deform and lie
-/// flat, where the ends of both edges have contacts of their own: between flat faces those imply the crossing's.
-void drop_flat_crossings(std::span<const Collider> colliders, const BodyPair& pair, std::vector<Collision>& contacts);
+/// Of the proximity contacts of two different meshes, which stay, 1 or 0 by contact: all but crossings of two edges
+/// between faces that deform and lie flat, where the ends of both edges have contacts of their own: between flat faces
+/// those imply the crossing's.
+std::vector<char> without_flat_crossings(std::span<const Collider> colliders, const BodyPair& pair,
+                                         std::span<const Collision> contacts);
 
 }  // namespace impinge

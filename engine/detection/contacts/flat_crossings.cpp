@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "engine/detection/contacts/contact_points.hpp"
-#include "engine/detection/contacts/surface_view.hpp"
+#include "engine/detection/contacts/proximity_parts.hpp"
 
 namespace impinge {
 namespace {
@@ -12,16 +12,6 @@ namespace {
 // sine of the fold below which an edge lies in a flat face: at the middle of the edge of a square the surfaces then
 // overlap by less than a thousandth of the edge before a corner does
 constexpr double kFlat = 2e-3;
-// cosine between the normals of contacts that constrain the same side
-constexpr double kSameSide = 0.95;
-
-constexpr std::uint64_t kIndex = 0x3fffffffu;
-
-Feature kind_of(std::uint64_t half) { return static_cast<Feature>(half >> 30); }
-int index_of(std::uint64_t half) { return static_cast<int>(half & kIndex); }
-std::uint64_t half_a(const Collision& c) { return c.feature >> 32; }
-std::uint64_t half_b(const Collision& c) { return c.feature & 0xffffffffu; }
-
 bool lies_flat(const SurfaceView& view, int e) {
   const MeshTopology::Edge& edge = view.edge(e);
   if (edge.triangle1 < 0) return false;
@@ -49,20 +39,26 @@ class VertexContacts {
 
 }  // namespace
 
-void drop_flat_crossings(std::span<const Collider> colliders, const BodyPair& pair, std::vector<Collision>& contacts) {
+std::vector<char> without_flat_crossings(std::span<const Collider> colliders, const BodyPair& pair,
+                                         std::span<const Collision> contacts) {
   const SurfaceView a(colliders[pair.a], pair.a), b(colliders[pair.b], pair.b);
   VertexContacts of_a, of_b;
   for (const Collision& c : contacts) {
-    if (kind_of(half_a(c)) == Feature::vertex) of_a.add(index_of(half_a(c)), c.normal);
-    if (kind_of(half_b(c)) == Feature::vertex) of_b.add(index_of(half_b(c)), c.normal);
+    const FeaturePair features = features_of_key(c.feature);
+    if (features.kind_a == Feature::vertex) of_a.add(features.index_a, c.normal);
+    if (features.kind_b == Feature::vertex) of_b.add(features.index_b, c.normal);
   }
   of_a.close(), of_b.close();
-  std::erase_if(contacts, [&](const Collision& c) {
-    if (kind_of(half_a(c)) != Feature::edge || kind_of(half_b(c)) != Feature::edge) return false;
-    const MeshTopology::Edge &ea = a.edge(index_of(half_a(c))), &eb = b.edge(index_of(half_b(c)));
+  const auto is_implied = [&](const Collision& c) {
+    const FeaturePair features = features_of_key(c.feature);
+    if (!features.is(Feature::edge, Feature::edge)) return false;
+    const MeshTopology::Edge &ea = a.edge(features.index_a), &eb = b.edge(features.index_b);
     return of_a.has(ea.v0, c.normal) && of_a.has(ea.v1, c.normal) && of_b.has(eb.v0, c.normal) &&
-           of_b.has(eb.v1, c.normal) && lies_flat(a, index_of(half_a(c))) && lies_flat(b, index_of(half_b(c)));
-  });
+           of_b.has(eb.v1, c.normal) && lies_flat(a, features.index_a) && lies_flat(b, features.index_b);
+  };
+  std::vector<char> stays;
+  for (const Collision& c : contacts) stays.push_back(is_implied(c) ? 0 : 1);
+  return stays;
 }
 
 }  // namespace impinge

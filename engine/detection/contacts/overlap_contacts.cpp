@@ -112,16 +112,16 @@ class Separation {
 class Pushed {
  public:
   void add(const Collision& c) {
-    const std::uint64_t high = c.feature >> 32, low = c.feature & 0xffffffffu;
-    if (high >> 30 == static_cast<std::uint64_t>(Feature::vertex)) of_a_.insert(high & 0x3fffffffu);
-    if (low >> 30 == static_cast<std::uint64_t>(Feature::vertex)) of_b_.insert(low & 0x3fffffffu);
+    const FeaturePair features = features_of_key(c.feature);
+    if (features.kind_a == Feature::vertex) of_a_.insert(features.index_a);
+    if (features.kind_b == Feature::vertex) of_b_.insert(features.index_b);
     edges_.insert(c.feature);
   }
   bool covers(const ProximityQuery& query, const TrianglePair& pair) const {
     for (int v : query.a.triangle(pair.triangle_a))
-      if (of_a_.contains(static_cast<std::uint64_t>(v))) return true;
+      if (of_a_.contains(v)) return true;
     for (int v : query.b.triangle(pair.triangle_b))
-      if (of_b_.contains(static_cast<std::uint64_t>(v))) return true;
+      if (of_b_.contains(v)) return true;
     for (int ea : query.a.triangle_edges(pair.triangle_a))
       for (int eb : query.b.triangle_edges(pair.triangle_b))
         if (edges_.contains(feature_key(Feature::edge, ea, Feature::edge, eb))) return true;
@@ -129,7 +129,8 @@ class Pushed {
   }
 
  private:
-  std::set<std::uint64_t> of_a_, of_b_, edges_;
+  std::set<int> of_a_, of_b_;
+  std::set<std::uint64_t> edges_;
 };
 
 }  // namespace

@@ -156,11 +156,9 @@ double size_of(const Collider& c) {
 double box_gap(const Aabb& a, const Aabb& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0).norm(); }
 
 NearestFeatures features_of(const Collision& contact) {
-  const auto kind = [](std::uint64_t half) { return static_cast<Feature>(half >> 30 & 3u); };
-  const auto index = [](std::uint64_t half) { return static_cast<int>(half & 0x3fffffffu); };
-  const std::uint64_t high = contact.feature >> 32, low = contact.feature & 0xffffffffu;
+  const FeaturePair f = features_of_key(contact.feature);
   return {contact.gap,        contact.point_a, contact.point_b, contact.normal, contact.triangle_a,
-          contact.triangle_b, kind(high),      kind(low),       index(high),    index(low)};
+          contact.triangle_b, f.kind_a,        f.kind_b,        f.index_a,      f.index_b};
 }
 
 NearestSearch::NearestSearch() : triangles_(make_named(narrow_phases(), "bvh")) {}

@@ -11,21 +11,18 @@
 namespace impinge {
 namespace {
 
-constexpr std::uint64_t kIndex = 0x3fffffffu;  // of a feature key: the index's bits
-
 /// A feature key whose first feature is of the polyhedron's triangles, in terms of its faces: the triangles of a face
 /// and the diagonals between them are one, so that no contact changes its name when it crosses a diagonal.
 std::uint64_t with_face(std::uint64_t key, const PolyhedronView& solid) {
   const MeshTopology& topology = solid.surface->topology;
-  Feature kind = static_cast<Feature>(key >> 62);
-  int index = static_cast<int>(key >> 32 & kIndex);
+  auto [kind, kind_b, index, index_b] = features_of_key(key);
   if (kind == Feature::edge &&
       solid.face(topology.edges[index].triangle0) == solid.face(topology.edges[index].triangle1)) {
     kind = Feature::face;
     index = topology.edges[index].triangle0;
   }
   if (kind == Feature::face) index = solid.face(index);
-  return feature_key(kind, index, static_cast<Feature>(key >> 30 & 3u), static_cast<int>(key & kIndex));
+  return feature_key(kind, index, kind_b, index_b);
 }
 
 Candidate candidate_of(const Collision& f) {
@@ -34,10 +31,9 @@ Candidate candidate_of(const Collision& f) {
   c.point_second = f.point_b;
   c.normal = f.normal;
   c.owner = f.normal_owner == 0 ? NormalOwner::first : f.normal_owner == 1 ? NormalOwner::second : NormalOwner::neither;
-  c.kind_first = static_cast<Feature>(f.feature >> 62);
-  c.index_first = static_cast<int>(f.feature >> 32 & kIndex);
-  c.kind_second = static_cast<Feature>(f.feature >> 30 & 3u);
-  c.index_second = static_cast<int>(f.feature & kIndex);
+  const FeaturePair features = features_of_key(f.feature);
+  c.kind_first = features.kind_a, c.index_first = features.index_a;
+  c.kind_second = features.kind_b, c.index_second = features.index_b;
   c.triangle_second = f.triangle_b;
   return c;
 }

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
-#include "engine/geometry/box_tree.hpp"
-#include "engine/geometry/distance.hpp"
+#include "engine/geometry/nearest_triangle.hpp"
 
 namespace impinge {
 namespace {
@@ -43,32 +41,6 @@ std::vector<int> search(const BoxTree& tree, Meets&& meets) {
   return found;
 }
 
-/// Distance of x (in the frame of the mesh) to its surface, metres.
-double distance_to(const BoxTree& tree, const TriangleMesh& mesh, const Vec3& x) {
-  double least_sq = std::numeric_limits<double>::infinity();
-  std::vector<std::pair<double, int>> waiting = {{0.0, 0}};
-  while (!waiting.empty()) {
-    const auto [bound_sq, n] = waiting.back();
-    waiting.pop_back();
-    if (bound_sq >= least_sq) continue;
-    const BoxTree::Node& node = tree.nodes()[n];
-    if (node.is_leaf()) {
-      for (int i = node.first; i < node.first + node.count; ++i) {
-        const Triangle& t = mesh.triangles[tree.order()[i]];
-        const TriangleCorners corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-        least_sq = std::min(least_sq, closest_on_triangle(x, corners).squared_distance);
-      }
-      continue;
-    }
-    std::pair<double, int> first = {squared_distance(tree.nodes()[n + 1].box, x), n + 1},
-                           second = {squared_distance(tree.nodes()[node.second].box, x), node.second};
-    if (second < first) std::swap(first, second);
-    waiting.push_back(second);  // the nearer one first, so that the farther can be left out
-    waiting.push_back(first);
-  }
-  return std::sqrt(least_sq);
-}
-
 }  // namespace
 
 std::vector<int> triangles_near(const Collider& mesh, const Aabb& box) {
@@ -101,7 +73,10 @@ std::vector<int> triangles_round(const Collider& mesh, const Vec3& x, double dis
   const BoxTree& tree = mesh.mesh().tree();
   const Vec3 local = mesh.pose.apply_inverse(x);
   double reach = distance;
-  if (and_nearest) reach = std::max(reach, distance_to(tree, mesh.mesh().mesh, local));
+  if (and_nearest) {
+    const TriangleMesh& own = mesh.mesh().mesh;
+    reach = std::max(reach, std::sqrt(nearest_triangle(tree, own.triangles, own.vertices, local).at.squared_distance));
+  }
   // the box's, whose corner is farther by rounding than the sphere's
   reach = reach * (1.0 + 1e-9) + slack(mesh, {x, x});
   return search(tree, [&](const Aabb& node) { return squared_distance(node, local) <= reach * reach; });

@@ -5,7 +5,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/meshes/mesh_memory.hpp"
@@ -170,12 +170,11 @@ MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, do
   const fs::path path = find(node, what);
   MeshPointer& surface = unscaled_[node.string];
   if (surface == nullptr) surface = read(path, node);
-  if (scaled_.find({node.string, scale}) == scaled_.end())
-    if (const auto problem = check_mesh(surface->mesh, surface->topology)) {
-      const bool is_open = !check_indices(surface->mesh) && !surface->topology.is_closed();
-      throw InputError(fmt::format("{}: surface {} {}{}", node.place, toml_string(node.string), *problem,
-                                   is_open ? "; a static or scripted body takes it as it is" : ""));
-    }
+  if (solid_.insert(node.string).second)
+    if (const auto problem = check_mesh(surface->mesh, surface->topology))
+      throw InputError(
+          fmt::format("{}: surface {} {}{}", node.place, toml_string(node.string), *problem,
+                      surface->topology.is_closed() ? "" : "; a static or scripted body takes it as it is"));
   if (scale == 1.0) {
     check_extent(node, what, surface->mesh.vertices, scale);
     return surface;

@@ -3,8 +3,9 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 
-#include "engine/geometry/thickened_surface.hpp"
+#include "engine/geometry/surface/thickened_surface.hpp"
 #include "engine/io/file_guard.hpp"
 #include "engine/io/scene/toml.hpp"
 #include "engine/io/tets/tet_file.hpp"
@@ -61,6 +62,7 @@ class SurfaceFiles {
   VolumeCache made_;
   std::map<std::string, std::shared_ptr<const TetFile>> volumes_;
   std::map<std::string, MeshPointer> unscaled_;                   // by name
+  std::set<std::string> solid_;                                   // by name: what was found to bound a solid
   std::map<std::string, MeshPointer> thin_;                       // by name, scale and how
   std::map<std::pair<std::string, double>, MeshPointer> scaled_;  // by name and scale
   std::map<std::string, std::vector<Vec3>> points_;               // by name

@@ -8,7 +8,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/distance.hpp"
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/geometry/tet_cage.hpp"
 #include "engine/io/scene/scene_shape.hpp"
 #include "engine/io/scene/scene_sizes.hpp"

@@ -36,6 +36,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/algebra", 1},
                                                  {"engine/geometry", 2},
                                                  {"engine/geometry/convex", 3},
+                                                 {"engine/geometry/surface", 3},
                                                  {"engine/rotation", 3},
                                                  {"engine/io/meshes", 4},
                                                  {"engine/io/tets", 4},

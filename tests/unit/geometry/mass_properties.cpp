@@ -1,7 +1,7 @@
 // Volume integrals against closed formulas, and their covariance.
 #include <catch2/catch.hpp>
 
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/random.hpp"

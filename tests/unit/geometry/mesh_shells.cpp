@@ -1,4 +1,4 @@
-#include "engine/geometry/mesh_shells.hpp"
+#include "engine/geometry/surface/mesh_shells.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -6,8 +6,8 @@
 
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/mass_properties.hpp"
-#include "engine/geometry/mesh_checks.hpp"
-#include "engine/geometry/surface_side.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
+#include "engine/geometry/surface/surface_side.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "engine/core/parallel.hpp"
-#include "engine/geometry/mesh_checks.hpp"
 #include "engine/geometry/ray_columns.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "engine/geometry/embedding.hpp"
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

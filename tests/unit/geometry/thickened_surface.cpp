@@ -1,10 +1,10 @@
-#include "engine/geometry/thickened_surface.hpp"
+#include "engine/geometry/surface/thickened_surface.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/mass_properties.hpp"
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;

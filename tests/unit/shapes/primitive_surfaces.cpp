@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "engine/geometry/mass_properties.hpp"
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/geometry/tet_mesh.hpp"
 
 using namespace impinge;

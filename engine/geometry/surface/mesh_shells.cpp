@@ -1,4 +1,4 @@
-#include "engine/geometry/mesh_shells.hpp"
+#include "engine/geometry/surface/mesh_shells.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <numeric>
 
-#include "engine/geometry/surface_side.hpp"
+#include "engine/geometry/surface/surface_side.hpp"
 
 namespace impinge {
 namespace {

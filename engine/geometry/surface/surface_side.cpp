@@ -1,4 +1,4 @@
-#include "engine/geometry/surface_side.hpp"
+#include "engine/geometry/surface/surface_side.hpp"
 
 #include <algorithm>
 #include <cmath>

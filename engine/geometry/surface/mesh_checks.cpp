@@ -1,4 +1,4 @@
-#include "engine/geometry/mesh_checks.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "engine/geometry/mass_properties.hpp"
-#include "engine/geometry/mesh_shells.hpp"
+#include "engine/geometry/surface/mesh_shells.hpp"
 
 namespace impinge {
 namespace {
@@ -17,17 +17,9 @@ std::string counted(int count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
-bool traverses(const Triangle& t, int from, int to) {
-  for (int k = 0; k < 3; ++k)
-    if (t[k] == from && t[(k + 1) % 3] == to) return true;
-  return false;
-}
-
-/// First edge with three or more triangles: the topology keeps two of them only, so the others are counted here.
+/// First edge with three or more triangles.
 const MeshTopology::Edge* first_nonmanifold(const MeshTopology& topology) {
-  std::vector<int> uses(topology.edges.size(), 0);
-  for (const std::array<int, 3>& edges : topology.triangle_edges)
-    for (int e : edges) ++uses[e];
+  const std::vector<int> uses = edge_uses(topology);
   for (std::size_t e = 0; e < uses.size(); ++e)
     if (uses[e] > 2) return &topology.edges[e];
   return nullptr;
@@ -79,8 +71,8 @@ std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopolo
   if (topology.misoriented_edges > 0)
     for (const MeshTopology::Edge& edge : topology.edges) {
       if (edge.triangle1 < 0) continue;
-      if (traverses(mesh.triangles[edge.triangle0], edge.v0, edge.v1) ==
-          traverses(mesh.triangles[edge.triangle1], edge.v0, edge.v1))
+      if (runs_along(mesh.triangles[edge.triangle0], edge.v0, edge.v1) ==
+          runs_along(mesh.triangles[edge.triangle1], edge.v0, edge.v1))
         return fmt::format(
             "is not oriented: neighbouring triangles face opposite ways across {}, first triangles {} and {} "
             "at vertices {} and {}; make the normals consistent",

@@ -1,4 +1,4 @@
-#include "engine/geometry/thickened_surface.hpp"
+#include "engine/geometry/surface/thickened_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,19 +12,12 @@ constexpr double kBothOfEdge = 1e-3, kFrontOfEdge = 0.5;
 constexpr double kSharp = 0.5;
 
 /// Whether the triangle runs along the edge from its smaller vertex to its larger.
-bool runs_up(const Triangle& t, const MeshTopology::Edge& edge) {
-  for (int k = 0; k < 3; ++k)
-    if (t[k] == edge.v0 && t[(k + 1) % 3] == edge.v1) return true;
-  return false;
-}
+bool runs_up(const Triangle& t, const MeshTopology::Edge& edge) { return runs_along(t, edge.v0, edge.v1); }
 
 /// Edges that two triangles and no third share.
 std::vector<char> inner_edges(const MeshTopology& topology) {
-  std::vector<int> uses(topology.edges.size(), 0);
-  for (const std::array<int, 3>& edges : topology.triangle_edges)
-    for (const int e : edges) ++uses[e];
-  std::vector<char> inner(uses.size());
-  for (std::size_t e = 0; e < uses.size(); ++e) inner[e] = uses[e] == 2 ? 1 : 0;
+  std::vector<char> inner;
+  for (const int uses : edge_uses(topology)) inner.push_back(uses == 2 ? 1 : 0);
   return inner;
 }
 
