@@ -41,9 +41,10 @@ class SimplicialLlt : public LinearSolver {
   /// Y = L⁻¹ P B takes as much memory as B would as a dense matrix.
   SolveReport gram(const SparseColumns& b, MatX& w) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
+    w.setZero(b.cols(), b.cols());
+    if (w.size() == 0) return {status_, 0, 0.0};  // Eigen's product would bind a reference to what isn't there
     MatX y = llt_.permutationP() * MatX(b);
     llt_.matrixL().solveInPlace(y);
-    w.setZero(b.cols(), b.cols());
     w.selfadjointView<Eigen::Lower>().rankUpdate(y.transpose());
     w.triangularView<Eigen::StrictlyUpper>() = w.transpose();
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};

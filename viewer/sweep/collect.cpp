@@ -30,7 +30,7 @@ bool has_ended(const fs::path& out, const std::string& hash) {
 class ErrorTaker {
  public:
   ErrorTaker(const fs::path& out, const Sweep& sweep, const SweepBase& base)
-      : out_(out), sweep_(sweep), base_(base), bodies_(moving_bodies(base.session())) {}
+      : out_(out), sweep_(sweep), bodies_(moving_bodies(base.session())) {}
 
   // fills error and relative_error; returns the cells of sweep_error_columns()
   std::vector<std::string> take(SweepRow& row) {
@@ -95,7 +95,6 @@ class ErrorTaker {
 
   const fs::path& out_;
   const Sweep& sweep_;
-  const SweepBase& base_;
   std::vector<std::string> bodies_;
   std::map<std::string, ErrorWindow> windows_;
 };

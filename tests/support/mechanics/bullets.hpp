@@ -14,7 +14,7 @@ struct Shot {
   double speed = 1.0;  ///< m/s; of a rod rad/s
   int substeps = 4;    ///< of 1/60 s
   std::uint64_t seed = 1;
-  std::string response;  ///< empty: the default
+  std::string response = {};  ///< empty: the default
   Continuous continuous = Continuous::when_needed;
 };
 
