@@ -11,6 +11,10 @@
 namespace impinge {
 namespace {
 
+/// Of the activation distance: how far parts of one body are kept apart. What rests on itself with a gap of nothing
+/// crosses itself by what a sub-step leaves of it, and a crossing, however shallow, is seen from its other side later.
+constexpr double kSelfDistance = 0.01;
+
 /// Where a body stands in the group's system; neither: it has no freedom.
 struct BlockIndex {
   int rigid = -1, deformable = -1;
@@ -66,6 +70,7 @@ class Assembly {
     fill_side(c.body_a, a, common, 1.0, rows, rows.a, velocity_before);
     fill_side(c.body_b, b, common, -1.0, rows, rows.b, velocity_before);
     rows.gap = c.gap;
+    if (c.body_a == c.body_b) rows.gap -= kSelfDistance * input_.settings.activation(bodies_[c.body_a].size);
     rows.friction = pair_friction(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     if (!add(index, std::move(rows), {a, b})) return;
     const double free_velocity = system().contact_velocity(system().contacts.size() - 1, false).x();
@@ -73,7 +78,7 @@ class Assembly {
     row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
-    row.bound = row_bound({c.gap, free_velocity, row.velocity_before, row.restitution, row.scale.speed},
+    row.bound = row_bound({row.gap, free_velocity, row.velocity_before, row.restitution, row.scale.speed},
                           input_.settings, input_.time_step);
   }
 

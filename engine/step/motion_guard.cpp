@@ -56,6 +56,17 @@ Sweep sweep_of(const Body& body, const Pose& start, const std::vector<Pose>& tur
 
 bool is_plane(const Body& body) { return body.shape->as<Plane>() != nullptr; }
 
+/// How far two points of one deforming body can come towards each other, metres.
+double self_approach(const Body& body, const std::vector<Vec3>& nodes) {
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t i = 0; i < nodes.size(); ++i) mean += body.world_vertices[i] - nodes[i];
+  mean /= static_cast<double>(nodes.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    most = std::max(most, (body.world_vertices[i] - nodes[i] - mean).squaredNorm());
+  return 2.0 * std::sqrt(most);
+}
+
 double way_of(const Sweep& s) { return s.shift.norm() + s.turn; }
 
 double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).norm() + a.turn + b.turn; }
@@ -146,7 +157,17 @@ SurfacePath MotionGuard::path_of(const Body& body, BodyIndex b) {
   return path;
 }
 
-std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies, bool all) {
+/// A body's contacts with itself are found within the activation distance and no farther, and a crossing of its surface,
+/// however shallow, is one for good: it is looked at whenever it is told to keep off itself and moves.
+void MotionGuard::add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs) {
+  for (BodyIndex b(0); b < bodies.size(); ++b) {
+    if (!bodies[b].can_touch_itself()) continue;
+    const double both = self_approach(bodies[b], nodes_[b]), safe = safe_approach(bodies[b]);
+    if (both > (which == Continuous::off ? safe : 0.0)) pairs.push_back({b, b, {}, 0.5 * both, 0.5 * both, both, safe});
+  }
+}
+
+std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies, Continuous which) {
   std::vector<Sweep> sweeps;
   std::vector<double> far;
   double least = INFINITY;  // of how far pairs may approach unseen
@@ -159,14 +180,16 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   const auto two = far.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(far.size()));
   std::partial_sort(far.begin(), two, far.end(), std::greater<>());
   const double most = std::accumulate(far.begin(), two, 0.0);
-  if (most == 0.0 || (!all && most <= least)) return {};
+  std::vector<UnsafeMotion::Pair> pairs;
+  add_self(bodies, which, pairs);
+  const bool all = which == Continuous::on;
+  if (most == 0.0 || (!all && most <= least)) return pairs;
 
   std::vector<Aabb> boxes;
   for (const Sweep& s : sweeps) boxes.push_back(s.box);
   if (broad_phase_ == nullptr) broad_phase_ = broad_phases().front().make();
   std::vector<BoxPair> box_pairs;
   broad_phase_->find(boxes, box_pairs);
-  std::vector<UnsafeMotion::Pair> pairs;
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
@@ -188,7 +211,8 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     PassageSettings own = settings(bodies[pairs[i].a], bodies[pairs[i].b]);
     if (is_deep) own.depth = pairs[i].safe;
-    pairs[i].passages = first_passages(paths[i].first, paths[i].second, own);
+    pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
+                                                 : first_passages(paths[i].first, paths[i].second, own);
   });
 }
 
@@ -206,7 +230,7 @@ void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, cons
 }
 
 std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassagesOf& settings) {
-  std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which == Continuous::on);
+  std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which);
   if (pairs.empty()) return std::nullopt;
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
   search(bodies, pairs, settings, false);

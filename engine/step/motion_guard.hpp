@@ -21,7 +21,8 @@ enum class Continuous {
   off
 };
 
-/// Pairs of bodies of which one passes through the other, in their order, each with its earliest passages.
+/// Pairs of bodies of which one passes through the other, in their order, each with its earliest passages. Twice the same
+/// body: parts of it pass through each other.
 struct UnsafeMotion {
   struct Pair {
     BodyIndex a, b;
@@ -63,7 +64,8 @@ class MotionGuard {
   double thickness_of(const Body& body);
   double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
-  std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, bool all);
+  void add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs);
+  std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, Continuous which);
   void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings, bool is_deep);
 
   std::vector<Pose> start_;               // by body

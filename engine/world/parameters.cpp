@@ -34,9 +34,11 @@ void Parameters::bind(ParameterSet& set) {
   all.below("narrow_phase").add("method", narrow_phase.method, "Which triangles of two meshes touch.");
   narrow_phase.method.declare(all.below("narrow_phase"));
   all.below("narrow_phase")
-      .add("continuous", narrow_phase.continuous, kContinuous,
-           "Whether surfaces are kept from passing through one another between sub-steps: where they approach by more "
-           "than the search for contacts reaches (auto), always (on), or never (off).");
+      .add(
+          "continuous", narrow_phase.continuous, kContinuous,
+          "Whether surfaces are kept from passing through one another between sub-steps: where they approach by more "
+          "than the search for contacts reaches, and wherever a body with self_collision moves (auto), always (on), or "
+          "never (off).");
   all.below("response").add("method", response.method, "How contacts change velocities.");
   response.method.declare(all.below("response"));
   of_lcp.add("method", lcp.method, "Solver of the cone complementarity problem.");

@@ -17,6 +17,7 @@ constexpr int kPatience = 4;          // motions after which pieces are cut shor
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
+constexpr double kSelfDepth = 1e-6;   // the same of a body with itself, whose contacts keep it apart by more than that
 constexpr double kReach = 0.1;        // of the activation distance: paths are straight to this
 
 /// Of a pair, metres.
@@ -81,7 +82,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
   const PassagesOf passages = [&](const Body& a, const Body& b) {
     const double size = activation(a, b);
-    return PassageSettings{is_kept ? kDepth * size : size, kReach * size};
+    return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
   };
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
   double rest = 1.0;  // of the sub-step

@@ -36,6 +36,11 @@ std::string place_of(int frame, int substep) {
   return substep > 0 ? fmt::format("in frame {}, sub-step {}", frame, substep) : fmt::format("in frame {}", frame);
 }
 
+/// The other body, in quotes; of a body that met itself, that.
+std::string other_of(const UnsafeBody& body) {
+  return body.other == body.name ? "itself" : fmt::format("'{}'", body.other);
+}
+
 std::string and_more(std::size_t count) {
   return count == 0 ? "" : fmt::format(" (and {} more bod{})", count, count == 1 ? "y" : "ies");
 }
@@ -77,10 +82,10 @@ std::string WatchdogNote::text() const {
   for (std::size_t i = 0; i < std::min(named.size(), kNamed); ++i) {
     const UnsafeBody& body = named[i]->what;
     const std::string where = place_of(named[i]->frame, body.substep), way = fmt::format("{:.3g} m", body.displacement);
-    lines += body.has_passed
-                 ? fmt::format("note:     '{}' passed through '{}' {}: it moved {}", body.name, body.other, where, way)
-                 : fmt::format("note:     '{}' moved {} beside '{}' {} and may have passed it", body.name, way,
-                               body.other, where);
+    lines += body.has_passed ? fmt::format("note:     '{}' passed through {} {}: it moved {}", body.name,
+                                           other_of(body), where, way)
+                             : fmt::format("note:     '{}' moved {} beside {} {} and may have passed it", body.name,
+                                           way, other_of(body), where);
     lines += fmt::format(", {:.3g} m are safe; {}\n", body.safe, remedy(body, named[i]->substeps));
   }
   if (named.size() > kNamed)
@@ -97,8 +102,8 @@ std::string WatchdogNote::closing_line() const {
   std::string passes = "nothing passed";
   if (has_passed || (!judged_ && !named.empty())) {
     const Seen& first = *named.front();
-    passes = fmt::format("'{}' {} '{}' {}{}", first.what.name, has_passed ? "passed through" : "may have passed",
-                         first.what.other, place_of(first.frame, first.what.substep), and_more(named.size() - 1));
+    passes = fmt::format("'{}' {} {} {}{}", first.what.name, has_passed ? "passed through" : "may have passed",
+                         other_of(first.what), place_of(first.frame, first.what.substep), and_more(named.size() - 1));
   } else if (named.empty() && frames_ > 0) {
     passes = fmt::format("bodies may have passed others in {} frame{} before the run was resumed, the first {}",
                          frames_, frames_ == 1 ? "" : "s", first_frame_);

@@ -23,7 +23,7 @@ struct Place {
 class Search {
  public:
   Search(const SurfacePath& a, const SurfacePath& b, const PassageSettings& settings)
-      : path_a_(a), path_b_(b), settings_(settings) {}
+      : path_a_(a), path_b_(b), settings_(settings), is_self_(&a == &b), window_(is_self_ ? 0.1 : 1e-3) {}
 
   std::vector<Passage> run() {
     const int pieces = std::max(path_a_.pieces(), path_b_.pieces());
@@ -38,8 +38,9 @@ class Search {
   void look(double t0, double t1) {
     check_interrupt();
     const double bend = path_a_.bend(t0, t1) + path_b_.bend(t0, t1);
-    const Stretch a(path_a_, t0, t1), b(path_b_, t0, t1);
-    a_ = &a, b_ = &b;
+    const Stretch a(path_a_, t0, t1);
+    const std::optional<Stretch> b = is_self_ ? std::nullopt : std::optional<Stretch>(std::in_place, path_b_, t0, t1);
+    a_ = &a, b_ = b ? &*b : &a;
     t0_ = t0, t1_ = t1;
     margin_ = settings_.depth + bend;
     if (bend > settings_.reach) {
@@ -55,8 +56,9 @@ class Search {
     }
     best_ = 1.0;
     descend();
-    // those that meet together with the first, as the corners of a face do
-    std::erase_if(found_, [&](const Passage& p) { return p.time > t0 + (t1 - t0) * best_ + 1e-3 * (t1 - t0); });
+    // those that meet together with the first, as the corners of a face do; a body that is pressed into itself rests on
+    // many features at once, and they would be told one by one
+    std::erase_if(found_, [&](const Passage& p) { return p.time > t0 + (t1 - t0) * best_ + window_ * (t1 - t0); });
   }
 
   void descend() { visit(0, 0); }
@@ -71,12 +73,19 @@ class Search {
   }
 
   void visit_met(int na, int nb, double t) {
-    if (t > best_ + 1e-3 || (sketch_ && is_near_)) return;
+    if (t > best_ + window_ || (sketch_ && is_near_)) return;
     poll_();
     const BoxTree::Node &a = a_->node(na), &b = b_->node(nb);
+    const bool is_one = is_self_ && na == nb;
     if (a.is_leaf() && b.is_leaf()) {
       for (int i = a.first; i < a.first + a.count; ++i)
-        for (int j = b.first; j < b.first + b.count; ++j) test(a_->triangle(i), b_->triangle(j));
+        for (int j = is_one ? i + 1 : b.first; j < b.first + b.count; ++j) test(a_->triangle(i), b_->triangle(j));
+      return;
+    }
+    if (is_one) {
+      visit(na + 1, na + 1);
+      visit(a.second, a.second);
+      visit(na + 1, a.second);
       return;
     }
     const bool split_a = b.is_leaf() || (!a.is_leaf() && a.box.extent().squaredNorm() >= b.box.extent().squaredNorm());
@@ -98,13 +107,18 @@ class Search {
   void test(int ta, int tb) {
     const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
     const std::uint8_t own_a = path_a_.of->owned[ta], own_b = path_b_.of->owned[tb];
+    const auto shares = [&](const Triangle& t, int v) { return is_self_ && (t[0] == v || t[1] == v || t[2] == v); };
     for (int k = 0; k < 3; ++k) {
-      if ((own_a >> k & 1) != 0) vertex_face(*a_, a[k], ta, *b_, tb, false);
-      if ((own_b >> k & 1) != 0) vertex_face(*b_, b[k], tb, *a_, ta, true);
+      if ((own_a >> k & 1) != 0 && !shares(b, a[k])) vertex_face(*a_, a[k], ta, *b_, tb, false);
+      if ((own_b >> k & 1) != 0 && !shares(a, b[k])) vertex_face(*b_, b[k], tb, *a_, ta, true);
     }
+    const auto meet = [&](int i, int j) {
+      return is_self_ &&
+             (a[i] == b[j] || a[i] == b[(j + 1) % 3] || a[(i + 1) % 3] == b[j] || a[(i + 1) % 3] == b[(j + 1) % 3]);
+    };
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        if ((own_a >> (3 + i) & 1) != 0 && (own_b >> (3 + j) & 1) != 0) edge_edge(ta, i, tb, j);
+        if ((own_a >> (3 + i) & 1) != 0 && (own_b >> (3 + j) & 1) != 0 && !meet(i, j)) edge_edge(ta, i, tb, j);
   }
 
   bool apart(const MovingCorners& c, int first_group) const {
@@ -156,7 +170,7 @@ class Search {
       const Vec3 e0 = x[1] - x[0], e1 = x[2] - x[0], n = e0.cross(e1), d = position(of_vertex, v, time) - x[0];
       const double nn = n.squaredNorm(), b = d.cross(e1).dot(n) / nn, g = e0.cross(d).dot(n) / nn;
       return b >= -1e-9 && g >= -1e-9 && b + g <= 1.0 + 1e-9 &&
-             is_below_neighbours(of_face, t, position(of_vertex, v, time), n, time);
+             (is_self_ || is_below_neighbours(of_face, t, position(of_vertex, v, time), n, time));
     };
     const std::uint64_t key = exchanged ? feature_key(Feature::face, t, Feature::vertex, v)
                                         : feature_key(Feature::vertex, v, Feature::face, t);
@@ -196,6 +210,7 @@ class Search {
       const Vec3 x[4] = {position(*a_, a0, time), position(*a_, a1, time), position(*b_, b0, time),
                          position(*b_, b1, time)};
       const SegmentSegment near = closest_between_segments(x[0], x[1], x[2], x[3]);
+      if (is_self_) return near.interior;
       return near.interior && is_inside(*a_, a0, a1, near.s, time) && is_inside(*b_, b0, b1, near.t, time) &&
              (is_supporting(ea, eb, m.normal_at(t0_ + m.time * (t1_ - t0_)), t0_ + m.time * (t1_ - t0_)) ||
               is_supporting(ea, eb, m.normal_at(time), time));
@@ -343,6 +358,8 @@ class Search {
 
   const SurfacePath &path_a_, &path_b_;
   PassageSettings settings_;
+  bool is_self_;
+  double window_;  // of the interval: what follows the first so soon is told with it
   const Stretch *a_ = nullptr, *b_ = nullptr;
   double t0_ = 0.0, t1_ = 1.0, margin_ = 0.0, best_ = 1.0;
   bool sketch_ = false, is_near_ = false;
@@ -354,6 +371,10 @@ class Search {
 
 std::vector<Passage> first_passages(const SurfacePath& a, const SurfacePath& b, const PassageSettings& settings) {
   return Search(a, b, settings).run();
+}
+
+std::vector<Passage> first_self_passages(const SurfacePath& path, const PassageSettings& settings) {
+  return Search(path, path, settings).run();
 }
 
 }  // namespace impinge

@@ -25,4 +25,7 @@ struct PassageSettings {
 /// The passages of the earliest moment there is one, sorted by feature; empty: none.
 std::vector<Passage> first_passages(const SurfacePath& a, const SurfacePath& b, const PassageSettings& settings);
 
+/// The same of one deforming surface with itself. Features that share a vertex never pass each other.
+std::vector<Passage> first_self_passages(const SurfacePath& path, const PassageSettings& settings);
+
 }  // namespace impinge

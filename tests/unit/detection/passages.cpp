@@ -102,3 +102,51 @@ TEST_CASE("a rod that turns meets a post when its face gets there", "[continuous
     CHECK(first_time(found) <= truth + 1e-5);
   }
 }
+
+TEST_CASE("two parts of one deforming surface meet when and where two surfaces of their own would", "[continuous]") {
+  // parts, as one mesh and as two; each vertex goes its own way
+  const TriangleMesh ball = icosphere(2, 0.05), block = box(Vec3(0.05, 0.03, 0.04), {3, 2, 3});
+  TriangleMesh both = ball;
+  const int first = static_cast<int>(ball.vertices.size());
+  both.vertices.insert(both.vertices.end(), block.vertices.begin(), block.vertices.end());
+  for (const Triangle& t : block.triangles) both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const MeshPointer one = surface(both), of_ball = surface(ball), of_block = surface(block);
+  const PathSurface path_one(*one), path_ball(*of_ball), path_block(*of_block);
+  Random r(11);
+  int met = 0;
+  for (int i = 0; i < 40; ++i) {
+    std::vector<Vec3> start = both.vertices, end;
+    const Vec3 way(r.in(-0.02, 0.02), r.in(-0.3, 0.05), r.in(-0.02, 0.02));
+    for (int v = 0; v < static_cast<int>(start.size()); ++v) {
+      if (v < first) start[v] += Vec3(0.01, 0.1, 0.0);
+      end.push_back(start[v] + (v < first ? way : Vec3::Zero()) + 2e-3 * Vec3(r.in(-1, 1), r.in(-1, 1), r.in(-1, 1)));
+    }
+    const std::span<const Vec3> from(start), to(end);
+    SurfacePath all, upper, lower;
+    all.of = &path_one, all.start = from, all.end = to;
+    upper.of = &path_ball, upper.start = from.first(first), upper.end = to.first(first);
+    lower.of = &path_block, lower.start = from.subspan(first), lower.end = to.subspan(first);
+    const std::vector<Passage> own = first_self_passages(all, {}), apart = first_passages(upper, lower, {});
+    CHECK(own.empty() == apart.empty());
+    if (own.empty() || apart.empty()) continue;
+    ++met;
+    CHECK(first_time(own) == Approx(first_time(apart)).margin(1e-5));
+  }
+  CHECK(met > 10);
+}
+
+TEST_CASE("a surface that only bends, shakes or flies does not pass itself", "[continuous]") {
+  const TriangleMesh ball = icosphere(3, 0.05);
+  const MeshPointer of_ball = surface(ball);
+  const PathSurface path(*of_ball);
+  Random r(12);
+  for (int i = 0; i < 10; ++i) {
+    std::vector<Vec3> end;
+    const Mat3 turn = rotation_exp(Vec3(r.in(-0.5, 0.5), r.in(-0.5, 0.5), r.in(-0.5, 0.5)));
+    for (const Vec3& x : ball.vertices)
+      end.push_back(turn * x + Vec3(30.0, 0, 0) + 5e-4 * Vec3(r.in(-1, 1), r.in(-1, 1), r.in(-1, 1)));
+    SurfacePath moves;
+    moves.of = &path, moves.start = ball.vertices, moves.end = end;
+    CHECK(first_self_passages(moves, {}).empty());
+  }
+}

@@ -1,0 +1,111 @@
+// Bodies that are pressed into themselves: their surfaces' crossings, counted pair by pair of triangles.
+#include <catch2/catch.hpp>
+
+#include "engine/geometry/triangle_intersection.hpp"
+#include "tests/support/mechanics/deformable_bodies.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+std::int64_t crossings(const Body& body) {
+  const std::vector<Triangle>& triangles = body.shape->mesh()->mesh.triangles;
+  std::vector<TriangleCorners> corners;
+  std::vector<Aabb> boxes;
+  for (const Triangle& t : triangles) {
+    corners.push_back({body.world_vertices[t[0]], body.world_vertices[t[1]], body.world_vertices[t[2]]});
+    boxes.push_back(bounds_of(corners.back()[0], corners.back()[1], corners.back()[2]));
+  }
+  std::int64_t count = 0;
+  for (std::size_t s = 0; s < triangles.size(); ++s)
+    for (std::size_t t = s + 1; t < triangles.size(); ++t) {
+      if (!overlap(boxes[s], boxes[t])) continue;
+      bool share = false;
+      for (const int v : triangles[s])
+        for (const int w : triangles[t]) share |= v == w;
+      if (!share && triangles_intersect(corners[s], corners[t])) ++count;
+    }
+  return count;
+}
+
+struct StripCase {
+  Vec3 size = {0.4, 0.01, 0.08};
+  Eigen::Vector3i cells = {32, 1, 6};
+  double turns = 4.0, seconds = 2.0;
+  double activation = 0.0;  // metres; 0: left to the program
+  int substeps = 4;
+  Continuous continuous = Continuous::when_needed;
+};
+
+struct StripResult {
+  std::int64_t crossings = 0, contacts = 0, unsafe = 0;
+  double fastest = 0.0;  // m/s
+};
+
+/// A strip held at one end and turned at the other, 100 frames a second.
+StripResult twisted(const StripCase& how) {
+  World world;
+  SoftOptions o{2e4, 0.4, 1000.0, 0.005, "neo_hookean"};
+  BodyDescription strip = soft_box("strip", how.size, how.cells, -0.5 * how.size, o);
+  auto soft = std::make_shared<DeformableDescription>(*strip.deformable);
+  NodeRegion held, turned;
+  const double end = 0.475 * how.size.x();
+  held.min = {-1, -1, -1}, held.max = {-end, 1, 1};
+  turned.min = {end, -1, -1}, turned.max = {1, 1, 1};
+  turned.motion = {{0.0, Vec3::Zero(), Vec3::Zero()}, {how.seconds, Vec3::Zero(), {360.0 * how.turns, 0, 0}}};
+  soft->fixed = {held, turned};
+  strip.deformable = soft;
+  strip.self_collision = true;
+  world.add_body(strip);
+  world.parameters.simulation.gravity.setZero();
+  world.parameters.simulation.frame_time = 0.01;
+  world.parameters.simulation.substeps = how.substeps;
+  world.parameters.contact.friction = 0.0;
+  if (how.activation > 0.0) world.parameters.contact.activation_distance = how.activation;
+  world.parameters.narrow_phase.continuous = how.continuous;
+  world.start();
+  StripResult result;
+  for (int frame = 0; frame < std::lround(100.0 * how.seconds); ++frame) {
+    world.step();
+    result.crossings += crossings(world.bodies()[0]);
+    result.contacts = std::max(result.contacts, world.record().stats.contacts);
+    result.unsafe += world.record().stats.unsafe_motions;
+    result.fastest = std::max(result.fastest, fastest_node(world));
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a strip that is twisted four turns never crosses itself", "[self]") {
+  for (const int substeps : {4, 1}) {
+    StripCase how;
+    how.substeps = substeps;
+    how.activation = 1e-3;
+    const StripResult strip = twisted(how);
+    CAPTURE(substeps, strip.contacts);
+    CHECK(strip.crossings == 0);
+    CHECK(strip.unsafe == 0);
+    CHECK(strip.contacts > 20);
+    CHECK(strip.fastest < 100.0);
+  }
+}
+
+TEST_CASE("nobody looks at the same strip: it crosses itself", "[self]") {
+  StripCase how;
+  how.substeps = 1;
+  how.continuous = Continuous::off;
+  CHECK(twisted(how).crossings > 0);
+}
+
+TEST_CASE("strips of other sizes and meshes don't cross themselves either", "[self]") {
+  const std::vector<StripCase> strips = {{{0.04, 0.001, 0.008}, {20, 1, 4}, 2.0, 0.8},
+                                         {{0.5, 0.01, 0.2}, {20, 1, 8}, 2.0, 1.0}};
+  for (const StripCase& how : strips) {
+    const StripResult strip = twisted(how);
+    CAPTURE(how.size.transpose(), strip.contacts);
+    CHECK(strip.crossings == 0);
+    CHECK(strip.contacts > 0);
+  }
+}
