@@ -1,33 +1,13 @@
 // Bodies that are pressed into themselves: their surfaces' crossings, counted pair by pair of triangles.
 #include <catch2/catch.hpp>
 
-#include "engine/geometry/triangle_intersection.hpp"
+#include "tests/support/mechanics/brute_self_crossings.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-std::int64_t crossings(const Body& body) {
-  const std::vector<Triangle>& triangles = body.shape->mesh()->mesh.triangles;
-  std::vector<TriangleCorners> corners;
-  std::vector<Aabb> boxes;
-  for (const Triangle& t : triangles) {
-    corners.push_back({body.world_vertices[t[0]], body.world_vertices[t[1]], body.world_vertices[t[2]]});
-    boxes.push_back(bounds_of(corners.back()[0], corners.back()[1], corners.back()[2]));
-  }
-  std::int64_t count = 0;
-  for (std::size_t s = 0; s < triangles.size(); ++s)
-    for (std::size_t t = s + 1; t < triangles.size(); ++t) {
-      if (!overlap(boxes[s], boxes[t])) continue;
-      bool share = false;
-      for (const int v : triangles[s])
-        for (const int w : triangles[t]) share |= v == w;
-      if (!share && triangles_intersect(corners[s], corners[t])) ++count;
-    }
-  return count;
-}
 
 struct StripCase {
   Vec3 size = {0.4, 0.01, 0.08};
@@ -68,7 +48,7 @@ StripResult twisted(const StripCase& how) {
   StripResult result;
   for (int frame = 0; frame < std::lround(100.0 * how.seconds); ++frame) {
     world.step();
-    result.crossings += crossings(world.bodies()[0]);
+    result.crossings += brute_self_crossings(world.bodies()[0]);
     result.contacts = std::max(result.contacts, world.record().stats.contacts);
     result.unsafe += world.record().stats.unsafe_motions;
     result.fastest = std::max(result.fastest, fastest_node(world));

@@ -107,18 +107,13 @@ class Search {
   void test(int ta, int tb) {
     const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
     const std::uint8_t own_a = path_a_.of->owned[ta], own_b = path_b_.of->owned[tb];
-    const auto shares = [&](const Triangle& t, int v) { return is_self_ && (t[0] == v || t[1] == v || t[2] == v); };
     for (int k = 0; k < 3; ++k) {
-      if ((own_a >> k & 1) != 0 && !shares(b, a[k])) vertex_face(*a_, a[k], ta, *b_, tb, false);
-      if ((own_b >> k & 1) != 0 && !shares(a, b[k])) vertex_face(*b_, b[k], tb, *a_, ta, true);
+      if ((own_a >> k & 1) != 0) vertex_face(*a_, a[k], ta, *b_, tb, false);
+      if ((own_b >> k & 1) != 0) vertex_face(*b_, b[k], tb, *a_, ta, true);
     }
-    const auto meet = [&](int i, int j) {
-      return is_self_ &&
-             (a[i] == b[j] || a[i] == b[(j + 1) % 3] || a[(i + 1) % 3] == b[j] || a[(i + 1) % 3] == b[(j + 1) % 3]);
-    };
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        if ((own_a >> (3 + i) & 1) != 0 && (own_b >> (3 + j) & 1) != 0 && !meet(i, j)) edge_edge(ta, i, tb, j);
+        if ((own_a >> (3 + i) & 1) != 0 && (own_b >> (3 + j) & 1) != 0) edge_edge(ta, i, tb, j);
   }
 
   bool apart(const MovingCorners& c, int first_group) const {
@@ -144,6 +139,7 @@ class Search {
 
   void vertex_face(const Stretch& of_vertex, int v, int t_vertex, const Stretch& of_face, int t, bool exchanged) {
     const Triangle& f = mesh(of_face).triangles[t];
+    if (is_self_ && (f[0] == v || f[1] == v || f[2] == v)) return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;
@@ -180,6 +176,7 @@ class Search {
   void edge_edge(int ta, int i, int tb, int j) {
     const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
     const int a0 = a[i], a1 = a[(i + 1) % 3], b0 = b[j], b1 = b[(j + 1) % 3];
+    if (is_self_ && (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1)) return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;

@@ -3,30 +3,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/geometry/triangle_intersection.hpp"
 #include "engine/world/frame_judge.hpp"
+#include "tests/support/mechanics/brute_self_crossings.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-std::int64_t brute_count(const Body& body) {
-  const std::vector<Triangle>& triangles = body.shape->mesh()->mesh.triangles;
-  const auto corners = [&](const Triangle& t) {
-    return TriangleCorners{body.world_vertices[t[0]], body.world_vertices[t[1]], body.world_vertices[t[2]]};
-  };
-  std::int64_t count = 0;
-  for (std::size_t s = 0; s < triangles.size(); ++s)
-    for (std::size_t t = s + 1; t < triangles.size(); ++t) {
-      bool share = false;
-      for (const int v : triangles[s])
-        for (const int w : triangles[t]) share |= v == w;
-      if (!share && triangles_intersect(corners(triangles[s]), corners(triangles[t]))) ++count;
-    }
-  return count;
-}
 
 /// A strip along x from 0 to 1 m, bent round z by `angle` at its end: beyond a full turn it crosses itself.
 void bend(Body& body, double angle) {
@@ -45,7 +29,7 @@ TEST_CASE("crossings of a body's own surface are those of all its triangle pairs
     World world;
     Body& strip = world.add_body(soft_box("strip", {1.0, 0.05, 0.1}, {20, 1, 2}, Vec3::Zero()));
     bend(strip, angle);
-    const std::int64_t truth = brute_count(strip);
+    const std::int64_t truth = brute_self_crossings(strip);
     CAPTURE(angle, truth);
     CHECK(count_self_crossings(world.bodies()) == truth);
     CHECK((truth > 0) == (angle > 2.0 * M_PI - 0.1));
@@ -61,7 +45,7 @@ TEST_CASE("noise on a surface is counted pair by pair, and every body counts") {
   for (const char* name : {"a", "b"}) {
     Body& body = world.add_body(soft_cube(name, 1.0, 4, Vec3::Zero()));
     for (Vec3& x : body.world_vertices) x += 0.3 * random.vector();
-    truth += brute_count(body);
+    truth += brute_self_crossings(body);
   }
   CHECK(truth > 50);
   CHECK(count_self_crossings(world.bodies()) == truth);
