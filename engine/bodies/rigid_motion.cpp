@@ -6,11 +6,17 @@
 namespace impinge {
 void apply_gravity(RigidBody& body, const Vec3& gravity, double time_step) { body.velocity += time_step * gravity; }
 
+Pose free_flight(const RigidBody& body, const Vec3& velocity, const Vec3& angular_momentum, double time_step) {
+  Pose end = body.pose;
+  end.position += time_step * velocity;
+  if (angular_momentum.isZero(0.0)) return end;
+  const Vec3 momentum = end.rotation.transpose() * angular_momentum;
+  end.rotation = orthonormalized(end.rotation * free_rotation(body.principal, momentum, time_step));
+  return end;
+}
+
 void advance_rigid(RigidBody& body, double time_step) {
-  body.pose.position += time_step * body.velocity;
-  if (body.angular_momentum.isZero(0.0)) return;
-  const Vec3 momentum = body.pose.rotation.transpose() * body.angular_momentum;
-  body.pose.rotation = orthonormalized(body.pose.rotation * free_rotation(body.principal, momentum, time_step));
+  body.pose = free_flight(body, body.velocity, body.angular_momentum, time_step);
 }
 
 void displace_rigid(RigidBody& body, const Vec3& displacement, const Vec3& turn) {

@@ -8,8 +8,11 @@ namespace impinge {
 /// v* = v + Δt g. The angular momentum does not change: gyroscopic torque does not enter A and b.
 void apply_gravity(RigidBody& body, const Vec3& gravity, double time_step);
 
-/// Moves the centre by Δt v and turns the body as it turns freely with its angular momentum L, exactly
-/// (free_rotation.hpp): contact changes L between two such turns, nothing within one. L is kept to the last bit, the
+/// Where the body would be after Δt with this velocity and angular momentum L: the centre moves by Δt v, the body turns
+/// as it turns freely, exactly (free_rotation.hpp).
+Pose free_flight(const RigidBody& body, const Vec3& velocity, const Vec3& angular_momentum, double time_step);
+
+/// Moves the body by free_flight: contact changes L between two such turns, nothing within one. L is kept to the last bit, the
 /// energy to rounding. Throws DivergenceError, without frame and name, where the turn is so far (or not finite) that
 /// rounding leaves nothing of the attitude. [Haapaoja16 §2.1]
 void advance_rigid(RigidBody& body, double time_step);

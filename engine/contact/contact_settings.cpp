@@ -35,6 +35,9 @@ void ContactSettings::declare(const Rows& rows) {
   rows.add("most_contacts", most_contacts, {4, 1000000}, "",
            "Two rigid bodies with more contacts after reduction are reduced by coarser patches, up to normals of 45 "
            "degrees: quicker, and less exact.");
+  rows.add("turning_solves", turning_solves, {0, 100}, "",
+           "How often rigid bodies are solved again where they come nearer to each other by turning than their "
+           "velocities say: links, hooks, pins in holes. 0: never.");
 }
 
 }  // namespace impinge

@@ -35,6 +35,7 @@ struct ContactSettings {
   bool warm_start = true;
   Reduction reduction = Reduction::patch;
   int most_contacts = 100;
+  int turning_solves = 4;
 
   void declare(const Rows& rows);
 

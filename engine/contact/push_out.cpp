@@ -37,7 +37,7 @@ GroupSystem make_push_out_system(const GroupSystem& solved, const ContactSetting
       rows.surface.setZero();
       continue;
     }
-    const double gap_after = rows.gap + time_step * solved.displacement_velocity(i).x();
+    const double gap_after = rows.gap + rows.turning + time_step * solved.displacement_velocity(i).x();
     rows.surface.setZero();
     rows.friction = rows.restitution = 0.0;
     // an overlap is measured after the velocities have moved the bodies: separation that they bring is not added twice

@@ -24,6 +24,9 @@ namespace {
 // relative to the mean edge: 1 micrometre for edges of 10 cm; what a solver leaves at rest is well below
 constexpr double kTouch = 1e-5;
 
+// of the smaller body's size: overlap that features still tell, where surfaces cross
+constexpr double kDeep = 0.05;
+
 double smallest_slope(const std::vector<Vec3>& rising, const std::vector<Vec3>& falling, const Vec3& n) {
   double smallest = 1.0;
   for (const Vec3& e : rising) smallest = std::min(smallest, e.dot(n));
@@ -129,10 +132,13 @@ void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pai
                         std::vector<Collision>& contacts) {
   if (triangles.empty()) return;
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
+  double margin = std::max(pair.margin, activation);
+  if (std::any_of(triangles.begin(), triangles.end(), [](const TrianglePair& p) { return p.intersecting; }))
+    margin = std::max(margin, kDeep * std::min(a.size, b.size));
   const ProximityQuery query{SurfaceView(a, pair.a),
                              SurfaceView(b, pair.b),
                              triangles,
-                             std::max(pair.margin, activation),
+                             margin,
                              activation,
                              time_step,
                              kTouch * std::min(a.mean_edge, b.mean_edge)};

@@ -1,0 +1,61 @@
+#include "engine/step/turning.hpp"
+
+#include "engine/bodies/rigid_motion.hpp"
+#include "engine/geometry/rotation.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kFarthestTurn = 0.5;  // radians; what turns farther leaves its contact's plane
+
+struct End {
+  Pose pose;
+  double turn = 0.0;  // radians
+};
+
+End end_of(const RigidBody& body, const Vec3& delta_velocity, const Vec3& delta_spin, double time_step) {
+  const Vec3 spin = body.angular_velocity() + delta_spin;
+  End end{body.pose, time_step * spin.norm()};
+  if (end.turn <= kFarthestTurn)
+    end.pose = free_flight(body, body.velocity + delta_velocity, body.world_inertia() * spin, time_step);
+  return end;
+}
+
+/// Of a body that impulses don't move.
+End end_of(const Body& body, double time_step) {
+  const Twist twist = body.twist();
+  End end{body.pose, time_step * twist.angular.norm()};
+  end.pose.position += time_step * twist.linear;
+  if (end.turn > 0.0) end.pose.rotation = rotation_exp(time_step * twist.angular) * end.pose.rotation;
+  return end;
+}
+
+}  // namespace
+
+std::vector<double> turning_errors(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
+                                   double time_step) {
+  std::vector<End> rigid;
+  for (std::size_t i = 0; i < group.rigid.size(); ++i)
+    rigid.push_back(end_of(*bodies[group.rigid[i]].as<RigidBody>(), group.system.delta_velocity[i],
+                           group.system.delta_angular_velocity[i], time_step));
+  const auto end = [&](int block, BodyIndex b) {
+    return block >= 0 ? rigid[static_cast<std::size_t>(block)] : end_of(bodies[b], time_step);
+  };
+  std::vector<double> errors(group.contacts.size(), 0.0);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const Collision* c = contacts.collision(group.contacts[i]);
+    if (c == nullptr) continue;
+    const ContactRows& row = group.system.contacts[i];
+    const End a = end(row.a.rigid, c->body_a), b = end(row.b.rigid, c->body_b);
+    if (!(a.turn <= kFarthestTurn && b.turn <= kFarthestTurn)) continue;
+    Vec3 normal = c->normal;
+    for (const auto& [owner, to] : {std::pair(c->body_a, &a), std::pair(c->body_b, &b)})
+      if (c->normal_owner == owner) normal = to->pose.rotation * (bodies[owner].pose.rotation.transpose() * c->normal);
+    const auto& [point_a, point_b] = group.points[i];
+    const double gap = normal.dot(a.pose.apply(point_a.local) - b.pose.apply(point_b.local));
+    errors[i] = gap - (row.gap + time_step * group.system.displacement_velocity(i).x());
+  }
+  return errors;
+}
+
+}  // namespace impinge
