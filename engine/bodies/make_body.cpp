@@ -39,7 +39,7 @@ double copy_bytes(const SurfaceMesh& surface) {
 /// Frame and size of a body that moves as a whole. Returns the mass properties that its density gives it.
 MassProperties recenter(const BodyDescription& d, Body& body) {
   if (d.shape->as<Plane>() != nullptr) return {};
-  const MassProperties properties = d.shape->mass(d.density);
+  MassProperties properties = d.shape->mass(d.density);
   if (!(properties.mass > 0.0))
     throw InputError(
         "the surface encloses no positive volume; a body needs a closed surface whose triangles are "

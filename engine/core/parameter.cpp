@@ -141,7 +141,7 @@ std::string ParameterSet::note_of_former(const std::vector<std::string>& used) c
 std::string ParameterSet::nearest(std::string_view path) const {
   std::vector<std::string> paths;
   for (const Parameter& row : rows_) paths.push_back(row.path);
-  const std::string near = nearest_word(path, paths);
+  std::string near = nearest_word(path, paths);
   if (!near.empty()) return near;
   // the right last word under the wrong table (or none)
   const auto last = [](std::string_view p) { return p.substr(p.rfind('.') + 1); };

@@ -38,7 +38,7 @@ void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone
   if ((0.5 * (ea.p + ea.q) - 0.5 * (eb.p + eb.q)).squaredNorm() > reach * reach * (1.0 + 1e-9)) return;
   const std::optional<Vec3> outward = common_normal(ea, eb);
   if (!outward) return;
-  const Vec3 normal = *outward;
+  const Vec3& normal = *outward;
   const SegmentSegment closest = closest_between_segments(ea.p, ea.q, eb.p, eb.q);
   if (!closest.interior || !(closest.squared_distance <= query.margin * query.margin)) return;
   const double gap = normal.dot(closest.point0 - closest.point1);
