@@ -9,12 +9,12 @@ namespace impinge {
 void apply_gravity(RigidBody& body, const Vec3& gravity, double time_step);
 
 /// Where the body would be after Δt with this velocity and angular momentum L: the centre moves by Δt v, the body turns
-/// as it turns freely, exactly (free_rotation.hpp).
+/// as it turns freely, exactly (free_rotation.hpp). Throws DivergenceError, without frame and name, where the turn is so
+/// far (or not finite) that rounding leaves nothing of the attitude.
 Pose free_flight(const RigidBody& body, const Vec3& velocity, const Vec3& angular_momentum, double time_step);
 
-/// Moves the body by free_flight: contact changes L between two such turns, nothing within one. L is kept to the last bit, the
-/// energy to rounding. Throws DivergenceError, without frame and name, where the turn is so far (or not finite) that
-/// rounding leaves nothing of the attitude. [Haapaoja16 §2.1]
+/// Moves the body by free_flight: contact changes L between two such turns, nothing within one. L is kept to the last
+/// bit, the energy to rounding. [Haapaoja16 §2.1]
 void advance_rigid(RigidBody& body, double time_step);
 
 /// Turns and moves by a pseudo-velocity that changes no momentum (recovery from overlap).

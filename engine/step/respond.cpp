@@ -6,7 +6,6 @@
 
 #include "engine/bodies/scale.hpp"
 #include "engine/contact/push_out.hpp"
-#include "engine/contact/row_bound.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
@@ -19,9 +18,7 @@ namespace {
 
 // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
 constexpr double kPushOutTolerance = 1e-3;
-// of the activation distance: what is left of it is pushed out unseen
-constexpr double kTurningTolerance = 1e-3;
-constexpr double kWorthwhile = 0.9;  // of what was lacking before another solve: more is no gain
+constexpr double kWorthwhile = 0.9;  // of what turning took before another solve: more is no gain
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -93,58 +90,31 @@ class GroupSolve {
   /// Rigid bodies: the same rows, told how much nearer their points come because bodies turn on the way. An answer that
   /// can't be had, or does no better than the one before, is not taken.
   void follow_turns() {
-    if (!now_.deformable.empty() || how_.response.lives_on_overlap() || !result_.response.converged()) return;
+    const int most = how_.contact.turning_solves;
+    if (most == 0 || !now_.deformable.empty() || how_.response.lives_on_overlap() || !result_.response.converged())
+      return;
+    const auto look = [&] { return end_gaps(bodies_, now_, input_.contacts, input_.time_step); };
+    std::vector<double> gaps = look();
+    double lost = most_lost(system(), gaps, how_.contact);
+    if (lost == 0.0) return;
     std::vector<double> bounds;
     for (const ContactRows& row : system().contacts) bounds.push_back(row.bound);
-    struct {
-      GroupSystem system;
-      ResponseResult response;
-      std::optional<FrozenGroup> frozen;
-    } best;
-    double least = INFINITY;  // lacking
-    for (int i = 0; i <= how_.contact.turning_solves; ++i) {
-      double lacking = INFINITY;
-      std::vector<double> errors;
-      if (result_.response.converged()) {
-        errors = turning_errors(bodies_, now_, input_.contacts, input_.time_step);
-        lacking = most_lacking(errors);
-      }
-      if (i > 0 && !(lacking < least)) {
-        system() = std::move(best.system), result_.response = best.response, result_.frozen = std::move(best.frozen);
+    for (int i = 0; i < most && lost > 0.0; ++i) {
+      check_interrupt();
+      GroupSystem system_before = system();
+      const ResponseResult response_before = result_.response;
+      std::optional<FrozenGroup> frozen_before = result_.frozen;
+      ask_for_turning(system(), gaps, bounds, how_.contact, input_.time_step);
+      solve();
+      double now = INFINITY;
+      if (result_.response.converged()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
+      if (!(now < lost)) {
+        system() = std::move(system_before);
+        result_.response = response_before, result_.frozen = std::move(frozen_before);
         return;
       }
-      if (lacking == 0.0 || lacking > kWorthwhile * least || i == how_.contact.turning_solves) return;
-      least = lacking;
-      best = {system(), result_.response, result_.frozen};
-      check_interrupt();
-      ask_for(errors, bounds);
-      system().clear_delta();
-      solve();
-    }
-  }
-
-  /// How much deeper than before a contact would end, where that is more than what push-out takes for nothing, metres.
-  double most_lacking(const std::vector<double>& errors) const {
-    const GroupSystem& s = now_.system;
-    double most = 0.0;
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      const ContactRows& row = s.contacts[i];
-      if (row.kind != RowKind::contact || errors[i] >= 0.0) continue;
-      const double end = row.gap + input_.time_step * s.displacement_velocity(i).x() + errors[i];
-      const double lacking = std::min(row.gap, 0.0) - end;
-      if (lacking > kTurningTolerance * how_.contact.activation_distance.at(row.scale.length))
-        most = std::max(most, lacking);
-    }
-    return most;
-  }
-
-  void ask_for(const std::vector<double>& errors, const std::vector<double>& bounds) {
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      ContactRows& row = system().contacts[i];
-      if (row.kind != RowKind::contact) continue;
-      row.turning = std::min(errors[i], 0.0);
-      const double at_rest = row_bound({row.gap, 0.0, 0.0, 0.0, row.scale.speed}, how_.contact, input_.time_step);
-      row.bound = std::max(bounds[i], at_rest - row.turning / input_.time_step);
+      if (now > kWorthwhile * lost) return;
+      lost = now;
     }
   }
 

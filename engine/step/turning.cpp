@@ -1,12 +1,17 @@
 #include "engine/step/turning.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/bodies/rigid_motion.hpp"
+#include "engine/contact/row_bound.hpp"
 #include "engine/geometry/rotation.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr double kFarthestTurn = 0.5;  // radians; what turns farther leaves its contact's plane
+constexpr double kTolerance = 1e-3;    // of the activation distance
 
 struct End {
   Pose pose;
@@ -32,8 +37,8 @@ End end_of(const Body& body, double time_step) {
 
 }  // namespace
 
-std::vector<double> turning_errors(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
-                                   double time_step) {
+std::vector<double> end_gaps(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
+                             double time_step) {
   std::vector<End> rigid;
   for (std::size_t i = 0; i < group.rigid.size(); ++i)
     rigid.push_back(end_of(*bodies[group.rigid[i]].as<RigidBody>(), group.system.delta_velocity[i],
@@ -41,8 +46,8 @@ std::vector<double> turning_errors(const Bodies& bodies, const AssembledGroup& g
   const auto end = [&](int block, BodyIndex b) {
     return block >= 0 ? rigid[static_cast<std::size_t>(block)] : end_of(bodies[b], time_step);
   };
-  std::vector<double> errors(group.contacts.size(), 0.0);
-  for (std::size_t i = 0; i < errors.size(); ++i) {
+  std::vector<double> gaps(group.contacts.size(), INFINITY);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
     const Collision* c = contacts.collision(group.contacts[i]);
     if (c == nullptr) continue;
     const ContactRows& row = group.system.contacts[i];
@@ -52,10 +57,31 @@ std::vector<double> turning_errors(const Bodies& bodies, const AssembledGroup& g
     for (const auto& [owner, to] : {std::pair(c->body_a, &a), std::pair(c->body_b, &b)})
       if (c->normal_owner == owner) normal = to->pose.rotation * (bodies[owner].pose.rotation.transpose() * c->normal);
     const auto& [point_a, point_b] = group.points[i];
-    const double gap = normal.dot(a.pose.apply(point_a.local) - b.pose.apply(point_b.local));
-    errors[i] = gap - (row.gap + time_step * group.system.displacement_velocity(i).x());
+    gaps[i] = normal.dot(a.pose.apply(point_a.local) - b.pose.apply(point_b.local));
   }
-  return errors;
+  return gaps;
+}
+
+double most_lost(const GroupSystem& system, std::span<const double> end_gaps, const ContactSettings& settings) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < end_gaps.size(); ++i) {
+    const ContactRows& row = system.contacts[i];
+    const double lost = std::min(row.gap, 0.0) - end_gaps[i];
+    if (lost > kTolerance * settings.activation_distance.at(row.scale.length)) most = std::max(most, lost);
+  }
+  return most;
+}
+
+void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
+                     const ContactSettings& settings, double time_step) {
+  for (std::size_t i = 0; i < end_gaps.size(); ++i) {
+    ContactRows& row = system.contacts[i];
+    if (row.kind != RowKind::contact) continue;
+    const double straight = row.gap + time_step * system.displacement_velocity(i).x();
+    row.turning = std::min(end_gaps[i] - straight, 0.0);
+    const double at_rest = row_bound({row.gap, 0.0, 0.0, 0.0, row.scale.speed}, settings, time_step);
+    row.bound = std::max(bounds[i], at_rest - row.turning / time_step);
+  }
 }
 
 }  // namespace impinge

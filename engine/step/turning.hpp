@@ -7,10 +7,17 @@
 
 namespace impinge {
 
-/// By contact of a group without deformable bodies: its gap where the sub-step will end, less the gap that J v says,
-/// metres. Bodies end where they will with the group's Δv; prescribed ones where their velocity takes them. 0 of
-/// attachments, and where a body turns so far that one straight step can't mean it.
-std::vector<double> turning_errors(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
-                                   double time_step);
+/// By contact of a group without deformable bodies: its gap where the sub-step will end with the group's Δv, metres;
+/// prescribed bodies end where their velocity takes them. Infinite of attachments, and where a body turns so far that
+/// one straight step can't mean it.
+std::vector<double> end_gaps(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
+                             double time_step);
+
+/// How much deeper than it began the worst contact ends, metres; 0: none by more than what push-out takes for nothing.
+double most_lost(const GroupSystem& system, std::span<const double> end_gaps, const ContactSettings& settings);
+
+/// Raises the rows' bounds, `bounds` before anybody asked, by what turning takes of the gaps that J v says.
+void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
+                     const ContactSettings& settings, double time_step);
 
 }  // namespace impinge

@@ -136,9 +136,7 @@ class Pushed {
 }  // namespace
 
 void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>& contacts) {
-  if (std::none_of(query.triangles.begin(), query.triangles.end(),
-                   [](const TrianglePair& p) { return p.intersecting; }))
-    return;
+  if (!query.crosses) return;
   Pushed pushed;
   for (const Collision& c : contacts)
     if (c.gap <= query.touch) pushed.add(c);

@@ -11,8 +11,10 @@ namespace impinge {
 struct ProximityQuery {
   SurfaceView a, b;
   std::span<const TrianglePair> triangles;
-  double margin =
-      0.0;  ///< metres; how far the triangle pairs reach, and how deep an overlap may be to be taken at face value
+  bool crosses = false;  ///< a triangle pair intersects
+  /// Metres; how deep an overlap may be to be taken at face value: as far as the triangle pairs reach, or farther where
+  /// they cross.
+  double margin = 0.0;
   double activation = 0.0;  ///< metres
   double time_step = 0.0;   ///< seconds
   /// Features closer than this count as touching, metres: the direction between them is noise and their normals decide.

@@ -132,12 +132,12 @@ void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pai
                         std::vector<Collision>& contacts) {
   if (triangles.empty()) return;
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
-  double margin = std::max(pair.margin, activation);
-  if (std::any_of(triangles.begin(), triangles.end(), [](const TrianglePair& p) { return p.intersecting; }))
-    margin = std::max(margin, kDeep * std::min(a.size, b.size));
+  const bool crosses = std::any_of(triangles.begin(), triangles.end(), [](const auto& p) { return p.intersecting; });
+  const double margin = std::max({pair.margin, activation, crosses ? kDeep * std::min(a.size, b.size) : 0.0});
   const ProximityQuery query{SurfaceView(a, pair.a),
                              SurfaceView(b, pair.b),
                              triangles,
+                             crosses,
                              margin,
                              activation,
                              time_step,
