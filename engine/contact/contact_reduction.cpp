@@ -88,6 +88,7 @@ std::vector<Place> most_of(const std::vector<Place>& corners, std::size_t most) 
     taken.insert(taken.begin() + static_cast<std::ptrdiff_t>(after) + 1, best);
   }
   std::vector<Place> kept;
+  kept.reserve(taken.size());
   for (const std::size_t i : taken) kept.push_back(corners[i]);
   return kept;
 }

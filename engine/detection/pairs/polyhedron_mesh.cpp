@@ -99,6 +99,7 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const BodyPair pair{BodyIndex(0), BodyIndex(1), margin};
   const int count = static_cast<int>(solid.surface->mesh.triangles.size());
   std::vector<Aabb> boxes;
+  boxes.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) boxes.push_back(search_box(corners_of(own, k), margin));
   std::vector<TrianglePair> triangles;
   for (int t : near) {

@@ -171,6 +171,7 @@ ConvexHull convex_hull(std::span<const Vec3> points) {
   order.erase(std::unique(order.begin(), order.end(), [&](int l, int r) { return key(l) == key(r); }), order.end());
   std::sort(order.begin(), order.end());
   std::vector<Vec3> different;
+  different.reserve(order.size());
   for (int i : order) different.push_back(points[i]);
 
   ConvexHull hull;

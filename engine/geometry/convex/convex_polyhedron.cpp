@@ -180,6 +180,7 @@ void ConvexPolyhedron::find_resting_rings() {
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     const Vec3 u = face.normal.unitOrthogonal(), v = face.normal.cross(u);
     std::vector<Vec2> flat;
+    flat.reserve(corners.size());
     for (int c : corners) flat.emplace_back(u.dot(mesh_.vertices[c]), v.dot(mesh_.vertices[c]));
     const std::vector<int> ring = thinned(flat, hull_in_plane(flat, kCoplanar * size_));
     for (std::size_t i = 0; i < ring.size(); ++i) {
