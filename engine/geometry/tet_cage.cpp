@@ -58,9 +58,9 @@ class Lattice {
       const Cell c = cell_at(node - corner_count());
       return origin_ + cell_ * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
     }
-    const std::size_t nx = size_[0] + 1, ny = size_[1] + 1;
-    return origin_ + cell_ * Vec3(static_cast<double>(node % nx), static_cast<double>(node / nx % ny),
-                                  static_cast<double>(node / nx / ny));
+    const std::size_t nx = size_[0] + 1, ny = size_[1] + 1, row = node / nx, layer = row / ny;
+    return origin_ +
+           cell_ * Vec3(static_cast<double>(node % nx), static_cast<double>(row % ny), static_cast<double>(layer));
   }
   std::array<Vec3, 4> corners(std::size_t id) const {
     const auto n = nodes(id);

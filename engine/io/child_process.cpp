@@ -24,6 +24,7 @@ constexpr int kLookEvery = 20;  // ms between looks at the interrupt flag
 
 int spawn(const std::vector<std::string>& words, const posix_spawn_file_actions_t& streams, pid_t& pid) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   sigset_t none;

@@ -87,7 +87,7 @@ fs::path temporary_name(const fs::path& path, bool keeps_ending) {
   const std::string ending = keeps_ending ? path.extension().string() : "";
   const std::string stem = keeps_ending ? path.stem().string() : path.filename().string();
   for (;;) {
-    const fs::path name = path.parent_path() / fmt::format("{}.{}-{}.tmp{}", stem, getpid(), count++, ending);
+    fs::path name = path.parent_path() / fmt::format("{}.{}-{}.tmp{}", stem, getpid(), count++, ending);
     std::error_code error;
     // else it is of a process killed long ago
     if (fs::symlink_status(name, error).type() != fs::file_type::regular) return name;

@@ -63,7 +63,7 @@ void make_folder(const fs::path& folder) {
 
 fs::path absolute_path(const fs::path& path) {
   std::error_code error;
-  const fs::path whole = path.empty() ? fs::current_path(error) : fs::absolute(path, error);
+  fs::path whole = path.empty() ? fs::current_path(error) : fs::absolute(path, error);
   if (error)
     throw InputError(
         fmt::format("{}: the folder that the program was started in can't be told ({}); start it in another",

@@ -30,6 +30,7 @@ std::vector<const Entry<LcpSolver>*> reference_solvers() {
     if (const int rank = entry.make()->reference_rank(); rank > 0) ranked.emplace_back(rank, &entry);
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& l, const auto& r) { return l.first < r.first; });
   std::vector<const Entry<LcpSolver>*> entries;
+  entries.reserve(ranked.size());
   for (const auto& [rank, entry] : ranked) entries.push_back(entry);
   return entries;
 }

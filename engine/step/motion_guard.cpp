@@ -186,6 +186,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   if (most == 0.0 || (!all && most <= least)) return pairs;
 
   std::vector<Aabb> boxes;
+  boxes.reserve(sweeps.size());
   for (const Sweep& s : sweeps) boxes.push_back(s.box);
   if (broad_phase_ == nullptr) broad_phase_ = broad_phases().front().make();
   std::vector<BoxPair> box_pairs;
@@ -206,6 +207,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
 void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings,
                          bool is_deep) {
   std::vector<std::pair<SurfacePath, SurfacePath>> paths;
+  paths.reserve(pairs.size());
   for (const UnsafeMotion::Pair& pair : pairs)
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {

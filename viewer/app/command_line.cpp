@@ -145,8 +145,8 @@ void Options::two_texts(const char* name, std::pair<std::string, std::string>& t
 
 void Options::flag(const char* name, bool& to, const std::string& doc) { app_.add_flag(name, to, doc); }
 
-void Options::flag_or_word(const char* name, std::function<void(const std::string&)> take, const std::string& word,
-                           const std::string& doc) {
+void Options::flag_or_word(const char* name, const std::function<void(const std::string&)>& take,
+                           const std::string& word, const std::string& doc) {
   const auto given = [=](const std::string& text) {
     if (text != "true" && text != word)
       refuse_option(fmt::format("{} is '{}'", name, text), fmt::format("{} or nothing is wanted", word),

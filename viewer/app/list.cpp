@@ -173,6 +173,7 @@ const std::vector<Topic> kTopics = {
 
 std::vector<std::string> topic_names() {
   std::vector<std::string> names;
+  names.reserve(kTopics.size());
   for (const Topic& topic : kTopics) names.emplace_back(topic.name);
   return names;
 }

@@ -36,7 +36,7 @@ class Options {
   void two_texts(const char* name, std::pair<std::string, std::string>& to, const std::string& doc);  ///< required
   void flag(const char* name, bool& to, const std::string& doc);
   /// A flag that may say more: --name alone, or --name=WORD.
-  void flag_or_word(const char* name, std::function<void(const std::string&)> take, const std::string& word,
+  void flag_or_word(const char* name, const std::function<void(const std::string&)>& take, const std::string& word,
                     const std::string& doc);
   void flag_off(const char* name, bool& to, const std::string& doc);  ///< sets false
   void whole(const char* name, int& to, int low, int high, const std::string& doc);

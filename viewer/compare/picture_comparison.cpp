@@ -103,7 +103,7 @@ PictureComparison compare_pictures(const std::string& name, const fs::path& a, c
 fs::path update_baseline(const PictureComparison& comparison, const fs::path& baseline, const fs::path& picture) {
   const bool other_renderer =
       comparison.verdict == PictureComparison::different && comparison.cause == ChangeCause::renderer;
-  const fs::path target = other_renderer ? alternate_for(baseline, picture) : baseline;
+  fs::path target = other_renderer ? alternate_for(baseline, picture) : baseline;
   read_png(picture);  // a baseline that nobody can read helps nobody
   // the ids first: where the disk is full after them, the picture still differs and the next --update goes on
   const fs::path ids = id_picture_of(picture), ids_target = id_picture_of(target);
@@ -117,7 +117,8 @@ fs::path update_baseline(const PictureComparison& comparison, const fs::path& ba
 }
 
 fs::path update_ids(const PictureComparison& same) {
-  const fs::path ids = id_picture_of(same.b), target = id_picture_of(same.a);
+  const fs::path ids = id_picture_of(same.b);
+  fs::path target = id_picture_of(same.a);
   if (!is_file(ids) || (is_file(target) && names_the_same(read_ids(target), read_ids(ids)))) return "";
   copy_to(ids, target);
   return target;

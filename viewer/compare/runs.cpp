@@ -227,6 +227,7 @@ class Comparison {
   std::string write_sheet() {
     std::vector<int> frames;
     const int last = common_ - 1, count = std::min(kMostRows, last - first_ + 1);
+    frames.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) frames.push_back(first_ + (count == 1 ? 0 : k * (last - first_) / (count - 1)));
     for (const int frame : frames)
       for (const RecordedRun* run : {&a_, &b_})

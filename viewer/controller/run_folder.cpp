@@ -86,7 +86,7 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   if (resume) {
     const std::string text = read_if_there(folder_ / "stats.csv");
     kept_ = whole_rows(text, run_.judge);
-    kept_.resize(static_cast<std::size_t>(last_resumable(kept_) + 1));
+    kept_.resize(static_cast<std::size_t>(last_resumable(kept_)) + 1);
     if (!kept_.empty()) columns_ = StatsColumns(std::string_view(text).substr(0, text.find('\n')), run_.judge);
   }
   write_file(folder_ / "run.toml", run_toml);

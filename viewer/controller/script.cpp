@@ -150,7 +150,7 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
   const auto value = [&](std::size_t begin) {
     const char* end = rest[begin + each - 1].text.data() + rest[begin + each - 1].text.size();
     try {
-      const ParameterValue end_of_ramp =
+      ParameterValue end_of_ramp =
           parse_value(row, {rest[begin].text.data(), static_cast<std::size_t>(end - rest[begin].text.data())});
       if (std::holds_alternative<std::string>(end_of_ramp))  // the word of a row that may be left open
         throw InputError(fmt::format("'{}' for {}; a ramp goes from number to number", rest[begin].text, row.path));

@@ -108,7 +108,7 @@ void Session::start() {
 }
 
 std::vector<Command> Session::advance(FrozenStep* frozen) {
-  const std::vector<Command> commands = script_.commands_at(frame_ + 1);
+  std::vector<Command> commands = script_.commands_at(frame_ + 1);
   for (const Command& command : commands) apply(command);
   if (frame_ < 0) {
     if (!commands.empty()) start();  // the constructor started the world without them

@@ -69,9 +69,8 @@ const std::array<Color, kHeatColors>& heat_colors() {
 
 Color heat_color(double t) {
   const double place = std::clamp(t, 0.0, 1.0) * (kHeatColors - 1);
-  const int below = std::min(static_cast<int>(place), kHeatColors - 2);
-  return mix(heat_colors()[static_cast<std::size_t>(below)], heat_colors()[static_cast<std::size_t>(below + 1)],
-             static_cast<float>(place - below));
+  const auto below = std::min(static_cast<std::size_t>(place), heat_colors().size() - 2);
+  return mix(heat_colors()[below], heat_colors()[below + 1], static_cast<float>(place - static_cast<double>(below)));
 }
 
 }  // namespace impinge

@@ -10,6 +10,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<LayerSwitch>& layers) {
   std::vector<std::string> names;
+  names.reserve(layers.size());
   for (const LayerSwitch& layer : layers) names.push_back(layer.name);
   return names;
 }

@@ -202,6 +202,7 @@ struct Seen {
 Seen look_at(const Image& image, const Observer& observer) {
   static const std::vector<double> table = [] {
     std::vector<double> t;
+    t.reserve(256);
     for (int level = 0; level < 256; ++level) t.push_back(linear(static_cast<std::uint8_t>(level)));
     return t;
   }();

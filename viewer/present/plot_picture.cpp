@@ -27,6 +27,7 @@ std::vector<Image> paint(const std::vector<std::function<void(const Pen&)>>& dra
 
 std::vector<Image> paint_plots(const std::vector<Plot>& plots, int width, int height) {
   std::vector<std::function<void(const Pen&)>> drawings;
+  drawings.reserve(plots.size());
   for (const Plot& plot : plots) drawings.push_back([&plot](const Pen& pen) { draw_plot(pen, plot); });
   return paint(drawings, width, height);
 }

@@ -75,6 +75,7 @@ std::vector<CcdSet> read_ccd_sets(const fs::path& folder) {
     read_queries(file, kind == "edge-edge", set.queries);
   }
   std::vector<CcdSet> result;
+  result.reserve(sets.size());
   for (auto& [name, set] : sets) result.push_back({name, std::move(set.queries)});
   if (result.empty())
     throw InputError(folder.string() +

@@ -1,6 +1,8 @@
 // The two kinds of problem that impinge step takes.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -41,8 +43,8 @@ std::vector<const Entry<Interface>*> chosen_entries(const Registry<Interface>& r
         allowed += (allowed.empty() ? "" : ", ") + all.back();
       }
       const std::string near = nearest_word(name, all);
-      throw InputError("command line: unknown " + std::string(what) + " '" + name + "' in " + option + "; allowed: " +
-                       allowed + "; " + (near.empty() ? "use one of them" : "did you mean '" + near + "'?"));
+      throw InputError(fmt::format("command line: unknown {} '{}' in {}; allowed: {}; {}", what, name, option, allowed,
+                                   near.empty() ? "use one of them" : "did you mean '" + near + "'?"));
     }
     bool there = false;
     for (const auto* e : chosen) there |= e == found;

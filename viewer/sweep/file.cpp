@@ -94,6 +94,7 @@ std::string quoted(const std::vector<std::string>& list) {
 
 std::vector<std::string> plain(const std::vector<SweepSetting>& settings) {
   std::vector<std::string> list;
+  list.reserve(settings.size());
   for (const SweepSetting& setting : settings) list.push_back(setting.text);
   return list;
 }

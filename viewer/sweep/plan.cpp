@@ -159,6 +159,7 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
   std::iota(by_run.begin(), by_run.end(), std::size_t{0});
   if (options.coarse_first) {
     std::vector<int> levels;
+    levels.reserve(order.size());
     for (const std::size_t i : order) levels.push_back(sweep_job_level(sweep.axes, options.zip, i));
     std::stable_sort(by_run.begin(), by_run.end(), [&](std::size_t l, std::size_t r) { return levels[l] < levels[r]; });
   }

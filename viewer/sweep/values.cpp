@@ -88,6 +88,7 @@ std::vector<double> spaced(const std::string& place, const std::vector<std::stri
 
 std::vector<std::string> range_texts(const std::vector<double>& values, const Parameter* row) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   const bool whole = row != nullptr && row->kind == ParameterKind::integer;
   for (const double value : values) texts.push_back(shortest(whole ? std::round(value) : value));
   return texts;
@@ -138,8 +139,8 @@ SweepAxis read_sweep_axis(const char* option, const SweepSetting& setting, const
     } catch (const InputError& error) {
       const std::string message = error.what(), tried = fmt::format("{}={}: ", axis.path, value);
       if (message.rfind("--set " + tried, 0) == 0)
-        throw InputError((setting.place.empty() ? option + (" " + tried) : place + ": " + tried) +
-                         message.substr(6 + tried.size()));
+        throw InputError(fmt::format("{}{}{}{}", setting.place.empty() ? option : place,
+                                     setting.place.empty() ? " " : ": ", tried, message.substr(6 + tried.size())));
       throw InputError(message.rfind(place, 0) == 0 ? message
                                                     : fmt::format("{}: {}; change the value", place, message));
     }

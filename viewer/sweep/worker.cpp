@@ -123,6 +123,7 @@ SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& jo
   }
   std::vector<std::string> words = words_of(folder, job);
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   begin_ = std::chrono::steady_clock::now();

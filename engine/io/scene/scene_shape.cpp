@@ -142,7 +142,7 @@ SharedShape read_shape(const TomlNode& node, const std::string& what, double sca
   const ShapeEntry& entry = shape_entries()[static_cast<std::size_t>(shape_type(word))];
   const std::pair key(format_toml(node), scale);
   if (const auto made = files.made_shapes().find(key); made != files.made_shapes().end()) return made->second;
-  const SharedShape shape = make_one(entry, table, name, scale, files);
+  SharedShape shape = make_one(entry, table, name, scale, files);
   files.made_shapes().emplace(key, shape);
   return shape;
 }

@@ -27,7 +27,7 @@ fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const
   const std::string& name = scene_text(node, what);
   if (name.empty())
     refuse(node.place, what + " is empty", "a mesh file's path relative to the scene file is wanted", "name a file");
-  const fs::path path = folder_ / name;  // an absolute name replaces the folder
+  fs::path path = folder_ / name;  // an absolute name replaces the folder
   PathKind kind = PathKind::nothing;
   try {
     kind = path_kind(path);

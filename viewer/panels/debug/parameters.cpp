@@ -115,7 +115,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
       if (!open) break;
       for (const std::string& choice : row.names) {
         if (ImGui::Selectable(choice.c_str(), choice == now) && choice != now) set(choice);
-        ui.name(name + ":" + choice);
+        ui.name(fmt::format("{}:{}", name, choice));
       }
       close_on_escape(ui);
       ImGui::EndCombo();

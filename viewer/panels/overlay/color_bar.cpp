@@ -34,10 +34,10 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
   pen.text(area.x + pad, area.y + pad, kTitle, title);
   const float left = area.x + pad, top = area.y + pad + pen.text_size + 3.0f * u, bottom = top + kHeight * u;
   const auto& colors = heat_colors();
-  for (int k = 0; k + 1 < kHeatColors; ++k) {
+  for (std::size_t k = 0; k + 1 < colors.size(); ++k) {
     const float from = left + width * static_cast<float>(k) / (kHeatColors - 1),
                 to = left + width * static_cast<float>(k + 1) / (kHeatColors - 1);
-    const ImU32 a = packed(colors[static_cast<std::size_t>(k)]), b = packed(colors[static_cast<std::size_t>(k + 1)]);
+    const ImU32 a = packed(colors[k]), b = packed(colors[k + 1]);
     pen.list.AddRectFilledMultiColor({from, top}, {to, bottom}, a, b, b, a);
   }
   const auto number = [&](float share, const std::string& text) {
