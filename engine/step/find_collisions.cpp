@@ -5,6 +5,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/detection/pairs/primitive.hpp"
 
 namespace impinge {
@@ -43,6 +44,7 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
     const ContactQuery query{proximity, settings.activation_distance.at(size), time_step};
     if (!is_mesh_pair(colliders, pair)) return primitive_contacts(colliders, pair, query, found[i]);
     const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
+    if (proximity && mesh_in_mesh(colliders, pair, triangles, query, found[i])) return;
     if (triangles.empty()) return;
     if (proximity)
       proximity_contacts(colliders, pair, triangles, query.activation, time_step, found[i]);

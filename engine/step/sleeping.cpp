@@ -8,11 +8,13 @@
 namespace impinge {
 
 void Sleeping::update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
-                      const RestThresholds& rest, double time_step) {
-  for (Body& body : bodies) {
+                      std::span<const double> pushed, const RestThresholds& rest, double time_step) {
+  for (BodyIndex b(0); b < bodies.size(); ++b) {
+    Body& body = bodies[b];
     if (!body.has_freedom() || body.asleep) continue;
     const double slow = rest.speed.at(speed_scale(rest.gravity, body.size));
-    body.rest_time = body.fastest_point() <= slow ? body.rest_time + time_step : 0.0;
+    const double fastest = std::max(body.fastest_point(), pushed[static_cast<std::size_t>(b.value())]);
+    body.rest_time = fastest <= slow ? body.rest_time + time_step : 0.0;
   }
   for (const CollisionGroup& group : groups) {
     if (group.contacts.empty()) continue;

@@ -5,6 +5,7 @@
 
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/pairs/ball_against_mesh.hpp"
+#include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/detection/pairs/triangles_near.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 
@@ -112,6 +113,10 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
         triangles.push_back({pair.a, pair.b, TriangleIndex(k), TriangleIndex(t), state == PairState::intersecting});
     }
   }
+  // on its way out it comes near the surface from inside
+  if (may_be_inside(sink.second(), sink.first()) && !any_crosses(triangles) &&
+      add_enclosed(sink, solid.frame.center, solid.reach_against))
+    return;
   std::sort(triangles.begin(), triangles.end());
   std::vector<Collision> found;
   // asked for intersections only, the sink keeps what overlaps
