@@ -31,4 +31,31 @@ class Lazily {
   std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
+/// The same for something that is made in one of several ways: anew where `is_wanted` denies what was made last. One that
+/// is in use stays with its users.
+template <class T>
+class LazilyAnew {
+ public:
+  LazilyAnew() = default;
+  LazilyAnew(const LazilyAnew&) : LazilyAnew() {}
+  LazilyAnew& operator=(const LazilyAnew&) {
+    state_ = std::make_shared<State>();
+    return *this;
+  }
+
+  template <class IsWanted, class Make>
+  std::shared_ptr<const T> get(IsWanted&& is_wanted, Make&& make) const {
+    const std::lock_guard lock(state_->mutex);
+    if (!state_->value || !is_wanted(*state_->value)) state_->value = make();
+    return state_->value;
+  }
+
+ private:
+  struct State {
+    std::mutex mutex;
+    std::shared_ptr<const T> value;
+  };
+  std::shared_ptr<State> state_ = std::make_shared<State>();
+};
+
 }  // namespace impinge

@@ -5,10 +5,17 @@
 namespace impinge {
 
 NearestTriangle nearest_triangle(const BoxTree& tree, std::span<const Triangle> triangles,
-                                 std::span<const Vec3> vertices, const Vec3& x, std::span<const Aabb> fitted) {
+                                 std::span<const Vec3> vertices, const Vec3& x, std::span<const Aabb> fitted,
+                                 int guess) {
   NearestTriangle best;
   best.at.squared_distance = std::numeric_limits<double>::infinity();
   if (tree.is_empty()) return best;
+  const auto look_at = [&](int t) {
+    const Triangle& c = triangles[t];
+    const PointTriangle p = closest_on_triangle(x, {vertices[c[0]], vertices[c[1]], vertices[c[2]]});
+    if (p.squared_distance < best.at.squared_distance) best = {t, p};
+  };
+  if (guess >= 0) look_at(guess);
   const auto bound_of = [&](int n) { return squared_distance(fitted.empty() ? tree.nodes()[n].box : fitted[n], x); };
   std::vector<std::pair<double, int>> waiting = {{0.0, 0}};
   while (!waiting.empty()) {
@@ -23,12 +30,7 @@ NearestTriangle nearest_triangle(const BoxTree& tree, std::span<const Triangle> 
       waiting.push_back(first);
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i) {
-      const int t = tree.order()[i];
-      const Triangle& c = triangles[t];
-      const PointTriangle p = closest_on_triangle(x, {vertices[c[0]], vertices[c[1]], vertices[c[2]]});
-      if (p.squared_distance < best.at.squared_distance) best = {t, p};
-    }
+    for (int i = node.first; i < node.first + node.count; ++i) look_at(tree.order()[i]);
   }
   return best;
 }

@@ -14,8 +14,9 @@ struct NearestTriangle {
 };
 
 /// `vertices`: where the corners stand; `fitted`: the tree's boxes there, by node (BoxTree::fit), empty where the tree
-/// was made for them.
+/// was made for them; `guess`: a triangle that may be near, -1 if nothing is known. The nearer it is, the quicker.
 NearestTriangle nearest_triangle(const BoxTree& tree, std::span<const Triangle> triangles,
-                                 std::span<const Vec3> vertices, const Vec3& x, std::span<const Aabb> fitted = {});
+                                 std::span<const Vec3> vertices, const Vec3& x, std::span<const Aabb> fitted = {},
+                                 int guess = -1);
 
 }  // namespace impinge

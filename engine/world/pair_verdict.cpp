@@ -322,7 +322,7 @@ void add_outcome(PairVerdict& v, const World& world, const SubStep& step, Motion
     numbers.push_back({"time_s", time});
     return add(stops, fmt::format("one passes the other at {:.6g} s, and is let go", time), std::move(numbers));
   }
-  const Continuous which = world.parameters.narrow_phase.continuous;
+  const Continuous which = watching(world.parameters);
   if (!motion.meets) return add(not_asked, "the boxes round their ways don't meet", std::move(numbers));
   const std::string words =
       fmt::format("they approached by {} at most, {} are safe", metres(motion.approach), metres(motion.safe));

@@ -77,6 +77,11 @@ TimeIntegration time_integration(const Parameters& p) {
   return {*p.simulation.integrator, p.simulation.linear_solver, p.simulation.gravity, p.simulation.time_step()};
 }
 
+Continuous watching(const Parameters& p) {
+  const bool is_up_to_method = p.narrow_phase.continuous == Continuous::when_needed;
+  return is_up_to_method && p.narrow_phase.method->watches_every_motion() ? Continuous::on : p.narrow_phase.continuous;
+}
+
 Detecting detecting(const Parameters& p) { return {p.contact, *p.broad_phase.method, *p.narrow_phase.method}; }
 
 Solving solving(const Parameters& p) {

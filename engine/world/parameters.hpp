@@ -57,6 +57,8 @@ LcpSettings lcp_settings(const Parameters& parameters);
 ResponseContext response_context(const Parameters& parameters);
 TimeIntegration time_integration(const Parameters& parameters);
 Detecting detecting(const Parameters& parameters);
+/// Which motions are looked at: as narrow_phase.continuous says, and for "auto" the method.
+Continuous watching(const Parameters& parameters);
 Solving solving(const Parameters& parameters);
 
 }  // namespace impinge

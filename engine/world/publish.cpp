@@ -83,7 +83,7 @@ void show_overlaps_at_end(const Bodies& bodies, const SubStep& step, const Param
   std::vector<Collider> colliders;
   make_colliders(bodies, colliders);
   // where motions are not kept short, triangles may meet that were out of reach when contacts were sought
-  if (parameters.narrow_phase.continuous == Continuous::off || parameters.response.method->lives_on_overlap()) {
+  if (watching(parameters) == Continuous::off || parameters.response.method->lives_on_overlap()) {
     std::vector<TrianglePair> now;
     parameters.narrow_phase.method->find(colliders, mesh_pairs, now);
     return show_overlaps(bodies, colliders, now, record);

@@ -59,7 +59,7 @@ bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
 void World::note_unsafe(const UnsafeMotion& motion, int substep) {
   UnsafeBody::Cause cause = UnsafeBody::cut_limit;
   if (parameters.response.method->lives_on_overlap()) cause = UnsafeBody::soft_contact;
-  if (parameters.narrow_phase.continuous == Continuous::off) cause = UnsafeBody::unwatched;
+  if (watching(parameters) == Continuous::off) cause = UnsafeBody::unwatched;
   for (const UnsafeMotion::Pair& pair : motion.pairs)
     for (const bool is_a : {true, false}) {
       const BodyIndex body = is_a ? pair.a : pair.b, other = is_a ? pair.b : pair.a;
@@ -73,7 +73,7 @@ void World::note_unsafe(const UnsafeMotion& motion, int substep) {
 }
 
 void World::substep(double h, int left, FrozenStep* frozen) {
-  const Continuous which = parameters.narrow_phase.continuous;
+  const Continuous which = watching(parameters);
   const auto activation = [&](const Body& a, const Body& b) {
     return parameters.contact.activation_distance.at(pair_size(a, b));
   };

@@ -8,6 +8,10 @@ const Registry<NarrowPhase>& narrow_phases() {
     Registry<NarrowPhase> all;
     IMPINGE_LIST(all, bvh_narrow_phase);
     IMPINGE_LIST(all, spatial_hash_narrow_phase);
+#ifdef IMPINGE_OPENVDB
+    IMPINGE_LIST(all, distance_field_narrow_phase);
+#endif
+    IMPINGE_LIST(all, continuous_narrow_phase);
     IMPINGE_LIST(all, brute_force_narrow_phase);
     return all;
   }();

@@ -15,6 +15,8 @@ class NarrowPhase : public Method {
   /// share a point. Every implementation returns exactly what brute_force does, bit for bit, for any thread count.
   virtual void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
                     std::vector<TrianglePair>& found) = 0;
+  /// Whether every motion is looked at for surfaces that pass, however slow it is (step/motion_guard.hpp).
+  virtual bool watches_every_motion() const { return false; }
   /// Whether nothing is spared: what the others are held against.
   virtual bool tests_every_pair() const { return false; }
 };
