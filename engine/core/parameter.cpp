@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
-#include "engine/core/reserved_names.hpp"
 
 namespace impinge {
 
@@ -80,8 +79,6 @@ void check_number(const Parameter& row, double value, const std::string& found) 
 
 void check_name(const Parameter& row, const std::string& name) {
   if (std::find(row.names.begin(), row.names.end(), name) != row.names.end()) return;
-  if (is_reserved_name(row.path, name))
-    refuse(row, fmt::format("'{}'", name), " is a reserved name that is not part of this version");
   const std::string near = nearest_word(name, row.names);
   refuse(row, fmt::format("'{}'", name),
          near.empty() ? " is not known" : fmt::format(" is not known (did you mean '{}'?)", near));

@@ -41,13 +41,14 @@ void mark(SparseVoxels& band, const TriangleCorners& c, InterruptPoll& poll) {
     const auto length = [&](int k) { return (c[(k + 1) % 3] - c[k]).squaredNorm(); };
     for (int k = 1; k < 3; ++k)
       if (length(k) > length(longest)) longest = k;
-    const Vec3 &from = c[longest], &to = c[(longest + 1) % 3], &other = c[(longest + 2) % 3], middle = 0.5 * (from + to);
+    const Vec3 &from = c[longest], &to = c[(longest + 1) % 3], &other = c[(longest + 2) % 3],
+               middle = 0.5 * (from + to);
     mark(band, {from, middle, other}, poll);
     mark(band, {middle, to, other}, poll);
     return;
   }
   const VoxelIndex first = nearest_voxel(box.min - Vec3::Constant(kSlack)),
-                       last = nearest_voxel(box.max + Vec3::Constant(kSlack));
+                   last = nearest_voxel(box.max + Vec3::Constant(kSlack));
   for (int i = first[0]; i <= last[0]; ++i)
     for (int j = first[1]; j <= last[1]; ++j)
       for (int k = first[2]; k <= last[2]; ++k) {

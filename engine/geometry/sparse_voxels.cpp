@@ -23,8 +23,8 @@ Make* load() {
     if (void* found = dlsym(library, "impinge_make_sparse_voxels")) return reinterpret_cast<Make*>(found);
   }
   const char* why = dlerror();
-  throw InputError(std::string("distance fields need ") + kName + ", which is built beside the program: " +
-                   (why != nullptr ? why : "it has no such function"));
+  throw InputError(std::string("distance fields need ") + kName +
+                   ", which is built beside the program: " + (why != nullptr ? why : "it has no such function"));
 }
 
 }  // namespace

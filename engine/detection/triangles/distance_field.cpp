@@ -93,8 +93,7 @@ class DistanceFieldPhase final : public NarrowPhase {
   /// Triangles that the field doesn't tell to be farther than the margin.
   std::vector<int> near_triangles(const Lookup& lookup, const Collider& asking, const Collider& asked,
                                   double margin) const {
-    const FittedTree* fitted =
-        is_rigid(asking) ? nullptr : &fitted_[static_cast<std::size_t>(lookup.asking().value())];
+    const FittedTree* fitted = is_rigid(asking) ? nullptr : &fitted_[static_cast<std::size_t>(lookup.asking().value())];
     const BoxTree& tree = fitted != nullptr ? fitted->tree() : asking.mesh().tree();
     std::vector<int> near;
     if (tree.is_empty()) return near;

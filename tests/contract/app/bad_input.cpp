@@ -69,8 +69,8 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   check_scene(replaced(scene, "substeps = 2", "gravity = [0, inf, 0]"), "2:15", "inf");
   check_scene(replaced(scene, "substeps = 2", "gravity = [0, -9.81]"), "2:11", "[x, y, z]");
   check_scene(replaced(scene, "substeps = 2", "gravity = 9.81"), "2:11", "[x, y, z]");
-  check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[narrow_phase]\nmethod = \"distance_field\""), "2:10",
-              "not part of this version");
+  check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[narrow_phase]\nmethod = \"octree\""), "2:10",
+              "is not known");
   check_scene(replaced(scene, "[simulation]\nsubsteps = 2", "[response]\nmethod = \"constraint_anticipatoin\""), "2:10",
               "did you mean 'constraint_anticipation'?");
   check_scene(replaced(scene, "position = [0, 2, 0]", "positon = [0, 2, 0]"), "11:1", "did you mean 'position'?");
@@ -232,7 +232,7 @@ TEST_CASE("overrides are checked like the scene, and the message names them") {
   refused("body.crate.mass=-1", "greater than 0");
   refused("contact.friction", "no PATH=VALUE");
   refused("contact..friction=1", "empty name");
-  refused("narrow_phase.method=distance_field", "not part of this version");
+  refused("narrow_phase.method=octree", "is not known");
 }
 
 TEST_CASE("scripts are checked before frame 0, the nearest name is given") {

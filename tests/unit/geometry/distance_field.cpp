@@ -84,7 +84,8 @@ TEST_CASE("a distance field has the same values for every number of threads, and
     const Vec3 x(random.in(-1.5, 1.5), random.in(-1.5, 1.5), random.in(-1.5, 1.5));
     REQUIRE(one.at_least(x) == four.at_least(x));
   }
-  const std::shared_ptr<const DistanceField> first = of->field(20000), again = of->field(20000), other = of->field(5000);
+  const std::shared_ptr<const DistanceField> first = of->field(20000), again = of->field(20000),
+                                             other = of->field(5000);
   CHECK(first == again);
   CHECK(first != other);
   CHECK(other->voxels() <= 5000);
