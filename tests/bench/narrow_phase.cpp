@@ -12,6 +12,8 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "viewer/image/png.hpp"
+#include "viewer/present/plot_picture.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -29,8 +31,19 @@ struct Result {
   std::size_t pairs = 0;
 };
 
-// repeats until half a second is spent, three times at least (once if a single call takes more than two seconds)
-Result measure(const char* name, const ColliderSet& set, const std::vector<BodyPair>& pairs) {
+constexpr const char* kReference = "brute_force";
+
+// those that differ in how they search: `continuous` searches as bvh does
+std::vector<std::string> methods() {
+  std::vector<std::string> names;
+  for (const Entry<NarrowPhase>& entry : narrow_phases())
+    if (entry.name != "continuous") names.emplace_back(entry.name);
+  return names;
+}
+
+// Repeats until half a second is spent, three times at least (once if a single call takes more than two seconds);
+// trees and fields that are made once are not in it
+Result measure(const std::string& name, const ColliderSet& set, const std::vector<BodyPair>& pairs) {
   const std::unique_ptr<NarrowPhase> phase = find_entry(narrow_phases(), name)->make();
   std::vector<TrianglePair> found;
   double start = process_ms();
@@ -50,13 +63,32 @@ Result measure(const char* name, const ColliderSet& set, const std::vector<BodyP
   return {times[times.size() / 2], found.size()};
 }
 
-void row(const std::string& series, std::size_t triangles, const Result& tree, const Result& hash,
-         const Result& brute) {
-  fmt::print("{},{},{},{:.4f},{:.4f},{}\n", series, triangles, hash.pairs, tree.ms, hash.ms,
-             brute.ms > 0.0 ? fmt::format("{:.4f}", brute.ms) : "");
+std::vector<Result> measure_all(const std::vector<std::string>& names, const ColliderSet& set,
+                                const std::vector<BodyPair>& pairs) {
+  std::vector<Result> all;
+  for (const std::string& name : names) all.push_back(measure(name, set, pairs));
+  return all;
 }
 
-const char* difference(const Result& a, const Result& b) { return a.pairs == b.pairs ? "" : "  DIFFERENT PAIRS"; }
+void row(const std::string& series, std::size_t triangles, const std::vector<Result>& results) {
+  fmt::print("{},{},{}", series, triangles, results.front().pairs);
+  for (const Result& r : results) fmt::print(",{}", r.ms > 0.0 ? fmt::format("{:.4f}", r.ms) : "");
+  fmt::print("\n");
+}
+
+std::string cells(const std::vector<Result>& results) {
+  std::string text;
+  for (const Result& r : results) text += r.ms > 0.0 ? fmt::format(" {:>11.3f} ms", r.ms) : fmt::format(" {:>14}", "");
+  for (const Result& r : results)
+    if (r.ms > 0.0 && r.pairs != results.front().pairs) text += "  DIFFERENT PAIRS";
+  return text;
+}
+
+std::string head(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += fmt::format(" {:>14}", name);
+  return text;
+}
 
 // least squares slope of log(ms) over log(n)
 double exponent(const std::vector<std::pair<double, double>>& points) {
@@ -71,11 +103,13 @@ double exponent(const std::vector<std::pair<double, double>>& points) {
 
 // the seed's Fig. 6.4: 2,560 triangles, collisions from some ten to 5,000 and more. Two round spheres of 1,280
 // triangles reach a few hundred; eight of 320 that are drawn together reach the rest
-void figure_6_4() {
-  fmt::print(stderr,
-             "\nFig. 6.4 of the seed: 2,560 triangles, more and more of them intersecting\n{:>10} {:>12} {:>14} {:>14} "
-             "{:>14}\n",
-             "bodies", "collisions", "bvh", "spatial_hash", "brute_force");
+Plot figure_6_4() {
+  const std::vector<std::string> names = methods();
+  fmt::print(stderr, "\nFig. 6.4 of the seed: 2,560 triangles, more and more of them intersecting\n{:>10} {:>12}{}\n",
+             "bodies", "collisions", head(names));
+  Plot plot{"Narrow phase: 2,560 triangles, more and more of them in collision", "intersecting pairs of triangles",
+            "time, ms", {}};
+  for (const std::string& name : names) plot.series.push_back({name, {}});
   const auto show = [&](const ColliderSet& set) {
     std::vector<BodyPair> pairs;
     const int bodies = static_cast<int>(set.all().size());
@@ -83,11 +117,11 @@ void figure_6_4() {
       for (int j = i + 1; j < bodies; ++j)
         if (overlap(set.all()[static_cast<std::size_t>(i)].bounds, set.all()[static_cast<std::size_t>(j)].bounds))
           pairs.push_back({BodyIndex(i), BodyIndex(j), 0.0});  // as a broad phase hands them on
-    const Result tree = measure("bvh", set, pairs), hash = measure("spatial_hash", set, pairs),
-                 brute = measure("brute_force", set, pairs);
-    row(fmt::format("fig64_{}_bodies", bodies), 2560, tree, hash, brute);
-    fmt::print(stderr, "{:>10} {:>12} {:>11.3f} ms {:>11.3f} ms {:>11.3f} ms{}{}\n", bodies, hash.pairs, tree.ms,
-               hash.ms, brute.ms, difference(hash, brute), difference(tree, hash));
+    const std::vector<Result> results = measure_all(names, set, pairs);
+    row(fmt::format("fig64_{}_bodies", bodies), 2560, results);
+    fmt::print(stderr, "{:>10} {:>12}{}\n", bodies, results.front().pairs, cells(results));
+    for (std::size_t i = 0; i < names.size(); ++i)
+      plot.series[i].points.emplace_back(static_cast<double>(results[i].pairs), results[i].ms);
   };
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   const MeshPointer large = surface(icosphere(3)), small = surface(icosphere(2));
@@ -106,14 +140,17 @@ void figure_6_4() {
     }
     show(set);
   }
+  for (PlotSeries& series : plot.series)
+    std::sort(series.points.begin(), series.points.end(), [](const Vec2& l, const Vec2& r) { return l.x() < r.x(); });
+  return plot;
 }
 
 void growth(int finest) {
+  const std::vector<std::string> names = methods();
   fmt::print(stderr,
              "\nGrowth: two icospheres, far pose (rotated 0.7 rad, moved (0.35, 0.22, 0.13)) and near pose\n{:>6} "
-             "{:>10} {:>8} {:>14} {:>14} {:>14}   {}\n",
-             "pose", "triangles", "pairs", "bvh", "spatial_hash", "brute_force",
-             "peers, ms, printed figures of another machine");
+             "{:>10} {:>8}{}   {}\n",
+             "pose", "triangles", "pairs", head(names), "peers, ms, printed figures of another machine");
   const char* peers[] = {"",
                          "Embree query 0.25, refit+query 0.6-0.8; FCL AABB refit+query 1.5-1.9",
                          "Embree query 0.45, refit+query 2; FCL 4-5; CGAL 12",
@@ -123,7 +160,7 @@ void growth(int finest) {
   const std::size_t expected[] = {174, 346, 702, 1400, 2798, 5598};
   const Vec3 axis = Vec3(1, 2, 3).normalized();
   for (const bool is_far : {true, false}) {
-    std::vector<std::pair<double, double>> tree_points, hash_points, brute_points;
+    std::vector<std::vector<std::pair<double, double>>> points(names.size());
     const char* pose = is_far ? "far" : "near";
     for (int k = 3; k <= finest; ++k) {
       const MeshPointer mesh = surface(icosphere(k));
@@ -133,23 +170,19 @@ void growth(int finest) {
       set.add(mesh, is_far ? Pose{Eigen::AngleAxisd(0.7, axis).toRotationMatrix(), Vec3(0.35, 0.22, 0.13)}
                            : Pose{Eigen::AngleAxisd(0.05, axis).toRotationMatrix(), Vec3(0.010, 0.007, 0.003)});
       const std::vector<BodyPair> pair = {{BodyIndex(0), BodyIndex(1), 0.0}};
-      const Result tree = measure("bvh", set, pair), hash = measure("spatial_hash", set, pair);
-      Result brute;
-      if (k <= 5) brute = measure("brute_force", set, pair);
-      tree_points.emplace_back(static_cast<double>(triangles), tree.ms);
-      hash_points.emplace_back(static_cast<double>(triangles), hash.ms);
-      if (k <= 5) brute_points.emplace_back(static_cast<double>(triangles), brute.ms);
-      const double extrapolated =
-          brute_points.back().second * std::pow(static_cast<double>(triangles) / brute_points.back().first, 2.0);
-      row(fmt::format("growth_{}", pose), triangles, tree, hash, brute);
-      fmt::print(stderr, "{:>6} {:>10} {:>8} {:>11.3f} ms {:>11.3f} ms {:>11.1f} ms{} {}{}{}\n", pose, triangles,
-                 hash.pairs, tree.ms, hash.ms, extrapolated, k <= 5 ? " " : "*", is_far && k >= 4 ? peers[k - 3] : "",
-                 is_far && hash.pairs != expected[k - 3] ? "  WRONG NUMBER OF PAIRS" : "", difference(tree, hash));
+      std::vector<Result> results;
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        results.push_back(names[i] == kReference && k > 5 ? Result{} : measure(names[i], set, pair));
+        if (results.back().ms > 0.0) points[i].emplace_back(static_cast<double>(triangles), results.back().ms);
+      }
+      row(fmt::format("growth_{}", pose), triangles, results);
+      fmt::print(stderr, "{:>6} {:>10} {:>8}{}   {}{}\n", pose, triangles, results.front().pairs, cells(results),
+                 is_far && k >= 4 ? peers[k - 3] : "",
+                 is_far && results.front().pairs != expected[k - 3] ? "  WRONG NUMBER OF PAIRS" : "");
     }
-    fmt::print(stderr,
-               "  {} pose: time grows as n^{:.2f} (bvh), n^{:.2f} (spatial_hash), n^{:.2f} (brute_force, measured to "
-               "40,960 triangles; * extrapolated with n^2)\n",
-               pose, exponent(tree_points), exponent(hash_points), exponent(brute_points));
+    fmt::print(stderr, "  {} pose: time grows as", pose);
+    for (std::size_t i = 0; i < names.size(); ++i) fmt::print(stderr, " n^{:.2f} ({})", exponent(points[i]), names[i]);
+    fmt::print(stderr, "; {} measured to 40,960 triangles\n", kReference);
   }
 }
 
@@ -157,22 +190,29 @@ void growth(int finest) {
 
 int main(int argc, char** argv) {
   int threads = 1, finest = 7;
+  std::string picture;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--threads" && i + 1 < argc) {
       threads = std::atoi(argv[++i]);
     } else if (word == "--finest" && i + 1 < argc) {
       finest = std::clamp(std::atoi(argv[++i]), 3, 8);
+    } else if (word == "--plot" && i + 1 < argc) {
+      picture = argv[++i];
     } else {
-      fmt::print(stderr,
-                 "usage: bench_narrow_phase [--threads N] [--finest K]\n  K: finest icosphere, 20·4^K triangles a body "
-                 "(3 to 8, default 7: 655,360 together)\n");
+      fmt::print(
+          stderr,
+          "usage: bench_narrow_phase [--threads N] [--finest K] [--plot FILE.png]\n  K: finest icosphere, 20·4^K "
+          "triangles a body (3 to 8, default 7: 655,360 together)\n  --plot: Fig. 6.4 of the seed as a picture\n");
       return 2;
     }
   }
   set_thread_count(threads);
-  fmt::print("series,triangles,pairs,bvh_ms,spatial_hash_ms,brute_force_ms\n");
+  fmt::print("series,triangles,pairs");
+  for (const std::string& name : methods()) fmt::print(",{}_ms", name);
+  fmt::print("\n");
   fmt::print(stderr, "processor time of {} thread{}\n", threads, threads == 1 ? "" : "s");
-  figure_6_4();
+  const Plot plot = figure_6_4();
+  if (!picture.empty()) write_png(picture, paint_plots({plot}, 1280, 720).front());
   growth(finest);
 }

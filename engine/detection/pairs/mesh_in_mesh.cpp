@@ -10,7 +10,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kSmall = 0.5;  // of the other's size
+constexpr double kSmall = 0.8;  // of the other's size
 constexpr double kDeep = 0.25;  // of the small one's size
 
 /// The vertex that lies farthest against a direction, of those that triangles have.
