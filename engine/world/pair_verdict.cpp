@@ -175,9 +175,11 @@ class Report {
     std::size_t count = 0, crossing = 0;
     for (const TrianglePair& t : step_.triangle_pairs)
       if (t.a == v_.a && t.b == v_.b) ++count, crossing += t.intersecting ? 1 : 0;
-    add("candidates", count > 0,
-        fmt::format("{} finds {} up to {} apart, {} of them crossing", world_.parameters.narrow_phase.method.name(),
-                    several(count, "triangle pair"), metres(margin_), crossing),
+    const bool is_inside = count == 0 && v_.in_contact();
+    add("candidates", count > 0 || is_inside,
+        fmt::format("{} finds {} up to {} apart, {} of them crossing{}", world_.parameters.narrow_phase.method.name(),
+                    several(count, "triangle pair"), metres(margin_), crossing,
+                    is_inside ? ": one body lies inside the other" : ""),
         {{"triangle_pairs", static_cast<double>(count)},
          {"crossing", static_cast<double>(crossing)},
          {"margin_m", margin_}});

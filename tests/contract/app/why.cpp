@@ -190,6 +190,27 @@ TEST_CASE("why looks at triangles and at what deforms") {
   CHECK(says(apart.out, "\"stopped_by\": \"boxes\""));
 }
 
+TEST_CASE("why says that one mesh lies inside another") {
+  const Files files;
+  files.folder.write("meshes/core.off", off_text(box(Vec3::Constant(0.02))));
+  files.folder.write("nested.toml", R"([[body]]
+name = "outer"
+kind = "static"
+surface = "meshes/block.off"
+[[body]]
+name = "inner"
+kind = "dynamic"
+surface = "meshes/core.off"
+position = [0.05, 0, 0]
+)");
+  const Outcome nested = files.why({"outer", "inner"}, {"--frame", "0"}, "nested.toml");
+  INFO(nested.out);
+  CHECK(says(nested.out, "in contact, 1 contact\n"));
+  CHECK(says(line_of(nested.out, "candidates"), "one body lies inside the other"));
+  // 0.05 m to the face and 0.02 m beyond the middle
+  CHECK(says(line_of(nested.out, "contacts"), "the smallest gap is -0.07 m, normal (-1, 0, 0)"));
+}
+
 TEST_CASE("why names the filter that stops a pair") {
   const Files files;
   const auto stopped = [&](std::vector<std::string> pair, const std::string& filter,
