@@ -6,21 +6,31 @@
 
 namespace impinge {
 
+/// What copies of an object don't share: a copy starts with a state of its own, as if new.
+template <class State>
+class OwnState {
+ public:
+  OwnState() = default;
+  OwnState(const OwnState&) : OwnState() {}
+  OwnState& operator=(const OwnState&) {
+    state_ = std::make_shared<State>();
+    return *this;
+  }
+  State& operator*() const { return *state_; }
+
+ private:
+  std::shared_ptr<State> state_ = std::make_shared<State>();
+};
+
 /// A copy starts anew: what was made belongs to the original. T may be incomplete but where it is made.
 template <class T>
 class Lazily {
  public:
-  Lazily() = default;
-  Lazily(const Lazily&) : Lazily() {}
-  Lazily& operator=(const Lazily&) {
-    state_ = std::make_shared<State>();
-    return *this;
-  }
-
   template <class Make>
   const T& get(Make&& make) const {
-    std::call_once(state_->once, [&] { state_->value = std::make_shared<const T>(make()); });
-    return *state_->value;
+    State& state = *state_;
+    std::call_once(state.once, [&] { state.value = std::make_shared<const T>(make()); });
+    return *state.value;
   }
 
  private:
@@ -28,7 +38,7 @@ class Lazily {
     std::once_flag once;
     std::shared_ptr<const T> value;
   };
-  std::shared_ptr<State> state_ = std::make_shared<State>();
+  OwnState<State> state_;
 };
 
 /// The same for something that is made in one of several ways: anew where `is_wanted` denies what was made last. One that
@@ -36,18 +46,12 @@ class Lazily {
 template <class T>
 class LazilyAnew {
  public:
-  LazilyAnew() = default;
-  LazilyAnew(const LazilyAnew&) : LazilyAnew() {}
-  LazilyAnew& operator=(const LazilyAnew&) {
-    state_ = std::make_shared<State>();
-    return *this;
-  }
-
   template <class IsWanted, class Make>
   std::shared_ptr<const T> get(IsWanted&& is_wanted, Make&& make) const {
-    const std::lock_guard lock(state_->mutex);
-    if (!state_->value || !is_wanted(*state_->value)) state_->value = make();
-    return state_->value;
+    State& state = *state_;
+    const std::lock_guard lock(state.mutex);
+    if (!state.value || !is_wanted(*state.value)) state.value = make();
+    return state.value;
   }
 
  private:
@@ -55,7 +59,7 @@ class LazilyAnew {
     std::mutex mutex;
     std::shared_ptr<const T> value;
   };
-  std::shared_ptr<State> state_ = std::make_shared<State>();
+  OwnState<State> state_;
 };
 
 }  // namespace impinge

@@ -31,6 +31,25 @@ class BoxTree {
   /// The nodes' boxes for other boxes of the same number, into `fitted`, by node.
   void fit(std::span<const Aabb> boxes, std::vector<Aabb>& fitted) const;
 
+  /// Calls visit(box) for the boxes of every leaf that meets(node) lets through with all nodes above it.
+  template <class Meets, class Visit>
+  void search(Meets&& meets, Visit&& visit) const {
+    if (is_empty()) return;
+    std::vector<int> waiting = {0};
+    while (!waiting.empty()) {
+      const int n = waiting.back();
+      waiting.pop_back();
+      if (!meets(n)) continue;
+      const Node& node = nodes_[static_cast<std::size_t>(n)];
+      if (node.is_leaf()) {
+        for (int i = node.first; i < node.first + node.count; ++i) visit(order_[static_cast<std::size_t>(i)]);
+      } else {
+        waiting.push_back(node.second);
+        waiting.push_back(n + 1);
+      }
+    }
+  }
+
  private:
   std::vector<Node> nodes_;
   std::vector<int> order_;

@@ -34,6 +34,7 @@ struct GroupResult {
   // the answer, by body of the group
   std::vector<BodyVector> velocity;      ///< Δv
   std::vector<BodyVector> displacement;  ///< recovery from overlap, metres and radians; empty: none
+  std::vector<double> push_out;          ///< how fast that is at each body's fastest point, m/s; empty: none
 
   // how it was found
   ResponseResult response;                   ///< of the last solve

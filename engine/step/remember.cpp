@@ -24,16 +24,11 @@ std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupR
 }
 
 std::vector<double> push_out_speeds(const Bodies& bodies, std::span<const CollisionGroup> groups,
-                                    std::span<const GroupResult> results, double time_step) {
+                                    std::span<const GroupResult> results) {
   std::vector<double> speeds(bodies.size(), 0.0);
   for (std::size_t g = 0; g < results.size(); ++g)
-    for (std::size_t i = 0; i < results[g].displacement.size(); ++i) {
-      const BodyIndex b = groups[g].bodies[i];
-      const BodyVector& by = results[g].displacement[i];
-      double way = by.twist.linear.norm() + by.twist.angular.norm() * bodies[b].radius;
-      for (Eigen::Index k = 0; k + 2 < by.nodes.size(); k += 3) way = std::max(way, by.nodes.segment<3>(k).norm());
-      speeds[static_cast<std::size_t>(b.value())] = way / time_step;
-    }
+    for (std::size_t i = 0; i < results[g].push_out.size(); ++i)
+      speeds[static_cast<std::size_t>(groups[g].bodies[i].value())] = results[g].push_out[i];
   return speeds;
 }
 

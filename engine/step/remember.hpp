@@ -13,8 +13,8 @@ std::vector<ContactCache::Item> impulses_to_remember(const Bodies& bodies, const
 /// (body, scripted body) of all contacts that were solved.
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results);
 
-/// By body, how fast its recovery from overlap moves it in this sub-step, m/s, at most; the groups' results in their order.
+/// By body, how fast recovery from overlap moved it, m/s; the groups' results in their order.
 std::vector<double> push_out_speeds(const Bodies& bodies, std::span<const CollisionGroup> groups,
-                                    std::span<const GroupResult> results, double time_step);
+                                    std::span<const GroupResult> results);
 
 }  // namespace impinge

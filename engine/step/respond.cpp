@@ -22,6 +22,14 @@ constexpr double kWorthwhile = 0.9;  // of what turning took before another solv
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
+/// Of a body that moves so; `radius`: how far a rigid one reaches, metres.
+double fastest_point(const BodyVector& velocity, double radius) {
+  double fastest = velocity.twist.linear.norm() + velocity.twist.angular.norm() * radius;
+  for (Eigen::Index k = 0; k + 2 < velocity.nodes.size(); k += 3)
+    fastest = std::max(fastest, velocity.nodes.segment<3>(k).norm());
+  return fastest;
+}
+
 /// The solution of one group, from its system to the value that it hands on.
 class GroupSolve {
  public:
@@ -128,14 +136,9 @@ class GroupSolve {
   }
 
   void push_out() {
-    const auto move = [&](const std::vector<Vec3>& linear, const std::vector<Vec3>& angular,
-                          const std::vector<VecX>& nodes, double share) {
-      const double h = share * input_.time_step;
-      result_.displacement = now_.by_body(group_, linear, angular, nodes);
-      for (BodyVector& by : result_.displacement) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
-    };
     const GroupSystem& s = system();
-    if (!s.position_velocity.empty()) return move(s.position_velocity, s.position_angular_velocity, {}, 1.0);
+    if (!s.position_velocity.empty())
+      return displace(now_.by_body(group_, s.position_velocity, s.position_angular_velocity, {}), 1.0);
     if (how_.response.lives_on_overlap() || !needs_push_out(s, how_.contact, input_.time_step)) return;
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, how_.contact, input_.time_step);
@@ -146,24 +149,27 @@ class GroupSolve {
     count(solved);
     if (!solved.converged()) settle_contradiction(recovery);
     // where bodies are wedged the way out is longer than the overlap: it is gone a part a sub-step, in the same proportions
-    move(recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta, share_of(recovery));
+    std::vector<BodyVector> velocity =
+        now_.by_body(group_, recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta);
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+      result_.push_out.push_back(fastest_point(velocity[i], bodies_[group_.bodies[i]].radius));
+    const double share = share_of(result_.push_out);
+    for (double& speed : result_.push_out) speed *= share;
+    displace(std::move(velocity), share);
+  }
+
+  void displace(std::vector<BodyVector> velocity, double share) {
+    const double h = share * input_.time_step;
+    for (BodyVector& by : velocity) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
+    result_.displacement = std::move(velocity);
   }
 
   /// The largest part of a recovery that moves no point of a body faster than max_push_out allows.
-  double share_of(const GroupSystem& moving) const {
+  double share_of(std::span<const double> fastest) const {
     double share = 1.0;
-    const auto slow_down = [&](BodyIndex b, double fastest) {
-      const double most = how_.contact.max_push_out.at(speed_scale(input_.gravity, bodies_[b].size));
-      if (fastest > most) share = std::min(share, most / fastest);
-    };
-    for (std::size_t i = 0; i < now_.rigid.size(); ++i)
-      slow_down(now_.rigid[i], moving.delta_velocity[i].norm() +
-                                   moving.delta_angular_velocity[i].norm() * bodies_[now_.rigid[i]].radius);
-    for (std::size_t i = 0; i < now_.deformable.size(); ++i) {
-      const VecX& nodes = moving.deformable_delta[i];
-      double fastest = 0.0;
-      for (Eigen::Index k = 0; k + 2 < nodes.size(); k += 3) fastest = std::max(fastest, nodes.segment<3>(k).norm());
-      slow_down(now_.deformable[i], fastest);
+    for (std::size_t i = 0; i < fastest.size(); ++i) {
+      const double most = how_.contact.max_push_out.at(speed_scale(input_.gravity, bodies_[group_.bodies[i]].size));
+      if (fastest[i] > most) share = std::min(share, most / fastest[i]);
     }
     return share;
   }

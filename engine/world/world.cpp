@@ -168,10 +168,7 @@ void World::take_results(FrozenStep* frozen) {
   time_ += s.time_step;
   const Parameters::Simulation& p = parameters.simulation;
   if (!p.sleeping) return;
-  std::vector<double> pushed(bodies_.size(), 0.0);
-  if (!parameters.response.method->lives_on_overlap())
-    pushed = push_out_speeds(bodies_, s.groups, s.results, s.time_step);
-  sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), pushed,
+  sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), push_out_speeds(bodies_, s.groups, s.results),
                    {p.sleep_speed, p.sleep_time, scale_gravity(p.gravity)}, s.time_step);
 }
 

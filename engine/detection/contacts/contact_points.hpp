@@ -1,10 +1,16 @@
 // From triangle pairs to contacts between two meshes: the two meanings of `contact.points`.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/detection/collider.hpp"
 #include "engine/detection/collision.hpp"
 
 namespace impinge {
+
+inline bool any_crosses(std::span<const TrianglePair> triangles) {
+  return std::any_of(triangles.begin(), triangles.end(), [](const TrianglePair& t) { return t.intersecting; });
+}
 
 /// Appends the contacts of one mesh-mesh body pair as the seed defines them [Haapaoja16 §3.2.3]: for each intersecting
 /// triangle pair the deepest vertex and the point where a ray against its relative velocity meets the other triangle,

@@ -132,7 +132,7 @@ void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pai
                         std::vector<Collision>& contacts) {
   if (triangles.empty()) return;
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
-  const bool crosses = std::any_of(triangles.begin(), triangles.end(), [](const auto& p) { return p.intersecting; });
+  const bool crosses = any_crosses(triangles);
   const double margin = std::max({pair.margin, activation, crosses ? kDeep * std::min(a.size, b.size) : 0.0});
   const ProximityQuery query{SurfaceView(a, pair.a),
                              SurfaceView(b, pair.b),

@@ -136,4 +136,15 @@ bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& b
   return BallTest(sink, mesh, ball).run();
 }
 
+std::optional<Collision> way_out(const ContactSink& sink, const SurfaceView& mesh, const Vec3& x) {
+  ContactQuery at_once = sink.query();
+  at_once.activation = 0.0;
+  at_once.time_step = 0.0;
+  const Collider local[2] = {sink.first(), sink.second()};
+  std::vector<Collision> out;
+  ContactSink only(local, {BodyIndex(0), BodyIndex(1), 0.0}, false, at_once, out);
+  if (!add_ball_contacts(only, mesh, {x, 0.0, Feature::shape, 0}) || out.empty()) return std::nullopt;
+  return out.front();
+}
+
 }  // namespace impinge

@@ -1,6 +1,8 @@
 // A ball against a mesh: the contacts of a sphere, of a capsule's caps, and the way out of a body that is deep inside.
 #pragma once
 
+#include <optional>
+
 #include "engine/detection/contacts/surface_view.hpp"
 #include "engine/detection/pairs/contact_sink.hpp"
 
@@ -18,5 +20,9 @@ struct Ball {
 /// each local minimum of its distance to the surface (a ball on a tessellated plane has one, wherever it rolls); a
 /// centre inside gives one, out through the nearest point. Returns whether the centre is inside.
 bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball);
+
+/// The shortest way out of the mesh that is the sink's second shape for a point x, as a contact of a ball without radius
+/// that is in no sink; none if x is outside. Whether x is near the surface doesn't matter.
+std::optional<Collision> way_out(const ContactSink& sink, const SurfaceView& mesh, const Vec3& x);
 
 }  // namespace impinge

@@ -1,9 +1,9 @@
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
+#include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/detection/pairs/ball_against_mesh.hpp"
 
@@ -25,23 +25,13 @@ int farthest_against(const SurfaceView& view, const Collider& mesh, const Vec3& 
 /// The sink's two meshes, the first of which may be inside the second.
 class Inside {
  public:
-  explicit Inside(ContactSink& sink)
-      : sink_(sink), local_{sink.first(), sink.second()}, inner_(sink.first(), 0), outer_(sink.second(), 1) {}
+  explicit Inside(ContactSink& sink) : sink_(sink), inner_(sink.first(), 0), outer_(sink.second(), 1) {}
 
   Vec3 any_point() const { return inner_.vertex(inner_.triangle(0)[0]); }
   /// A rigid body's centre of mass: pushed there, a body doesn't turn on its way.
   Vec3 middle() const { return inner_.is_deforming() ? sink_.first().bounds.center() : sink_.first().pose.position; }
 
-  /// The shortest way for x; none if it is outside.
-  std::optional<Collision> way_out(const Vec3& x) const {
-    ContactQuery all = sink_.query();
-    all.activation = 0.0;
-    all.time_step = 0.0;
-    std::vector<Collision> out;
-    ContactSink only(local_, {BodyIndex(0), BodyIndex(1), 0.0}, false, all, out);
-    if (!add_ball_contacts(only, outer_, {x, 0.0, Feature::shape, 0}) || out.empty()) return std::nullopt;
-    return out.front();
-  }
+  std::optional<Collision> way_out(const Vec3& x) const { return impinge::way_out(sink_, outer_, x); }
 
   /// For the whole body, along a way that one of its points has.
   void add(const Collision& way) {
@@ -62,7 +52,6 @@ class Inside {
 
  private:
   ContactSink& sink_;
-  const std::array<Collider, 2> local_;
   SurfaceView inner_, outer_;
 };
 
@@ -104,10 +93,6 @@ bool may_be_inside(const Collider& mesh, const Collider& body) {
   const Aabb &outer = mesh.bounds, &inner = body.bounds;
   return (outer.min.array() <= inner.min.array()).all() && (inner.max.array() <= outer.max.array()).all() &&
          mesh.mesh().topology.is_closed();
-}
-
-bool any_crosses(std::span<const TrianglePair> triangles) {
-  return std::any_of(triangles.begin(), triangles.end(), [](const TrianglePair& t) { return t.intersecting; });
 }
 
 bool mesh_in_mesh(std::span<const Collider> colliders, const BodyPair& pair, std::span<const TrianglePair> triangles,

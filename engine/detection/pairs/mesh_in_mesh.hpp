@@ -8,8 +8,6 @@ namespace impinge {
 /// Whether the box of a body lies in that of a mesh that encloses something.
 bool may_be_inside(const Collider& mesh, const Collider& body);
 
-bool any_crosses(std::span<const TrianglePair> triangles);
-
 /// Whether the one mesh of a pair is inside what the other encloses, or a much smaller one is deep in it; then appends one
 /// contact, along the shortest way out for one of its points, and features have nothing to say. `triangles`: those of the
 /// pair that are near.

@@ -57,23 +57,16 @@ std::vector<int> triangles_in_frame(const Collider& mesh, const OrientedBox& fra
 }  // namespace
 
 bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<double(const Vec3&)>& reach_against) {
-  ContactQuery all = sink.query();
-  all.activation = 0.0;
-  all.time_step = 0.0;
-  const Collider local[2] = {sink.first(), sink.second()};
-  std::vector<Collision> out;
-  ContactSink way_out(local, {BodyIndex(0), BodyIndex(1), 0.0}, false, all, out);
-  if (!add_ball_contacts(way_out, SurfaceView(sink.second(), 1), {center, 0.0, Feature::shape, 0})) return false;
-  for (const Collision& found : out) {
-    Candidate c;
-    c.normal = found.normal;
-    c.point_first = center - reach_against(found.normal) * found.normal;
-    c.point_second = found.point_b;
-    c.triangle_second = found.triangle_b;
-    c.kind_second = Feature::face;
-    c.index_second = found.triangle_b;
-    sink.add(c);
-  }
+  const std::optional<Collision> way = way_out(sink, SurfaceView(sink.second(), 1), center);
+  if (!way) return false;
+  Candidate c;
+  c.normal = way->normal;
+  c.point_first = center - reach_against(way->normal) * way->normal;
+  c.point_second = way->point_b;
+  c.triangle_second = way->triangle_b;
+  c.kind_second = Feature::face;
+  c.index_second = way->triangle_b;
+  sink.add(c);
   return true;
 }
 

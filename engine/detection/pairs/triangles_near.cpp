@@ -21,22 +21,11 @@ double slack(const Collider& mesh, const Aabb& box) {
   return 1e-12 * (largest_coordinate(box) + largest_coordinate(mesh.bounds));
 }
 
-/// Triangles in leaves that `meets` finds with all that holds them.
+/// Triangles in leaves whose boxes, and those above, `meets` says yes to; ascending.
 template <class Meets>
 std::vector<int> search(const BoxTree& tree, Meets&& meets) {
-  std::vector<int> found, waiting = {0};
-  while (!waiting.empty()) {
-    const int n = waiting.back();
-    waiting.pop_back();
-    const BoxTree::Node& node = tree.nodes()[n];
-    if (!meets(node.box)) continue;
-    if (node.is_leaf()) {
-      for (int i = node.first; i < node.first + node.count; ++i) found.push_back(tree.order()[i]);
-    } else {
-      waiting.push_back(node.second);
-      waiting.push_back(n + 1);
-    }
-  }
+  std::vector<int> found;
+  tree.search([&](int n) { return meets(tree.nodes()[n].box); }, [&](int t) { found.push_back(t); });
   std::sort(found.begin(), found.end());
   return found;
 }

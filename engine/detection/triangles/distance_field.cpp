@@ -3,7 +3,6 @@
 // passed over, and so no node of the other's tree is looked at for it. The field belongs to a surface that doesn't
 // deform, and is made once. What is left is tested as everywhere; pairs without such a surface go through `bvh`.
 #include <cmath>
-#include <mutex>
 
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
@@ -96,36 +95,26 @@ class DistanceFieldPhase final : public NarrowPhase {
     const FittedTree* fitted = is_rigid(asking) ? nullptr : &fitted_[static_cast<std::size_t>(lookup.asking().value())];
     const BoxTree& tree = fitted != nullptr ? fitted->tree() : asking.mesh().tree();
     std::vector<int> near;
-    if (tree.is_empty()) return near;
     const Pose frame = fitted != nullptr ? Pose() : asking.pose;
     const std::shared_ptr<const DistanceField> field = asked.mesh().field(static_cast<std::size_t>(settings_.voxels));
     DistanceField::Reader reader(*field);
     const auto is_far = [&](const Vec3& center, double radius) {
       return reader.at_least(asked.pose.apply_inverse(center)) > radius * (1.0 + 1e-9) + margin;
     };
-    std::vector<int> waiting = {0};
     InterruptPoll poll;
-    while (!waiting.empty()) {
-      const int n = waiting.back();
-      waiting.pop_back();
-      poll();
-      const BoxTree::Node& node = tree.nodes()[n];
-      const Aabb& box = fitted != nullptr ? fitted->boxes()[n] : node.box;
-      if (is_far(frame.apply(box.center()), 0.5 * box.extent().norm())) continue;
-      if (!node.is_leaf()) {
-        waiting.push_back(node.second);
-        waiting.push_back(n + 1);
-        continue;
-      }
-      for (int i = node.first; i < node.first + node.count; ++i) {
-        const int t = tree.order()[i];
-        const TriangleCorners c = corners_of(asking, t);
-        const Vec3 center = (c[0] + c[1] + c[2]) / 3.0;
-        double radius = 0.0;
-        for (const Vec3& corner : c) radius = std::max(radius, (corner - center).norm());
-        if (!is_far(center, radius)) near.push_back(t);
-      }
-    }
+    tree.search(
+        [&](int n) {
+          poll();
+          const Aabb& box = fitted != nullptr ? fitted->boxes()[n] : tree.nodes()[n].box;
+          return !is_far(frame.apply(box.center()), 0.5 * box.extent().norm());
+        },
+        [&](int t) {
+          const TriangleCorners c = corners_of(asking, t);
+          const Vec3 center = (c[0] + c[1] + c[2]) / 3.0;
+          double radius = 0.0;
+          for (const Vec3& corner : c) radius = std::max(radius, (corner - center).norm());
+          if (!is_far(center, radius)) near.push_back(t);
+        });
     return near;
   }
 
@@ -138,30 +127,20 @@ class DistanceFieldPhase final : public NarrowPhase {
                            asked.pose.apply_inverse(corners[2])};
     const Aabb around = bounds_of(local[0], local[1], local[2]).inflated(margin);
     const BoxTree& tree = asked.mesh().tree();
-    std::vector<int> waiting = {0};
-    while (!waiting.empty()) {
-      const int n = waiting.back();
-      waiting.pop_back();
+    const auto meets = [&](int n) {
       poll();
-      const BoxTree::Node& node = tree.nodes()[n];
-      if (!overlap(node.box, around)) continue;
-      if (!node.is_leaf()) {
-        waiting.push_back(node.second);
-        waiting.push_back(n + 1);
-        continue;
-      }
-      for (int i = node.first; i < node.first + node.count; ++i) {
-        const int other = tree.order()[i];
-        const TriangleCorners others = corners_of(asked, other);
-        if (!overlap(box, search_box(others, lookup.pair.margin))) continue;
-        const bool is_a = !lookup.is_a_asked;  // the own triangle is of A
-        const PairState state = is_a ? test_triangles(corners, others, lookup.pair.margin)
-                                     : test_triangles(others, corners, lookup.pair.margin);
-        if (state == PairState::apart) continue;
-        out.push_back({lookup.pair.a, lookup.pair.b, TriangleIndex(is_a ? own : other),
-                       TriangleIndex(is_a ? other : own), state == PairState::intersecting});
-      }
-    }
+      return overlap(tree.nodes()[n].box, around);
+    };
+    tree.search(meets, [&](int other) {
+      const TriangleCorners others = corners_of(asked, other);
+      if (!overlap(box, search_box(others, lookup.pair.margin))) return;
+      const bool is_a = !lookup.is_a_asked;  // the own triangle is of A
+      const PairState state = is_a ? test_triangles(corners, others, lookup.pair.margin)
+                                   : test_triangles(others, corners, lookup.pair.margin);
+      if (state == PairState::apart) return;
+      out.push_back({lookup.pair.a, lookup.pair.b, TriangleIndex(is_a ? own : other), TriangleIndex(is_a ? other : own),
+                     state == PairState::intersecting});
+    });
   }
 
   Settings settings_;
