@@ -44,7 +44,7 @@ TEST_CASE("max_penetration of 300 random poses of two meshes is the judge's") {
     if (truth.penetration > 1e-6) {
       ++overlapping;
       CHECK(shown >= truth.penetration * (1.0 - 1e-9));
-      CHECK(shown <= 2.0 * truth.penetration);
+      CHECK(shown <= 2.0 * truth.penetration * (1.0 + 1e-9));
     }
     double deepest = 0.0;
     for (const ContactRecord& c : world.record().contacts) {
@@ -79,7 +79,7 @@ TEST_CASE("max_penetration of meshes that meet faster than contacts see is the j
       const double shown = world.record().stats.max_penetration;
       CAPTURE(i, frame, truth.penetration, truth.intersections, shown);
       CHECK(shown >= 0.5 * truth.penetration);
-      CHECK(shown <= 2.0 * truth.penetration);
+      CHECK(shown <= 2.0 * truth.penetration * (1.0 + 1e-9));
       CHECK(world.record().stats.substep_penetration >= shown);
     }
   }
