@@ -31,6 +31,16 @@ class Inside {
   /// A rigid body's centre of mass: pushed there, a body doesn't turn on its way.
   Vec3 middle() const { return inner_.is_deforming() ? sink_.first().bounds.center() : sink_.first().pose.position; }
 
+  /// Whether most of the inner mesh's vertices are, by some of them.
+  bool is_most() const {
+    constexpr std::size_t kAsked = 64;
+    const std::span<const Vec3> all = sink_.first().vertices;
+    const std::size_t stride = (all.size() + kAsked - 1) / kAsked;
+    std::size_t asked = 0, found = 0;
+    for (std::size_t v = 0; v < all.size(); v += stride) ++asked, found += way_out(all[v]) ? 1 : 0;
+    return 2 * found > asked;
+  }
+
   std::optional<Collision> way_out(const Vec3& x) const { return impinge::way_out(sink_, outer_, x); }
 
   /// For the whole body, along a way that one of its points has.
@@ -66,25 +76,27 @@ bool add_enclosed_mesh(ContactSink& sink) {
 }
 
 /// A small mesh that has come through a large one's surface in part, and is still deep in it: where what sticks out is
-/// seen alone, the shortest way is back in.
+/// seen alone, the shortest way is back in. How deep says a vertex: the middle of a nut is inside its bolt.
 bool add_deep(std::span<const Collider> colliders, const BodyPair& pair, std::span<const TrianglePair> triangles,
               const ContactQuery& query, std::vector<Collision>& contacts) {
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
   const bool is_a_small = a.size < b.size;
   const double small = std::min(a.size, b.size);
   if (!(small <= kSmall * std::max(a.size, b.size)) || !(is_a_small ? b : a).mesh().topology.is_closed()) return false;
-  ContactSink sink(colliders, pair, !is_a_small, query, contacts);
-  Inside inside(sink);
-  if (const std::optional<Collision> way = inside.way_out(inside.middle())) {
-    inside.add(*way);
-    return true;
-  }
   const std::optional<Collision> deepest = find_overlap(colliders, pair, triangles).deepest;
   if (!deepest || deepest->gap > -kDeep * small) return false;
   const FeaturePair features = features_of_key(deepest->feature);
-  if ((is_a_small ? features.kind_a : features.kind_b) != Feature::vertex) return false;
-  contacts.push_back(*deepest);
-  return true;
+  const bool is_of_small = (is_a_small ? features.kind_a : features.kind_b) == Feature::vertex;
+  ContactSink sink(colliders, pair, !is_a_small, query, contacts), turned(colliders, pair, is_a_small, query, contacts);
+  Inside inside(sink);
+  // the middle of a ring is no part of it, and tells where it is only if the ring is there too
+  const bool tells = way_out(turned, SurfaceView(turned.second(), 1), inside.middle()).has_value() || inside.is_most();
+  const std::optional<Collision> way = tells ? inside.way_out(inside.middle()) : std::nullopt;
+  if (way)
+    inside.add(*way);
+  else if (is_of_small)
+    contacts.push_back(*deepest);
+  return way || is_of_small;
 }
 
 }  // namespace
