@@ -178,9 +178,9 @@ std::vector<char> contacts_that_stay(std::span<const Collision> contacts, const 
   return PairReduction(contacts, is_preferred, how).run();
 }
 
-std::vector<DroppedContacts> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
-                                             std::span<const Collider> colliders, std::span<const Collision> asked,
-                                             const ContactSettings& contact, std::vector<Collision>& collisions) {
+std::vector<Collision> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
+                                       std::span<const Collider> colliders, std::span<const Collision> asked,
+                                       const ContactSettings& contact, std::vector<Collision>& collisions) {
   const auto is_asked = [&](const Collision& c) {
     return std::any_of(asked.begin(), asked.end(), [&](const Collision& a) {
       return a.body_a == c.body_a && a.body_b == c.body_b && a.feature == c.feature;
@@ -198,18 +198,14 @@ std::vector<DroppedContacts> reduce_contacts(const Bodies& bodies, const Contact
     return contacts_that_stay(of_pair, is_preferred,
                               {contact.activation(pair_size(bodies[a], bodies[b])), contact.most_contacts});
   };
-  std::vector<Collision> kept;
-  std::vector<DroppedContacts> dropped;
+  std::vector<Collision> kept, dropped;
   for (std::size_t first = 0, last = 0; first < collisions.size(); first = last) {
     const BodyIndex a = collisions[first].body_a, b = collisions[first].body_b;
     while (last < collisions.size() && collisions[last].body_a == a && collisions[last].body_b == b) ++last;
     const std::span<const Collision> of_pair(collisions.data() + first, last - first);
     const std::vector<char> stays = which_stay(a, b, of_pair);  // empty: all
-    const std::size_t before = kept.size();
     for (std::size_t i = 0; i < of_pair.size(); ++i)
-      if (stays.empty() || stays[i] != 0 || is_asked(of_pair[i])) kept.push_back(of_pair[i]);
-    if (const std::size_t left = kept.size() - before; left < of_pair.size())
-      dropped.push_back({a, b, of_pair.size() - left});
+      (stays.empty() || stays[i] != 0 || is_asked(of_pair[i]) ? kept : dropped).push_back(of_pair[i]);
   }
   collisions.swap(kept);
   return dropped;

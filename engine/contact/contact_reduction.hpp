@@ -24,17 +24,12 @@ struct ReductionSettings {
   int most = 100;            ///< contacts of a pair from which on its patches are made coarser
 };
 
-/// How many contacts of a pair were dropped.
-struct DroppedContacts {
-  BodyIndex a, b;
-  std::size_t count = 0;
-};
-
-/// The order stays. Contacts of the features of `asked` always stay. What carried an impulse in the last sub-step
-/// (`carried`) is preferred, so that a set of contacts lasts. Pairs are sorted in `collisions`.
-std::vector<DroppedContacts> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
-                                             std::span<const Collider> colliders, std::span<const Collision> asked,
-                                             const ContactSettings& contact, std::vector<Collision>& collisions);
+/// Takes from `collisions`, sorted by pair, what need not respond, and returns it; the order stays in both. Contacts of the
+/// features of `asked` always stay. What carried an impulse in the last sub-step (`carried`) is preferred, so that a set
+/// of contacts lasts.
+std::vector<Collision> reduce_contacts(const Bodies& bodies, const ContactCache& carried,
+                                       std::span<const Collider> colliders, std::span<const Collision> asked,
+                                       const ContactSettings& contact, std::vector<Collision>& collisions);
 
 /// Which contacts of one pair of rigid bodies stay: 1 or 0 by contact. `is_preferred` by contact.
 std::vector<char> contacts_that_stay(std::span<const Collision> contacts, const std::vector<char>& is_preferred,

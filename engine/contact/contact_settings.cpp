@@ -24,7 +24,7 @@ void ContactSettings::declare(const Rows& rows) {
   rows.add("restitution_threshold", restitution_threshold, {0.0, 1e3, true}, "m/s",
            "Slower impacts do not bounce; auto: 0.0049 √(g·size) of the smaller body that moves freely.");
   rows.add("max_push_out", max_push_out, {0.0, 1e6, true}, "m/s",
-           "Fastest recovery from overlap that exists already; auto: 0.49 √(g·size) of the body.");
+           "Fastest recovery from overlap that exists already; auto: 0.65 √(g·size) of the body.");
   rows.add("push_out", push_out, kPushOut,
            "Recovery from overlap changes positions only (split), or velocities too, as in the seed (velocity).");
   rows.add("warm_start", warm_start, "Whether a contact starts from its impulse of the last sub-step.");
@@ -34,10 +34,14 @@ void ContactSettings::declare(const Rows& rows) {
       "come to carry, and between faces that deform no crossing of edges that their corners cover (patch).");
   rows.add("most_contacts", most_contacts, {4, 1000000}, "",
            "Two rigid bodies with more contacts after reduction are reduced by coarser patches, up to normals of 45 "
-           "degrees: quicker, and less exact.");
+           "degrees; what that misses comes back by second_looks.");
   rows.add("turning_solves", turning_solves, {0, 100}, "",
            "How often rigid bodies are solved again where they come nearer to each other by turning than their "
            "velocities say: links, hooks, pins in holes. 0: never.");
+  rows.add(
+      "second_looks", second_looks, {0, 100}, "",
+      "How often contacts of rigid bodies are sought again in a sub-step with the velocities that the response gave "
+      "them: what was dropped and is wanted after all, and what it drives together that fell side by side. 0: never.");
 }
 
 }  // namespace impinge

@@ -34,8 +34,9 @@ struct ContactSettings {
   PushOut push_out = PushOut::split;
   bool warm_start = true;
   Reduction reduction = Reduction::patch;
-  int most_contacts = 100;
+  int most_contacts = 40;
   int turning_solves = 4;
+  int second_looks = 4;
 
   void declare(const Rows& rows);
 

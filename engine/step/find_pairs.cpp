@@ -24,13 +24,8 @@ double fastest_point(const Collider& c, double radius) {
   return fastest;
 }
 
-/// How far the surfaces can approach in the sub-step, metres.
-double approach(const Collider& a, double radius_a, const Collider& b, double radius_b, double time_step) {
-  if (!a.vertex_velocities.empty() || !b.vertex_velocities.empty())
-    return time_step * (fastest_point(a, radius_a) + fastest_point(b, radius_b));
-  return time_step * ((a.velocity - b.velocity).norm() + a.angular_velocity.norm() * radius_a +
-                      b.angular_velocity.norm() * radius_b);
-}
+/// The box that both sweep.
+Aabb common(const Aabb& a, const Aabb& b) { return {a.min.cwiseMax(b.min), a.max.cwiseMin(b.max)}; }
 
 }  // namespace
 
@@ -66,6 +61,25 @@ std::vector<Aabb> search_boxes(const Bodies& bodies, std::span<const Collider> c
                                              settings.activation(std::min(bodies[i].size, largest)), time_step)
                               : colliders[i].bounds);
   return boxes;
+}
+
+double approach(const Collider& a, double radius_a, const Collider& b, double radius_b, double time_step) {
+  if (!a.vertex_velocities.empty() || !b.vertex_velocities.empty())
+    return time_step * (fastest_point(a, radius_a) + fastest_point(b, radius_b));
+  const double turn = time_step * (a.angular_velocity.norm() + b.angular_velocity.norm());
+  const double anywhere = time_step * ((a.velocity - b.velocity).norm() + a.angular_velocity.norm() * radius_a +
+                                       b.angular_velocity.norm() * radius_b);
+  // the speed between two bodies is a linear function of the place: largest at a corner of where they can meet
+  const Aabb where = common(swept_bounds(a, radius_a, 0.0, time_step), swept_bounds(b, radius_b, 0.0, time_step));
+  if (where.is_empty() || !where.min.allFinite() || !where.max.allFinite()) return anywhere;
+  double fastest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 x((corner & 1) != 0 ? where.max.x() : where.min.x(), (corner & 2) != 0 ? where.max.y() : where.min.y(),
+                 (corner & 4) != 0 ? where.max.z() : where.min.z());
+    fastest = std::max(fastest, (a.velocity_at(x) - b.velocity_at(x)).norm());
+  }
+  // the two points that meet are not at one place yet
+  return std::min(anywhere, time_step * fastest * (1.0 + turn));
 }
 
 double search_margin(const Bodies& bodies, std::span<const Collider> colliders, BodyIndex a, BodyIndex b,

@@ -20,6 +20,8 @@ void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders);
 /// The boxes that bodies sweep in the sub-step of time_step seconds, each with half the activation distance round it.
 std::vector<Aabb> search_boxes(const Bodies& bodies, std::span<const Collider> colliders,
                                const ContactSettings& settings, double time_step);
+/// How far surfaces of two bodies can approach in the sub-step, metres, where both can be; radii about their centres.
+double approach(const Collider& a, double radius_a, const Collider& b, double radius_b, double time_step);
 /// How far apart features of the two still are looked at, metres: the activation distance and how far they approach.
 double search_margin(const Bodies& bodies, std::span<const Collider> colliders, BodyIndex a, BodyIndex b,
                      const ContactSettings& settings, double time_step);

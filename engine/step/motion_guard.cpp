@@ -16,7 +16,9 @@ namespace impinge {
 namespace {
 
 constexpr double kTurn = 0.25;     // radians between the poses of a path
-constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found before the motion see well
+constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found before the motion don't lose
+constexpr double kSeen = 0.3;      // of that: what they see well
+constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
@@ -183,7 +185,8 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   std::vector<UnsafeMotion::Pair> pairs;
   add_self(bodies, which, pairs);
   const bool all = which == Continuous::on;
-  if (most == 0.0 || (!all && most <= least)) return pairs;
+  const double seen = which == Continuous::off ? 1.0 : kSeen;
+  if (most == 0.0 || (!all && most <= seen * least)) return pairs;
 
   std::vector<Aabb> boxes;
   boxes.reserve(sweeps.size());
@@ -197,7 +200,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
     if (!may_respond(of_a, of_b) || is_plane(of_a) || is_plane(of_b)) continue;
     const double safe = std::min(safe_approach(of_a), safe_approach(of_b));
     const double both = approach(sweeps[a], sweeps[b]);
-    if (all || both > safe) pairs.push_back({a, b, {}, way_of(sweeps[a]), way_of(sweeps[b]), both, safe});
+    if (all || both > seen * safe) pairs.push_back({a, b, {}, way_of(sweeps[a]), way_of(sweeps[b]), both, safe});
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const auto& l, const auto& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); });
@@ -212,7 +215,10 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     PassageSettings own = settings(bodies[pairs[i].a], bodies[pairs[i].b]);
-    if (is_deep) own.depth = pairs[i].safe;
+    if (is_deep)
+      own.depth = pairs[i].safe;
+    else if (pairs[i].a != pairs[i].b)
+      own.depth = std::max(own.depth, kShallow * pairs[i].safe);
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
                                                  : first_passages(paths[i].first, paths[i].second, own);
   });

@@ -19,6 +19,7 @@ namespace {
 // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
 constexpr double kPushOutTolerance = 1e-3;
 constexpr double kWorthwhile = 0.9;  // of what turning took before another solve: more is no gain
+constexpr double kEnergyTolerance = 1e-7;
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -115,7 +116,7 @@ class GroupSolve {
       ask_for_turning(system(), gaps, bounds, how_.contact, input_.time_step);
       solve();
       double now = INFINITY;
-      if (result_.response.converged()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
+      if (result_.response.converged() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
       if (!(now < lost)) {
         system() = std::move(system_before);
         result_.response = response_before, result_.frozen = std::move(frozen_before);
@@ -124,6 +125,15 @@ class GroupSolve {
       if (now > kWorthwhile * lost) return;
       lost = now;
     }
+  }
+
+  /// Unless somebody moves bodies of the group by a motion of his own, who may give it some.
+  bool wins_energy() const {
+    for (const ContactIndex c : group_.contacts)
+      for (const BodyIndex b : {input_.contacts.bodies(c).first, input_.contacts.bodies(c).second})
+        if (!b.is_none() && bodies_[b].kind() == BodyKind::scripted) return false;
+    const auto [with, free] = kinetic_energies(bodies_, now_);
+    return with > free * (1.0 + kEnergyTolerance);
   }
 
   void close() {
@@ -257,24 +267,31 @@ GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const C
   return GroupSolve(bodies, input, group, index, how).run();
 }
 
-std::vector<GroupResult> respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
-                                 std::span<const CollisionGroup> groups, const Solving& how, StageTimes& times) {
+void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
+             std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
+             std::vector<GroupResult>& results, StageTimes& times) {
   const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step, how.gravity};
-  std::vector<GroupResult> results(groups.size());
+  results.resize(groups.size());
+  std::vector<std::size_t> wanted;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (is_known.empty() || is_known[g] == 0) wanted.push_back(g);
   double wall_ms = 0.0;
   {
     const StageTimer timer(wall_ms);
     for_each_in_tasks(
-        groups.size(), kContactsPerTask, [&](std::size_t g) { return groups[g].contacts.size(); },
-        [&](std::size_t g) { results[g] = respond_to_group(bodies, input, groups[g], GroupIndex(g), how); });
+        wanted.size(), kContactsPerTask, [&](std::size_t i) { return groups[wanted[i]].contacts.size(); },
+        [&](std::size_t i) {
+          const std::size_t g = wanted[i];
+          results[g] = respond_to_group(bodies, input, groups[g], GroupIndex(g), how);
+        });
   }
   // threads work side by side: what the stages share of the time that passed
   double assemble_ms = 0.0, all_ms = 0.0;
-  for (const GroupResult& r : results) assemble_ms += r.assemble_ms, all_ms += r.assemble_ms + r.response_ms;
+  for (const std::size_t g : wanted)
+    assemble_ms += results[g].assemble_ms, all_ms += results[g].assemble_ms + results[g].response_ms;
   const double share = all_ms > 0.0 ? assemble_ms / all_ms : 0.0;
   times.assemble_ms += share * wall_ms;
   times.response_ms += (1.0 - share) * wall_ms;
-  return results;
 }
 
 }  // namespace impinge

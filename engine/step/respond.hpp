@@ -17,9 +17,11 @@ struct Solving {
   bool freezes = false;  ///< the groups are wanted as they were handed to the response
 };
 
-/// Groups are independent, so threads share them. What of several is thrown is what the lowest group throws.
-std::vector<GroupResult> respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
-                                 std::span<const CollisionGroup> groups, const Solving& how, StageTimes& times);
+/// Groups are independent, so threads share them. What of several is thrown is what the lowest group throws. Results by
+/// group; those of groups that `is_known` has (empty: none) are left as they are.
+void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
+             std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
+             std::vector<GroupResult>& results, StageTimes& times);
 
 /// One group. Of the bodies, those of the group may have A and b taken anew (Newton schemes); nothing else changes.
 GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,

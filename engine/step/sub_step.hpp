@@ -3,7 +3,6 @@
 // can be looked at between any two stages, and a stage done again.
 #pragma once
 
-#include "engine/contact/contact_reduction.hpp"
 #include "engine/detection/collider.hpp"
 #include "engine/step/group_result.hpp"
 
@@ -20,7 +19,7 @@ struct SubStep {
   std::vector<Collision> asked;              ///< contacts that a look at the motion asked for, beside those found
 
   // 7: contacts that can't come to carry are gone from collisions
-  std::vector<DroppedContacts> dropped;  ///< in pair order
+  std::vector<Collision> dropped;  ///< in pair order
 
   // 7: what each contact starts from, on A, world axes, N·s; empty: from nothing
   std::vector<Vec3> start;

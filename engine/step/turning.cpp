@@ -72,6 +72,20 @@ double most_lost(const GroupSystem& system, std::span<const double> end_gaps, co
   return most;
 }
 
+std::pair<double, double> kinetic_energies(const Bodies& bodies, const AssembledGroup& group) {
+  double with = 0.0, free = 0.0;
+  for (std::size_t i = 0; i < group.rigid.size(); ++i) {
+    const RigidBody& body = *bodies[group.rigid[i]].as<RigidBody>();
+    const auto energy = [&](const Vec3& velocity, const Vec3& spin) {
+      return 0.5 * (body.mass * velocity.squaredNorm() + spin.dot(body.world_inertia() * spin));
+    };
+    free += energy(body.velocity, body.angular_velocity());
+    with += energy(body.velocity + group.system.delta_velocity[i],
+                   body.angular_velocity() + group.system.delta_angular_velocity[i]);
+  }
+  return {with, free};
+}
+
 void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
                      const ContactSettings& settings, double time_step) {
   for (std::size_t i = 0; i < end_gaps.size(); ++i) {

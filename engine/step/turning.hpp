@@ -16,6 +16,11 @@ std::vector<double> end_gaps(const Bodies& bodies, const AssembledGroup& group, 
 /// How much deeper than it began the worst contact ends, metres; 0: none by more than what push-out takes for nothing.
 double most_lost(const GroupSystem& system, std::span<const double> end_gaps, const ContactSettings& settings);
 
+/// Kinetic energy of the group's rigid bodies with their Δv, and at their free velocities, J. Contact takes energy, or
+/// none: a straight way that cuts an arc short is as quick as the arc where bodies hang in one another, and what asks for
+/// more is an impact, which has no arc to follow.
+std::pair<double, double> kinetic_energies(const Bodies& bodies, const AssembledGroup& group);
+
 /// Raises the rows' bounds, `bounds` before anybody asked, by what turning takes of the gaps that J v says.
 void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
                      const ContactSettings& settings, double time_step);

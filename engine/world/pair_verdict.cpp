@@ -228,9 +228,9 @@ class Report {
   void reduction() {
     if (is_stopped_) return add_idle("reduction", "");
     const std::size_t kept = v_.contacts.size();
-    std::size_t found = kept;
-    for (const DroppedContacts& d : step_.dropped)
-      if (d.a == v_.a && d.b == v_.b) found += d.count;
+    const std::size_t found = kept + static_cast<std::size_t>(std::count_if(
+                                         step_.dropped.begin(), step_.dropped.end(),
+                                         [&](const Collision& c) { return c.body_a == v_.a && c.body_b == v_.b; }));
     add("reduction", true,
         fmt::format("{} found, {} handed to the response{}", found, kept,
                     found > kept ? ": the others can't come to carry before these do" : ""),

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include "engine/bodies/scale.hpp"
+#include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/step/drive.hpp"
 #include "engine/step/free_velocities.hpp"
 #include "engine/step/integrate.hpp"
 #include "engine/step/remember.hpp"
+#include "engine/step/second_look.hpp"
 #include "engine/step/step_watcher.hpp"
 
 namespace impinge {
@@ -136,7 +138,9 @@ void World::make_motion(double h, double share, bool freezes) {
   Solving solve = solving(parameters);
   solve.context.time_step = h;
   solve.freezes = freezes;
-  s.results = respond(bodies_, contacts, s.start, s.groups, solve, times);
+  s.results.clear();
+  respond(bodies_, contacts, s.start, s.groups, {}, solve, s.results, times);
+  look_again(solve);
 
   check_interrupt();
   // 11 integrate
@@ -145,6 +149,28 @@ void World::make_motion(double h, double share, bool freezes) {
     guard_.follow(bodies_, how, time_ + h);
     integrate(bodies_, how, s);
   });
+}
+
+/// Between 10 and 11: contacts that only the response leads to.
+void World::look_again(const Solving& how) {
+  const ContactSettings& contact = parameters.contact;
+  if (contact.points != ContactPoints::proximity || how.response.lives_on_overlap()) return;
+  // Newton schemes have taken A and b of their bodies where the first answer led
+  if (how.integrator.newton() != nullptr)
+    for (const Body& body : bodies_)
+      if (body.kind() == BodyKind::deformable) return;
+  SubStep& s = *sub_step_;
+  if (s.groups.empty()) return;
+  const Detecting by = detecting(parameters);
+  SecondLook look(bodies_, by, s);
+  for (int i = 0; i < contact.second_looks; ++i) {
+    if (!look.find(stats_.times)) return;
+    const SolvedBefore before(s, s.contacts(attachments_));
+    look.add(cache_);
+    stats_.lcp_iterations += before.solve_changed(bodies_, attachments_, how, s, stats_.times);
+    if (before.was_better(s)) return before.restore(s);
+    if (watcher_ != nullptr) watcher_->found(bodies_, s);
+  }
 }
 
 void World::take_results(FrozenStep* frozen) {

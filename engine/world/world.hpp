@@ -19,6 +19,8 @@ class ByteWriter;
 struct FrozenStep;
 class StepWatcher;
 
+struct Solving;
+
 class World {
  public:
   World();
@@ -71,6 +73,7 @@ class World {
   void advance(FrozenStep* frozen);
   void substep(double time_step, int left, FrozenStep* frozen);
   void drop_what_never_carries();
+  void look_again(const Solving& how);
   void make_motion(double time_step, double share, bool freezes);
   void note_unsafe(const UnsafeMotion& motion, int substep);
   void take_results(FrozenStep* frozen);
