@@ -21,6 +21,7 @@ struct BodyDescription;
 class ByteReader;
 class ByteWriter;
 class DeformableIntegrator;
+class ExemptPairs;
 struct TimeIntegration;
 
 class Body {
@@ -51,6 +52,8 @@ class Body {
   // coefficients
   std::optional<double> friction, restitution;  ///< empty: the scene's
   bool self_collision = false;
+  std::optional<double> self_exempt_distance;       ///< metres; empty: no pair of its triangles is exempt
+  std::shared_ptr<const ExemptPairs> exempt_pairs;  ///< of its own triangles; null: none
 
   // sleep
   bool asleep = false;

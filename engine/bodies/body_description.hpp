@@ -35,6 +35,7 @@ struct BodyDescription {
   std::vector<MotionKey> motion;         ///< scripted only
   std::optional<double> friction, restitution;
   bool self_collision = false;
+  std::optional<double> self_exempt_distance;  ///< metres: triangles of its own this near at rest don't collide
   std::shared_ptr<const DeformableDescription> deformable;  ///< deformable only
 };
 

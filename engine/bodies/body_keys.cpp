@@ -21,6 +21,13 @@ constexpr BodyKey kKeys[] = {
     {"angular_velocity", vector3, "rad/s", kFar, "Angular velocity, world axes."},
     {"mass", real, "kg", {1e-15, 1e15, true}, "What the body weighs."},
     {"self_collision", boolean, "", {}, "Whether a deformable body's surface meets itself."},
+    {"self_exempt_distance",
+     real,
+     "m",
+     {0.0, 1e6},
+     "Triangles of a body with self_collision that are this near each other at rest, or cross, never meet; none: all "
+     "do.",
+     "none"},
     {"material.damping_alpha", real, "1/s", {0.0, 1e6, true}, "Rayleigh damping in proportion to mass."},
     {"material.damping_beta", real, "s", {0.0, 1e3, true}, "Rayleigh damping in proportion to stiffness."},
 };

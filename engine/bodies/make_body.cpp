@@ -9,6 +9,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/geometry/rotation.hpp"
+#include "engine/geometry/surface/exempt_pairs.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
@@ -26,6 +27,9 @@ std::unique_ptr<Kind> identified(std::unique_ptr<Kind> body, const BodyDescripti
   body->friction = d.friction;
   body->restitution = d.restitution;
   body->self_collision = d.self_collision;
+  body->self_exempt_distance = d.self_exempt_distance;
+  if (d.self_collision && d.self_exempt_distance && d.shape->mesh() != nullptr)
+    body->exempt_pairs = std::make_shared<const ExemptPairs>(*d.shape->mesh(), *d.self_exempt_distance);
   return body;
 }
 

@@ -7,6 +7,8 @@
 
 namespace impinge {
 
+class ExemptPairs;
+
 struct Collider {
   const Shape* shape = nullptr;
   const SurfaceMesh* surface = nullptr;  ///< the triangles it is looked at as, if they are not a mesh's own
@@ -18,8 +20,9 @@ struct Collider {
   Vec3 angular_velocity = Vec3::Zero();     ///< rad/s
   std::span<const Vec3> vertex_velocities;  ///< of a deformable body's surface; empty for a rigid one
   bool self_collision = false;
-  double mean_edge = 0.0;  ///< mean edge length of a mesh, metres
-  double size = 0.0;       ///< of the body at rest, metres; infinite of a plane
+  const ExemptPairs* exempt_pairs = nullptr;  ///< of its own triangles; null: none
+  double mean_edge = 0.0;                     ///< mean edge length of a mesh, metres
+  double size = 0.0;                          ///< of the body at rest, metres; infinite of a plane
 
   const SurfaceMesh& mesh() const { return surface != nullptr ? *surface : *shape->mesh(); }
   /// Velocity of the material point of a rigid body that is at `point` (world).

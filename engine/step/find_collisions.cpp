@@ -7,6 +7,7 @@
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/detection/pairs/primitive.hpp"
+#include "engine/geometry/surface/exempt_pairs.hpp"
 
 namespace impinge {
 namespace {
@@ -35,6 +36,10 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
     if (is_mesh_pair(colliders, pair)) mesh_pairs.push_back(pair);
   triangle_pairs.clear();
   if (!mesh_pairs.empty()) narrow_phase.find(colliders, mesh_pairs, triangle_pairs);
+  std::erase_if(triangle_pairs, [&](const TrianglePair& t) {
+    const ExemptPairs* exempt = colliders[t.a].exempt_pairs;
+    return t.a == t.b && exempt != nullptr && exempt->has(t.triangle_a, t.triangle_b);
+  });
   check_interrupt();
 
   std::vector<std::vector<Collision>> found(pairs.size());  // one slot a pair, so that threads don't share

@@ -43,6 +43,7 @@ void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders) {
     c.velocity = twist.linear;
     c.angular_velocity = twist.angular;
     c.self_collision = body.self_collision;
+    c.exempt_pairs = body.exempt_pairs.get();
     c.mean_edge = body.mean_edge;
     c.size = body.size;
   }

@@ -151,6 +151,7 @@ SurfacePath MotionGuard::path_of(const Body& body, BodyIndex b) {
   path.of = &surface_of(body);
   if (deforms(body)) {
     path.start = nodes_[b], path.end = body.world_vertices;
+    path.exempt = body.exempt_pairs.get();
     return path;
   }
   path.poses.push_back(start_[b]);

@@ -95,6 +95,12 @@ class BodyRows {
     damping("material.damping_beta", &RayleighDamping::beta);
     set_.add(body_row(
         path_, "self_collision", [b = &body] { return ParameterValue(b->self_collision); }, nullptr));
+    set_.add(body_row(
+        path_, "self_exempt_distance",
+        [b = &body, word = std::string(body_key("self_exempt_distance").word)] {
+          return b->self_exempt_distance ? ParameterValue(*b->self_exempt_distance) : ParameterValue(word);
+        },
+        nullptr));
     for (std::size_t r = 0; r < body.held.size(); ++r) declare_held(body, r);
   }
 

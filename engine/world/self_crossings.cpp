@@ -6,6 +6,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/surface/exempt_pairs.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
 namespace impinge {
@@ -21,8 +22,8 @@ struct NodePair {
 /// A tree of boxes, walked against itself.
 class SelfSearch {
  public:
-  SelfSearch(const SurfaceMesh& surface, std::span<const Vec3> vertices)
-      : triangles_(surface.mesh.triangles), vertices_(vertices), tree_(surface.tree()) {
+  SelfSearch(const SurfaceMesh& surface, std::span<const Vec3> vertices, const ExemptPairs* exempt)
+      : triangles_(surface.mesh.triangles), vertices_(vertices), tree_(surface.tree()), exempt_(exempt) {
     boxes_ = triangle_boxes(triangles_, vertices);
     double largest = 0.0;
     for (const Aabb& box : boxes_) largest = std::max(largest, largest_coordinate(box));
@@ -95,6 +96,7 @@ class SelfSearch {
     if (!overlap(boxes_[static_cast<std::size_t>(s)], boxes_[static_cast<std::size_t>(t)])) return false;
     if (std::any_of(a.begin(), a.end(), [&](int v) { return std::find(b.begin(), b.end(), v) != b.end(); }))
       return false;
+    if (exempt_ != nullptr && exempt_->has(s, t)) return false;
     const TriangleCorners of_a = corners(a), of_b = corners(b);
     return !is_beside(of_a, of_b) && !is_beside(of_b, of_a) && triangles_intersect(of_a, of_b);
   }
@@ -114,6 +116,7 @@ class SelfSearch {
   std::span<const Triangle> triangles_;
   std::span<const Vec3> vertices_;
   const BoxTree& tree_;
+  const ExemptPairs* exempt_;
   std::vector<Aabb> boxes_, fitted_;
   double touch_ = 0.0;  // what triangles_intersect takes for touching, metres
 };
@@ -126,7 +129,7 @@ std::int64_t count_self_crossings(const Bodies& bodies, CrossingsOf which) {
     if (body.kind() != BodyKind::deformable || body.shape->mesh() == nullptr) continue;
     if (which == CrossingsOf::self_colliding && !body.can_touch_itself()) continue;
     check_interrupt();
-    count += SelfSearch(*body.shape->mesh(), body.world_vertices).count();
+    count += SelfSearch(*body.shape->mesh(), body.world_vertices, body.exempt_pairs.get()).count();
   }
   return count;
 }

@@ -187,13 +187,14 @@ void Session::restore(ByteReader& in) {
   for (const Parameter& row : rows_.all()) {
     if (get_text(in) != row.path)
       throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
+    ParameterValue value;
     if (row.word.empty()) {
-      const ParameterValue value = get_value(in, row.initial);
-      if (row.set) row.set(value);  // else it is fixed with the scene
+      value = get_value(in, row.initial);
     } else {
       const double number = in.get<double>();
-      row.set(number == kOpen ? ParameterValue(row.word) : ParameterValue(number));
+      value = number == kOpen ? ParameterValue(row.word) : ParameterValue(number);
     }
+    if (row.set) row.set(value);  // else it is fixed with the scene
   }
   world_.parameters_changed();
   // after the rows: setting a body's row derives state from it, and the snapshot's bits must stand

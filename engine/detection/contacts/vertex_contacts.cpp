@@ -205,13 +205,28 @@ class VertexPass {
       hit = p.point;
       hit_normal = n;
     }
-    if (hit_triangle < 0 || falls_steeply(hit_normal, kSteep)) return;
+    if (hit_triangle < 0 || falls_steeply(hit_normal, kSteep) || goes_on_below(v, hit_normal)) return;
     keep(v, {Feature::face, hit_triangle}, hit_triangle, hit, hit_normal, true);
   }
 
   bool falls_steeply(const Vec3& normal, double limit) const {
     for (const Vec3& e : own_star_)
       if (e.dot(normal) < -limit) return true;
+    return false;
+  }
+
+  // Whether a face of vertex v goes straight down against the normal, though all edges there may run across it: a floor
+  // goes on below whatever slides over it.
+  bool goes_on_below(int v, const Vec3& normal) const {
+    for (const int t : own_.triangles_round(v)) {
+      const Vec3 n = own_.face_normal(t), down = normal.dot(n) * n - normal;
+      if (down.norm() <= kSteep) continue;
+      const Triangle& corners = own_.triangle(t);
+      const int k = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+      const Vec3 &x = own_.vertex(v), next = own_.vertex(corners[(k + 1) % 3]) - x,
+                 last = own_.vertex(corners[(k + 2) % 3]) - x;
+      if (n.dot(next.cross(down)) > 0.0 && n.dot(down.cross(last)) > 0.0) return true;
+    }
     return false;
   }
 

@@ -140,6 +140,7 @@ class Search {
   void vertex_face(const Stretch& of_vertex, int v, int t_vertex, const Stretch& of_face, int t, bool exchanged) {
     const Triangle& f = mesh(of_face).triangles[t];
     if (is_self_ && (f[0] == v || f[1] == v || f[2] == v)) return;
+    if (is_self_ && path_a_.exempt != nullptr && path_a_.exempt->has_vertex(topology(of_face), v, t)) return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;
@@ -177,6 +178,10 @@ class Search {
     const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
     const int a0 = a[i], a1 = a[(i + 1) % 3], b0 = b[j], b1 = b[(j + 1) % 3];
     if (is_self_ && (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1)) return;
+    if (is_self_ && path_a_.exempt != nullptr &&
+        path_a_.exempt->has_edges(topology(*a_), topology(*a_).triangle_edges[ta][i],
+                                  topology(*b_).triangle_edges[tb][j]))
+      return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;

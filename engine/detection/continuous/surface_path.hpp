@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "engine/geometry/surface/exempt_pairs.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {
@@ -22,7 +23,8 @@ struct SurfacePath {
   /// Of a rigid surface: poses at equal steps of time, 2^k + 1 of them, each less than a quarter turn from the next,
   /// between which it moves on the screw that joins them. Empty: `start` and `end` say it.
   std::vector<Pose> poses;
-  std::span<const Vec3> start, end;  ///< of a deforming surface: its vertices, metres
+  std::span<const Vec3> start, end;     ///< of a deforming surface: its vertices, metres
+  const ExemptPairs* exempt = nullptr;  ///< of its triangles, held against themselves; null: none
 
   bool is_rigid() const { return !poses.empty(); }
   int pieces() const { return is_rigid() ? static_cast<int>(poses.size()) - 1 : 1; }

@@ -36,6 +36,7 @@ const std::vector<std::string> kKeys = {"name",
                                         "friction",
                                         "restitution",
                                         "self_collision",
+                                        "self_exempt_distance",
                                         "volume",
                                         "fixed",
                                         "sides",
@@ -176,6 +177,9 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   });
   with("self_collision",
        [&](const TomlNode& node, const std::string& key) { body.self_collision = scene_flag(node, key); });
+  with("self_exempt_distance", [&](const TomlNode& node, const std::string& key) {
+    body.self_exempt_distance = scene_real(node, key, body_key("self_exempt_distance").range);
+  });
   with("material", [&](const TomlNode& node, const std::string& key) { read_material(node, key, body); });
   with("mass", [&](const TomlNode& node, const std::string& key) { body.mass = scene_mass(node, key); });
   if (const TomlEntry* material = table.find("material");
