@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "engine/geometry/aabb.hpp"
 #include "engine/shapes/shape.hpp"
 
 namespace impinge {
@@ -19,6 +20,8 @@ struct Collider {
   Vec3 velocity = Vec3::Zero();             ///< of the frame's origin, m/s: the free velocity v* of this sub-step
   Vec3 angular_velocity = Vec3::Zero();     ///< rad/s
   std::span<const Vec3> vertex_velocities;  ///< of a deformable body's surface; empty for a rigid one
+  /// Of a deforming mesh that several shapes are near: the boxes of its tree where they are now, by node; else empty.
+  std::span<const Aabb> node_boxes;
   bool self_collision = false;
   const ExemptPairs* exempt_pairs = nullptr;  ///< of its own triangles; null: none
   double mean_edge = 0.0;                     ///< mean edge length of a mesh, metres

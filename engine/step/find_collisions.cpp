@@ -25,6 +25,35 @@ std::span<const TrianglePair> part_of(std::span<const TrianglePair> all, const B
   return {first, last};
 }
 
+/// The colliders, those of deforming meshes that several shapes are near with their trees' boxes where they are now: one
+/// fit takes as long as one shape's look at every triangle.
+class FittedColliders {
+ public:
+  FittedColliders(std::span<const Collider> colliders, std::span<const BodyPair> pairs) : all_(colliders) {
+    std::vector<int> shapes(colliders.size(), 0);  // near each deforming mesh
+    for (const BodyPair& pair : pairs)
+      for (const auto& [mesh, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+        if (!colliders[mesh].vertex_velocities.empty() && colliders[other].shape->mesh() == nullptr) ++shapes[mesh];
+    if (std::none_of(shapes.begin(), shapes.end(), is_worth_it)) return;
+    own_.assign(colliders.begin(), colliders.end());
+    boxes_.resize(colliders.size());
+    parallel_for(own_.size(), 1, [&](std::size_t i) {
+      if (!is_worth_it(shapes[i])) return;
+      const SurfaceMesh& mesh = own_[i].mesh();
+      mesh.tree().fit(triangle_boxes(mesh.mesh.triangles, own_[i].vertices), boxes_[i]);
+      own_[i].node_boxes = boxes_[i];
+    });
+    all_ = own_;
+  }
+  std::span<const Collider> all() const { return all_; }
+
+ private:
+  static bool is_worth_it(int shapes) { return shapes > 1; }
+  std::span<const Collider> all_;
+  std::vector<Collider> own_;
+  std::vector<std::vector<Aabb>> boxes_;  // by body
+};
+
 }  // namespace
 
 void find_collisions(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
@@ -42,12 +71,13 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
   });
   check_interrupt();
 
+  const FittedColliders fitted(colliders, pairs);
   std::vector<std::vector<Collision>> found(pairs.size());  // one slot a pair, so that threads don't share
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const BodyPair& pair = pairs[i];
     const double size = std::min(colliders[pair.a].size, colliders[pair.b].size);
     const ContactQuery query{proximity, settings.activation_distance.at(size), time_step};
-    if (!is_mesh_pair(colliders, pair)) return primitive_contacts(colliders, pair, query, found[i]);
+    if (!is_mesh_pair(colliders, pair)) return primitive_contacts(fitted.all(), pair, query, found[i]);
     const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
     if (proximity && mesh_in_mesh(colliders, pair, triangles, query, found[i])) return;
     if (triangles.empty()) return;

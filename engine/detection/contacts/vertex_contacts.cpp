@@ -144,7 +144,7 @@ class VertexPass {
     bool is_smooth = true;
     other_.adjacent_normals(n.feature, normals_);
     for (const Vec3& m : normals_) is_smooth = is_smooth && m.dot(normal) > kSameSide;
-    if (falls_steeply(normal, is_smooth ? kSteep : kSteepAtSharp)) return;
+    if (falls_steeply(normal, is_smooth ? kSteep : kSteepAtSharp) || goes_on_below(v, normal)) return;
     const double approach = closing_speed(v, n.triangle, n.point, normal);
     const double after = n.distance + query_.time_step * approach;
     if (n.distance > query_.activation) return;                                    // left to the prediction
@@ -216,8 +216,9 @@ class VertexPass {
   }
 
   // Whether a face of vertex v goes straight down against the normal, though all edges there may run across it: a floor
-  // goes on below whatever slides over it.
+  // goes on below whatever slides over it. Folds of one surface keep every contact they have.
   bool goes_on_below(int v, const Vec3& normal) const {
+    if (own_.body() == other_.body()) return false;
     for (const int t : own_.triangles_round(v)) {
       const Vec3 n = own_.face_normal(t), down = normal.dot(n) * n - normal;
       if (down.norm() <= kSteep) continue;

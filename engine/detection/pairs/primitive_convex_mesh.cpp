@@ -112,11 +112,12 @@ class CurvedTest {
       least = std::min(least, height(face.point[i]));
     }
     if (least > height(lowest) + touch_) try_point(lowest, Feature::shape, 0);
-    // a solid may be far behind the plane of a face it has nothing to do with
+    // a solid may be far behind the plane of a face it has nothing to do with; its points in front of it are
+    const auto depth = [&](const Candidate& c) { return c.normal.dot(c.point_first - c.point_second); };
     if (height(lowest) < -touch_ && std::none_of(points.begin(), points.end(), [&](const Candidate& c) {
-          return is_way_out(c.point_first, c.normal.dot(c.point_first - c.point_second));
+          return is_way_out(c.point_first, depth(c));
         }))
-      return;
+      std::erase_if(points, [&](const Candidate& c) { return depth(c) < -touch_; });
     for (const Candidate& c : points) keep(c);
   }
 

@@ -13,8 +13,10 @@ constexpr int kFewest = 64;  // triangles: below, looking at each is as quick
 
 int count_of(const Collider& mesh) { return static_cast<int>(mesh.mesh().mesh.triangles.size()); }
 
-/// A deforming surface would have to be fitted first, which costs as much as looking at each triangle.
-bool has_tree(const Collider& mesh) { return mesh.vertex_velocities.empty() && count_of(mesh) > kFewest; }
+bool deforms(const Collider& mesh) { return !mesh.vertex_velocities.empty(); }
+
+/// A deforming surface has to be fitted first, which costs as much as looking at each triangle once.
+bool has_tree(const Collider& mesh) { return count_of(mesh) > kFewest && (!deforms(mesh) || !mesh.node_boxes.empty()); }
 
 /// What world coordinates lose on the way into the frame of the mesh, generously.
 double slack(const Collider& mesh, const Aabb& box) {
@@ -23,9 +25,11 @@ double slack(const Collider& mesh, const Aabb& box) {
 
 /// Triangles in leaves whose boxes, and those above, `meets` says yes to; ascending.
 template <class Meets>
-std::vector<int> search(const BoxTree& tree, Meets&& meets) {
+std::vector<int> search(const Collider& mesh, Meets&& meets) {
+  const BoxTree& tree = mesh.mesh().tree();
   std::vector<int> found;
-  tree.search([&](int n) { return meets(tree.nodes()[n].box); }, [&](int t) { found.push_back(t); });
+  tree.search([&](int n) { return meets(deforms(mesh) ? mesh.node_boxes[n] : tree.nodes()[n].box); },
+              [&](int t) { found.push_back(t); });
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -42,14 +46,15 @@ std::vector<int> triangles_near(const Collider& mesh, const Aabb& box) {
     for (int t = 0; t < count_of(mesh); ++t) look(t);
     return near;
   }
-  // nodes are looked at in the world, where the bounds of a triangle are larger than in the mesh's own frame
+  // nodes are looked at in the world, where the bounds of a triangle are larger than in a rigid mesh's own frame
   const Mat3 turned = mesh.pose.rotation.cwiseAbs();
   const Aabb wide = box.inflated(slack(mesh, box));
   const auto meets = [&](const Aabb& node) {
+    if (deforms(mesh)) return overlap(node, box);
     const Vec3 center = mesh.pose.apply(node.center()), half = turned * (0.5 * node.extent());
     return overlap(Aabb{center - half, center + half}, wide);
   };
-  for (int t : search(mesh.mesh().tree(), meets)) look(t);
+  for (int t : search(mesh, meets)) look(t);
   return near;
 }
 
@@ -59,16 +64,17 @@ std::vector<int> triangles_round(const Collider& mesh, const Vec3& x, double dis
     std::iota(all.begin(), all.end(), 0);
     return all;
   }
-  const BoxTree& tree = mesh.mesh().tree();
-  const Vec3 local = mesh.pose.apply_inverse(x);
+  const Vec3 local = deforms(mesh) ? x : mesh.pose.apply_inverse(x);
   double reach = distance;
   if (and_nearest) {
     const TriangleMesh& own = mesh.mesh().mesh;
-    reach = std::max(reach, std::sqrt(nearest_triangle(tree, own.triangles, own.vertices, local).at.squared_distance));
+    const std::span<const Vec3> places = deforms(mesh) ? mesh.vertices : std::span<const Vec3>(own.vertices);
+    const NearestTriangle nearest = nearest_triangle(mesh.mesh().tree(), own.triangles, places, local, mesh.node_boxes);
+    reach = std::max(reach, std::sqrt(nearest.at.squared_distance));
   }
   // the box's, whose corner is farther by rounding than the sphere's
   reach = reach * (1.0 + 1e-9) + slack(mesh, {x, x});
-  return search(tree, [&](const Aabb& node) { return squared_distance(node, local) <= reach * reach; });
+  return search(mesh, [&](const Aabb& node) { return squared_distance(node, local) <= reach * reach; });
 }
 
 }  // namespace impinge

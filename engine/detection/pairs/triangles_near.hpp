@@ -1,5 +1,6 @@
 // Which triangles of a mesh are near something: through the tree of a rigid mesh, which is made once and asked in the
-// mesh's own frame. A list is what a look at every triangle would give, to the bit.
+// mesh's own frame, or that of a deforming one where its boxes have been fitted. A list is what a look at every triangle
+// would give, to the bit.
 #pragma once
 
 #include "engine/detection/contacts/surface_view.hpp"

@@ -1,4 +1,4 @@
-// What the tree of a rigid mesh finds is what a look at every triangle finds, at the origin and far from it.
+// What the tree of a mesh finds is what a look at every triangle finds, at the origin and far from it, rigid or deforming.
 #include "engine/detection/pairs/triangles_near.hpp"
 
 #include <algorithm>
@@ -25,6 +25,7 @@ std::vector<int> all_that(int count, const std::function<bool(int)>& holds) {
 TEST_CASE("triangles near a box and round a point are those that a look at each finds") {
   Random random(7);
   std::size_t near_boxes = 0, asked = 0;
+  std::vector<Aabb> node_boxes;
   for (const MeshPointer& mesh :
        {surface(icosphere(4)), surface(bumpy_torus(60, 30)), surface(box(Vec3(3, 1e-3, 2), {40, 1, 40}))}) {
     ColliderSet set;
@@ -35,6 +36,15 @@ TEST_CASE("triangles near a box and round a point are those that a look at each 
       Pose pose = random_pose(random, 0.5);
       if (i % 4 == 3) pose.position += Vec3(1e5, -2e4, 3e5);
       set.place(0, pose);
+      if (i % 2 == 1) {  // as a deforming one, bent
+        std::vector<Vec3> bent(set[0].vertices.begin(), set[0].vertices.end());
+        for (Vec3& x : bent) x += 0.1 * std::sin(3.0 * x.x()) * Vec3::UnitY() + 0.01 * random.vector();
+        set.place(0, std::move(bent));
+        mesh->tree().fit(triangle_boxes(mesh->mesh.triangles, set[0].vertices), node_boxes);
+        set[0].node_boxes = node_boxes;
+      } else {
+        set[0].node_boxes = {};
+      }
       const Collider& body = set[0];
       const SurfaceView view(body, 0);
       const Vec3 center = pose.position + 1.2 * random.vector();
