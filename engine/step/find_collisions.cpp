@@ -7,6 +7,7 @@
 #include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/detection/pairs/primitive.hpp"
+#include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/surface/exempt_pairs.hpp"
 
 namespace impinge {

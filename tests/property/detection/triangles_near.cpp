@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/geometry/box_tree.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;
