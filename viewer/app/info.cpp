@@ -1,6 +1,7 @@
 // impinge info: what of a scene is modelled, and what is left out because nothing needs it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "engine/bodies/deformable_body.hpp"
@@ -38,6 +39,31 @@ Counts count(const World& world) {
   return counts;
 }
 
+/// Pairs that start in one another by more than rounding, the deepest first, and surfaces that cross themselves.
+void print_overlaps(const World& world, const StepRecord& record) {
+  constexpr double kRounding = 1e-9;  // of the smaller body's size
+  constexpr std::size_t kMostNamed = 5;
+  std::map<std::pair<BodyIndex, BodyIndex>, double> deepest;
+  for (const ContactRecord& c : record.contacts) {
+    const double size = std::min(world.bodies()[c.body_a].size, world.bodies()[c.body_b].size);
+    if (c.body_a == c.body_b || -c.gap <= kRounding * size) continue;
+    double& depth = deepest[{c.body_a, c.body_b}];
+    depth = std::max(depth, -c.gap);
+  }
+  std::vector<std::pair<double, std::pair<BodyIndex, BodyIndex>>> pairs;
+  for (const auto& [pair, depth] : deepest) pairs.emplace_back(depth, pair);
+  std::sort(pairs.begin(), pairs.end(),
+            [](const auto& l, const auto& r) { return l.first != r.first ? l.first > r.first : l.second < r.second; });
+  for (std::size_t i = 0; i < std::min(pairs.size(), kMostNamed); ++i)
+    fmt::print("  '{}' and '{}' start {:.3g} m in one another: pushed apart as response and push-out allow\n",
+               world.bodies()[pairs[i].second.first].name, world.bodies()[pairs[i].second.second].name, pairs[i].first);
+  if (pairs.size() > kMostNamed) fmt::print("  and {} pairs less deep\n", pairs.size() - kMostNamed);
+  if (record.stats.self_crossings > 0)
+    fmt::print(
+        "  {} pairs of triangles of bodies with self_collision cross: self_exempt_distance leaves such parts out\n",
+        record.stats.self_crossings);
+}
+
 void print_scene(const Session& session, const Counts& counts, const ModelFacts& facts) {
   const StepRecord& record = session.record();
   fmt::print("bodies:       {} ({} deformable, {} dynamic, {} scripted, {} static)\n", session.world().bodies().size(),
@@ -55,6 +81,7 @@ void print_scene(const Session& session, const Counts& counts, const ModelFacts&
              facts.dynamic, facts.deformable_dofs);
   fmt::print("at the start: {} body pairs, {} triangle pairs, {} contacts\n", record.stats.broad_pairs,
              record.stats.triangle_pairs, record.stats.contacts);
+  print_overlaps(session.world(), record);
   fmt::print("memory:       about {:.1f} MB for bodies and surfaces\n", static_cast<double>(counts.bytes) / 1e6);
 }
 

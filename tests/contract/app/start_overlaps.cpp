@@ -1,6 +1,8 @@
 // A deformable body whose surface crosses itself in the file: pushed apart, or left as it is.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/program/program.hpp"
@@ -45,4 +47,32 @@ TEST_CASE("what crosses itself at rest is left out of self-collision on request"
   CHECK(left.back().at("self_crossings") == "0");
   CHECK(left.back().at("contacts") == "0");
   CHECK(std::stod(left.back().at("elastic_J")) < 1e-12);
+}
+
+TEST_CASE("info names what starts in one another, and surfaces that cross themselves") {
+  const TempFolder folder;
+  folder.write("bars.off", off_text(crossed_bars()));
+  const auto info = [&](const std::string& scene) {
+    folder.write("s.toml", scene);
+    const Outcome outcome = impinge_run(folder.path(), {"info", "s.toml"});
+    REQUIRE(outcome.code == 0);
+    return outcome.out;
+  };
+  const std::string bars =
+      "[[body]]\nname = \"bars\"\nkind = \"deformable\"\nsurface = \"bars.off\"\nvolume = {cage = {cells = 12}}\n"
+      "self_collision = true\n";
+  CHECK_THAT(info(bars),
+             Catch::Contains("28 pairs of triangles of bodies with self_collision cross: self_exempt_distance"));
+  CHECK_THAT(info(bars + "self_exempt_distance = 0\n"), !Catch::Contains("cross: self_exempt_distance"));
+  const auto balls = [](double apart) {
+    std::string text;
+    for (const double x : {0.0, apart})
+      text += fmt::format(
+          "[[body]]\nname = \"at{}\"\nkind = \"dynamic\"\nshape = {{sphere = {{radius = 0.5}}}}\n"
+          "material = {{density = 1}}\nposition = [{}, 0, 0]\n",
+          x == 0.0 ? 0 : 1, x);
+    return text;
+  };
+  CHECK_THAT(info(balls(0.75)), Catch::Contains("'at0' and 'at1' start 0.25 m in one another"));
+  CHECK_THAT(info(balls(1.0)), !Catch::Contains("in one another"));
 }
