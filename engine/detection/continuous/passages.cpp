@@ -228,11 +228,7 @@ class Search {
     std::function<bool(double)> is_over;    ///< whether the one still covers the other
   };
 
-  static Vec3 position(const Stretch& s, int v, double time) {
-    const SurfacePath& path = s.path();
-    if (path.is_rigid()) return path.pose_at(time).apply(path.of->surface->mesh.vertices[v]);
-    return path.start[v] + time * (path.end[v] - path.start[v]);
-  }
+  static Vec3 position(const Stretch& s, int v, double time) { return s.position(v, time); }
   static Vec3 position(const Stretch& s, const Place& p, double time) {
     Vec3 x = Vec3::Zero();
     for (int k = 0; k < 3; ++k)

@@ -33,10 +33,16 @@ class Stretch {
   Vec3 vertex(int v, int k) const {
     return path_->is_rigid() ? pose_[k].apply(path_->of->surface->mesh.vertices[v]) : moved_[k][v];
   }
+  /// On the path itself, at a time of it.
+  Vec3 position(int v, double time) const {
+    if (!path_->is_rigid()) return path_->start[v] + time * (path_->end[v] - path_->start[v]);
+    if (time != asked_) asked_ = time, pose_then_ = path_->pose_at(time);
+    return pose_then_.apply(path_->of->surface->mesh.vertices[v]);
+  }
   Aabb box(int n, int k) const {
     if (!path_->is_rigid()) return fitted_[k][n];
     const Aabb& local = node(n).box;
-    const Vec3 center = pose_[k].apply(local.center()), half = turned_[k] * (0.5 * local.extent());
+    const Vec3 center = pose_[k].apply(local.center()), half = product(turned_[k], 0.5 * local.extent());
     return {center - half, center + half};
   }
 
@@ -48,6 +54,9 @@ class Stretch {
   Mat3 turned_[2];
   std::vector<Vec3> moved_[2];
   std::vector<Aabb> fitted_[2];
+  // what is asked of a time is asked of many vertices at once; one thread at a time has a stretch
+  mutable double asked_ = -1.0;
+  mutable Pose pose_then_;
 };
 
 /// When two boxes whose faces move evenly first meet, in [0, 1].

@@ -51,7 +51,7 @@ std::vector<int> triangles_near(const Collider& mesh, const Aabb& box) {
   const Aabb wide = box.inflated(slack(mesh, box));
   const auto meets = [&](const Aabb& node) {
     if (deforms(mesh)) return overlap(node, box);
-    const Vec3 center = mesh.pose.apply(node.center()), half = turned * (0.5 * node.extent());
+    const Vec3 center = mesh.pose.apply(node.center()), half = product(turned, 0.5 * node.extent());
     return overlap(Aabb{center - half, center + half}, wide);
   };
   for (int t : search(mesh, meets)) look(t);

@@ -43,7 +43,7 @@ struct View {
   bool are_near(const Aabb& a, const Aabb& b) const {
     const Vec3 c = b_in_a.apply(b.center()) - a.center(), ha = 0.5 * a.extent(), hb = 0.5 * b.extent();
     if (volume == Volume::sphere) return c.norm() <= ha.norm() + hb.norm() + margin;
-    if ((c.cwiseAbs().array() > (ha + turned * hb).array() + margin).any()) return false;
+    if ((c.cwiseAbs().array() > (ha + product(turned, hb)).array() + margin).any()) return false;
     return volume == Volume::aabb || !is_between_axes(c, ha, hb);
   }
 
