@@ -6,11 +6,13 @@
 // it, about 6 n, and less since open contacts leave the factorization; 2 n was the best of 6, 2 and 0.5 on stacks,
 // piles and deformable cubes. With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored)
 // the sweeps are made conjugate instead. Gauss-Seidel and then two short tries of Newton from either end were no
-// better.
+// better. Where all bodies are rigid alternating directions come before either sweeps: what they don't solve in three
+// quarters of the iterations goes on from their best.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
 namespace impinge {
@@ -37,6 +39,7 @@ class Automatic : public LcpSolver {
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
+    if (!newton && can_alternate_directions(problem)) return solve_together(problem, settings, lambda);
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
@@ -60,6 +63,17 @@ class Automatic : public LcpSolver {
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
   }
 
+  /// Many contacts of rigid bodies. Sweeps don't begin here: forces that hold each other in balance, which they bring
+  /// in, leave a method of all bodies slowly.
+  static LcpResult solve_together(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) {
+    LcpSettings part = settings;
+    part.max_iterations = settings.max_iterations - settings.max_iterations / 4;
+    if (settings.history != nullptr) settings.history->pop_back();  // it begins with the same residual
+    const LcpResult result = alternate_directions(problem, part, lambda);
+    if (result.solved()) return result;
+    return go_on(nonsmooth_nonlinear_conjugate_gradient_solver(), problem, settings, result.iterations, lambda);
+  }
+
   static LcpResult go_on(const Entry<LcpSolver>& with, const ConeProblem& problem, LcpSettings settings, int sweeps,
                          std::vector<Vec3>& lambda) {
     const std::vector<Vec3> before = lambda;
@@ -76,8 +90,8 @@ class Automatic : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> automatic_solver() {
-  return entry<LcpSolver, Automatic>("automatic",
-                                     "Gauss-Seidel, and where it is slow semismooth Newton (many contacts: NNCG)");
+  return entry<LcpSolver, Automatic>(
+      "automatic", "Gauss-Seidel, and where it is slow semismooth Newton (many contacts: ADMM, NNCG)");
 }
 
 }  // namespace impinge

@@ -10,6 +10,8 @@
 
 namespace impinge {
 
+struct BodySpace;
+
 /// The Delassus operator W = J A⁻¹ J^T, symmetric positive semidefinite, in 3 x 3 blocks, 1/kg. It may be stored as a
 /// matrix or as factors; a Gauss-Seidel sweep needs rows and changes, so an operator keeps J A⁻¹ J^T λ up to date
 /// between them.
@@ -30,6 +32,8 @@ class Delassus {
 
   /// Whether a sweep costs as much as there are contacts, not its square.
   virtual bool has_factors() const { return false; }
+  /// The factors where all bodies are rigid, else null; they live as long as this.
+  virtual const BodySpace* body_space() { return nullptr; }
   /// y = W x. The present λ becomes x.
   virtual void apply(const std::vector<Vec3>& x, std::vector<Vec3>& y);
   /// W written out, 3 contacts x 3 contacts. Changes the present λ.

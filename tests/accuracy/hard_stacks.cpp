@@ -3,6 +3,8 @@
 // in tests/README.md.
 #include <catch2/catch.hpp>
 
+#include <fmt/format.h>
+
 #include "tests/support/mechanics/pile.hpp"
 
 using namespace impinge;
@@ -119,6 +121,41 @@ TEST_CASE("a stack of fifty boxes stands at 1/60 s", "[long]") {
   CHECK(drift < 1e-5);
   CHECK(deepest < 1e-6);
   CHECK(std::abs(world.bodies().back().pose.position.y() - 49.5) < 1e-6);
+}
+
+TEST_CASE("a stack of a hundred boxes and a wall of bricks stand at 1/60 s, and every solve has an answer") {
+  for (const bool is_wall : {false, true}) {
+    CAPTURE(is_wall);
+    World world;
+    if (!is_wall) {
+      add_stack(world, 100);
+    } else {
+      prepare(world);
+      for (int row = 0; row < 8; ++row)
+        for (int i = 0; i < 14; ++i)
+          world.add_body(dynamic_body(fmt::format("brick{}_{}", row, i), Box{Vec3(0.1, 0.05, 0.05)},
+                                      {0.2 * i + 0.1 * (row % 2), 0.1 * row + 0.05, 0.0}));
+    }
+    world.start();
+    std::vector<Vec3> places;
+    for (const Body& b : world.bodies()) places.push_back(b.pose.position);
+    std::int64_t unconverged = 0, contacts = 0;
+    double drift = 0.0, deepest = 0.0;
+    for (int i = 0; i < 120; ++i) {
+      world.step();
+      unconverged += world.record().stats.unconverged;
+      contacts = std::max(contacts, world.record().stats.contacts);
+      deepest = std::max(deepest, overlap(world));
+    }
+    for (std::size_t b = 1; b < places.size(); ++b)
+      drift = std::max(drift, (world.bodies()[static_cast<int>(b)].pose.position - places[b]).norm());
+    CAPTURE(contacts, drift, deepest, fastest(world));
+    CHECK(contacts > 300);
+    CHECK(unconverged == 0);
+    CHECK(drift < 1e-5);
+    CHECK(deepest < 1e-6);
+    CHECK(fastest(world) < 1e-4);
+  }
 }
 
 TEST_CASE("a pile of two hundred boxes comes to rest without sleeping", "[long]") {

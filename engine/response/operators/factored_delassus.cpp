@@ -39,6 +39,30 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
   }
 }
 
+const BodySpace* FactoredDelassus::body_space() {
+  if (!group_.deformable.empty()) return nullptr;
+  if (body_space_ != nullptr) return body_space_.get();
+  body_space_ = std::make_unique<BodySpace>();
+  for (const RigidBlock& block : group_.rigid) {
+    body_space_->mass.push_back(1.0 / block.inverse_mass);
+    body_space_->inertia.push_back(block.inverse_inertia.inverse());
+  }
+  for (std::size_t i = 0; i < group_.contacts.size(); ++i) {
+    const ContactRows& rows = group_.contacts[i];
+    std::array<BodySpace::Side, 2> sides;
+    const ContactSide* of[2] = {&rows.a, &rows.b};
+    for (int s = 0; s < 2; ++s) {
+      if (of[s]->rigid < 0) continue;
+      const int count = rows.has_one_row() ? 1 : 3;
+      sides[s].body = of[s]->rigid;
+      sides[s].linear.topRows(count) = (s == 0 ? 1.0 : -1.0) * rows.directions.topRows(count);
+      sides[s].angular.topRows(count) = sides_[i][s].arm.topRows(count);
+    }
+    body_space_->sides.push_back(sides);
+  }
+  return body_space_.get();
+}
+
 void FactoredDelassus::begin(const std::vector<Vec3>& lambda) {
   group_.clear_delta();
   for (std::size_t i = 0; i < lambda.size(); ++i)

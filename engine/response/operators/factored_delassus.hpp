@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/contact/group_system.hpp"
+#include "engine/lcp/body_space.hpp"
 #include "engine/lcp/cone_problem.hpp"
 
 namespace impinge {
@@ -19,6 +20,7 @@ class FactoredDelassus : public Delassus {
   explicit FactoredDelassus(GroupSystem& group, const std::vector<std::vector<Mat3>>* node_inverse = nullptr);
 
   bool has_factors() const override { return true; }
+  const BodySpace* body_space() override;
   std::size_t contacts() const override { return diagonal_.size(); }
   const Mat3& diagonal(std::size_t i) const override { return diagonal_[i]; }
   void begin(const std::vector<Vec3>& lambda) override;
@@ -35,6 +37,7 @@ class FactoredDelassus : public Delassus {
   const std::vector<std::vector<Mat3>>* node_inverse_;
   std::vector<Mat3> diagonal_;
   std::vector<std::array<RigidSide, 2>> sides_;
+  std::unique_ptr<BodySpace> body_space_;  // once it is asked for
 };
 
 }  // namespace impinge

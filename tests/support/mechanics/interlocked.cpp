@@ -18,7 +18,7 @@ namespace {
 constexpr double kTwoPi = 2.0 * M_PI;
 
 // metres
-constexpr double kLinkMajor = 0.1, kLinkMinor = 0.02, kLinkPlay = 0.002;
+constexpr double kLinkPlay = 0.002;
 constexpr int kSides = 64;
 constexpr double kPinRadius = 0.01, kPinPlay = 1e-4, kArmLength = 0.2, kArmWidth = 0.04, kArmThickness = 0.02,
                  kArmGap = 5e-4;

@@ -7,6 +7,8 @@
 
 namespace impinge::test {
 
+inline constexpr double kLinkMajor = 0.1, kLinkMinor = 0.02;  ///< metres, radii of the chain's links
+
 struct Assembly {
   std::string name;  ///< chain, arms, bolt, arch
   int count = 2;     ///< of links, arms, stones; a bolt has none
