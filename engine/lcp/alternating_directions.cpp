@@ -4,12 +4,14 @@
 // every iteration [DeSaxce98], so that what it ends at is Coulomb's law and not the associated one.
 //
 // κ decides how soon forces go through the whole: stacks and chains want much, tumbling piles little. It begins high and
-// comes down where the residual doesn't.
+// comes down where the residual doesn't. (To end where the lowest doesn't serve either leaves bridges of planks unsolved
+// that it solves in time.)
 #include "engine/lcp/alternating_directions.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/core/interrupt.hpp"
 #include "engine/lcp/body_space.hpp"
@@ -36,6 +38,7 @@ class Iteration {
         settings_(settings),
         lambda_(lambda),
         n_(lambda.size()),
+        unit_weight_(n_),
         weight_(n_),
         y_(n_),
         w_(n_),
@@ -44,10 +47,12 @@ class Iteration {
 
   LcpResult run() {
     if (measure(lambda_)) return finish(0, StopReason::converged);
+    assemble();
     std::size_t level = 0;
     const std::vector<Vec3> nothing(n_, Vec3::Zero());
     bool is_cold = best_residual_ > kWarm;
-    start(kWeights[level], is_cold ? nothing : best_);
+    weigh(kWeights[level]);
+    start(is_cold ? nothing : best_);
     double before = 0.0;  // the residual where this span of iterations began; 0: it has just begun
     int since = 0;
     for (int i = 1; i <= settings_.max_iterations; ++i) {
@@ -68,9 +73,10 @@ class Iteration {
       if (serves) continue;
       if (!is_cold) {
         is_cold = true;
-        start(kWeights[level], nothing);
+        start(nothing);
       } else if (level + 1 < std::size(kWeights)) {
-        start(kWeights[++level], best_);
+        weigh(kWeights[++level]);
+        start(best_);
       }
     }
     return finish(settings_.max_iterations, StopReason::iteration_cap);
@@ -92,69 +98,66 @@ class Iteration {
     return {iterations, reason};
   }
 
-  /// From λ with the weights κ / W_ii.
-  void start(double kappa, const std::vector<Vec3>& lambda) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      const Mat3& d = problem_.w->diagonal(i);
-      const double scale = problem_.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
-      weight_[i] = scale > 0.0 ? kappa / scale : 0.0;
-    }
-    factorize();
-    problem_.w->begin(lambda);
-    velocities(problem_, u_);
-    for (std::size_t i = 0; i < n_; ++i)
-      y_[i] = weight_[i] > 0.0 ? Vec3(problem_.dual(i, u_[i]) - lambda[i] / weight_[i]) : Vec3(Vec3::Zero());
-  }
-
   static Rows rows(const BodySpace::Side& side) {
     Rows j;
     j << side.linear, side.angular;
     return j;
   }
 
-  void factorize() {
-    const auto count = bodies_.mass.size();
-    struct Part {
-      int row, column;
-      std::size_t contact;
-      int first, second;  // sides
-    };
-    std::vector<Part> parts;
+  /// M, and Jᵀ P J for κ = 1, lower triangles: what is factorized has one pattern for every κ.
+  void assemble() {
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Mat3& d = problem_.w->diagonal(i);
+      const double scale = problem_.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
+      unit_weight_[i] = scale > 0.0 ? 1.0 / scale : 0.0;
+    }
+    std::map<std::pair<int, int>, Matrix6> blocks;
     for (std::size_t i = 0; i < n_; ++i)
-      for (int s = 0; s < 2; ++s)
-        for (int t = 0; t < 2; ++t) {
-          const int a = bodies_.sides[i][s].body, b = bodies_.sides[i][t].body;
-          if (a >= 0 && b >= 0 && a >= b) parts.push_back({a, b, i, s, t});
-        }
-    std::stable_sort(parts.begin(), parts.end(), [](const Part& l, const Part& r) {
-      return std::pair(l.row, l.column) < std::pair(r.row, r.column);
-    });
-    std::vector<Eigen::Triplet<double>> entries;
-    const auto put = [&](int row, int column, const Matrix6& block) {
+      for (const BodySpace::Side& a : bodies_.sides[i])
+        for (const BodySpace::Side& b : bodies_.sides[i])
+          if (b.body >= 0 && a.body >= b.body)
+            blocks.try_emplace({a.body, b.body}, Matrix6::Zero()).first->second +=
+                unit_weight_[i] * rows(a).transpose() * rows(b);
+    std::vector<Eigen::Triplet<double>> own, together;
+    const auto put = [](std::vector<Eigen::Triplet<double>>& entries, int row, int column, const Matrix6& block) {
       for (int r = 0; r < 6; ++r)
         for (int c = 0; c < 6; ++c)
           if (row != column || r >= c) entries.emplace_back(6 * row + r, 6 * column + c, block(r, c));
     };
-    for (std::size_t b = 0; b < count; ++b) {
+    for (const auto& [place, block] : blocks) put(together, place.first, place.second, block);
+    const int count = static_cast<int>(bodies_.mass.size());
+    for (int b = 0; b < count; ++b) {
       Matrix6 m = Matrix6::Zero();
       m.topLeftCorner<3, 3>() = bodies_.mass[b] * Mat3::Identity();
       m.bottomRightCorner<3, 3>() = bodies_.inertia[b];
-      put(static_cast<int>(b), static_cast<int>(b), m);
+      put(own, b, b, m);
     }
-    for (std::size_t i = 0; i < parts.size();) {
-      const Part& first = parts[i];
-      Matrix6 sum = Matrix6::Zero();
-      for (; i < parts.size() && parts[i].row == first.row && parts[i].column == first.column; ++i) {
-        const auto& sides = bodies_.sides[parts[i].contact];
-        sum += weight_[parts[i].contact] * rows(sides[parts[i].first]).transpose() * rows(sides[parts[i].second]);
-      }
-      put(first.row, first.column, sum);
-    }
-    const auto size = static_cast<Eigen::Index>(6 * count);
-    Eigen::SparseMatrix<double> m(size, size);
-    m.setFromTriplets(entries.begin(), entries.end());
+    mass_.resize(6 * count, 6 * count), coupling_.resize(6 * count, 6 * count);
+    mass_.setFromTriplets(own.begin(), own.end());
+    coupling_.setFromTriplets(together.begin(), together.end());
     check_interrupt();
-    factors_.compute(m);
+    factors_.analyzePattern(mass_ + coupling_);
+  }
+
+  /// P = κ / W_ii from here on.
+  void weigh(double kappa) {
+    check_interrupt();
+    for (std::size_t i = 0; i < n_; ++i) weight_[i] = kappa * unit_weight_[i];
+    factors_.factorize(mass_ + kappa * coupling_);
+  }
+
+  /// From λ, with the present weights.
+  void start(const std::vector<Vec3>& lambda) {
+    problem_.w->begin(lambda);
+    velocities(problem_, u_);
+    for (std::size_t i = 0; i < n_; ++i)
+      y_[i] = weight_[i] > 0.0 ? Vec3(problem_.dual(i, u_[i]) - lambda[i] / weight_[i]) : Vec3(Vec3::Zero());
+  }
+
+  /// mᵀ x, as product() has m x.
+  static Vec3 turned(const Mat3& m, const Vec3& x) {
+    return {m(0, 0) * x.x() + m(1, 0) * x.y() + m(2, 0) * x.z(), m(0, 1) * x.x() + m(1, 1) * x.y() + m(2, 1) * x.z(),
+            m(0, 2) * x.x() + m(1, 2) * x.y() + m(2, 2) * x.z()};
   }
 
   void step() {
@@ -168,8 +171,8 @@ class Iteration {
       const Vec3 push = weight_[i] * (z_[i] + wanted - problem_.q[i]);
       for (const BodySpace::Side& side : bodies_.sides[i]) {
         if (side.body < 0) continue;
-        pushed.segment<3>(6 * side.body) += side.linear.transpose() * push;
-        pushed.segment<3>(6 * side.body + 3) += side.angular.transpose() * push;
+        pushed.segment<3>(6 * side.body) += turned(side.linear, push);
+        pushed.segment<3>(6 * side.body + 3) += turned(side.angular, push);
       }
     }
     const VecX v = factors_.solve(pushed);
@@ -189,10 +192,11 @@ class Iteration {
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
-  std::vector<double> weight_;   // P, kg
+  std::vector<double> unit_weight_, weight_;  // P for κ = 1, and P, kg
   std::vector<Vec3> y_, w_, z_;  // m/s: what is projected, its parts in the dual cone and, turned round, in the cone
   std::vector<Vec3> u_, best_;
   double residual_ = 0.0, best_residual_ = 0.0;
+  Eigen::SparseMatrix<double> mass_, coupling_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
 };
 

@@ -9,6 +9,7 @@
 #include "engine/detection/pairs/primitive.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/surface/exempt_pairs.hpp"
+#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
@@ -34,7 +35,7 @@ class FittedColliders {
     std::vector<int> shapes(colliders.size(), 0);  // near each deforming mesh
     for (const BodyPair& pair : pairs)
       for (const auto& [mesh, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
-        if (!colliders[mesh].vertex_velocities.empty() && colliders[other].shape->mesh() == nullptr) ++shapes[mesh];
+        if (!colliders[mesh].vertex_velocities.empty() && asks_for_triangles(*colliders[other].shape)) ++shapes[mesh];
     if (std::none_of(shapes.begin(), shapes.end(), is_worth_it)) return;
     own_.assign(colliders.begin(), colliders.end());
     boxes_.resize(colliders.size());
@@ -49,6 +50,8 @@ class FittedColliders {
   std::span<const Collider> all() const { return all_; }
 
  private:
+  /// A plane is held against every vertex.
+  static bool asks_for_triangles(const Shape& shape) { return shape.mesh() == nullptr && shape.as<Plane>() == nullptr; }
   static bool is_worth_it(int shapes) { return shapes > 1; }
   std::span<const Collider> all_;
   std::vector<Collider> own_;
@@ -67,8 +70,8 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
   triangle_pairs.clear();
   if (!mesh_pairs.empty()) narrow_phase.find(colliders, mesh_pairs, triangle_pairs);
   std::erase_if(triangle_pairs, [&](const TrianglePair& t) {
-    const ExemptPairs* exempt = colliders[t.a].exempt_pairs;
-    return t.a == t.b && exempt != nullptr && exempt->has(t.triangle_a, t.triangle_b);
+    const ExemptPairs* exempt = t.a == t.b ? colliders[t.a].exempt_pairs : nullptr;
+    return exempt != nullptr && exempt->has(t.triangle_a, t.triangle_b);
   });
   check_interrupt();
 

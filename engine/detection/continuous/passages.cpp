@@ -140,13 +140,13 @@ class Search {
   void vertex_face(const Stretch& of_vertex, int v, int t_vertex, const Stretch& of_face, int t, bool exchanged) {
     const Triangle& f = mesh(of_face).triangles[t];
     if (is_self_ && (f[0] == v || f[1] == v || f[2] == v)) return;
-    if (is_self_ && path_a_.exempt != nullptr && path_a_.exempt->has_vertex(topology(of_face), v, t)) return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;
       x = {of_vertex.vertex(v, k), of_face.vertex(f[0], k), of_face.vertex(f[1], k), of_face.vertex(f[2], k)};
     }
     if (apart(c, 1)) return;
+    if (is_self_ && path_a_.exempt != nullptr && path_a_.exempt->has_vertex(topology(of_face), v, t)) return;
     const std::optional<Impact> impact = vertex_face_advancement(c, continuous());
     if (!impact) return;
     if (sketch_) {
@@ -178,16 +178,16 @@ class Search {
     const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
     const int a0 = a[i], a1 = a[(i + 1) % 3], b0 = b[j], b1 = b[(j + 1) % 3];
     if (is_self_ && (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1)) return;
-    if (is_self_ && path_a_.exempt != nullptr &&
-        path_a_.exempt->has_edges(topology(*a_), topology(*a_).triangle_edges[ta][i],
-                                  topology(*b_).triangle_edges[tb][j]))
-      return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;
       x = {a_->vertex(a0, k), a_->vertex(a1, k), b_->vertex(b0, k), b_->vertex(b1, k)};
     }
     if (apart(c, 2)) return;
+    if (is_self_ && path_a_.exempt != nullptr &&
+        path_a_.exempt->has_edges(topology(*a_), topology(*a_).triangle_edges[ta][i],
+                                  topology(*b_).triangle_edges[tb][j]))
+      return;
     const std::optional<Impact> impact = edge_edge_advancement(c, continuous());
     if (!impact) return;
     if (sketch_) {

@@ -1,4 +1,4 @@
-// A deformable body whose surface crosses itself in the file: pushed apart, or left as it is.
+// What crosses itself, or starts in another, in the file: pushed apart or left as it is, and named by info.
 #include <catch2/catch.hpp>
 
 #include <fmt/format.h>
