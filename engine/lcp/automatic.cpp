@@ -2,15 +2,19 @@
 // rate is known, what it still needs is compared with the price of Newton's factorizations. Counts decide, never
 // clocks, so the same problem takes the same way everywhere.
 //
-// Price in sweeps: some 15 factorizations of 2/3 (3n)³ operations at full speed against 18 n² a sweep at a fraction of
-// it, about 6 n, and less since open contacts leave the factorization; 2 n was the best of 6, 2 and 0.5 on stacks,
-// piles and deformable cubes. With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored)
-// the sweeps are made conjugate instead. Gauss-Seidel and then two short tries of Newton from either end were no
-// better. Where all bodies are rigid alternating directions come before either sweeps: what they don't solve in three
-// quarters of the iterations goes on from their best.
+// Price in sweeps: where all bodies are rigid Newton's systems have six rows a body, and a solve costs some twenty
+// sweeps however many contacts there are. Elsewhere it is some 15 factorizations of 2/3 (3n)³ operations at full speed
+// against 18 n² a sweep at a fraction of it, about 6 n, and less since open contacts leave the factorization; 2 n was
+// the best of 6, 2 and 0.5 on stacks, piles and deformable cubes. With more contacts than kMostDense (a W with factors,
+// whose sweeps cost n: kMostFactored) the sweeps are made conjugate instead.
+//
+// What Newton leaves of rigid bodies (tumbling piles) goes to alternating directions, which no local minimum holds, and
+// from there to Newton again. Before Newton they cost more than they save, except on tall stacks.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 
 #include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
@@ -22,11 +26,14 @@ Entry<LcpSolver> semismooth_newton_solver();
 
 namespace {
 
-constexpr int kFirstSweeps = 30;  // before the rate is looked at
-constexpr int kWindow = 10;       // of them that it is taken over
+constexpr int kFirstSweeps = 30;    // before the rate is looked at
+constexpr int kFirstOfBodies = 10;  // where Newton is quick
+constexpr int kWindow = 10;         // of them that it is taken over
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
-constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method
-constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
+constexpr double kSweepsPerContact = 2.0;              // the price of Newton's method
+constexpr double kSweepsOfBodies = 20.0;               // and where all bodies are rigid
+constexpr double kSweepsOfConjugate = 50.0;            // what conjugate sweeps cost beside what they save
+constexpr int kFirstNewton = 200, kAlternating = 300;  // iterations, where all bodies are rigid
 
 class Automatic : public LcpSolver {
  public:
@@ -34,12 +41,15 @@ class Automatic : public LcpSolver {
   LcpResult solve(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) const override {
     if (problem.q.empty()) return {};
     const std::size_t n = lambda.size();
-    const bool newton = n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
-    const double price = newton ? kSweepsPerContact * static_cast<double>(n) : kSweepsOfConjugate;
+    const bool bodies = problem.w->body_space() != nullptr;
+    const bool newton = bodies || n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
+    const double price = bodies   ? kSweepsOfBodies
+                         : newton ? kSweepsPerContact * static_cast<double>(n)
+                                  : kSweepsOfConjugate;
+    const int first = bodies ? kFirstOfBodies : kFirstSweeps;
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
-    if (!newton && can_alternate_directions(problem)) return solve_together(problem, settings, lambda);
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
@@ -47,10 +57,13 @@ class Automatic : public LcpSolver {
       if (stop.solved(lambda, change)) return {sweep, StopReason::converged};
       if (change == 0.0) return {sweep, StopReason::stagnated};
       changes.push_back(change);
-      if (sweep < kFirstSweeps || sweep == settings.max_iterations) continue;
-      if (sweeps_left(changes, goal) > std::min(price, static_cast<double>(settings.max_iterations - sweep)))
-        return go_on(newton ? semismooth_newton_solver() : nonsmooth_nonlinear_conjugate_gradient_solver(), problem,
-                     settings, sweep, lambda);
+      if (sweep < first || sweep == settings.max_iterations) continue;
+      // a rate that promises an end and doesn't keep it counts for nothing
+      const double left = sweep > first + price ? price + 1.0 : sweeps_left(changes, goal);
+      if (left <= std::min(price, static_cast<double>(settings.max_iterations - sweep))) continue;
+      if (bodies) return solve_bodies(problem, settings, sweep, lambda);
+      return go_on(by_solver(newton ? semismooth_newton_solver() : nonsmooth_nonlinear_conjugate_gradient_solver()),
+                   problem, settings, sweep, lambda);
     }
     return {settings.max_iterations, StopReason::iteration_cap};
   }
@@ -58,31 +71,43 @@ class Automatic : public LcpSolver {
  private:
   /// What the rate of the last sweeps says.
   static double sweeps_left(const std::vector<double>& changes, double goal) {
-    const double now = changes.back(), rate = std::pow(now / changes[changes.size() - 1 - kWindow], 1.0 / kWindow);
+    const std::size_t window = std::min<std::size_t>(kWindow, changes.size() - 1);
+    const double now = changes.back(), before = changes[changes.size() - 1 - window];
+    const double rate = std::pow(now / before, 1.0 / static_cast<double>(window));
     if (now <= goal) return 0.0;
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
   }
 
-  /// Many contacts of rigid bodies. Sweeps don't begin here: forces that hold each other in balance, which they bring
-  /// in, leave a method of all bodies slowly.
-  static LcpResult solve_together(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) {
-    LcpSettings part = settings;
-    part.max_iterations = settings.max_iterations - settings.max_iterations / 4;
-    if (settings.history != nullptr) settings.history->pop_back();  // it begins with the same residual
-    const LcpResult result = alternate_directions(problem, part, lambda);
-    if (result.solved()) return result;
-    return go_on(nonsmooth_nonlinear_conjugate_gradient_solver(), problem, settings, result.iterations, lambda);
+  using Method = std::function<LcpResult(const ConeProblem&, const LcpSettings&, std::vector<Vec3>&)>;
+
+  static Method by_solver(const Entry<LcpSolver>& entry) {
+    return [solver = std::shared_ptr<LcpSolver>(entry.make())](const ConeProblem& problem, const LcpSettings& settings,
+                                                               std::vector<Vec3>& lambda) {
+      return solver->solve(problem, settings, lambda);
+    };
   }
 
-  static LcpResult go_on(const Entry<LcpSolver>& with, const ConeProblem& problem, LcpSettings settings, int sweeps,
-                         std::vector<Vec3>& lambda) {
+  static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
+                                std::vector<Vec3>& lambda) {
+    const Method newton = by_solver(semismooth_newton_solver());
+    LcpResult result = go_on(newton, problem, settings, sweeps, lambda, kFirstNewton);
+    if (result.reason == StopReason::converged || !can_alternate_directions(problem)) return result;
+    result = go_on(alternate_directions, problem, settings, result.iterations, lambda, kAlternating);
+    if (result.reason == StopReason::converged) return result;
+    return go_on(newton, problem, settings, result.iterations, lambda);
+  }
+
+  /// At most `most` iterations of another method from `lambda`, which is left as it was if they don't better it.
+  static LcpResult go_on(const Method& method, const ConeProblem& problem, LcpSettings settings, int spent,
+                         std::vector<Vec3>& lambda, int most = std::numeric_limits<int>::max()) {
     const std::vector<Vec3> before = lambda;
-    settings.max_iterations -= sweeps;
+    settings.max_iterations = std::min(most, settings.max_iterations - spent);
+    if (settings.max_iterations <= 0) return {spent, StopReason::iteration_cap};
     if (settings.history != nullptr) settings.history->pop_back();  // the next one begins with the same residual
-    LcpResult result = with.make()->solve(problem, settings, lambda);
+    LcpResult result = method(problem, settings, lambda);
     if (!result.solved() && !(judge(problem, lambda).map.relative < judge(problem, before).map.relative))
       lambda = before;
-    result.iterations += sweeps;
+    result.iterations += spent;
     return result;
   }
 };
@@ -91,7 +116,8 @@ class Automatic : public LcpSolver {
 
 Entry<LcpSolver> automatic_solver() {
   return entry<LcpSolver, Automatic>(
-      "automatic", "Gauss-Seidel, and where it is slow semismooth Newton (many contacts: ADMM, NNCG)");
+      "automatic",
+      "Gauss-Seidel, and where it is slow semismooth Newton (then ADMM; many contacts of soft bodies: NNCG)");
 }
 
 }  // namespace impinge

@@ -5,7 +5,8 @@
 // the difficulty.
 //
 // A step is halved until F has shrunk against the worst of the last few; if that fails α rises, and where even a large
-// α does not help, a few Gauss-Seidel sweeps move on. Cost of a step: one LU of the rows in contact.
+// α does not help, a few Gauss-Seidel sweeps move on. Cost of a step: one LU, of six rows a body where all bodies are
+// rigid, else of the rows in contact.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -33,7 +34,8 @@ class Search {
         settings_(settings),
         lambda_(lambda),
         n_(lambda.size()),
-        system_(problem),
+        system_(problem.w->body_space() != nullptr ? newton_system_of_bodies(*problem.w->body_space())
+                                                   : newton_system_of_rows(problem)),
         u_(n_),
         trial_(n_),
         a_(n_),
@@ -129,8 +131,8 @@ class Search {
       kept_[i] = !e.open;
       f.segment<3>(3 * static_cast<Eigen::Index>(i)) = -e.value;
     }
-    system_.factorize(a_, b_, kept_);
-    system_.solve(f, d);
+    system_->factorize(a_, b_, kept_);
+    system_->solve(f, d);
     if (!d.allFinite()) return false;
     double worst = now;
     for (const double m : merits_) worst = std::max(worst, m);
@@ -155,7 +157,7 @@ class Search {
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
-  NewtonSystem system_;
+  std::unique_ptr<NewtonSystem> system_;
   std::vector<Vec2> rho_;
   std::vector<double> scale_;
   std::vector<Vec3> u_, trial_, best_;
@@ -175,7 +177,7 @@ class SemismoothNewton : public LcpSolver {
     return Search(problem, settings, lambda).run();
   }
   std::string applies(const ConeProblem& problem) const override {
-    if (problem.q.size() <= kMostContacts) return "";
+    if (problem.q.size() <= kMostContacts || (problem.w != nullptr && problem.w->body_space() != nullptr)) return "";
     return std::to_string(problem.q.size()) + " contacts; it writes W out, which is done up to " +
            std::to_string(kMostContacts);
   }

@@ -1,0 +1,96 @@
+#include <Eigen/LU>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <limits>
+
+#include "engine/core/interrupt.hpp"
+#include "engine/lcp/newton_system.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr Eigen::Index kSparseRows = 300;  // below this a dense factorization is quicker whatever the pattern
+constexpr double kSparseFill = 0.15;       // share of W that is not 0
+
+class SystemOfRows : public NewtonSystem {
+ public:
+  explicit SystemOfRows(const ConeProblem& problem) : rows_(rows_of(problem)), w_(problem.w->dense()) {
+    const auto nonzero = static_cast<double>((w_.array() != 0.0).count());
+    sparse_ = w_.rows() >= kSparseRows && nonzero < kSparseFill * static_cast<double>(w_.size());
+  }
+
+  void factorize(std::span<const Mat3> a, std::span<const Mat3> b, const std::vector<char>& kept) override {
+    a_.assign(a.begin(), a.end());
+    kept_.clear(), known_.clear();
+    for (const int row : rows_) (kept[row / 3] ? kept_ : known_).push_back(row);
+    const auto n = static_cast<Eigen::Index>(kept_.size());
+    if (n == 0) return;
+    // row r of A W + B: A_i mixes the rows of its own contact only
+    const auto value = [&](int r, int c) {
+      const int i = r / 3;
+      double sum = r / 3 == c / 3 ? b[i](r % 3, c % 3) : 0.0;
+      for (int k = 0; k < 3; ++k) sum += a[i](r % 3, k) * w_(3 * i + k, c);
+      return sum;
+    };
+    if (!sparse_) {
+      MatX m(n, n);
+      for (Eigen::Index c = 0; c < n; ++c) {
+        check_interrupt();
+        for (Eigen::Index r = 0; r < n; ++r) m(r, c) = value(kept_[r], kept_[c]);
+      }
+      dense_lu_.compute(m);
+      return;
+    }
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index c = 0; c < n; ++c) {
+      check_interrupt();
+      for (Eigen::Index r = 0; r < n; ++r)
+        if (const double v = value(kept_[r], kept_[c]); v != 0.0)
+          entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
+    }
+    Eigen::SparseMatrix<double> m(n, n);
+    m.setFromTriplets(entries.begin(), entries.end());
+    sparse_lu_.compute(m);
+    singular_ = sparse_lu_.info() != Eigen::Success;
+  }
+
+  void solve(const VecX& b, VecX& x) const override {
+    x = VecX::Zero(b.size());
+    for (const int row : known_) x[row] = b[row];
+    const auto n = static_cast<Eigen::Index>(kept_.size());
+    if (n == 0) return;
+    VecX rest(n);
+    const VecX carried = known_.empty() ? VecX() : VecX(w_ * x);
+    for (Eigen::Index r = 0; r < n; ++r) {
+      const int row = kept_[r], i = row / 3;
+      rest[r] = b[row];
+      if (!known_.empty())
+        for (int k = 0; k < 3; ++k) rest[r] -= a_[i](row % 3, k) * carried[3 * i + k];
+    }
+    VecX y;
+    if (!sparse_)
+      y = dense_lu_.solve(rest);
+    else if (singular_)
+      y = VecX::Constant(n, std::numeric_limits<double>::quiet_NaN());
+    else
+      y = sparse_lu_.solve(rest);
+    for (Eigen::Index r = 0; r < n; ++r) x[kept_[r]] = y[r];
+  }
+
+ private:
+  std::vector<int> rows_;  // the scalar rows of the problem
+  MatX w_;
+  std::vector<Mat3> a_;
+  std::vector<int> kept_, known_;  // scalar rows
+  bool sparse_ = false, singular_ = false;
+  Eigen::PartialPivLU<MatX> dense_lu_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> sparse_lu_;
+};
+
+}  // namespace
+
+std::unique_ptr<NewtonSystem> newton_system_of_rows(const ConeProblem& problem) {
+  return std::make_unique<SystemOfRows>(problem);
+}
+
+}  // namespace impinge
