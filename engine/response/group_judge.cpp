@@ -1,13 +1,36 @@
 #include "engine/response/group_judge.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/lcp/residual.hpp"
 
 namespace impinge {
+namespace {
+
+/// |J v* - bound| of the rows that there are.
+double asked(const GroupSystem& group, std::size_t i) {
+  Vec3 u = group.contact_velocity(i, false);
+  u.x() -= group.contacts[i].bound;
+  return group.contacts[i].has_one_row() ? std::abs(u.x()) : u.norm();
+}
+
+/// What velocities of this size are known to: bodies that fly together ask for nothing, and a share of that says nothing.
+double rounding(const GroupSystem& group) {
+  double speed = 0.0;
+  for (const RigidBlock& block : group.rigid) speed = std::max(speed, block.velocity.norm());
+  for (const DeformableBlock& block : group.deformable)
+    if (block.velocity.size() > 0) speed = std::max(speed, block.velocity.cwiseAbs().maxCoeff());
+  return 64.0 * std::numeric_limits<double>::epsilon() * speed;
+}
+
+}  // namespace
 
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal) {
   GroupVerdict verdict;
+  double scale = 0.0;
   std::vector<Vec3> impulse(group.rigid.size(), Vec3::Zero()), turn(group.rigid.size(), Vec3::Zero());
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactRows& rows = group.contacts[i];
@@ -37,6 +60,7 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
     if (w(0, 0) <= 0.0) continue;  // both points are held: nothing can respond
     Vec3 u = group.contact_velocity(i, true);
     u.x() -= rows.bound;
+    scale = std::max(scale, asked(group, i));
     const double r = rows.kind == RowKind::attachment ? u.norm()
                      : rows.kind == RowKind::sliding  ? std::abs(u.x())
                                                       : natural_map(w, u, group.lambda[i], rows.friction);
@@ -58,6 +82,8 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
       verdict.momentum =
           larger(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
+  if (!(verdict.natural_map <= rounding(group)))
+    verdict.relative = scale > 0.0 ? verdict.natural_map / scale : verdict.natural_map;
   return verdict;
 }
 

@@ -9,6 +9,7 @@ namespace impinge {
 struct GroupVerdict {
   double natural_map = 0.0;  ///< m/s, as in lcp/residual.hpp, with u = J (v* + Δv) - bound
   double momentum = 0.0;     ///< max |Δv - A⁻¹ J^T λ| over rigid bodies, |D⁻¹ (A Δv - J^T λ)| over nodes, m/s
+  double relative = 0.0;     ///< the natural map by max |J v* - bound|; of a map that is rounding, 0
   int worst = -1;            ///< contact of the largest natural map
   double residual() const { return larger(natural_map, momentum); }
 };

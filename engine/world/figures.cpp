@@ -60,6 +60,11 @@ constexpr Figure kFigures[] = {
      "Crossing pairs of triangles of deformable bodies' own surfaces: of those with self_collision, with --judge of "
      "all, "
      "with --judge=substeps the most of any sub-step."},
+    {"residual_coulomb", "", state, &S::residual_coulomb,
+     "Largest natural map of the frame's solves, as a share of the velocity that its group's contacts ask for."},
+    {"ended", "", state, &S::ended,
+     "Why the worst of the frame's solves ended (the numbers 0 to 4): converged, cap, stalled, contradiction, "
+     "refused."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.
@@ -71,6 +76,7 @@ struct Value {
   double operator()(const VectorFigure& part) const { return (s.*part.vector)[part.axis]; }
   double operator()(double T::*m) const { return s.times.*m; }
   double operator()(std::uint64_t S::*) const { return 0.0; }
+  double operator()(SolveEnd S::*m) const { return static_cast<double>(s.*m); }
   double operator()(double (*made_of)(const S&)) const { return made_of(s); }
 };
 
@@ -83,6 +89,7 @@ struct Put {
   void operator()(const VectorFigure& part) const { out.put((s.*part.vector)[part.axis]); }
   void operator()(double T::*m) const { out.put(s.times.*m); }
   void operator()(std::uint64_t S::*m) const { out.put(s.*m); }
+  void operator()(SolveEnd S::*m) const { out.put(static_cast<std::uint8_t>(s.*m)); }
   void operator()(double (*)(const S&)) const {}
 };
 
@@ -95,6 +102,12 @@ struct Get {
   void operator()(const VectorFigure& part) const { (s.*part.vector)[part.axis] = in.get<double>(); }
   void operator()(double T::*m) const { s.times.*m = in.get<double>(); }
   void operator()(std::uint64_t S::*m) const { s.*m = in.get<std::uint64_t>(); }
+  void operator()(SolveEnd S::*m) const {
+    const auto number = in.get<std::uint8_t>();
+    if (number >= std::size(kSolveEnds))
+      throw InputError("snapshot: why solves ended is no known number; it is damaged, remove it and run again");
+    s.*m = kSolveEnds[number];
+  }
   void operator()(double (*)(const S&)) const {}
 };
 

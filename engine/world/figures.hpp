@@ -26,7 +26,8 @@ struct VectorFigure {
 };
 /// Where a figure stands, or what it is made of.
 using FigureSource = std::variant<int FrameStats::*, std::int64_t FrameStats::*, double FrameStats::*, VectorFigure,
-                                  double StageTimes::*, std::uint64_t FrameStats::*, double (*)(const FrameStats&)>;
+                                  double StageTimes::*, std::uint64_t FrameStats::*, SolveEnd FrameStats::*,
+                                  double (*)(const FrameStats&)>;
 
 struct Figure {
   std::string_view name;  ///< the column of stats.csv
@@ -35,8 +36,10 @@ struct Figure {
   FigureSource source;
   std::string_view doc;  ///< one sentence
 
-  /// The state's hash: a word of 16 hex digits, the only column that is no number.
+  /// The state's hash: a word of 16 hex digits, the only column that has no number.
   bool is_hash() const { return std::holds_alternative<std::uint64_t FrameStats::*>(source); }
+  /// A word for each number, in files.
+  bool is_word() const { return std::holds_alternative<SolveEnd FrameStats::*>(source); }
   /// A number that counts something.
   bool is_whole() const {
     return std::holds_alternative<int FrameStats::*>(source) ||

@@ -2,6 +2,11 @@
 
 namespace impinge {
 
+std::string_view name_of(SolveEnd end) {
+  constexpr std::string_view kNames[] = {"converged", "cap", "stalled", "contradiction", "refused"};
+  return kNames[static_cast<int>(end)];
+}
+
 void count_unsolved(std::vector<UnsolvedGroups>& all, const UnsolvedGroups& more) {
   for (UnsolvedGroups& known : all)
     if (known.reason == more.reason && known.limit == more.limit) {
@@ -9,6 +14,15 @@ void count_unsolved(std::vector<UnsolvedGroups>& all, const UnsolvedGroups& more
       return;
     }
   all.push_back(more);
+}
+
+void FrameStats::take_unsolved(const UnsolvedGroups& cause, double residual) {
+  if (unconverged == 0 || residual > unsolved_residual) {
+    ended = cause.reason;
+    unsolved_residual = residual;
+  }
+  ++unconverged;
+  count_unsolved(unsolved, cause);
 }
 
 }  // namespace impinge

@@ -51,11 +51,16 @@ struct AttachmentRecord {
   Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
 };
 
+/// Why a group's solve ended, the later the less it is an answer.
+enum class SolveEnd : std::uint8_t { converged, cap, stalled, contradiction, refused };
+constexpr SolveEnd kSolveEnds[] = {SolveEnd::converged, SolveEnd::cap, SolveEnd::stalled, SolveEnd::contradiction,
+                                   SolveEnd::refused};
+std::string_view name_of(SolveEnd end);
+
 /// Group solves that ended without an answer, by what ended them.
 struct UnsolvedGroups {
-  enum Reason : std::uint8_t { limit_met, stalled, contradiction, refused };
-  Reason reason = limit_met;
-  std::string limit;  ///< of limit_met: the path of the parameter that sets it, or in words where none does
+  SolveEnd reason = SolveEnd::cap;
+  std::string limit;  ///< of the cap: the path of the parameter that sets it, or in words where none does
   std::int64_t solves = 0;
 };
 /// Adds to the entry of the same reason and limit, or a new one at the end.
@@ -98,8 +103,12 @@ struct FrameStats {
   std::int64_t unsafe_motions = 0;   ///< bodies that moved farther in a sub-step than contacts see, or passed another
   std::vector<UnsafeBody> unsafe;    ///< the first of each body; of frames that this process made
   std::int64_t self_crossings = 0;   ///< pairs of triangles of a deformable body's own surface, at the end
-  std::int64_t unconverged = 0;      ///< group solves of the frame that ended without an answer
-  std::vector<UnsolvedGroups> unsolved;                  ///< the same by cause; of frames that this process made
+  double residual_coulomb = 0.0;     ///< natural map by max |J v* - bound|, maximum over sub-steps and groups
+  SolveEnd ended = SolveEnd::converged;  ///< of the worst solve: without an answer, the largest residual_coulomb
+  std::int64_t unconverged = 0;          ///< group solves of the frame that ended without an answer
+  std::vector<UnsolvedGroups> unsolved;  ///< the same by cause; of frames that this process made
+  double unsolved_residual = 0.0;        ///< their largest residual_coulomb
+  void take_unsolved(const UnsolvedGroups& cause, double residual);
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
   void take(const Balance& balance) {

@@ -19,11 +19,11 @@ namespace {
 
 /// Of a group that is left without an answer. A response that has one was asked by Newton iterations that have none.
 UnsolvedGroups cause_of(const GroupResult& result) {
-  if (result.is_contradiction) return {UnsolvedGroups::contradiction, "", 1};
+  if (result.is_contradiction) return {SolveEnd::contradiction, "", 1};
   const ResponseResult& solve = result.response;
-  if (solve.converged()) return {UnsolvedGroups::limit_met, "the Newton iterations of simulation.integrator", 1};
-  if (solve.ended == StopReason::iteration_cap) return {UnsolvedGroups::limit_met, std::string(solve.limit), 1};
-  return {solve.ended == StopReason::refused ? UnsolvedGroups::refused : UnsolvedGroups::stalled, "", 1};
+  if (solve.converged()) return {SolveEnd::cap, "the Newton iterations of simulation.integrator", 1};
+  if (solve.ended == StopReason::iteration_cap) return {SolveEnd::cap, std::string(solve.limit), 1};
+  return {solve.ended == StopReason::refused ? SolveEnd::refused : SolveEnd::stalled, "", 1};
 }
 
 }  // namespace
@@ -181,10 +181,8 @@ void World::take_results(FrozenStep* frozen) {
     s.groups[g].contacts = result.contacts;
     stats_.lcp_iterations += result.iterations;
     stats_.outer_iterations += result.outer_iterations;
-    if (!result.is_answered()) {
-      ++stats_.unconverged;
-      count_unsolved(stats_.unsolved, cause_of(result));
-    }
+    if (!result.is_answered()) stats_.take_unsolved(cause_of(result), result.verdict.relative);
+    stats_.residual_coulomb = larger(stats_.residual_coulomb, result.verdict.relative);
     stats_.residual = larger(stats_.residual, result.verdict.residual());
     for (const SolvedContact& c : result.solved)
       stats_.substep_penetration = larger(stats_.substep_penetration, -gap_of(c, bodies_));

@@ -9,13 +9,15 @@ std::string count(std::int64_t n, const char* what) { return fmt::format("{} {}{
 
 std::string what_ended(const UnsolvedGroups& cause) {
   switch (cause.reason) {
-    case UnsolvedGroups::limit_met:
+    case SolveEnd::converged:
+      break;
+    case SolveEnd::cap:
       return "stopped at " + cause.limit;
-    case UnsolvedGroups::stalled:
+    case SolveEnd::stalled:
       return "stalled where more iterations are no use";
-    case UnsolvedGroups::contradiction:
+    case SolveEnd::contradiction:
       return "had contacts that contradict each other";
-    case UnsolvedGroups::refused:
+    case SolveEnd::refused:
       return "were refused by lcp.method";
   }
   return "";

@@ -135,6 +135,7 @@ void print_figures() {
   for (const Figure& figure : figures())
     rows.push_back({std::string(figure.name), std::string(figure.unit),
                     figure.is_hash()    ? "hash"
+                    : figure.is_word()  ? "word"
                     : figure.is_whole() ? "whole"
                                         : "real",
                     std::string(kind_name(figure.kind)), std::string(figure.doc)});

@@ -22,6 +22,15 @@ std::string_view take_cell(std::string_view& line) {
   return cell;
 }
 
+double number_of(std::string_view word, std::string_view column) {
+  for (const SolveEnd end : kSolveEnds)
+    if (name_of(end) == word) return static_cast<double>(end);
+  throw InputError(
+      fmt::format("'{}' in column {}; converged, cap, stalled, contradiction or refused is wanted; run the "
+                  "scene again",
+                  word, column));
+}
+
 [[noreturn]] void refuse_header() {
   throw InputError("another header; the columns of this version are wanted; run the scene again");
 }
@@ -69,6 +78,8 @@ std::string StatsColumns::row(const FrameStats& stats) const {
     if (!line.empty()) line += ',';
     if (figure->is_hash())
       line += hex64(stats.state_hash);
+    else if (figure->is_word())
+      line += name_of(static_cast<SolveEnd>(figure->value(stats)));
     else if (figure->is_whole())
       line += std::to_string(static_cast<std::int64_t>(figure->value(stats)));
     else
@@ -90,6 +101,10 @@ StatsLine StatsColumns::parse(std::string_view line) const {
     const std::string_view word = take_cell(line);
     if (figure->is_hash()) {
       row.state_hash = std::string(word);
+      continue;
+    }
+    if (figure->is_word()) {
+      row.figures[place] = number_of(word, figure->name);
       continue;
     }
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), row.figures[place]);

@@ -68,7 +68,7 @@ TEST_CASE("the note counts each cause for itself where there are several") {
   stats.frame = 3;
   stats.unconverged = 1;
   stats.residual = 0.25;
-  stats.unsolved = {{UnsolvedGroups::limit_met, "lcp.max_iterations", 1}};
+  stats.unsolved = {{SolveEnd::cap, "lcp.max_iterations", 1}};
   note.add(stats);
   CHECK(note.text() ==
         "note:     1 group solve in 1 frame stopped at lcp.max_iterations; the largest residual was 0.25 m/s in frame "
@@ -76,7 +76,7 @@ TEST_CASE("the note counts each cause for itself where there are several") {
   stats.frame = 4;
   stats.unconverged = 4;
   stats.residual = 0.125;
-  stats.unsolved = {{UnsolvedGroups::contradiction, "", 1}, {UnsolvedGroups::limit_met, "lcp.max_iterations", 3}};
+  stats.unsolved = {{SolveEnd::contradiction, "", 1}, {SolveEnd::cap, "lcp.max_iterations", 3}};
   note.add(stats);
   CHECK(note.text() ==
         "note:     5 group solves in 2 frames did not converge: 4 stopped at lcp.max_iterations, 1 had contacts that "

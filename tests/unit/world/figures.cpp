@@ -30,6 +30,7 @@ FrameStats distinct() {
   s.times = {23.5, 24.5, 25.5, 26.5, 27.5, 28.5, 29.5};
   s.state_hash = 0x1234abcdULL, s.unconverged = 31, s.asleep = 32;
   s.judged_penetration = 33.5, s.judged_intersections = 34;
+  s.residual_coulomb = 1.25e-3, s.ended = SolveEnd::stalled;
   return s;
 }
 
@@ -88,13 +89,39 @@ TEST_CASE("numbers by name are those of the row") {
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (header[i] == "state_hash") continue;
       CAPTURE(header[i]);
-      CHECK(values[figure_index(header[i], judged)] == std::stod(row[i]));
+      const double value = values[figure_index(header[i], judged)];
+      if (header[i] == "ended") {
+        CHECK((row[i] == "stalled" && value == 2.0));
+      } else {
+        CHECK(value == std::stod(row[i]));
+      }
     }
     const StatsLine line = columns.parse(columns.row(distinct()));
     CHECK(line.figures == values);
     CHECK(line.state_hash == "000000001234abcd");
   }
   CHECK_THROWS_AS(figure_index("judged_penetration_m", false), InternalError);
+}
+
+TEST_CASE("why solves ended is a word in the table, and read back as its number") {
+  FrameStats s = distinct();
+  const StatsColumns columns(false);
+  for (const SolveEnd end : kSolveEnds) {
+    s.ended = end;
+    CHECK(columns.parse(columns.row(s)).figures[figure_index("ended")] == static_cast<double>(end));
+  }
+  std::string odd = columns.row(s);
+  odd.replace(odd.rfind(name_of(s.ended)), name_of(s.ended).size(), "tired");
+  CHECK_THROWS_WITH(columns.parse(odd), Catch::Contains("'tired' in column ended"));
+}
+
+TEST_CASE("the worst solve of a frame is that of the largest residual among those without an answer") {
+  FrameStats s;
+  CHECK(s.ended == SolveEnd::converged);
+  s.take_unsolved({SolveEnd::stalled, "", 1}, 1e-6);
+  s.take_unsolved({SolveEnd::cap, "lcp.max_iterations", 1}, 1e-3);
+  s.take_unsolved({SolveEnd::contradiction, "", 1}, 1e-5);
+  CHECK((s.ended == SolveEnd::cap && s.unconverged == 3 && s.unsolved.size() == 3));
 }
 
 TEST_CASE("a table that an older version wrote lacks what has come since") {
