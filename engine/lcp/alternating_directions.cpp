@@ -8,13 +8,11 @@
 // that it solves in time.)
 #include "engine/lcp/alternating_directions.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "engine/core/interrupt.hpp"
-#include "engine/lcp/body_space.hpp"
+#include "engine/lcp/body_matrix.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 
 namespace impinge {
@@ -27,9 +25,6 @@ constexpr int kPatience = 60;  // iterations in which a weight that serves lower
 constexpr double kServes = 0.5;
 constexpr double kWarm = 0.1;  // a λ that is farther off is worse than none, whose residual is at most 1
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Rows = Eigen::Matrix<double, 3, 6>;
-
 class Iteration {
  public:
   Iteration(const ConeProblem& problem, const BodySpace& bodies, const LcpSettings& settings, std::vector<Vec3>& lambda)
@@ -38,7 +33,7 @@ class Iteration {
         settings_(settings),
         lambda_(lambda),
         n_(lambda.size()),
-        unit_weight_(n_),
+        matrix_(bodies),
         weight_(n_),
         y_(n_),
         w_(n_),
@@ -47,7 +42,6 @@ class Iteration {
 
   LcpResult run() {
     if (measure(lambda_)) return finish(0, StopReason::converged);
-    assemble();
     std::size_t level = 0;
     const std::vector<Vec3> nothing(n_, Vec3::Zero());
     bool is_cold = best_residual_ > kWarm;
@@ -98,52 +92,17 @@ class Iteration {
     return {iterations, reason};
   }
 
-  static Rows rows(const BodySpace::Side& side) {
-    Rows j;
-    j << side.linear, side.angular;
-    return j;
-  }
-
-  /// M, and Jᵀ P J for κ = 1, lower triangles: what is factorized has one pattern for every κ.
-  void assemble() {
-    for (std::size_t i = 0; i < n_; ++i) {
-      const Mat3& d = problem_.w->diagonal(i);
-      const double scale = problem_.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
-      unit_weight_[i] = scale > 0.0 ? 1.0 / scale : 0.0;
-    }
-    std::map<std::pair<int, int>, Matrix6> blocks;
-    for (std::size_t i = 0; i < n_; ++i)
-      for (const BodySpace::Side& a : bodies_.sides[i])
-        for (const BodySpace::Side& b : bodies_.sides[i])
-          if (b.body >= 0 && a.body >= b.body)
-            blocks.try_emplace({a.body, b.body}, Matrix6::Zero()).first->second +=
-                unit_weight_[i] * rows(a).transpose() * rows(b);
-    std::vector<Eigen::Triplet<double>> own, together;
-    const auto put = [](std::vector<Eigen::Triplet<double>>& entries, int row, int column, const Matrix6& block) {
-      for (int r = 0; r < 6; ++r)
-        for (int c = 0; c < 6; ++c)
-          if (row != column || r >= c) entries.emplace_back(6 * row + r, 6 * column + c, block(r, c));
-    };
-    for (const auto& [place, block] : blocks) put(together, place.first, place.second, block);
-    const int count = static_cast<int>(bodies_.mass.size());
-    for (int b = 0; b < count; ++b) {
-      Matrix6 m = Matrix6::Zero();
-      m.topLeftCorner<3, 3>() = bodies_.mass[b] * Mat3::Identity();
-      m.bottomRightCorner<3, 3>() = bodies_.inertia[b];
-      put(own, b, b, m);
-    }
-    mass_.resize(6 * count, 6 * count), coupling_.resize(6 * count, 6 * count);
-    mass_.setFromTriplets(own.begin(), own.end());
-    coupling_.setFromTriplets(together.begin(), together.end());
-    check_interrupt();
-    factors_.analyzePattern(mass_ + coupling_);
-  }
-
   /// P = κ / W_ii from here on.
   void weigh(double kappa) {
     check_interrupt();
-    for (std::size_t i = 0; i < n_; ++i) weight_[i] = kappa * unit_weight_[i];
-    factors_.factorize(mass_ + kappa * coupling_);
+    std::vector<Mat3> g(n_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Mat3& d = problem_.w->diagonal(i);
+      const double scale = problem_.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
+      weight_[i] = scale > 0.0 ? kappa / scale : 0.0;
+      g[i] = weight_[i] * Mat3::Identity();
+    }
+    matrix_.factorize(g);
   }
 
   /// From λ, with the present weights.
@@ -154,35 +113,20 @@ class Iteration {
       y_[i] = weight_[i] > 0.0 ? Vec3(problem_.dual(i, u_[i]) - lambda[i] / weight_[i]) : Vec3(Vec3::Zero());
   }
 
-  /// mᵀ x, as product() has m x.
-  static Vec3 turned(const Mat3& m, const Vec3& x) {
-    return {m(0, 0) * x.x() + m(1, 0) * x.y() + m(2, 0) * x.z(), m(0, 1) * x.x() + m(1, 1) * x.y() + m(2, 1) * x.z(),
-            m(0, 2) * x.x() + m(1, 2) * x.y() + m(2, 2) * x.z()};
-  }
-
   void step() {
-    VecX pushed = VecX::Zero(static_cast<Eigen::Index>(6 * bodies_.mass.size()));
+    VecX v = bodies_.no_velocities();
     for (std::size_t i = 0; i < n_; ++i) {
       z_[i] = problem_.nearest(i, -y_[i]);
       w_[i] = y_[i] + z_[i];
       Vec3 wanted = w_[i];
       if (problem_.kind_of(i) == RowKind::contact && problem_.mu[i] > 0.0)
         wanted.x() -= problem_.mu[i] * std::hypot(w_[i].y(), w_[i].z());
-      const Vec3 push = weight_[i] * (z_[i] + wanted - problem_.q[i]);
-      for (const BodySpace::Side& side : bodies_.sides[i]) {
-        if (side.body < 0) continue;
-        pushed.segment<3>(6 * side.body) += turned(side.linear, push);
-        pushed.segment<3>(6 * side.body + 3) += turned(side.angular, push);
-      }
+      bodies_.push(i, weight_[i] * (z_[i] + wanted - problem_.q[i]), v);
     }
-    const VecX v = factors_.solve(pushed);
+    matrix_.solve(v);
     for (std::size_t i = 0; i < n_; ++i) {
       if (weight_[i] == 0.0) continue;
-      Vec3 u = problem_.q[i];
-      for (const BodySpace::Side& side : bodies_.sides[i])
-        if (side.body >= 0)
-          u += product(side.linear, v.segment<3>(6 * side.body)) +
-               product(side.angular, v.segment<3>(6 * side.body + 3));
+      const Vec3 u = problem_.q[i] + bodies_.relative(i, v);
       y_[i] = kRelaxation * problem_.dual(i, u) + (1.0 - kRelaxation) * w_[i] - z_[i];
     }
   }
@@ -192,12 +136,11 @@ class Iteration {
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
-  std::vector<double> unit_weight_, weight_;  // P for κ = 1, and P, kg
+  BodyMatrix matrix_;
+  std::vector<double> weight_;   // P, kg
   std::vector<Vec3> y_, w_, z_;  // m/s: what is projected, its parts in the dual cone and, turned round, in the cone
   std::vector<Vec3> u_, best_;
   double residual_ = 0.0, best_residual_ = 0.0;
-  Eigen::SparseMatrix<double> mass_, coupling_;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
 };
 
 }  // namespace

@@ -10,12 +10,18 @@
 namespace impinge {
 namespace {
 
-using Rows = Eigen::Matrix<double, 3, 6>;
+using Rows = std::array<BodySpace::Six, 3>;
 
-Rows rows(const BodySpace::Side& side) {
-  Rows j;
-  j << side.linear, side.angular;
-  return j;
+/// G J.
+Rows weigh(const Mat3& g, const Rows& j) {
+  Rows weighed;
+  for (int r = 0; r < 3; ++r) weighed[r] = g(r, 0) * j[0] + g(r, 1) * j[1] + g(r, 2) * j[2];
+  return weighed;
+}
+
+/// block += Jᵀ H, column by column.
+void add_product(const Rows& j, const Rows& h, BodyMatrix::Block& block) {
+  for (int c = 0; c < 6; ++c) block.col(c) += h[0][c] * j[0] + h[1][c] * j[1] + h[2][c] * j[2];
 }
 
 bool couples(const std::array<BodySpace::Side, 2>& sides) {
@@ -94,16 +100,17 @@ void BodyMatrix::assemble(std::span<const Mat3> g) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (g[i].isZero(0.0)) continue;
     const auto& [a, b] = bodies_.sides[i];
-    const Rows j[2] = {rows(a), rows(b)}, weighed[2] = {g[i] * j[0], g[i] * j[1]};
-    if (a.body >= 0) diagonal_[position_[a.body]].noalias() += j[0].transpose() * weighed[0];
-    if (b.body >= 0) diagonal_[position_[b.body]].noalias() += j[1].transpose() * weighed[1];
+    const Rows of_a = weigh(g[i], a.row), of_b = weigh(g[i], b.row);
+    if (a.body >= 0) add_product(a.row, of_a, diagonal_[position_[a.body]]);
+    if (b.body >= 0) add_product(b.row, of_b, diagonal_[position_[b.body]]);
     if (a.body >= 0 && a.body == b.body) {
-      diagonal_[position_[a.body]] += j[0].transpose() * weighed[1] + j[1].transpose() * weighed[0];
+      add_product(a.row, of_b, diagonal_[position_[a.body]]);
+      add_product(b.row, of_a, diagonal_[position_[a.body]]);
     } else if (const Place& place = places_[i]; place.entry >= 0) {
       Block& row_of_first = place.first_is_row ? lower_[place.entry] : upper_[place.entry];
       Block& row_of_second = place.first_is_row ? upper_[place.entry] : lower_[place.entry];
-      row_of_first.noalias() += j[0].transpose() * weighed[1];
-      row_of_second.noalias() += j[1].transpose() * weighed[0];
+      add_product(a.row, of_b, row_of_first);
+      add_product(b.row, of_a, row_of_second);
     }
   }
 }

@@ -8,7 +8,7 @@ namespace impinge {
 namespace {
 
 constexpr int kRefinements = 6;   // where B is small 1 / B takes digits, which come back
-constexpr double kExact = 1e-13;  // of b
+constexpr double kExact = 1e-9;  // of b
 constexpr double kUseful = 0.5;   // a solution that leaves more of b is none
 
 class SystemOfBodies : public NewtonSystem {
@@ -55,7 +55,7 @@ class SystemOfBodies : public NewtonSystem {
     VecX s = push(x);
     matrix_.solve(s);
     for (std::size_t i = 0; i < by_u_.size(); ++i)
-      x.segment<3>(3 * static_cast<Eigen::Index>(i)) -= by_u_[i] * relative(s, i);
+      x.segment<3>(3 * static_cast<Eigen::Index>(i)) -= by_u_[i] * bodies_.relative(i, s);
   }
 
   /// (A W + B) x.
@@ -68,29 +68,15 @@ class SystemOfBodies : public NewtonSystem {
     }
     for (std::size_t i = 0; i < by_u_.size(); ++i)
       y.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-          a_[i] * relative(v, i) + b_[i] * x.segment<3>(3 * static_cast<Eigen::Index>(i));
+          a_[i] * bodies_.relative(i, v) + b_[i] * x.segment<3>(3 * static_cast<Eigen::Index>(i));
     return y;
   }
 
   /// Jᵀ x.
   VecX push(const VecX& x) const {
-    VecX s = VecX::Zero(static_cast<Eigen::Index>(6 * bodies_.mass.size()));
-    for (std::size_t i = 0; i < by_u_.size(); ++i)
-      for (const BodySpace::Side& side : bodies_.sides[i]) {
-        if (side.body < 0) continue;
-        s.segment<3>(6 * side.body) += side.linear.transpose() * x.segment<3>(3 * static_cast<Eigen::Index>(i));
-        s.segment<3>(6 * side.body + 3) += side.angular.transpose() * x.segment<3>(3 * static_cast<Eigen::Index>(i));
-      }
+    VecX s = bodies_.no_velocities();
+    for (std::size_t i = 0; i < by_u_.size(); ++i) bodies_.push(i, x.segment<3>(3 * static_cast<Eigen::Index>(i)), s);
     return s;
-  }
-
-  /// (J s)_i.
-  Vec3 relative(const VecX& s, std::size_t i) const {
-    Vec3 u = Vec3::Zero();
-    for (const BodySpace::Side& side : bodies_.sides[i])
-      if (side.body >= 0)
-        u += side.linear * s.segment<3>(6 * side.body) + side.angular * s.segment<3>(6 * side.body + 3);
-    return u;
   }
 
   const BodySpace& bodies_;

@@ -53,10 +53,11 @@ const BodySpace* FactoredDelassus::body_space() {
     const ContactSide* of[2] = {&rows.a, &rows.b};
     for (int s = 0; s < 2; ++s) {
       if (of[s]->rigid < 0) continue;
-      const int count = rows.has_one_row() ? 1 : 3;
       sides[s].body = of[s]->rigid;
-      sides[s].linear.topRows(count) = (s == 0 ? 1.0 : -1.0) * rows.directions.topRows(count);
-      sides[s].angular.topRows(count) = sides_[i][s].arm.topRows(count);
+      for (int k = 0; k < (rows.has_one_row() ? 1 : 3); ++k) {
+        sides[s].row[k].head<3>() = (s == 0 ? 1.0 : -1.0) * rows.directions.row(k);
+        sides[s].row[k].tail<3>() = sides_[i][s].arm.row(k);
+      }
     }
     body_space_->sides.push_back(sides);
   }
