@@ -7,9 +7,9 @@
 namespace impinge {
 namespace {
 
-constexpr int kRefinements = 6;   // where B is small 1 / B takes digits, which come back
+constexpr int kRefinements = 6;  // where B is small 1 / B takes digits, which come back
 constexpr double kExact = 1e-9;  // of b
-constexpr double kUseful = 0.5;   // a solution that leaves more of b is none
+constexpr double kUseful = 0.5;  // a solution that leaves more of b is none
 
 class SystemOfBodies : public NewtonSystem {
  public:
