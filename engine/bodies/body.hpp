@@ -110,6 +110,9 @@ class Body {
   /// Moves it without changing its momentum. A displacement changes x × p: in a group that is free of the rest of the
   /// world, whose centre moves with `group_velocity`, the body's spin takes the difference.
   virtual void displace(const BodyVector&, const std::optional<Vec3>& /*group_velocity*/) {}
+  /// Stands where it stood when save() wrote `start`, with the velocity it has now; world_vertices are left to
+  /// update_world_vertices. What is driven moves on.
+  virtual void stay(ByteReader& /*start*/) {}
   /// Throws DivergenceError where position or velocity is no longer finite.
   virtual void check_finite() const {}
   virtual void come_to_rest() {}

@@ -128,6 +128,18 @@ void DeformableBody::save(ByteWriter& out) const {
     for (Eigen::Index i = 0; i < x->size(); ++i) out.put((*x)[i]);
 }
 
+void DeformableBody::stay(ByteReader& start) {
+  const VecX moved = position, v = velocity, a = acceleration;
+  const bool is_known = acceleration_known;
+  const std::vector<HeldRegion> regions = held;
+  const Vec3 center = center_velocity_;
+  restore(start);
+  for (int node = 0; node < nodes(); ++node)
+    if (is_held(node)) position.segment<3>(3 * node) = moved.segment<3>(3 * node);
+  velocity = v, acceleration = a, acceleration_known = is_known, held = regions, center_velocity_ = center;
+  interpolate(embedding, fem.rest(), velocity, surface_velocity_);
+}
+
 void DeformableBody::restore(ByteReader& in) {
   center_velocity_ = restore_frame(in).velocity;
   acceleration_known = in.get<bool>();

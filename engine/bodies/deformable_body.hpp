@@ -97,6 +97,7 @@ class DeformableBody final : public Body {
   void change_velocity(const BodyVector& change) override;
   void advance(const TimeIntegration& how, double end) override;
   void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
+  void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;
 

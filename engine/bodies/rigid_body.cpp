@@ -47,6 +47,8 @@ void RigidBody::displace(const BodyVector& by, const std::optional<Vec3>& group_
   if (group_velocity) angular_momentum -= by.twist.linear.cross(mass * (velocity - *group_velocity));
 }
 
+void RigidBody::stay(ByteReader& start) { restore_frame(start); }
+
 void RigidBody::check_finite() const {
   // a maximum alone may pass over NaN
   const bool fine = pose.position.allFinite() && velocity.allFinite() &&

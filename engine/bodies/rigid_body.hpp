@@ -35,6 +35,7 @@ class RigidBody final : public Body {
   void change_velocity(const BodyVector& change) override;
   void advance(const TimeIntegration& how, double end) override;
   void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
+  void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;
 

@@ -45,6 +45,8 @@ class MotionGuard {
   void open(const Bodies& bodies);
   /// Once velocities are final: how bodies that turn far get through the sub-step, which ends at `end`, s.
   void follow(Bodies& bodies, const TimeIntegration& how, double end);
+  /// After the motion, of a body that was put back to where the sub-step began: it went nowhere.
+  void stayed(BodyIndex body) { turns_[body].clear(); }
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
   std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings);
   /// What `look` holds against each other of two bodies after the motion.

@@ -71,12 +71,13 @@ struct UnsafeBody {
   enum Cause : std::uint8_t {
     unwatched,     ///< narrow_phase.continuous = "off"
     soft_contact,  ///< the response lets bodies overlap, so motions are not undone
-    cut_limit      ///< the sub-step was cut as often as it may be
+    held_back,     ///< the sub-step was cut as often as it may be: the body stood still for the rest of it
+    cut_limit      ///< the same, and the other body moved on all the same: nothing holds it
   };
   std::string name, other;
   Cause cause = unwatched;
   int substep = 0;            ///< of the frame, from 1
-  double displacement = 0.0;  ///< of the body in it, metres; of what is left of it where it was cut
+  double displacement = 0.0;  ///< of the body in it, metres; of what is left of it where it was cut, and not gone if held back
   double approach = 0.0;      ///< of the two, metres
   double safe = 0.0;          ///< the approach that contacts see well, metres
   bool has_passed = false;    ///< it was looked for and found; else it only moved too far

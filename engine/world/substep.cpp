@@ -1,7 +1,9 @@
 // A sub-step, in one piece or, where a surface would pass through another, in several: each ends shortly before a meeting,
-// so that the next one finds contacts where they are. What is met from so close by gets contacts of its own.
+// so that the next one finds contacts where they are. What is met from so close by gets contacts of its own. What would
+// still pass when the sub-step has been cut as often as it may be stays where it stands: it loses time, and is named.
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/archive.hpp"
@@ -54,17 +56,55 @@ bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
   return is_new;
 }
 
+/// Adds the bodies of pairs that pass to those that stay, and takes out the pairs of which one is new there. A body that
+/// passes through itself is not held: it would hang in the air. Nor is what is driven.
+UnsafeMotion take_stoppable(const Bodies& bodies, UnsafeMotion& motion, std::set<BodyIndex>& stay) {
+  UnsafeMotion taken;
+  std::erase_if(motion.pairs, [&](UnsafeMotion::Pair& pair) {
+    bool is_new = false;
+    for (const BodyIndex b : {pair.a, pair.b})
+      if (pair.a != pair.b && bodies[b].has_freedom() && !bodies[b].asleep) is_new |= stay.insert(b).second;
+    if (is_new) taken.pairs.push_back(std::move(pair));
+    return is_new;
+  });
+  return taken;
+}
+
+/// The world's bodies at the start of a piece, one by one.
+class PieceStart {
+ public:
+  PieceStart(const Bodies& bodies, const Sleeping& sleeping) {
+    for (const Body& body : bodies) begin_.push_back(out_.bytes().size()), body.save(out_);
+    begin_.push_back(out_.bytes().size());
+    sleeping.save(out_);
+  }
+  void bring_back(Bodies& bodies, Sleeping& sleeping) const {
+    ByteReader in(out_.bytes());
+    for (Body& body : bodies) body.restore(in), body.update_world_vertices();
+    sleeping.restore(in);
+  }
+  /// The body where it stood, as it is otherwise.
+  void let_stay(Body& body, BodyIndex index) const {
+    ByteReader in(std::string_view(out_.bytes()).substr(begin_[static_cast<std::size_t>(index.value())]));
+    const auto sleep = std::tuple(body.asleep, body.rest_time, body.island);
+    body.stay(in), body.update_world_vertices();
+    std::tie(body.asleep, body.rest_time, body.island) = sleep;
+  }
+
+ private:
+  ByteWriter out_;
+  std::vector<std::size_t> begin_;  // by body
+};
+
 }  // namespace
 
-void World::note_unsafe(const UnsafeMotion& motion, int substep) {
-  UnsafeBody::Cause cause = UnsafeBody::cut_limit;
-  if (parameters.response.method->lives_on_overlap()) cause = UnsafeBody::soft_contact;
-  if (watching(parameters) == Continuous::off) cause = UnsafeBody::unwatched;
+void World::note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause) {
   for (const UnsafeMotion::Pair& pair : motion.pairs)
     for (const bool is_a : {true, false}) {
       const BodyIndex body = is_a ? pair.a : pair.b, other = is_a ? pair.b : pair.a;
       // what lives on overlap is let in by a little, and nobody asked how far it came
-      const bool has_passed = !pair.passages.empty() && cause != UnsafeBody::soft_contact;
+      const bool has_passed = !pair.passages.empty() && cause != UnsafeBody::soft_contact &&
+                              cause != UnsafeBody::held_back;
       const UnsafeBody now{bodies_[body].name, bodies_[other].name, cause,     substep, is_a ? pair.way_a : pair.way_b,
                            pair.approach,      pair.safe,           has_passed};
       UnsafeBody& known = unsafe_.try_emplace(body, now).first->second;
@@ -80,24 +120,27 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const int substep = parameters.simulation.substeps - left + 1;
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
+  const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
   const PassagesOf passages = [&](const Body& a, const Body& b) {
     const double size = activation(a, b);
     return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
   };
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
-  double rest = 1.0;  // of the sub-step
+  double rest = 1.0;         // of the sub-step
+  std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
-    ByteWriter state;
-    if (is_kept) {
-      for (const Body& body : bodies_) body.save(state);
-      sleeping_.save(state);
-    }
+    std::optional<PieceStart> start;
+    if (is_kept) start.emplace(bodies_, sleeping_);
     sub_step_->asked.clear();
     guard_.open(bodies_);
     double share = rest;
     for (int motion = 1;; ++motion) {
       const bool is_last = share == rest;
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && is_last);
+      const auto hold_back = [&] {
+        for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
+      };
+      hold_back();
       std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
@@ -105,16 +148,22 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       if (is_end) {
         if (which == Continuous::off && watcher_ != nullptr && watcher_->wants_passages())
           guard_.find_passages(bodies_, *unsafe, passages);
-        note_unsafe(*unsafe, substep);
+        // those that stay may be in the way of others, which stay then too
+        while (is_kept && unsafe) {
+          const UnsafeMotion held = take_stoppable(bodies_, *unsafe, stay);
+          if (held.pairs.empty()) break;
+          note_unsafe(held, substep, UnsafeBody::held_back);
+          hold_back();
+          unsafe = guard_.look(bodies_, which, passages);
+        }
+        if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
       if (const std::optional<double> safe = safe_share(*unsafe, of_pair))
         share *= motion <= kPatience ? *safe : 0.5 * *safe;
       else if (!ask_for(*unsafe, sub_step_->asked))
         share *= 0.5;
-      ByteReader back(state.bytes());
-      for (Body& body : bodies_) body.restore(back), body.update_world_vertices();
-      sleeping_.restore(back);
+      start->bring_back(bodies_, sleeping_);
     }
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);

@@ -75,7 +75,7 @@ class World {
   void drop_what_never_carries();
   void look_again(const Solving& how);
   void make_motion(double time_step, double share, bool freezes);
-  void note_unsafe(const UnsafeMotion& motion, int substep);
+  void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
   void save_state(ByteWriter& out) const;
   void publish_solved();

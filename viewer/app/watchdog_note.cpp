@@ -26,6 +26,7 @@ std::string remedy(const UnsafeBody& body, int substeps) {
       return "set narrow_phase.continuous = \"auto\", or " + enough_substeps(body, substeps);
     case UnsafeBody::soft_contact:
       return "choose a response.method that lets nothing overlap, or " + enough_substeps(body, substeps);
+    case UnsafeBody::held_back:
     case UnsafeBody::cut_limit:
       return "the sub-step was cut as often as it may be: take more simulation.substeps";
   }
@@ -82,10 +83,14 @@ std::string WatchdogNote::text() const {
   for (std::size_t i = 0; i < std::min(named.size(), kNamed); ++i) {
     const UnsafeBody& body = named[i]->what;
     const std::string where = place_of(named[i]->frame, body.substep), way = fmt::format("{:.3g} m", body.displacement);
-    lines += body.has_passed ? fmt::format("note:     '{}' passed through {} {}: it moved {}", body.name,
-                                           other_of(body), where, way)
-                             : fmt::format("note:     '{}' moved {} beside {} {} and may have passed it", body.name,
-                                           way, other_of(body), where);
+    if (body.has_passed)
+      lines += fmt::format("note:     '{}' passed through {} {}: it moved {}", body.name, other_of(body), where, way);
+    else if (body.cause == UnsafeBody::held_back)
+      lines += fmt::format("note:     '{}' stood still before {} {}, where it would have moved {} and through", body.name,
+                           other_of(body), where, way);
+    else
+      lines += fmt::format("note:     '{}' moved {} beside {} {} and may have passed it", body.name, way,
+                           other_of(body), where);
     lines += fmt::format(", {:.3g} m are safe; {}\n", body.safe, remedy(body, named[i]->substeps));
   }
   if (named.size() > kNamed)
@@ -99,16 +104,18 @@ std::string WatchdogNote::closing_line() const {
   std::vector<const Seen*> named = worth_naming();
   const bool has_passed = !named.empty() && named.front()->what.has_passed;
   if (has_passed) std::erase_if(named, [](const Seen* seen) { return !seen->what.has_passed; });
+  const bool was_held = !has_passed && !named.empty() && named.front()->what.cause == UnsafeBody::held_back;
   std::string passes = "nothing passed";
-  if (has_passed || (!judged_ && !named.empty())) {
+  if (has_passed || was_held || (!judged_ && !named.empty())) {
     const Seen& first = *named.front();
-    passes = fmt::format("'{}' {} {} {}{}", first.what.name, has_passed ? "passed through" : "may have passed",
+    const char* did = has_passed ? "passed through" : was_held ? "was held back from" : "may have passed";
+    passes = fmt::format("'{}' {} {} {}{}", first.what.name, did,
                          other_of(first.what), place_of(first.frame, first.what.substep), and_more(named.size() - 1));
   } else if (named.empty() && frames_ > 0) {
     passes = fmt::format("bodies may have passed others in {} frame{} before the run was resumed, the first {}",
                          frames_, frames_ == 1 ? "" : "s", first_frame_);
   }
-  if (!judged_) return fmt::format("watch:    {}{}\n", passes, has_passed ? "" : "; --judge tells whether");
+  if (!judged_) return fmt::format("watch:    {}{}\n", passes, has_passed || was_held ? "" : "; --judge tells whether");
   if (!is_deep())
     return fmt::format("judge:    {}, nothing overlaps by more than {:.0f} % of a thickness\n", passes, 100.0 * kDeep);
   return fmt::format("judge:    {}{}'{}' and '{}' overlap by {:.3g} m, {:.0f} % of {:.3g} m, {}\n",

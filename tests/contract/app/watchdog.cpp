@@ -98,6 +98,21 @@ TEST_CASE("the sub-steps that the note asks for are as many as make the motion s
   CHECK(note.has_barked());
 }
 
+TEST_CASE("a body that was held back is said to have stood still, not to have passed") {
+  FrameStats stats;
+  stats.frame = 7;
+  stats.substeps = 4;
+  stats.unsafe_motions = 1;
+  stats.unsafe = {{"a", "b", UnsafeBody::held_back, 3, 0.3, 0.5, 0.011, false}};
+  WatchdogNote note;
+  note.add(stats);
+  CHECK(note.text() ==
+        "note:     'a' stood still before 'b' in frame 7, sub-step 3, where it would have moved 0.3 m and through, "
+        "0.011 m are safe; the sub-step was cut as often as it may be: take more simulation.substeps\n");
+  CHECK(note.closing_line() == "watch:    'a' was held back from 'b' in frame 7, sub-step 3\n");
+  CHECK(note.has_barked());
+}
+
 TEST_CASE("what was named is what helps") {
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{}, std::vector<std::string>{"--set", "narrow_phase.continuous=on"}}) {
