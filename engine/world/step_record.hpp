@@ -76,11 +76,12 @@ struct UnsafeBody {
   };
   std::string name, other;
   Cause cause = unwatched;
-  int substep = 0;            ///< of the frame, from 1
-  double displacement = 0.0;  ///< of the body in it, metres; of what is left of it where it was cut, and not gone if held back
-  double approach = 0.0;      ///< of the two, metres
-  double safe = 0.0;          ///< the approach that contacts see well, metres
-  bool has_passed = false;    ///< it was looked for and found; else it only moved too far
+  int substep = 0;  ///< of the frame, from 1
+  double displacement =
+      0.0;  ///< of the body in it, metres; of what is left of it where it was cut, and not gone if held back
+  double approach = 0.0;    ///< of the two, metres
+  double safe = 0.0;        ///< the approach that contacts see well, metres
+  bool has_passed = false;  ///< it was looked for and found; else it only moved too far
 };
 
 /// Two bodies that overlap, as deep as a share of the thinner one's thickness.

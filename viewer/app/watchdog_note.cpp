@@ -86,8 +86,8 @@ std::string WatchdogNote::text() const {
     if (body.has_passed)
       lines += fmt::format("note:     '{}' passed through {} {}: it moved {}", body.name, other_of(body), where, way);
     else if (body.cause == UnsafeBody::held_back)
-      lines += fmt::format("note:     '{}' stood still before {} {}, where it would have moved {} and through", body.name,
-                           other_of(body), where, way);
+      lines += fmt::format("note:     '{}' stood still before {} {}, where it would have moved {} and through",
+                           body.name, other_of(body), where, way);
     else
       lines += fmt::format("note:     '{}' moved {} beside {} {} and may have passed it", body.name, way,
                            other_of(body), where);
@@ -109,8 +109,8 @@ std::string WatchdogNote::closing_line() const {
   if (has_passed || was_held || (!judged_ && !named.empty())) {
     const Seen& first = *named.front();
     const char* did = has_passed ? "passed through" : was_held ? "was held back from" : "may have passed";
-    passes = fmt::format("'{}' {} {} {}{}", first.what.name, did,
-                         other_of(first.what), place_of(first.frame, first.what.substep), and_more(named.size() - 1));
+    passes = fmt::format("'{}' {} {} {}{}", first.what.name, did, other_of(first.what),
+                         place_of(first.frame, first.what.substep), and_more(named.size() - 1));
   } else if (named.empty() && frames_ > 0) {
     passes = fmt::format("bodies may have passed others in {} frame{} before the run was resumed, the first {}",
                          frames_, frames_ == 1 ? "" : "s", first_frame_);
