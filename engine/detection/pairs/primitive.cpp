@@ -1,6 +1,7 @@
 #include "engine/detection/pairs/primitive.hpp"
 
 #include "engine/detection/pairs/compound_pairs.hpp"
+#include "engine/detection/pairs/deforming_vertices.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
 #include "engine/shapes/shape_entry.hpp"
 
@@ -73,6 +74,7 @@ void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pai
   IMPINGE_ASSERT(test != nullptr);
   ContactSink sink(colliders, pair, swapped, query, contacts);
   test(sink);
+  if (has_deforming_vertices(sink)) add_deforming_vertices(sink);
 }
 
 }  // namespace impinge
