@@ -103,6 +103,8 @@ class Body {
   }
   /// v* of the A and b that relinearize took.
   virtual void solve_again() {}
+  /// Of what moves node by node: its surface where v* and `change` (null: nothing) lead, metres.
+  virtual void surface_at_end(const BodyVector* /*change*/, std::vector<Vec3>& /*vertices*/) const {}
   /// Adds what contact made of v*.
   virtual void change_velocity(const BodyVector&) {}
   /// Moves through the sub-step, which ends at `end`, s.

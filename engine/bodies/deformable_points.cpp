@@ -13,16 +13,6 @@ namespace {
 // in heights of the nearest tetrahedron: farther out, a small strain of it would be a large motion of the point
 constexpr double kMostOutside = 1.0;
 
-/// Weights of the corners that give the point of the triangle nearest to `point`.
-Vec3 nearest_weights(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 e0 = b - a, e1 = c - a, x = closest_on_triangle(point, {a, b, c}).point - a;
-  const double d00 = e0.dot(e0), d01 = e0.dot(e1), d11 = e1.dot(e1), d20 = x.dot(e0), d21 = x.dot(e1);
-  const double denominator = d00 * d11 - d01 * d01;
-  if (!(denominator > 0.0)) return Vec3::Unit(0);
-  const double v = (d11 * d20 - d01 * d21) / denominator, w = (d00 * d21 - d01 * d20) / denominator;
-  return {1.0 - v - w, v, w};
-}
-
 Vec3 interpolated(const std::vector<NodeWeight>& nodes, const VecX& values) {
   Vec3 sum = Vec3::Zero();
   for (const NodeWeight& n : nodes) sum += n.weight * values.segment<3>(3 * n.node);
@@ -44,7 +34,7 @@ MaterialPoint DeformableBody::surface_point(TriangleIndex triangle, const Vec3& 
   const Triangle& t = shape->mesh()->mesh.triangles[triangle];
   MaterialPoint point;
   point.triangle = triangle;
-  point.local = nearest_weights(world, world_vertices[t[0]], world_vertices[t[1]], world_vertices[t[2]]);
+  point.local = nearest_weights(world, {world_vertices[t[0]], world_vertices[t[1]], world_vertices[t[2]]});
   return point;
 }
 

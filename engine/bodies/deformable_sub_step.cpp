@@ -79,6 +79,12 @@ void DeformableBody::solve_again() {
   find_displacement_velocity();
 }
 
+void DeformableBody::surface_at_end(const BodyVector* change, std::vector<Vec3>& vertices) const {
+  VecX v = step_.v_star;
+  if (change != nullptr) v += change->nodes;
+  interpolate(embedding, fem.rest(), step_.position(with_held(v)), vertices);
+}
+
 void DeformableBody::change_velocity(const BodyVector& change) {
   step_.v_star += change.nodes;
   touched_ = true;

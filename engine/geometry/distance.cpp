@@ -174,4 +174,14 @@ double triangle_distance(const TriangleCorners& a, const TriangleCorners& b) {
   return triangles_intersect(a, b) ? 0.0 : std::sqrt(closest_features(a, b).squared_distance);
 }
 
+Vec3 nearest_weights(const Vec3& x, const TriangleCorners& triangle) {
+  const Vec3 a = triangle[0], e0 = triangle[1] - a, e1 = triangle[2] - a,
+             d = closest_on_triangle(x, triangle).point - a;
+  const double d00 = e0.dot(e0), d01 = e0.dot(e1), d11 = e1.dot(e1), d20 = d.dot(e0), d21 = d.dot(e1);
+  const double denominator = d00 * d11 - d01 * d01;
+  if (!(denominator > 0.0)) return Vec3::Unit(0);
+  const double v = (d11 * d20 - d01 * d21) / denominator, w = (d00 * d21 - d01 * d20) / denominator;
+  return {1.0 - v - w, v, w};
+}
+
 }  // namespace impinge

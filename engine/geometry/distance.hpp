@@ -31,6 +31,8 @@ struct PointTriangle {
   double squared_distance = 0.0;
 };
 PointTriangle closest_on_triangle(const Vec3& x, const TriangleCorners& triangle);
+/// Weights of the corners that give the point of the triangle nearest to x.
+Vec3 nearest_weights(const Vec3& x, const TriangleCorners& triangle);
 
 struct SegmentSegment {
   double s = 0.0, t = 0.0;  ///< parameters of the closest points on the first and the second segment, in [0, 1]

@@ -5,6 +5,7 @@
 #include "engine/contact/contact_reduction.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/step/end_pose.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
 
@@ -69,7 +70,11 @@ bool SecondLook::find(StageTimes& times) {
   take_velocities();
   find_dropped();
   if (is_anyone_driven()) find_driven(times);
-  return !back_.empty() || !found_.empty();
+  {
+    const StageTimer timer(times.narrow_ms);
+    ahead_ = overlaps_at_end(bodies_, by_, step_);
+  }
+  return !back_.empty() || !found_.empty() || !ahead_.empty();
 }
 
 void SecondLook::find_dropped() {
@@ -156,6 +161,51 @@ void SecondLook::add(const ContactCache& carried) {
     return std::any_of(back_.begin(), back_.end(), [&](const Collision& b) { return key_of(b) == key_of(c); });
   });
   insert(back_, step_.collisions);
+  for (const Collision& c : ahead_) {  // where it ends counts more than where it began
+    const auto same = std::find_if(step_.collisions.begin(), step_.collisions.end(),
+                                   [&](const Collision& k) { return key_of(k) == key_of(c); });
+    if (same != step_.collisions.end())
+      *same = c;
+    else
+      insert({c}, step_.collisions);
+  }
+  exchange();
+}
+
+/// What came back takes the places of those that turned out not to carry: these wait in their turn.
+void SecondLook::exchange() {
+  std::vector<ContactKey> resting;
+  for (const GroupResult& r : step_.results)
+    for (const ContactCache::Item& item : r.impulses)
+      if (item.impulse.isZero(0.0)) resting.push_back(item.key);
+  std::sort(resting.begin(), resting.end());
+  const auto is_asked = [&](const ContactKey& key) {
+    return std::any_of(step_.asked.begin(), step_.asked.end(), [&](const Collision& c) { return key_of(c) == key; });
+  };
+  std::vector<ContactKey> waiting;
+  std::vector<Collision>& all = step_.collisions;
+  const auto most = static_cast<std::size_t>(by_.contact.most_contacts);
+  for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+    const BodyPair pair{all[first].body_a, all[first].body_b};
+    while (last < all.size() && is_of(all[last], pair)) ++last;
+    if (last - first <= most || !is_awake_and_rigid(pair.a, pair.b)) continue;
+    std::vector<std::pair<double, ContactKey>> idle;
+    for (std::size_t i = first; i < last; ++i) {
+      const ContactKey key = key_of(all[i]);
+      if (std::binary_search(resting.begin(), resting.end(), key) && !is_asked(key) && !ends_as_overlap(all[i]))
+        idle.emplace_back(-end_gap(all[i]), key);
+    }
+    std::sort(idle.begin(), idle.end());
+    idle.resize(std::min(idle.size(), last - first - most));
+    for (const auto& [gap, key] : idle) waiting.push_back(key);
+  }
+  if (waiting.empty()) return;
+  std::sort(waiting.begin(), waiting.end());
+  const auto waits = [&](const Collision& c) { return std::binary_search(waiting.begin(), waiting.end(), key_of(c)); };
+  std::vector<Collision> more;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(more), waits);
+  std::erase_if(all, waits);
+  insert(std::move(more), step_.dropped);
 }
 
 bool SecondLook::is_awake_and_rigid(BodyIndex a, BodyIndex b) const {
@@ -224,9 +274,15 @@ int SolvedBefore::solve_changed(Bodies& bodies, std::span<const Attachment> atta
     const std::vector<ContactKey>& keys = keys_[old->second];
     const auto has_key = [&](ContactIndex c, const ContactKey& key) { return contacts.key(c) == key; };
     if (!std::equal(group.contacts.begin(), group.contacts.end(), keys.begin(), keys.end(), has_key)) continue;
+    const std::vector<ContactIndex>& places = groups_[old->second].contacts;
+    const auto is_where_it_was = [&](ContactIndex c, ContactIndex before) {
+      const Collision *now = contacts.collision(c), *then = ContactList{collisions_, attachments}.collision(before);
+      return now == nullptr || (now->normal == then->normal && now->gap == then->gap);
+    };
+    if (!std::equal(group.contacts.begin(), group.contacts.end(), places.begin(), places.end(), is_where_it_was))
+      continue;
     is_same[g] = 1;
     GroupResult& result = step.results[g] = results_[old->second];
-    const std::vector<ContactIndex>& places = groups_[old->second].contacts;
     for (ContactIndex& c : result.contacts)
       c = group.contacts[static_cast<std::size_t>(std::lower_bound(places.begin(), places.end(), c) - places.begin())];
     for (SolvedContact& c : result.solved) c.group = GroupIndex(g);

@@ -23,6 +23,7 @@ class SecondLook {
 
  private:
   void take_velocities();
+  void exchange();
   void find_dropped();
   void find_driven(StageTimes& times);
   bool is_anyone_driven() const;
@@ -43,6 +44,7 @@ class SecondLook {
   std::vector<BodyPair> pairs_;                               // with something new
   std::vector<TrianglePair> triangles_;
   std::vector<Collision> found_;  // of those pairs
+  std::vector<Collision> ahead_;  // overlaps that deforming bodies end in
 };
 
 /// What was there before a second look, and its solution: groups which the look leaves alone keep theirs, and an answer

@@ -1,0 +1,116 @@
+#include "engine/step/end_pose.hpp"
+
+#include <algorithm>
+
+#include "engine/contact/pair_scale.hpp"
+#include "engine/geometry/distance.hpp"
+#include "engine/geometry/rotation.hpp"
+#include "engine/step/find_collisions.hpp"
+#include "engine/step/find_pairs.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kAllowed = 0.25;   // of the activation distance: overlap at the end that is left to recovery
+constexpr double kDeepest = 100.0;  // of the same: what ends deeper has passed, and its normal says nothing
+
+bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
+
+/// Bodies where the velocities of a solved step lead.
+class EndPose {
+ public:
+  EndPose(const Bodies& bodies, const SubStep& step) : bodies_(bodies), step_(step), vertices_(step.colliders.size()) {
+    make_colliders(bodies, colliders_);
+    std::vector<const BodyVector*> changes(colliders_.size(), nullptr);
+    for (std::size_t g = 0; g < step.groups.size(); ++g)
+      for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i)
+        changes[step.groups[g].bodies[i]] = &step.results[g].velocity[i];
+    std::size_t most = 0;
+    for (BodyIndex b(0); b < bodies.size(); ++b) {
+      move(b, changes[b]);
+      most = std::max(most, vertices_[b].size());
+    }
+    resting_.assign(most, Vec3::Zero());
+    for (BodyIndex b(0); b < bodies.size(); ++b)
+      if (deforms(bodies[b])) colliders_[b].vertex_velocities = std::span(resting_).first(vertices_[b].size());
+  }
+
+  std::span<const Collider> colliders() const { return colliders_; }
+
+  /// The place at the start of the material that is at `x` at the end.
+  Vec3 at_start(BodyIndex b, TriangleIndex triangle, const Vec3& x) const {
+    const Body& body = bodies_[b];
+    if (!deforms(body)) return body.pose.apply(colliders_[b].pose.apply_inverse(x));
+    const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
+    const std::vector<Vec3>& end = vertices_[b];
+    const Vec3 w = nearest_weights(x, {end[t[0]], end[t[1]], end[t[2]]});
+    const std::vector<Vec3>& start = body.world_vertices;
+    return w.x() * start[t[0]] + w.y() * start[t[1]] + w.z() * start[t[2]];
+  }
+
+ private:
+  void move(BodyIndex b, const BodyVector* change) {
+    const Body& body = bodies_[b];
+    Collider& c = colliders_[b];
+    if (deforms(body)) {
+      if (body.asleep)
+        vertices_[b] = body.world_vertices;
+      else
+        body.surface_at_end(change, vertices_[b]);
+    } else {
+      Twist twist{step_.colliders[b].velocity, step_.colliders[b].angular_velocity};
+      if (change != nullptr) twist.linear += change->twist.linear, twist.angular += change->twist.angular;
+      c.velocity = c.angular_velocity = Vec3::Zero();
+      if (body.asleep || (twist.linear.isZero(0.0) && twist.angular.isZero(0.0))) return;
+      c.pose.position += step_.time_step * twist.linear;
+      c.pose.rotation = rotation_exp(step_.time_step * twist.angular) * c.pose.rotation;
+      if (body.world_vertices.empty()) {
+        c.bounds = body.shape->bounds(c.pose);
+        return;
+      }
+      for (const Vec3& x : body.world_vertices) vertices_[b].push_back(c.pose.apply(body.pose.apply_inverse(x)));
+    }
+    c.vertices = vertices_[b];
+    c.bounds = Aabb();
+    for (const Vec3& x : vertices_[b]) c.bounds.include(x);
+  }
+
+  const Bodies& bodies_;
+  const SubStep& step_;
+  std::vector<Collider> colliders_;
+  std::vector<std::vector<Vec3>> vertices_;  // by body, of meshes that move
+  std::vector<Vec3> resting_;                // velocities of what has arrived
+};
+
+}  // namespace
+
+std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step) {
+  std::vector<BodyPair> pairs;
+  for (const BodyPair& pair : step.pairs) {
+    const Body &a = bodies[pair.a], &b = bodies[pair.b];
+    if (pair.a == pair.b || (!deforms(a) && !deforms(b)) || a.asleep || b.asleep) continue;
+    if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
+    pairs.push_back({pair.a, pair.b, by.contact.activation(pair_size(a, b))});
+  }
+  if (pairs.empty()) return {};
+  const EndPose end(bodies, step);
+  std::erase_if(pairs,
+                [&](const BodyPair& p) { return !overlap(end.colliders()[p.a].bounds, end.colliders()[p.b].bounds); });
+  if (pairs.empty()) return {};
+  std::vector<TrianglePair> triangles;
+  std::vector<Collision> found;
+  find_collisions(end.colliders(), pairs, by.contact, 0.0, by.narrow_phase, triangles, found);
+  std::erase_if(found, [&](Collision& c) {
+    const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
+    if (c.gap >= -kAllowed * activation || c.gap < -kDeepest * activation) return true;
+    const double at_end = c.gap;
+    c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a);
+    c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);
+    c.gap = c.normal.dot(c.point_a - c.point_b);
+    c.normal_owner = {};
+    return at_end >= std::min(c.gap, 0.0) - kAllowed * activation;
+  });
+  return found;
+}
+
+}  // namespace impinge
