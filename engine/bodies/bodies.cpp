@@ -1,11 +1,24 @@
 #include "engine/bodies/bodies.hpp"
 
+#include <algorithm>
+
 namespace impinge {
 
 Body& Bodies::add(std::unique_ptr<Body> body) {
   index_.emplace(body->name, size());
   bodies_.push_back(std::move(body));
   return *bodies_.back();
+}
+
+void Bodies::keep_from_touching(BodyIndex a, BodyIndex b) {
+  const std::pair<BodyIndex, BodyIndex> pair(std::min(a, b), std::max(a, b));
+  const auto at = std::lower_bound(never_touch_.begin(), never_touch_.end(), pair);
+  if (at == never_touch_.end() || *at != pair) never_touch_.insert(at, pair);
+}
+
+bool Bodies::never_touch(BodyIndex a, BodyIndex b) const {
+  if (never_touch_.empty()) return false;
+  return std::binary_search(never_touch_.begin(), never_touch_.end(), std::pair(std::min(a, b), std::max(a, b)));
 }
 
 BodyIndex Bodies::find(std::string_view name) const {

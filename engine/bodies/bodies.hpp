@@ -30,6 +30,10 @@ class Bodies {
   }
   Body& back() { return *bodies_.back(); }
 
+  /// Two that never touch, whatever their surfaces do.
+  void keep_from_touching(BodyIndex a, BodyIndex b);
+  bool never_touch(BodyIndex a, BodyIndex b) const;
+
   /// None where there is none of that name.
   BodyIndex find(std::string_view name) const;
   std::vector<std::string> names() const;
@@ -56,6 +60,7 @@ class Bodies {
  private:
   std::vector<std::unique_ptr<Body>> bodies_;
   std::map<std::string, BodyIndex, std::less<>> index_;
+  std::vector<std::pair<BodyIndex, BodyIndex>> never_touch_;  // sorted; the lower one first
 };
 
 }  // namespace impinge

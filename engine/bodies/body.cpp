@@ -36,6 +36,14 @@ MaterialPoint Body::surface_point(TriangleIndex, const Vec3& world) const {
   return point;
 }
 
+Vec3 Body::material_normal(const MaterialPoint&, const Vec3& world) const { return pose.rotation.transpose() * world; }
+
+Vec3 Body::world_normal(const MaterialPoint&, const Vec3& material) const {
+  return (pose.rotation * material).normalized();
+}
+
+MaterialPoint Body::point_beside(const MaterialPoint&, const Vec3& world) const { return surface_point({}, world); }
+
 MaterialPoint Body::inner_point(const Vec3& world) const { return surface_point({}, world); }
 
 void Body::save_frame(ByteWriter& out, const Vec3& velocity, const Vec3& angular_momentum,

@@ -126,6 +126,13 @@ class Body {
   virtual MaterialPoint inner_point(const Vec3& world) const;
   virtual Vec3 position_of(const MaterialPoint& point) const { return pose.apply(point.local); }
 
+  // lines and planes that it carries: as the material round a point moves them
+  /// What the normal of a plane through the point is to the material there, of any length; and, later, the unit normal.
+  virtual Vec3 material_normal(const MaterialPoint& point, const Vec3& world) const;
+  virtual Vec3 world_normal(const MaterialPoint& point, const Vec3& material) const;
+  /// What moves with the material round `point` and is at `world` now, however far away.
+  virtual MaterialPoint point_beside(const MaterialPoint& point, const Vec3& world) const;
+
   virtual Balance balance(const Vec3& /*gravity*/) { return {}; }
   /// The full state, bit for bit; a world with the same bodies restores it.
   virtual void save(ByteWriter& out) const = 0;

@@ -106,6 +106,9 @@ class DeformableBody final : public Body {
   MaterialPoint surface_point(TriangleIndex triangle, const Vec3& world) const override;
   MaterialPoint inner_point(const Vec3& world) const override;
   Vec3 position_of(const MaterialPoint& point) const override;
+  Vec3 material_normal(const MaterialPoint& point, const Vec3& world) const override;
+  Vec3 world_normal(const MaterialPoint& point, const Vec3& material) const override;
+  MaterialPoint point_beside(const MaterialPoint& point, const Vec3& world) const override;
 
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
@@ -126,6 +129,7 @@ class DeformableBody final : public Body {
   void check_solved() const;
   void find_displacement_velocity();
   std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
+  Mat3 edges_of(int tet) const;
 
   std::vector<int> free_index_, free_node_, free_source_;
   std::shared_ptr<const BlockPattern> free_pattern_;

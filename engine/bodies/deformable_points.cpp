@@ -64,6 +64,36 @@ Vec3 DeformableBody::position_of(const MaterialPoint& point) const {
          point.local.z() * world_vertices[t[2]];
 }
 
+/// From its first node to the three others, by column.
+Mat3 DeformableBody::edges_of(int tet) const {
+  const Tet& nodes = fem.rest().tets[tet];
+  Mat3 edges;
+  for (int k = 0; k < 3; ++k) edges.col(k) = position.segment<3>(3 * nodes[k + 1]) - position.segment<3>(3 * nodes[0]);
+  return edges;
+}
+
+// A plane is where a linear function of the tetrahedron's weights vanishes: what that gains along each edge stays.
+Vec3 DeformableBody::material_normal(const MaterialPoint& point, const Vec3& world) const {
+  return edges_of(point.tet).transpose() * world;
+}
+
+Vec3 DeformableBody::world_normal(const MaterialPoint& point, const Vec3& material) const {
+  const Mat3 e = edges_of(point.tet);
+  // the cofactors: the inverse's transpose without its division, which a flat tetrahedron has not
+  const Vec3 normal = material.x() * e.col(1).cross(e.col(2)) + material.y() * e.col(2).cross(e.col(0)) +
+                      material.z() * e.col(0).cross(e.col(1));
+  return normal.normalized();
+}
+
+MaterialPoint DeformableBody::point_beside(const MaterialPoint& point, const Vec3& world) const {
+  const Tet& nodes = fem.rest().tets[point.tet];
+  const auto at = [&](int k) { return Vec3(position.segment<3>(3 * nodes[k])); };
+  MaterialPoint beside = point;
+  beside.local = world;
+  beside.weight = barycentric(world, at(0), at(1), at(2), at(3));
+  return beside;
+}
+
 /// Held ones too, every node once.
 std::vector<NodeWeight> DeformableBody::carrying_nodes(const MaterialPoint& point) const {
   std::vector<NodeWeight> list;

@@ -83,6 +83,7 @@ class Assembly {
   }
 
   void add_attachment(ContactIndex index, const Attachment& attachment) {
+    if (attachment.kind != AttachmentKind::point) return add_slide(index, attachment);
     ContactRows rows;
     rows.kind = RowKind::attachment;
     rows.directions.setIdentity();
@@ -90,14 +91,28 @@ class Assembly {
     Vec3 velocity_before = Vec3::Zero();
     fill_side(attachment.a.body, attachment.a.point, common, 1.0, rows, rows.a, velocity_before);
     fill_side(attachment.b.body, attachment.b.point, common, -1.0, rows, rows.b, velocity_before);
-    const BodyIndex first = attachment.a.body.is_none() ? attachment.b.body : attachment.a.body,
-                    second = attachment.b.body.is_none() ? first : attachment.b.body;
-    rows.scale = pair_scale(bodies_[first], bodies_[second], input_.gravity);
-    const double most = input_.settings.max_push_out.at(rows.scale.speed);
-    Vec3 recovery = (a - b) / input_.time_step;
-    if (recovery.norm() > most) recovery *= most / recovery.norm();
-    rows.surface += recovery;
+    set_scale(attachment, rows);
+    rows.surface += recovery(a - b, input_.settings.max_push_out.at(rows.scale.speed));
     add(index, std::move(rows), {attachment.a.point, attachment.b.point});
+  }
+
+  void add_slide(ContactIndex index, const Attachment& slide) {
+    const AttachmentHold hold = hold_of(slide, bodies_);
+    ContactRows rows;
+    rows.kind = RowKind::sliding;
+    const Vec3 common = 0.5 * (hold.point_a + hold.point_b);
+    rows.directions =
+        contact_axes(slide.kind == AttachmentKind::line ? line_normal(index, slide, hold, common) : hold.normal);
+    Vec3 velocity_before = Vec3::Zero();
+    fill_side(slide.a.body, slide.a.point, common, 1.0, rows, rows.a, velocity_before);
+    fill_side(slide.b.body, hold.at_b, common, -1.0, rows, rows.b, velocity_before);
+    set_scale(slide, rows);
+    // what leaves its way at a bend may come back as fast: that turns its velocity round and gives it no energy
+    const Vec3 error = hold.point_a - hold.point_b;
+    const double away = error.norm() > 0.0 ? std::max(0.0, velocity_before.dot(error.normalized())) : 0.0,
+                 most = input_.settings.max_push_out.at(rows.scale.speed) + away;
+    rows.surface.x() += rows.directions.row(0).dot(recovery(error, most));
+    add(index, std::move(rows), {slide.a.point, hold.at_b});
   }
 
   AssembledGroup finish() {
@@ -114,6 +129,48 @@ class Assembly {
     return blocks_[static_cast<std::size_t>(at - group_.bodies.begin())];
   }
 
+  /// Whether it is the second of a line's two rows.
+  bool is_second(ContactIndex index) const {
+    const std::size_t at = input_.contacts.attachment_at(index);
+    const std::span<const Attachment> all = input_.contacts.attachments;
+    return at > 0 && all[at - 1].number == all[at].number;
+  }
+
+  /// Of the two across a line that don't push one another's point, so that solvers which look at a row at a time need one
+  /// look.
+  Vec3 line_normal(ContactIndex index, const Attachment& slide, const AttachmentHold& hold, const Vec3& common) const {
+    const Mat3 mobility = mobility_at(slide.a.body, common) + mobility_at(slide.b.body, common),
+               axes = contact_axes(hold.axis);
+    const Vec3 u = axes.row(1), v = axes.row(2);
+    const double angle = 0.5 * std::atan2(2.0 * u.dot(mobility * v), u.dot(mobility * u) - v.dot(mobility * v));
+    return is_second(index) ? Vec3(std::cos(angle) * v - std::sin(angle) * u)
+                            : Vec3(std::cos(angle) * u + std::sin(angle) * v);
+  }
+
+  /// What an impulse at a point of a rigid body makes of its velocity, 1/kg.
+  Mat3 mobility_at(BodyIndex body, const Vec3& at) const {
+    const BlockIndex block = body.is_none() ? BlockIndex() : block_of(body);
+    if (block.rigid < 0) return Mat3::Zero();
+    const RigidBlock& of = result_.system.rigid[static_cast<std::size_t>(block.rigid)];
+    const Vec3 arm = at - bodies_[body].pose.position;
+    Mat3 cross;
+    cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+    return of.inverse_mass * Mat3::Identity() - cross * of.inverse_inertia * cross;
+  }
+
+  void set_scale(const Attachment& attachment, ContactRows& rows) const {
+    const BodyIndex first = attachment.a.body.is_none() ? attachment.b.body : attachment.a.body,
+                    second = attachment.b.body.is_none() ? first : attachment.b.body;
+    rows.scale = pair_scale(bodies_[first], bodies_[second], input_.gravity);
+  }
+
+  /// The velocity that takes an error back within the sub-step, m/s, `most` at most.
+  Vec3 recovery(const Vec3& error, double most) const {
+    Vec3 velocity = error / input_.time_step;
+    if (velocity.norm() > most) velocity *= most / velocity.norm();
+    return velocity;
+  }
+
   /// And what prescribed motion adds to the rows, and the velocity of A's point against B's before the sub-step.
   void fill_side(BodyIndex body, const MaterialPoint& point, const Vec3& common, double sign, ContactRows& rows,
                  ContactSide& side, Vec3& velocity_before) const {
@@ -128,12 +185,20 @@ class Assembly {
     velocity_before += sign * carried.velocity_before;
   }
 
+  /// Of a line the impulse of both rows: its normals are others in each sub-step.
+  Vec3 start_of(ContactIndex index) const {
+    const auto at = static_cast<std::size_t>(index.value());
+    if (input_.contacts.collision(index) != nullptr || input_.contacts.attachment(index).kind != AttachmentKind::line)
+      return input_.start[at];
+    return input_.start[at] + input_.start[is_second(index) ? at - 1 : at + 1];
+  }
+
   bool add(ContactIndex index, ContactRows rows, std::pair<MaterialPoint, MaterialPoint> points) {
     if (rows.a.deformable >= 0 && rows.a.deformable == rows.b.deformable) merge_sides(rows);
     if (!responds(rows)) return false;
     Vec3 start = Vec3::Zero();
     if (!input_.start.empty()) {
-      start = rows.directions * input_.start[static_cast<std::size_t>(index.value())];
+      start = rows.directions * start_of(index);
       if (rows.has_one_row()) start.tail<2>().setZero();
       if (rows.kind == RowKind::contact && start.x() <= 0.0) start.setZero();
     }

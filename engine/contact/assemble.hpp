@@ -31,7 +31,7 @@ struct AssembledGroup {
 };
 
 /// The group's system at the bodies' free velocities (row_bound.hpp says what contacts ask for); an attachment asks
-/// J v = -(x_A - x_B)/Δt. Contacts that nothing can respond to (of held nodes with an immovable body) are left out.
+/// J v = -(x_A - x_B)/Δt, a slide the same along its normal. Contacts that nothing can respond to (of held nodes with an immovable body) are left out.
 AssembledGroup assemble(const AssemblyInput& input, const CollisionGroup& group);
 
 }  // namespace impinge

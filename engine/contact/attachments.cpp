@@ -2,22 +2,27 @@
 
 #include <fmt/format.h>
 
+#include "engine/contact/contact_frame.hpp"
+#include "engine/contact/surface_foot.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
 
 namespace impinge {
 namespace {
 
+BodyIndex body_named(const AttachmentDescription& d, const std::string& name, const Bodies& bodies) {
+  const BodyIndex body = bodies.find(name);
+  if (!body.is_none()) return body;
+  const std::string near = nearest_word(name, bodies.names());
+  throw InputError(fmt::format("attachment '{}' names the body '{}', which is not there{}", d.name, name,
+                               near.empty() ? "" : "; did you mean '" + near + "'?"));
+}
+
 AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, const Bodies& bodies) {
   AttachmentEnd end;
   end.point.local = d.point;
   if (name.empty()) return end;
-  end.body = bodies.find(name);
-  if (end.body.is_none()) {
-    const std::string near = nearest_word(name, bodies.names());
-    throw InputError(fmt::format("attachment '{}' names the body '{}', which is not there{}", d.name, name,
-                                 near.empty() ? "" : "; did you mean '" + near + "'?"));
-  }
+  end.body = body_named(d, name, bodies);
   try {
     end.point = bodies[end.body].inner_point(d.point);
   } catch (const InputError& error) {
@@ -29,19 +34,82 @@ AttachmentEnd make_end(const AttachmentDescription& d, const std::string& name, 
   return end;
 }
 
+/// What slides on a surface has no point of it to keep.
+AttachmentEnd make_surface_end(const AttachmentDescription& d, const Bodies& bodies) {
+  if (d.body_b.empty())
+    throw InputError(fmt::format("attachment '{}' slides on the surface of no body; name body_b", d.name));
+  AttachmentEnd end;
+  end.body = body_named(d, d.body_b, bodies);
+  if (!bodies[end.body].shape)
+    throw InputError(fmt::format("attachment '{}' slides on '{}', which has no surface", d.name, d.body_b));
+  return end;
+}
+
+Vec3 material_normal(const AttachmentEnd& b, const Bodies& bodies, const Vec3& normal) {
+  return b.body.is_none() ? normal : bodies[b.body].material_normal(b.point, normal);
+}
+
+Vec3 world_normal(const AttachmentEnd& b, const Bodies& bodies, const Vec3& normal) {
+  return b.body.is_none() ? normal : bodies[b.body].world_normal(b.point, normal);
+}
+
+AttachmentHold hold_on_surface(const Attachment& slide, const Bodies& bodies, AttachmentHold hold) {
+  const Body& body = bodies[slide.b.body];
+  const SurfaceFoot foot = surface_foot(body, hold.point_a);
+  hold.point_b = foot.point;
+  hold.at_b = body.surface_point(foot.triangle, foot.point);
+  hold.normal = hold.axis = foot.normal;
+  return hold;
+}
+
 }  // namespace
 
 Vec3 AttachmentEnd::position(const Bodies& bodies) const {
   return body.is_none() ? point.local : bodies[body].position_of(point);
 }
 
-Attachment make_attachment(const AttachmentDescription& d, const Bodies& bodies) {
-  Attachment attachment{d.name, make_end(d, d.body_a, bodies), make_end(d, d.body_b, bodies)};
+AttachmentHold hold_of(const Attachment& attachment, const Bodies& bodies) {
+  AttachmentHold hold;
+  hold.point_a = attachment.a.position(bodies);
+  if (attachment.kind == AttachmentKind::surface) return hold_on_surface(attachment, bodies, hold);
+  hold.at_b = attachment.b.point;
+  hold.point_b = attachment.b.position(bodies);
+  if (attachment.kind == AttachmentKind::point) return hold;
+  hold.normal = hold.axis = world_normal(attachment.b, bodies, attachment.normal);
+  const Vec3 off = hold.point_a - hold.point_b;
+  if (attachment.kind == AttachmentKind::line) {
+    hold.axis = hold.normal.cross(world_normal(attachment.b, bodies, attachment.other_normal)).normalized();
+    hold.point_b += hold.axis.dot(off) * hold.axis;
+  } else {
+    hold.point_b = hold.point_a - hold.normal.dot(off) * hold.normal;
+  }
+  if (!attachment.b.body.is_none())
+    hold.at_b = bodies[attachment.b.body].point_beside(attachment.b.point, hold.point_b);
+  return hold;
+}
+
+std::vector<Attachment> make_attachment(const AttachmentDescription& d, const Bodies& bodies, int number) {
+  Attachment attachment{d.name, make_end(d, d.body_a, bodies),
+                        d.kind == AttachmentKind::surface ? make_surface_end(d, bodies) : make_end(d, d.body_b, bodies),
+                        d.kind};
+  attachment.number = number;
   const auto moves = [&](const AttachmentEnd& end) { return !end.body.is_none() && bodies[end.body].has_freedom(); };
   if (!moves(attachment.a) && !moves(attachment.b))
     throw InputError(fmt::format(
         "attachment '{}' joins nothing that can move; a dynamic or deformable body is wanted at one end", d.name));
-  return attachment;
+  if (d.kind == AttachmentKind::point || d.kind == AttachmentKind::surface) return {attachment};
+  if (!(d.axis.norm() > 0.0))
+    throw InputError(fmt::format("attachment '{}' slides along an axis of no length", d.name));
+  const Mat3 axes = contact_axes(d.axis.normalized());
+  const auto carried = [&](int k) { return material_normal(attachment.b, bodies, axes.row(k)); };
+  if (d.kind == AttachmentKind::plane) {
+    attachment.normal = carried(0);
+    return {attachment};
+  }
+  Attachment second = attachment;
+  attachment.normal = second.other_normal = carried(1);
+  attachment.other_normal = second.normal = carried(2);
+  return {attachment, second};
 }
 
 }  // namespace impinge

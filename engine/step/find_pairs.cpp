@@ -103,7 +103,7 @@ void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const
     if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, settings.activation(bodies[i].size)});
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(first), b(second);
-    if (!may_respond(bodies[a], bodies[b])) continue;
+    if (!may_respond(bodies, a, b)) continue;
     pairs.push_back({a, b, search_margin(bodies, colliders, a, b, settings, time_step)});
   }
   std::sort(pairs.begin(), pairs.end());

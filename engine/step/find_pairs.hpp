@@ -10,8 +10,9 @@
 namespace impinge {
 
 /// Whether the pair can give a contact that anything responds to.
-inline bool may_respond(const Body& a, const Body& b) {
-  return (a.has_freedom() || b.has_freedom()) && (a.is_moving() || b.is_moving());
+inline bool may_respond(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return (bodies[a].has_freedom() || bodies[b].has_freedom()) && (bodies[a].is_moving() || bodies[b].is_moving()) &&
+         !bodies.never_touch(a, b);
 }
 
 /// What detection sees of the bodies, at their free velocities. It refers to them.

@@ -198,7 +198,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
-    if (!may_respond(of_a, of_b) || is_plane(of_a) || is_plane(of_b)) continue;
+    if (!may_respond(bodies, a, b) || is_plane(of_a) || is_plane(of_b)) continue;
     const double safe = std::min(safe_approach(of_a), safe_approach(of_b));
     const double both = approach(sweeps[a], sweeps[b]);
     if (all || both > seen * safe) pairs.push_back({a, b, {}, way_of(sweeps[a]), way_of(sweeps[b]), both, safe});

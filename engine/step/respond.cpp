@@ -214,9 +214,8 @@ class GroupSolve {
       if (const Collision* at = input_.contacts.collision(c)) {
         list.push_back({at->body_a, at->body_b, at->triangle_a, at->triangle_b, at->point_a, at->point_b, key.feature});
       } else {
-        const Attachment& joined = input_.contacts.attachment(c);
-        list.push_back(
-            {key.body_a, key.body_b, {}, {}, joined.a.position(bodies_), joined.b.position(bodies_), key.feature});
+        const AttachmentHold hold = hold_of(input_.contacts.attachment(c), bodies_);
+        list.push_back({key.body_a, key.body_b, {}, {}, hold.point_a, hold.point_b, key.feature});
       }
     }
     return list;

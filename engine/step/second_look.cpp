@@ -215,7 +215,7 @@ bool SecondLook::is_awake_and_rigid(BodyIndex a, BodyIndex b) const {
 /// Two whose free motion is theirs still, or who hardly approach, have all their contacts.
 bool SecondLook::is_driven(BodyIndex a, BodyIndex b) const {
   const Body &of_a = bodies_[a], &of_b = bodies_[b];
-  if (!is_awake_and_rigid(a, b) || !may_respond(of_a, of_b)) return false;
+  if (!is_awake_and_rigid(a, b) || !may_respond(bodies_, a, b)) return false;
   const double activation = by_.contact.activation(pair_size(of_a, of_b));
   if (!(approach(colliders_[a], of_a.radius, colliders_[b], of_b.radius, step_.time_step) > activation)) return false;
   const auto sought = sought_.find({a, b});

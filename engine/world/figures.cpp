@@ -65,6 +65,8 @@ constexpr Figure kFigures[] = {
     {"ended", "", state, &S::ended,
      "Why the worst of the frame's solves ended (the numbers 0 to 4): converged, cap, stalled, contradiction, "
      "refused."},
+    {"attachment_error_m", "m", state, &S::attachment_error,
+     "Largest distance of an attached point from where it is held, at the end of the frame."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.

@@ -121,12 +121,14 @@ class Report {
       return add("exempt", a_.self_collision,
                  fmt::format("self_collision of '{}' is {}", a_.name, a_.self_collision ? "on" : "off"));
     std::vector<std::string> joints;
-    for (const Attachment& t : world_.attachments())
-      if ((t.a.body == v_.a && t.b.body == v_.b) || (t.a.body == v_.b && t.b.body == v_.a))
+    for (const AttachmentRecord& t : world_.record().attachments)
+      if ((t.body_a == v_.a && t.body_b == v_.b) || (t.body_a == v_.b && t.body_b == v_.a))
         joints.push_back(fmt::format("'{}'", t.name));
-    add("exempt", true,
+    const bool may_touch = !world_.bodies().never_touch(v_.a, v_.b);
+    add("exempt", may_touch,
         joints.empty() ? "nothing exempts the pair"
-                       : fmt::format("joined by {}, which exempts nothing", fmt::join(joints, ", ")));
+                       : fmt::format("joined by {}, which exempts {}", fmt::join(joints, ", "),
+                                     may_touch ? "nothing" : "the pair: collide = false"));
   }
 
   void boxes() {
@@ -305,11 +307,10 @@ void add_outcome(PairVerdict& v, const World& world, const SubStep& step, Motion
   const auto add = [&](FilterVerdict::Outcome outcome, std::string words, Numbers numbers = {}) {
     v.filters.push_back({"time_of_impact", outcome, std::move(words), std::move(numbers)});
   };
-  const Body &a = world.bodies()[v.a], &b = world.bodies()[v.b];
   if (v.a == v.b) return add(not_asked, "a body's way past itself is not looked at");
   const MotionGuard::PairMotion motion = guard.motion_of(world.bodies(), v.a, v.b);
   if (motion.is_planar) return add(not_asked, "a plane has no other side to get to");
-  if (!may_respond(a, b)) return add(not_asked, "nothing would come of it");
+  if (!may_respond(world.bodies(), v.a, v.b)) return add(not_asked, "nothing would come of it");
   Numbers numbers = {
       {"way_a_m", motion.way_a}, {"way_b_m", motion.way_b}, {"approach_m", motion.approach}, {"safe_m", motion.safe}};
   if (v.undone.motions > 0) {

@@ -150,14 +150,19 @@ void World::publish(std::span<const SolvedContact> contacts) {
   for (const SolvedContact& contact : contacts) next_record_.contacts.push_back(carried(contact, bodies_));
   show_overlaps_at_end(bodies_, s, parameters, next_record_);
   next_record_.attachments.clear();
-  for (const Attachment& a : attachments_)
+  stats_.attachment_error = 0.0;
+  for (const Attachment& a : attachments_) {
+    if (a.number < static_cast<int>(next_record_.attachments.size())) continue;  // the other normal of a line
+    const AttachmentHold hold = hold_of(a, bodies_);
     next_record_.attachments.push_back(
-        {a.name, a.a.body, a.b.body, a.a.position(bodies_), a.b.position(bodies_), Vec3::Zero()});
+        {a.name, a.a.body, a.b.body, hold.point_a, hold.point_b, Vec3::Zero(), a.kind, hold.axis});
+    stats_.attachment_error = larger(stats_.attachment_error, next_record_.attachments.back().error());
+  }
   const ContactList list = s.contacts(attachments_);
   for (const GroupResult& result : s.results)
     for (std::size_t i = 0; i < result.contacts.size(); ++i)
       if (list.collision(result.contacts[i]) == nullptr)
-        next_record_.attachments[list.attachment_at(result.contacts[i])].impulse = result.impulses[i].impulse;
+        next_record_.attachments[list.attachment(result.contacts[i]).number].impulse += result.impulses[i].impulse;
   next_record_.gravity = parameters.simulation.gravity;
   next_record_.frame_time = parameters.simulation.frame_time;
 

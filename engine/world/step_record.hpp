@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "engine/bodies/attachment.hpp"
 #include "engine/bodies/body_kind.hpp"
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/contact/contact_frame.hpp"
@@ -49,6 +50,10 @@ struct AttachmentRecord {
   BodyIndex body_a, body_b;  ///< none: the world
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();
   Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
+  AttachmentKind kind = AttachmentKind::point;
+  Vec3 axis = Vec3::Zero();  ///< of a slide: unit, along the line, or the normal of the plane or surface at point_b
+  /// How far A's point is from where it is held, metres.
+  double error() const { return (point_a - point_b).norm(); }
 };
 
 /// Why a group's solve ended, the later the less it is an answer.
@@ -110,6 +115,7 @@ struct FrameStats {
   std::int64_t unconverged = 0;          ///< group solves of the frame that ended without an answer
   std::vector<UnsolvedGroups> unsolved;  ///< the same by cause; of frames that this process made
   double unsolved_residual = 0.0;        ///< their largest residual_coulomb
+  double attachment_error = 0.0;         ///< metres, over attachments at the end of the frame
   void take_unsolved(const UnsolvedGroups& cause, double residual);
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();

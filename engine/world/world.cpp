@@ -34,7 +34,11 @@ World::~World() = default;
 Body& World::add_body(const BodyDescription& description) { return bodies_.add(make_body(description)); }
 
 void World::add_attachment(const AttachmentDescription& description) {
-  attachments_.push_back(make_attachment(description, bodies_));
+  const int number = attachments_.empty() ? 0 : attachments_.back().number + 1;
+  for (Attachment& attachment : make_attachment(description, bodies_, number))
+    attachments_.push_back(std::move(attachment));
+  if (!description.collide && !description.body_b.empty())
+    bodies_.keep_from_touching(bodies_.find(description.body_a), bodies_.find(description.body_b));
 }
 
 void World::start() {

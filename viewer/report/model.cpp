@@ -55,8 +55,8 @@ bool read_needed(const fs::path& stats, Needed& needed) {
 }
 
 std::string rows_text(const Needed& needed, const ModelFacts& facts) {
-  const double most = 3.0 * needed.contacts_max + 3.0 * facts.attachments,
-               least = needed.contacts_max + 3.0 * facts.attachments;
+  const double most = 3.0 * needed.contacts_max + facts.attachment_rows(),
+               least = needed.contacts_max + facts.attachment_rows();
   if (!facts.friction) return fmt::format("{:.0f}", least);
   return facts.frictionless ? fmt::format("{:.0f} to {:.0f}", least, most) : fmt::format("{:.0f}", most);
 }

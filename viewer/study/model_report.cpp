@@ -39,6 +39,39 @@ void count_body(BodyKind kind, bool is_mesh, double friction, double restitution
   meshes += is_mesh ? 1 : 0;
 }
 
+int& count_of(AttachmentKind kind, ModelFacts& facts) {
+  switch (kind) {
+    case AttachmentKind::line:
+      return facts.lines;
+    case AttachmentKind::plane:
+      return facts.planes;
+    case AttachmentKind::surface:
+      return facts.surfaces;
+    default:
+      return facts.points;
+  }
+}
+
+/// By the keys of a recorded scene, which were checked when it ran.
+AttachmentKind attachment_kind(const TomlNode& table) {
+  if (table.find("direction") != nullptr) return AttachmentKind::line;
+  if (table.find("normal") != nullptr) return AttachmentKind::plane;
+  return table.find("on") != nullptr ? AttachmentKind::surface : AttachmentKind::point;
+}
+
+std::string attachments_text(const ModelFacts& f) {
+  std::string text;
+  const auto add = [&](int count, const char* what, const char* rows) {
+    if (count > 0) text += fmt::format("{}{} {}, {} each", text.empty() ? "" : "; ", count, what, rows);
+  };
+  if (f.points == f.attachments()) return fmt::format("{}, three bilateral rows each", f.points);
+  add(f.points, "at a point", "three bilateral rows");
+  add(f.lines, "sliding on a line", "two bilateral rows");
+  add(f.planes, "in a plane", "one bilateral row");
+  add(f.surfaces, "on a surface", "one bilateral row");
+  return text;
+}
+
 const TomlNode* at_path(const TomlNode& root, const std::string& path) {
   const TomlNode* node = &root;
   for (std::size_t begin = 0; node != nullptr && begin <= path.size();) {
@@ -91,7 +124,7 @@ ModelFacts model_facts(const World& world) {
     facts.largest = std::max(facts.largest, body.size);
   }
   facts.mesh_pairs = meshes > 1 || facts.self_collision;
-  facts.attachments = static_cast<int>(world.record().attachments.size());
+  for (const AttachmentRecord& attachment : world.record().attachments) ++count_of(attachment.kind, facts);
   return facts;
 }
 
@@ -120,7 +153,7 @@ bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& para
     facts.mesh_pairs = meshes > 1 || facts.self_collision;
     facts.deformable_dofs = -1;
     if (const TomlEntry* attachments = root.find("attachment"))
-      facts.attachments = static_cast<int>(attachments->value.items.size());
+      for (const TomlNode& attachment : attachments->value.items) ++count_of(attachment_kind(attachment), facts);
     return true;
   } catch (const InputError&) {
     return false;  // of another version: the report then says nothing about it
@@ -173,8 +206,7 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
                    p.simulation.linear_solver.name()),
        "no body is deformable");
   line("self-contact", f.self_collision, "of the deformable bodies that ask for it", "no deformable body asks for it");
-  line("attachments", f.attachments > 0, fmt::format("{}, three bilateral rows each", f.attachments),
-       "the scene has none");
+  line("attachments", f.attachments() > 0, attachments_text(f), "the scene has none");
   return lines;
 }
 

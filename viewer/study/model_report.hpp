@@ -10,13 +10,16 @@
 namespace impinge {
 
 struct ModelFacts {
-  int fixed = 0, scripted = 0, dynamic = 0, deformable = 0, attachments = 0;
-  int deformable_dofs = 0;    ///< degrees of freedom of the deformable bodies; -1: not known
-  bool friction = false;      ///< some body has friction
-  bool frictionless = false;  ///< some body has none, so that its contacts have one row
+  int fixed = 0, scripted = 0, dynamic = 0, deformable = 0;
+  int points = 0, lines = 0, planes = 0, surfaces = 0;  ///< attachments, by kind
+  int deformable_dofs = 0;                              ///< degrees of freedom of the deformable bodies; -1: not known
+  bool friction = false;                                ///< some body has friction
+  bool frictionless = false;                            ///< some body has none, so that its contacts have one row
   bool restitution = false, mesh_pairs = false, self_collision = false;
   /// Sizes of bodies, metres: the least of all, and of those that move freely; 0: not known.
   double thinnest = 0.0, smallest = 0.0, largest = 0.0;
+  int attachments() const { return points + lines + planes + surfaces; }
+  int attachment_rows() const { return 3 * points + 2 * lines + planes + surfaces; }
   int moving() const { return dynamic + deformable; }
   bool meets() const { return moving() > 0 && (moving() + fixed + scripted > 1 || self_collision); }
 };

@@ -231,7 +231,7 @@ TEST_CASE("attachments that join nothing are refused at the right place") {
   refused_attachment("body_a = \"floor\"\npoint = [0, 0, 0]\n", "15:1", "joins nothing that can move");
   refused_attachment("body_a = \"jelly\"\nbody_b = 3\npoint = [0, 0.3, 0]\n", "17:10", "a text is wanted");
   refused_attachment("body_a = \"jelly\"\nbody_c = \"floor\"\npoint = [0, 0.3, 0]\n", "17:1",
-                     "allowed: name, body_a, body_b, point");
+                     "allowed: name, kind, body_a, body_b, point, direction, normal, on, collide");
   refused_attachment("body_a = \"jelly\"\npoint = [0, 0.3]\n", "17:9", "[x, y, z]");
   refused_attachment("body_a = \"jelly\"\npoint = [0, nan, 0]\n", "17:13", "nan");
   refused_attachment("body_a = \"jelly\"\npoint = [5, 5, 5]\n", "15:1", "outside of the deformable body 'jelly'");
