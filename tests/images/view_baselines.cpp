@@ -70,6 +70,29 @@ const std::vector<Baseline>& baselines() {
        [] {
          return painted(soft_record(), settings_with({"meshes", "wireframe", "attachments"}));
        }},
+      {"slides",
+       [] {
+         HandMadeRecord scene;
+         const BodyIndex ball(scene.add("ball", BodyKind::fixed, Sphere{0.35}, {0.9, 0.2, 0})),
+             bead(scene.add("bead", BodyKind::dynamic, Sphere{0.1}, {-0.9, 0.4, 0})),
+             puck(scene.add("puck", BodyKind::dynamic, Box{{0.1, 0.04, 0.1}}, {0, 0.2, 0})),
+             rider(scene.add("rider", BodyKind::dynamic, Sphere{0.08}, {0.9, 0.2, 0.35}));
+         const Vec3 down = Vec3(1.0, -0.4, 0.0).normalized(), lean = Vec3(0.2, 1.0, 0.1).normalized();
+         scene.record().attachments = {
+             {"rail", bead, {}, {-0.9, 0.4, 0}, {-0.9, 0.4, 0}, Vec3::Zero(), AttachmentKind::line, down},
+             {"table", puck, {}, {0, 0.2, 0}, {0, 0.2, 0}, Vec3::Zero(), AttachmentKind::plane, lean},
+             {"on_ball",
+              rider,
+              ball,
+              {0.9, 0.2, 0.35},
+              {0.9, 0.2, 0.35},
+              Vec3::Zero(),
+              AttachmentKind::surface,
+              Vec3::UnitZ()}};
+         ViewSettings settings = settings_with({"meshes", "attachments"});
+         settings.show_legend = true;
+         return painted(scene.record(), settings, 480, 200);
+       }},
       {"tetrahedra",
        [] {
          return painted(soft_record(), settings_with({"meshes", "tetrahedra"}));
