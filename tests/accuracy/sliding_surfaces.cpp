@@ -172,3 +172,33 @@ TEST_CASE("what slides on a body that is free to move leaves momentum and spin t
       CHECK(energy_of(world) < 1.001 * energy);
     }
 }
+
+TEST_CASE("on a face of a box that turns by a script a bead flies out as x0 cosh(w t), exact box and mesh") {
+  const double rate = 2.0, x0 = 0.1;
+  for (const bool mesh : {false, true}) {
+    World world;
+    prepare_slides(world, Vec3::Zero());
+    const Vec3 at(x0, 0.05, 0.2);
+    BodyDescription bead = cube("bead", 0.02, at);
+    bead.velocity = rate * Vec3(0.2, 0.0, -x0);  // of the box's point there
+    world.add_body(bead);
+    const Vec3 half(2.0, 0.1, 0.2);
+    BodyDescription turning =
+        dynamic_body("box", mesh ? surface(box(half, {17, 2, 3})) : SharedShape(Box(half)), Vec3::Zero());
+    turning.kind = BodyKind::scripted;
+    for (const double t : {-20.0, -10.0, 10.0, 20.0})
+      turning.motion.push_back({t, Vec3::Zero(), Vec3(0, rate * t * 180.0 / M_PI, 0)});
+    world.add_body(turning);
+    world.add_attachment(slide(AttachmentKind::surface, "bead", "box", at));
+    world.start();
+    const double off = run_slides(world, 1.0);
+    const Vec3 now = world.bodies()[1].pose.apply_inverse(world.bodies()[0].pose.position);
+    // ẍ = w² x along the face; across it the face holds
+    const double exact = x0 * std::cosh(rate);
+    CAPTURE(mesh, now, exact, off);
+    CHECK(now.x() == Approx(exact).epsilon(1e-3));
+    CHECK(std::abs(now.z() - 0.2) < 1e-3);
+    CHECK(now.y() == Approx(0.05).epsilon(1e-9));
+    CHECK(off < 1e-3);
+  }
+}
