@@ -5,8 +5,10 @@
 #include <functional>
 #include <set>
 
+#include "engine/bodies/scale.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/archive.hpp"
+#include "engine/step/impacts.hpp"
 #include "engine/step/step_watcher.hpp"
 #include "engine/world/world.hpp"
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int kMostPieces = 64;       // of a sub-step
 constexpr int kMostMotions = 32;      // tried for a piece
+constexpr int kMostImpacts = 32;      // of a sub-step that follow one another; later ones are braked
 constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
@@ -103,8 +106,8 @@ void World::note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cau
     for (const bool is_a : {true, false}) {
       const BodyIndex body = is_a ? pair.a : pair.b, other = is_a ? pair.b : pair.a;
       // what lives on overlap is let in by a little, and nobody asked how far it came
-      const bool has_passed = !pair.passages.empty() && cause != UnsafeBody::soft_contact &&
-                              cause != UnsafeBody::held_back;
+      const bool has_passed =
+          !pair.passages.empty() && cause != UnsafeBody::soft_contact && cause != UnsafeBody::held_back;
       const UnsafeBody now{bodies_[body].name, bodies_[other].name, cause,     substep, is_a ? pair.way_a : pair.way_b,
                            pair.approach,      pair.safe,           has_passed};
       UnsafeBody& known = unsafe_.try_emplace(body, now).first->second;
@@ -126,11 +129,14 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
   };
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
+  const bool rebounds = !parameters.response.method->lives_on_overlap() && has_restitution(bodies_, parameters.contact);
+  const double gravity = scale_gravity(parameters.simulation.gravity);
+  int impacts = 0;
   double rest = 1.0;         // of the sub-step
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
-    if (is_kept) start.emplace(bodies_, sleeping_);
+    if (is_kept || rebounds) start.emplace(bodies_, sleeping_);
     sub_step_->asked.clear();
     guard_.open(bodies_);
     double share = rest;
@@ -140,6 +146,15 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       const auto hold_back = [&] {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
       };
+      if (rebounds && impacts < kMostImpacts && motion < kMostMotions) {
+        const std::optional<double> before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity);
+        if (before && share * *before >= kLeastShare) {
+          ++impacts;
+          share *= *before;
+          start->bring_back(bodies_, sleeping_);
+          continue;
+        }
+      }
       hold_back();
       std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;

@@ -285,6 +285,33 @@ TEST_CASE("a shot runs through Newton's cradle with sequential impulses, and spr
   }
 }
 
+TEST_CASE("a shot runs through Newton's cradle whatever the gaps, the sub-steps and the speed") {
+  // five equal balls: the last one leaves with all of it, the others stay where they were struck
+  for (const std::string name :
+       {"sequential_impulse", "simultaneous_impulse", "constraint_anticipation", "iterative_constraint_anticipation"})
+    for (const double gap : {1e-5, 1e-4, 5e-4, 3e-3, 1e-2})
+      for (const int substeps : {1, 4})
+        for (const double speed : {0.3, 1.0, 10.0}) {
+          CAPTURE(name, gap, substeps, speed);
+          World world;
+          use(world, name);
+          world.parameters.simulation.substeps = substeps;
+          world.parameters.simulation.gravity.setZero();
+          world.parameters.contact.restitution = 1.0;
+          world.parameters.contact.friction = 0.0;
+          for (int i = 0; i < 5; ++i) {
+            BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.1},
+                                                {(0.2 + gap) * i - (i == 0 ? 0.05 : 0.0), 0, 0});
+            if (i == 0) ball.velocity = Vec3(speed, 0, 0);
+            world.add_body(ball);
+          }
+          world.start();
+          run(world, static_cast<int>((0.06 + 5.0 * gap) / speed * 60.0) + 3);
+          CHECK(rigid(world, 4).velocity.x() == Approx(speed).epsilon(1e-9));
+          for (int i = 0; i < 4; ++i) CHECK(std::abs(rigid(world, i).velocity.x()) < 1e-9 * speed);
+        }
+}
+
 TEST_CASE("without gravity and friction impulses never raise the energy; springs say by how much they do") {
   for (const auto& e : responses())
     for (const double restitution : {0.0, 0.6, 1.0}) {

@@ -1,0 +1,112 @@
+#include "engine/step/impacts.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/bodies/rigid_body.hpp"
+#include "engine/contact/contact_frame.hpp"
+#include "engine/contact/pair_coefficients.hpp"
+#include "engine/contact/pair_scale.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
+constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
+
+/// Velocities of a step and what impulses make of them.
+class Motion {
+ public:
+  Motion(const Bodies& bodies, const SubStep& step) : bodies_(bodies), step_(step), solved_(step.colliders.size()) {
+    for (BodyIndex b(0); b < bodies.size(); ++b)
+      solved_[b] = {step.colliders[b].velocity, step.colliders[b].angular_velocity};
+    for (std::size_t g = 0; g < step.groups.size(); ++g)
+      for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i) {
+        const Twist& change = step.results[g].velocity[i].twist;
+        Twist& twist = solved_[step.groups[g].bodies[i]];
+        twist.linear += change.linear, twist.angular += change.angular;
+      }
+  }
+
+  /// Of A's point from B's along the normal, m/s: by free velocities, by solved ones, and by those without what the two
+  /// do to each other.
+  double free(const Collision& c) const {
+    return c.normal.dot(step_.colliders[c.body_a].velocity_at(place(c)) -
+                        step_.colliders[c.body_b].velocity_at(place(c)));
+  }
+  double solved(const Collision& c) const { return along(c, solved_[c.body_a], solved_[c.body_b]); }
+  double without(const Collision& c, std::span<const SolvedContact* const> of_pair) const {
+    Twist a = solved_[c.body_a], b = solved_[c.body_b];
+    for (const SolvedContact* other : of_pair) {
+      const Vec3 impulse = contact_axes(other->collision.normal).transpose() * other->lambda;
+      take(c.body_a, place(other->collision), -impulse, a);
+      take(c.body_b, place(other->collision), impulse, b);
+    }
+    return along(c, a, b);
+  }
+
+ private:
+  static Vec3 place(const Collision& c) { return 0.5 * (c.point_a + c.point_b); }
+  double along(const Collision& c, const Twist& a, const Twist& b) const {
+    const auto at = [&](BodyIndex body, const Twist& t) {
+      return Vec3(t.linear + t.angular.cross(place(c) - step_.colliders[body].pose.position));
+    };
+    return c.normal.dot(at(c.body_a, a) - at(c.body_b, b));
+  }
+  void take(BodyIndex index, const Vec3& at, const Vec3& impulse, Twist& twist) const {
+    const RigidBody* body = bodies_[index].as<RigidBody>();
+    if (body == nullptr) return;
+    const Pose& pose = step_.colliders[index].pose;
+    twist.linear += impulse / body->mass;
+    twist.angular +=
+        pose.rotation * (body->inertia_inverse * (pose.rotation.transpose() * (at - pose.position).cross(impulse)));
+  }
+
+  const Bodies& bodies_;
+  const SubStep& step_;
+  std::vector<Twist> solved_;  // by body
+};
+
+}  // namespace
+
+bool has_restitution(const Bodies& bodies, const ContactSettings& settings) {
+  for (const Body& b : bodies)
+    if (b.restitution.value_or(settings.restitution) > 0.0) return true;
+  return false;
+}
+
+std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep& step, const ContactSettings& settings,
+                                            double gravity) {
+  std::map<std::pair<BodyIndex, BodyIndex>, std::vector<const SolvedContact*>> pairs;
+  for (const GroupResult& result : step.results)
+    for (const SolvedContact& c : result.solved) {
+      const Body &a = bodies[c.collision.body_a], &b = bodies[c.collision.body_b];
+      const bool is_rigid = a.kind() != BodyKind::deformable && b.kind() != BodyKind::deformable;
+      if (is_rigid && c.lambda.x() > 0.0 && pair_restitution(a, b, settings) > 0.0)
+        pairs[{c.collision.body_a, c.collision.body_b}].push_back(&c);
+    }
+  if (pairs.size() < 2) return std::nullopt;  // one impact brakes nobody but its own two
+  const Motion motion(bodies, step);
+  const double least = kLeastShare * step.time_step;
+  double first = step.time_step;
+  bool is_braked = false;
+  for (const auto& [pair, contacts] : pairs) {
+    const double threshold =
+        settings.restitution_threshold.at(pair_scale(bodies[pair.first], bodies[pair.second], gravity).speed);
+    for (const SolvedContact* c : contacts) {
+      const double gap = c->collision.gap;
+      if (gap <= 0.0) continue;
+      const bool rebounds = motion.solved(c->collision) > 0.0;
+      const double approach = rebounds ? -motion.free(c->collision) : -motion.without(c->collision, contacts);
+      if (!(approach > threshold)) continue;
+      const double time = (1.0 - kBefore) * gap / approach;
+      if (time < least || time >= step.time_step) continue;
+      first = std::min(first, time);
+      is_braked |= !rebounds;
+    }
+  }
+  if (!is_braked) return std::nullopt;
+  return first / step.time_step;
+}
+
+}  // namespace impinge
