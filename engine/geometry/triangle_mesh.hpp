@@ -39,6 +39,7 @@ std::vector<int> edge_uses(const MeshTopology& topology);
 bool runs_along(const Triangle& triangle, int from, int to);
 
 class BoxTree;
+class DiscTree;
 class DistanceField;
 
 /// A surface ready for contact, shared by all that are made from the same source.
@@ -46,10 +47,13 @@ struct SurfaceMesh {
   TriangleMesh mesh;
   MeshTopology topology;
   Lazily<BoxTree> lazy_tree = {};
+  Lazily<DiscTree> lazy_discs = {};
   Lazily<double> lazy_size = {};  ///< size_of (shapes/shape_size.hpp)
   LazilyAnew<DistanceField> lazy_field = {};
   /// Boxes over the triangles where `mesh` has them, made when they are asked for first.
   const BoxTree& tree() const;
+  /// Flat discs over them, likewise.
+  const DiscTree& discs() const;
   /// Distances round it (distance_field.hpp), of so many voxels at most; made when they are asked for first. Only where
   /// the program is built with OpenVDB. Throws Interrupted.
   std::shared_ptr<const DistanceField> field(std::size_t most_voxels) const;

@@ -1,241 +1,49 @@
-// Two hierarchies of boxes, walked together from their roots [GottschalkLin96]. A rigid mesh has one tree for good, in its
-// own frame, so that nothing is made anew when it moves; boxes of one are looked at from the frame of the other. A
-// deforming mesh's tree keeps the shape it had at rest, its boxes are fitted to where the triangles are, and it is built
-// anew once they have grown too large for it.
-#include <array>
-#include <cmath>
-
-#include "engine/core/error.hpp"
-#include "engine/core/interrupt.hpp"
-#include "engine/core/parallel.hpp"
+// Two hierarchies over the triangles of two meshes, walked together from their roots [GottschalkLin96]: of flat discs
+// (disc_pairs), or of boxes (box_pairs).
+#include "engine/detection/triangles/box_pairs.hpp"
+#include "engine/detection/triangles/disc_pairs.hpp"
 #include "engine/detection/triangles/narrow_phase.hpp"
-#include "engine/detection/triangles/triangle_pair_test.hpp"
-#include "engine/geometry/fitted_tree.hpp"
 
 namespace impinge {
 namespace {
 
-enum class Volume { aabb, obb, sphere };
+enum class Volume { disc, aabb, obb, sphere };
 
 struct Settings {
-  Volume volume = Volume::aabb;
-};
-
-constexpr int kLeaf = 4;  // triangles; trees have at most 2
-constexpr std::size_t kTasksAPair = 32;
-constexpr int kFewest = 256;  // triangles of both that are worth more than one task
-
-/// A tree and where its boxes are now.
-struct Side {
-  const BoxTree* tree = nullptr;
-  const std::vector<Aabb>* fitted = nullptr;  // null: the tree's own
-  const BoxTree::Node& node(int n) const { return tree->nodes()[n]; }
-  const Aabb& box(int n) const { return fitted != nullptr ? (*fitted)[n] : node(n).box; }
-};
-
-/// How two boxes are looked at: those of B from the frame that those of A are in.
-struct View {
-  Pose b_in_a;
-  Mat3 turned;          // absolute values of its rotation
-  double margin = 0.0;  // metres, what rounding takes included
-  Volume volume = Volume::aabb;
-
-  bool are_near(const Aabb& a, const Aabb& b) const {
-    const Vec3 c = b_in_a.apply(b.center()) - a.center(), ha = 0.5 * a.extent(), hb = 0.5 * b.extent();
-    if (volume == Volume::sphere) return c.norm() <= ha.norm() + hb.norm() + margin;
-    if ((c.cwiseAbs().array() > (ha + product(turned, hb)).array() + margin).any()) return false;
-    return volume == Volume::aabb || !is_between_axes(c, ha, hb);
-  }
-
- private:
-  /// The axes of B and those at right angles to one of each; the latter are shorter than 1, and so is the margin there.
-  bool is_between_axes(const Vec3& c, const Vec3& ha, const Vec3& hb) const {
-    const Mat3& r = b_in_a.rotation;
-    for (int j = 0; j < 3; ++j)
-      if (std::abs(c.dot(r.col(j))) > hb[j] + turned.col(j).dot(ha) + margin) return true;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        const double distance = std::abs(c[i2] * r(i1, j) - c[i1] * r(i2, j));
-        const double own = ha[i1] * turned(i2, j) + ha[i2] * turned(i1, j),
-                     other = hb[j1] * turned(i, j2) + hb[j2] * turned(i, j1);
-        if (distance > own + other + margin) return true;
-      }
-    return false;
-  }
-};
-
-/// Two nodes of one body pair.
-struct Task {
-  int pair, a, b;
+  Volume volume = Volume::disc;
 };
 
 class Bvh final : public NarrowPhase {
  public:
   void declare(const Rows& rows) override {
-    rows.add("volume", settings_.volume, {{Volume::aabb, "aabb"}, {Volume::obb, "obb"}, {Volume::sphere, "sphere"}},
-             "How two nodes are told apart: boxes along the axes of one (aabb), by all separating axes (obb), or the "
-             "spheres round them (sphere).")
+    rows.add(
+            "volume", settings_.volume,
+            {{Volume::disc, "disc"}, {Volume::aabb, "aabb"}, {Volume::obb, "obb"}, {Volume::sphere, "sphere"}},
+            "What a node is, and how two are told apart: flat discs that lie along the surface (disc), or boxes by the "
+            "axes of one (aabb), by all separating axes (obb), by the spheres round them (sphere).")
         .formerly("narrow_phase.volume");
   }
 
   void find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
             std::vector<TrianglePair>& found) override {
-    found.clear();
-    prepare(colliders, pairs);
-    std::vector<Task> tasks;
-    for (std::size_t i = 0; i < pairs.size(); ++i) open(colliders, pairs[i], static_cast<int>(i), tasks);
-    std::vector<std::vector<TrianglePair>> out(tasks.size());
-    parallel_for(tasks.size(), 1, [&](std::size_t i) {
-      const Task& task = tasks[i];
-      walk(colliders, pairs[static_cast<std::size_t>(task.pair)], views_[static_cast<std::size_t>(task.pair)], task,
-           out[i]);
-    });
-    for (const std::vector<TrianglePair>& list : out) found.insert(found.end(), list.begin(), list.end());
-    std::sort(found.begin(), found.end());
+    if (settings_.volume == Volume::disc) return discs_.find(colliders, pairs, found);
+    const BoxTest how = settings_.volume == Volume::aabb  ? BoxTest::along_one
+                        : settings_.volume == Volume::obb ? BoxTest::along_both
+                                                          : BoxTest::by_spheres;
+    boxes_.find(colliders, pairs, how, found);
   }
 
  private:
-  void prepare(std::span<const Collider> colliders, std::span<const BodyPair> pairs) {
-    sides_.assign(colliders.size(), {});
-    if (fitted_.size() < colliders.size()) fitted_.resize(colliders.size());
-    std::vector<int> used;
-    for (const BodyPair& pair : pairs)
-      for (const BodyIndex body : {pair.a, pair.b}) used.push_back(body.value());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    parallel_for(used.size(), 1, [&](std::size_t i) {
-      const auto body = static_cast<std::size_t>(used[i]);
-      sides_[body] = side_of(colliders[body], fitted_[body]);
-    });
-    views_.clear();
-    for (const BodyPair& pair : pairs) views_.push_back(view_of(colliders[pair.a], colliders[pair.b], pair.margin));
-  }
-
-  static Side side_of(const Collider& collider, FittedTree& fitted) {
-    if (collider.vertex_velocities.empty()) return {&collider.mesh().tree(), nullptr};
-    fitted.fit(triangle_boxes(collider.mesh().mesh.triangles, collider.vertices));
-    return {&fitted.tree(), &fitted.boxes()};
-  }
-
-  View view_of(const Collider& a, const Collider& b, double margin) const {
-    const auto frame = [](const Collider& c) { return c.vertex_velocities.empty() ? c.pose : Pose(); };
-    const Pose in = frame(a), of = frame(b);
-    View view;
-    view.b_in_a = {in.rotation.transpose() * of.rotation, in.apply_inverse(of.position)};
-    view.turned = view.b_in_a.rotation.cwiseAbs();
-    const double magnitude = std::max(largest_coordinate(a.bounds), largest_coordinate(b.bounds));
-    // as search_box has it, and what poses round
-    view.margin = margin * (1.0 + 1e-9) + (4.0 * kTouchTolerance + 1e-13) * magnitude;
-    view.volume = settings_.volume;
-    return view;
-  }
-
-  /// Node pairs that threads walk side by side; how many there are doesn't depend on the threads.
-  void open(std::span<const Collider> colliders, const BodyPair& pair, int index, std::vector<Task>& tasks) const {
-    const Side &a = sides_[pair.a], &b = sides_[pair.b];
-    if (a.tree->is_empty() || b.tree->is_empty()) return;
-    const auto count = [&](BodyIndex i) { return static_cast<int>(colliders[i].mesh().mesh.triangles.size()); };
-    const std::size_t most = count(pair.a) + count(pair.b) < kFewest ? 1 : kTasksAPair;
-    std::vector<Task> waiting = {{index, 0, 0}}, next;
-    while (!waiting.empty() && waiting.size() < most) {
-      next.clear();
-      bool is_split = false;
-      for (const Task& task : waiting) {
-        if (!views_[static_cast<std::size_t>(index)].are_near(a.box(task.a), b.box(task.b))) continue;
-        if (a.node(task.a).is_leaf() && b.node(task.b).is_leaf())
-          next.push_back(task);
-        else
-          is_split = true, split(pair, a, b, task, next);
-      }
-      waiting.swap(next);
-      if (!is_split) break;
-    }
-    tasks.insert(tasks.end(), waiting.begin(), waiting.end());
-  }
-
-  static void split(const BodyPair& pair, const Side& a, const Side& b, const Task& task, std::vector<Task>& out) {
-    const BoxTree::Node &na = a.node(task.a), &nb = b.node(task.b);
-    if (pair.a == pair.b && task.a == task.b) {
-      out.push_back({task.pair, task.a + 1, task.a + 1});
-      out.push_back({task.pair, task.a + 1, na.second});
-      out.push_back({task.pair, na.second, na.second});
-    } else if (nb.is_leaf() ||
-               (!na.is_leaf() && a.box(task.a).extent().squaredNorm() >= b.box(task.b).extent().squaredNorm())) {
-      out.push_back({task.pair, task.a + 1, task.b});
-      out.push_back({task.pair, na.second, task.b});
-    } else {
-      out.push_back({task.pair, task.a, task.b + 1});
-      out.push_back({task.pair, task.a, nb.second});
-    }
-  }
-
-  void walk(std::span<const Collider> colliders, const BodyPair& pair, const View& view, const Task& start,
-            std::vector<TrianglePair>& out) const {
-    const Side &a = sides_[pair.a], &b = sides_[pair.b];
-    std::vector<Task> waiting = {start};
-    InterruptPoll poll;
-    while (!waiting.empty()) {
-      const Task task = waiting.back();
-      waiting.pop_back();
-      poll();
-      if (!view.are_near(a.box(task.a), b.box(task.b))) continue;
-      if (a.node(task.a).is_leaf() && b.node(task.b).is_leaf())
-        test(colliders, pair, a, b, task, out);
-      else
-        split(pair, a, b, task, waiting);
-    }
-  }
-
-  /// The triangles of a leaf, where they are.
-  struct Leaf {
-    int count = 0;
-    std::array<int, kLeaf> triangle;
-    std::array<TriangleCorners, kLeaf> corners;
-    std::array<Aabb, kLeaf> box;
-
-    Leaf(const Collider& collider, const Side& side, const BoxTree::Node& node, double margin) : count(node.count) {
-      IMPINGE_ASSERT(count <= kLeaf);
-      for (int i = 0; i < count; ++i) {
-        triangle[i] = side.tree->order()[node.first + i];
-        corners[i] = corners_of(collider, triangle[i]);
-        box[i] = search_box(corners[i], margin);
-      }
-    }
-  };
-
-  static void test(std::span<const Collider> colliders, const BodyPair& pair, const Side& a, const Side& b,
-                   const Task& task, std::vector<TrianglePair>& out) {
-    const bool is_self = pair.a == pair.b, is_one = is_self && task.a == task.b;
-    const std::vector<Triangle>& triangles = colliders[pair.a].mesh().mesh.triangles;
-    const Leaf own(colliders[pair.a], a, a.node(task.a), pair.margin),
-        other(colliders[pair.b], b, b.node(task.b), pair.margin);
-    for (int i = 0; i < own.count; ++i)
-      for (int j = is_one ? i + 1 : 0; j < other.count; ++j) {
-        if (!overlap(own.box[i], other.box[j])) continue;
-        int first = own.triangle[i], second = other.triangle[j];
-        if (is_self && share_a_vertex(triangles[first], triangles[second])) continue;
-        const bool is_turned = is_self && second < first;
-        const PairState state = is_turned ? test_triangles(other.corners[j], own.corners[i], pair.margin)
-                                          : test_triangles(own.corners[i], other.corners[j], pair.margin);
-        if (is_turned) std::swap(first, second);
-        if (state != PairState::apart)
-          out.push_back(
-              {pair.a, pair.b, TriangleIndex(first), TriangleIndex(second), state == PairState::intersecting});
-      }
-  }
-
   Settings settings_;
-  std::vector<Side> sides_;         // by body
-  std::vector<FittedTree> fitted_;  // by body
-  std::vector<View> views_;         // by pair
+  DiscPairs discs_;
+  BoxPairs boxes_;
 };
 
 }  // namespace
 
 Entry<NarrowPhase> bvh_narrow_phase() {
-  return entry<NarrowPhase, Bvh>("bvh",
-                                 "Hierarchies of boxes over the triangles, in the mesh's own frame if it is rigid.");
+  return entry<NarrowPhase, Bvh>(
+      "bvh", "Hierarchies of flat discs, or boxes, over the triangles, in the mesh's own frame if it is rigid.");
 }
 
 }  // namespace impinge

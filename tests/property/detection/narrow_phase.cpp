@@ -54,8 +54,8 @@ struct Phases {
     for (const auto& e : narrow_phases()) add(e, "", "");
     for (const auto& e : narrow_phases())
       if (e.name == "bvh")
-        for (const char* volume : {"obb", "sphere"}) add(e, "volume", volume);
-    CHECK(all.size() == narrow_phases().size() + 2);
+        for (const char* volume : {"aabb", "obb", "sphere"}) add(e, "volume", volume);
+    CHECK(all.size() == narrow_phases().size() + 3);
   }
   void add(const Entry<NarrowPhase>& entry, const std::string& setting, const std::string& value) {
     all.push_back(entry.make());
