@@ -1,0 +1,269 @@
+// Triangle pairs of two meshes beside Embree's rtcCollide, in the same run: rigid ones, whose trees stay as they are, and
+// deforming ones, whose trees are fitted before they are asked. Far and near pose of two icospheres, and a dragon.
+//
+// Processor time of one thread. Both are called in turn, 15 times and more; medians, and the median of the ratios of
+// neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list isn't sorted.
+//   bench_triangle_peers [--finest K]    20·4^K triangles a body (4 to 8, default 7: 655,360 together)
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+#include <string>
+
+#include "engine/core/parallel.hpp"
+#include "engine/geometry/distance.hpp"
+#include "tests/support/geometry/meshes.hpp"
+
+#ifdef IMPINGE_HAS_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+double process_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double median(std::vector<double> x) {
+  std::nth_element(x.begin(), x.begin() + static_cast<long>(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+using Pairs = std::vector<std::pair<int, int>>;
+using Places = std::vector<Vec3>;
+
+/// Two bodies of one mesh.
+struct Scene {
+  MeshPointer mesh;
+  Pose pose;
+  /// In frame k of the deformation, or at rest.
+  std::array<Places, 2> places(int k, bool is_deforming) const {
+    std::array<Places, 2> all;
+    for (Vec3 p : mesh->mesh.vertices) {
+      if (is_deforming)
+        p *= 1.0 + 0.02 * std::sin(6.0 * p.x() + 0.3 * k) * std::sin(5.0 * p.y()) * std::sin(4.0 * p.z() + 0.1 * k);
+      all[0].push_back(p), all[1].push_back(pose.apply(p));
+    }
+    return all;
+  }
+};
+
+class Ours {
+ public:
+  explicit Ours(const Scene& scene) {
+    bodies_.add(scene.mesh);
+    bodies_.add(scene.mesh, scene.pose);
+  }
+  void place(const std::array<Places, 2>& at) {
+    for (int i = 0; i < 2; ++i) bodies_.place(i, at[static_cast<std::size_t>(i)]);
+  }
+  void find() { phase_->find(bodies_.all(), pair_, found_); }
+  Pairs pairs() const {
+    Pairs all;
+    for (const TrianglePair& p : found_) all.emplace_back(p.triangle_a.value(), p.triangle_b.value());
+    return all;
+  }
+
+ private:
+  ColliderSet bodies_;
+  std::unique_ptr<NarrowPhase> phase_ = find_entry(narrow_phases(), "bvh")->make();
+  std::vector<BodyPair> pair_ = {{BodyIndex(0), BodyIndex(1), 0.0}};
+  std::vector<TrianglePair> found_;
+};
+
+#ifdef IMPINGE_HAS_EMBREE
+bool segment_meets(const Vec3& p, const Vec3& q, const TriangleCorners& c) {
+  const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], d = q - p, h = d.cross(e2), s = p - c[0], n = s.cross(e1);
+  const double det = e1.dot(h);
+  if (det == 0.0) return false;
+  const double u = s.dot(h) / det, v = d.dot(n) / det, t = e2.dot(n) / det;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t >= 0.0 && t <= 1.0;
+}
+
+bool is_on_one_side(const TriangleCorners& of, const TriangleCorners& c) {
+  const Vec3 n = (of[1] - of[0]).cross(of[2] - of[0]);
+  const double x = n.dot(c[0] - of[0]), y = n.dot(c[1] - of[0]), z = n.dot(c[2] - of[0]);
+  return (x > 0.0 && y > 0.0 && z > 0.0) || (x < 0.0 && y < 0.0 && z < 0.0);
+}
+
+bool plainly_meet(const TriangleCorners& a, const TriangleCorners& b) {
+  if (!overlap(bounds_of(a[0], a[1], a[2]), bounds_of(b[0], b[1], b[2]))) return false;
+  if (is_on_one_side(a, b) || is_on_one_side(b, a)) return false;
+  for (int k = 0; k < 3; ++k)
+    if (segment_meets(a[k], a[(k + 1) % 3], b) || segment_meets(b[k], b[(k + 1) % 3], a)) return true;
+  return false;
+}
+
+class Embree {
+ public:
+  Embree(const Scene& scene, const std::array<Places, 2>& at, bool is_deforming)
+      : device_(rtcNewDevice("threads=1,set_affinity=0")) {
+    for (int i = 0; i < 2; ++i) {
+      Body& body = bodies_[i];
+      body = {&scene.mesh->mesh.triangles, &at[static_cast<std::size_t>(i)], rtcNewScene(device_), nullptr};
+      if (is_deforming) rtcSetSceneFlags(body.scene, RTC_SCENE_FLAG_DYNAMIC);
+      rtcSetSceneBuildQuality(body.scene, is_deforming ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM);
+      body.geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+      if (is_deforming) rtcSetGeometryBuildQuality(body.geometry, RTC_BUILD_QUALITY_REFIT);
+      rtcSetGeometryUserPrimitiveCount(body.geometry, static_cast<unsigned>(body.triangles->size()));
+      rtcSetGeometryUserData(body.geometry, &body);
+      rtcSetGeometryBoundsFunction(body.geometry, bounds, nullptr);
+      rtcCommitGeometry(body.geometry);
+      rtcAttachGeometry(body.scene, body.geometry);
+      rtcCommitScene(body.scene);
+    }
+  }
+  ~Embree() {
+    for (Body& body : bodies_) rtcReleaseGeometry(body.geometry), rtcReleaseScene(body.scene);
+    rtcReleaseDevice(device_);
+  }
+  Embree(const Embree&) = delete;
+  Embree& operator=(const Embree&) = delete;
+
+  void place(const std::array<Places, 2>& at) {
+    for (std::size_t i = 0; i < 2; ++i) bodies_[i].places = &at[i];
+  }
+  void fit() {
+    for (Body& body : bodies_) rtcCommitGeometry(body.geometry), rtcCommitScene(body.scene);
+  }
+  void find() {
+    found_.clear();
+    rtcCollide(bodies_[0].scene, bodies_[1].scene, meet, this);
+  }
+  Pairs pairs() const {
+    Pairs sorted = found_;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  }
+
+ private:
+  struct Body {
+    const std::vector<Triangle>* triangles;
+    const Places* places;
+    RTCScene scene;
+    RTCGeometry geometry;
+    TriangleCorners corners(unsigned t) const {
+      const Triangle& c = (*triangles)[t];
+      return {(*places)[c[0]], (*places)[c[1]], (*places)[c[2]]};
+    }
+  };
+
+  static void bounds(const RTCBoundsFunctionArguments* asked) {
+    const TriangleCorners c = static_cast<const Body*>(asked->geometryUserPtr)->corners(asked->primID);
+    const Aabb box = bounds_of(c[0], c[1], c[2]);
+    float *low = &asked->bounds_o->lower_x, *high = &asked->bounds_o->upper_x;
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::nextafter(static_cast<float>(box.min[axis]), -INFINITY);
+      high[axis] = std::nextafter(static_cast<float>(box.max[axis]), INFINITY);
+    }
+  }
+  static void meet(void* self, RTCCollision* near, unsigned count) {
+    auto& own = *static_cast<Embree*>(self);
+    for (unsigned i = 0; i < count; ++i)
+      if (plainly_meet(own.bodies_[0].corners(near[i].primID0), own.bodies_[1].corners(near[i].primID1)))
+        own.found_.emplace_back(near[i].primID0, near[i].primID1);
+  }
+
+  RTCDevice device_;
+  Body bodies_[2];
+  Pairs found_;
+};
+
+struct Row {
+  std::size_t triangles, pairs;
+  double ours, peer, ratio;
+  bool is_same;
+};
+
+Row compare(const Scene& scene, bool is_deforming) {
+  constexpr int kTimes = 15;
+  std::array<Places, 2> at = scene.places(0, is_deforming);
+  Ours ours(scene);
+  Embree embree(scene, at, is_deforming);
+  std::vector<double> own, other, ratios;
+  Row row{2 * scene.mesh->mesh.triangles.size(), 0, 0.0, 0.0, 0.0, true};
+  for (int k = 0; k <= kTimes; ++k) {
+    if (is_deforming) at = scene.places(k, true), ours.place(at), embree.place(at);
+    const auto run = [&](bool is_ours) {
+      const double start = process_ms();
+      if (is_ours) {
+        ours.find();
+      } else {
+        if (is_deforming) embree.fit();
+        embree.find();
+      }
+      return process_ms() - start;
+    };
+    double mine = 0.0, theirs = 0.0;
+    if (k % 2 == 0) mine = run(true), theirs = run(false);
+    if (k % 2 == 1) theirs = run(false), mine = run(true);
+    const Pairs found = ours.pairs();
+    row.pairs = found.size(), row.is_same = row.is_same && found == embree.pairs();
+    if (k == 0) continue;  // makes trees and allocates
+    own.push_back(mine), other.push_back(theirs), ratios.push_back(mine / theirs);
+  }
+  row.ours = median(own), row.peer = median(other), row.ratio = median(ratios);
+  return row;
+}
+
+double exponent(const std::vector<Row>& rows, double Row::*ms) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const Row& row : rows) {
+    const double x = std::log(static_cast<double>(row.triangles)), y = std::log(row.*ms);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const double count = static_cast<double>(rows.size());
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+void print(const std::string& name, const Row& row) {
+  fmt::print("{:<22} {:>9} {:>7} {:>10.3f} {:>10.3f} {:>6.2f}{}\n", name, row.triangles, row.pairs, row.ours, row.peer,
+             row.ratio, row.is_same ? "" : "  DIFFERENT PAIRS");
+  std::fflush(stdout);
+}
+
+Pose pose_of(bool is_far) {
+  const Vec3 axis = Vec3(1, 2, 3).normalized();
+  return is_far ? Pose{Eigen::AngleAxisd(0.7, axis).toRotationMatrix(), Vec3(0.35, 0.22, 0.13)}
+                : Pose{Eigen::AngleAxisd(0.05, axis).toRotationMatrix(), Vec3(0.010, 0.007, 0.003)};
+}
+
+void compare_all(int finest) {
+  std::vector<std::pair<std::string, std::vector<MeshPointer>>> series(2);
+  series[0].first = "icosphere";
+  for (int k = 4; k <= finest; ++k) series[0].second.push_back(surface(icosphere(k)));
+  series[1].first = "dragon";
+  if (const std::string file = shared_file("meshes/dragon/dragon_20k.off"); !file.empty())
+    series[1].second.push_back(surface(scaled_to(read_off(file), 2.0)));
+  fmt::print("{:<22} {:>9} {:>7} {:>10} {:>10} {:>6}\n", "", "triangles", "pairs", "ours, ms", "Embree, ms", "ratio");
+  for (const auto& [name, meshes] : series)
+    for (const bool is_deforming : {false, true})
+      for (const bool is_far : {true, false}) {
+        const std::string text =
+            fmt::format("{} {} {}", name, is_deforming ? "deforming" : "rigid", is_far ? "far" : "near");
+        std::vector<Row> rows;
+        for (const MeshPointer& mesh : meshes)
+          rows.push_back(compare({mesh, pose_of(is_far)}, is_deforming)), print(text, rows.back());
+        if (rows.size() > 1)
+          fmt::print("  grows as n^{:.2f}, Embree n^{:.2f}\n", exponent(rows, &Row::ours), exponent(rows, &Row::peer));
+      }
+}
+#endif
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int finest = 7;
+  if (argc == 3 && std::string(argv[1]) == "--finest") finest = std::clamp(std::atoi(argv[2]), 4, 8);
+  set_thread_count(1);
+#ifdef IMPINGE_HAS_EMBREE
+  compare_all(finest);
+#else
+  fmt::print("built without Embree (libembree-dev), finest {}\n", finest);
+#endif
+}
