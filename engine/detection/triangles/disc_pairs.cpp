@@ -21,6 +21,54 @@ TrianglePair pair_of(const BodyPair& bodies, std::uint64_t key) {
           TriangleIndex(static_cast<int>(key >> 1 & 0x7fffffffu)), (key & 1u) != 0};
 }
 
+/// Looks at the triangles at places of two orders. The one of a mostly stays while those of b change.
+class PlaceTest {
+ public:
+  PlaceTest(std::span<const Collider> colliders, const BodyPair& pair, const DiscTree& a, const DiscTree& b,
+            std::vector<std::uint64_t>& found)
+      : a_(colliders[pair.a]),
+        b_(colliders[pair.b]),
+        order_a_(a.order()),
+        order_b_(b.order()),
+        is_self_(pair.a == pair.b),
+        margin_(pair.margin),
+        reach_(tree_margin(a_, b_, pair.margin)),
+        found_(found) {}
+
+  void operator()(int i, int j) {
+    if (i != place_) take(i);
+    const int second = order_b_[static_cast<std::size_t>(j)];
+    const TriangleCorners other = corners_of(b_, second);
+    // as wide as two search boxes at least, and cheaper: what is between them the exact test finds apart
+    if (!overlap(box_, bounds_of(other[0], other[1], other[2]))) return;
+    if (is_self_) {
+      const std::vector<Triangle>& triangles = a_.mesh().mesh.triangles;
+      if (share_a_vertex(triangles[first_], triangles[second])) return;
+      if (second < first_) return add(second, first_, test_triangles(other, own_, margin_));
+    }
+    add(first_, second, test_triangles(own_, other, margin_));
+  }
+
+ private:
+  void take(int i) {
+    place_ = i, first_ = order_a_[static_cast<std::size_t>(i)];
+    own_ = corners_of(a_, first_);
+    box_ = bounds_of(own_[0], own_[1], own_[2]).inflated(reach_);
+  }
+  void add(int first, int second, PairState state) {
+    if (state != PairState::apart) found_.push_back(key_of(first, second, state == PairState::intersecting));
+  }
+
+  const Collider &a_, &b_;
+  const std::vector<int>&order_a_, &order_b_;
+  bool is_self_;
+  double margin_, reach_;
+  std::vector<std::uint64_t>& found_;
+  int place_ = -1, first_ = -1;
+  TriangleCorners own_;
+  Aabb box_;
+};
+
 }  // namespace
 
 void DiscPairs::find(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
@@ -78,10 +126,10 @@ void DiscPairs::open(std::span<const Collider> colliders, std::span<const BodyPa
   const DiscWalk& walk = walks_[static_cast<std::size_t>(pair)];
   std::vector<DiscWalk::Task> waiting = {walk.start()}, next;
   std::vector<std::uint64_t> found;
+  PlaceTest test(colliders, bodies, a, b, found);
   while (!waiting.empty() && waiting.size() < most) {
     next.clear();
-    for (const DiscWalk::Task& task : waiting)
-      walk.expand(task, next, [&](int i, int j) { test(colliders, bodies, i, j, found); });
+    for (const DiscWalk::Task& task : waiting) walk.expand(task, next, test);
     waiting.swap(next);
   }
   // how many parts there are depends on no thread
@@ -95,28 +143,14 @@ void DiscPairs::open(std::span<const Collider> colliders, std::span<const BodyPa
 
 void DiscPairs::walk(std::span<const Collider> colliders, const BodyPair& pair, Part& part) const {
   const DiscWalk& walk = walks_[static_cast<std::size_t>(part.pair)];
+  PlaceTest test(colliders, pair, *trees_[pair.a], *trees_[pair.b], part.found);
   InterruptPoll poll;
   while (!part.tasks.empty()) {
     const DiscWalk::Task task = part.tasks.back();
     part.tasks.pop_back();
     poll();
-    walk.expand(task, part.tasks, [&](int i, int j) { test(colliders, pair, i, j, part.found); });
+    walk.expand(task, part.tasks, test);
   }
-}
-
-void DiscPairs::test(std::span<const Collider> colliders, const BodyPair& pair, int i, int j,
-                     std::vector<std::uint64_t>& found) const {
-  int first = trees_[pair.a]->order()[i], second = trees_[pair.b]->order()[j];
-  const Collider &a = colliders[pair.a], &b = colliders[pair.b];
-  if (pair.a == pair.b) {
-    if (second < first) std::swap(first, second);
-    const std::vector<Triangle>& triangles = a.mesh().mesh.triangles;
-    if (share_a_vertex(triangles[first], triangles[second])) return;
-  }
-  const TriangleCorners own = corners_of(a, first), other = corners_of(b, second);
-  if (!overlap(search_box(own, pair.margin), search_box(other, pair.margin))) return;
-  const PairState state = test_triangles(own, other, pair.margin);
-  if (state != PairState::apart) found.push_back(key_of(first, second, state == PairState::intersecting));
 }
 
 }  // namespace impinge

@@ -27,9 +27,6 @@ class DiscPairs {
   void open(std::span<const Collider> colliders, std::span<const BodyPair> pairs, int pair,
             std::vector<Part>& parts) const;
   void walk(std::span<const Collider> colliders, const BodyPair& pair, Part& part) const;
-  /// Looks at the triangles at these places of the orders.
-  void test(std::span<const Collider> colliders, const BodyPair& pair, int i, int j,
-            std::vector<std::uint64_t>& found) const;
 
   std::vector<const DiscTree*> trees_;  // by body
   std::vector<FittedDiscs> fitted_;     // by body
