@@ -12,6 +12,7 @@ const Registry<Response>& responses() {
     IMPINGE_LIST(all, sequential_impulse_response);
     IMPINGE_LIST(all, simultaneous_impulse_response);
     IMPINGE_LIST(all, soft_constraint_response);
+    IMPINGE_LIST(all, quick_response);
     return all;
   }();
   return list;

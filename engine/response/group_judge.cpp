@@ -41,12 +41,15 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
         const RigidBlock& block = group.rigid[side.rigid];
         impulse[side.rigid] += sign * force;
         turn[side.rigid] += sign * side.arm.cross(force);
+        Vec3 direction[3], moment[3], spin[3];
+        for (int r = 0; r < 3; ++r) {
+          direction[r] = rows.directions.row(r);
+          moment[r] = side.arm.cross(direction[r]);
+          spin[r] = block.inverse_inertia * moment[r];
+        }
         for (int r = 0; r < 3; ++r)
-          for (int c = 0; c < 3; ++c) {
-            const Vec3 dr = rows.directions.row(r), dc = rows.directions.row(c);
-            w(r, c) +=
-                block.inverse_mass * dr.dot(dc) + side.arm.cross(dr).dot(block.inverse_inertia * side.arm.cross(dc));
-          }
+          for (int c = 0; c < 3; ++c)
+            w(r, c) += block.inverse_mass * direction[r].dot(direction[c]) + moment[r].dot(spin[c]);
       }
       for (const NodeWeight& n : side.nodes) {  // the natural map needs a scale only: the nodes' own blocks serve
         const BlockMatrix& a = *group.deformable[side.deformable].a;

@@ -14,10 +14,15 @@ namespace impinge {
 struct ResponseContext {
   LcpSettings lcp;                 ///< of cone problems; the tolerance holds for whatever else a method iterates
   double time_step = 1.0 / 240.0;  ///< Δt, s
+  /// Of a whole sub-step, that Δt is: an approximate method's start and the impulses that are remembered of it are those
+  /// of a whole one, whatever pieces a sub-step is made in.
+  double share = 1.0;
   /// Parts of the speed of a contact's scale, m/s, or numbers: of recovery from overlap, and slower impacts do not
   /// bounce.
   Threshold max_push_out = ContactSettings().max_push_out;
   Threshold restitution_threshold = ContactSettings().restitution_threshold;
+  /// Of which the free velocities of rigid bodies hold Δt, m/s²: what a method with shorter steps gives bit by bit.
+  Vec3 gravity = Vec3::Zero();
   /// The rows ask for positions that no longer overlap, not for velocities: to be solved to its residual, in whatever
   /// way of the method's does that.
   bool recovers_overlap = false;
@@ -65,6 +70,9 @@ class Response : public Method {
   virtual bool is_reference() const { return false; }
   /// Whether overlap is part of the method's own law (a spring's compression): nothing else may push it out then.
   virtual bool lives_on_overlap() const { return false; }
+  /// Whether it ends after work that is fixed beforehand, wherever that leads, and follows the bodies' turns by itself:
+  /// nothing of its answer is worth a solve more.
+  virtual bool is_approximate() const { return lives_on_overlap(); }
   virtual IterationSetting iteration_setting() { return {}; }
   /// What it is set to, in words that follow its name: "tolerance 1e-08, at most 200 sweeps".
   virtual std::string summary(const LcpSettings& lcp) const;

@@ -49,8 +49,8 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
     check_interrupt();
     {
       const StageTimer timer(times.narrow_ms);
-      find_collisions(step.colliders, step.pairs, by.contact, step.time_step, by.narrow_phase, step.triangle_pairs,
-                      step.collisions);
+      find_collisions(step.colliders, step.pairs, by.contact, step.time_step, by.either_may_stop, by.narrow_phase,
+                      step.triangle_pairs, step.collisions);
       add_asked(step.asked, step.collisions);
     }
     std::vector<BodyIndex> sleepers;

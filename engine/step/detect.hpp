@@ -14,6 +14,8 @@ struct Detecting {
   const ContactSettings& contact;
   BroadPhase& broad_phase;
   NarrowPhase& narrow_phase;
+  /// Of pairs with an exact shape: as ContactQuery has it, for responses that nothing is sought for anew.
+  bool either_may_stop = false;
 };
 
 /// Fills pairs, triangle pairs and collisions. The woken fall freely like all others in this sub-step.

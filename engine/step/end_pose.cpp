@@ -99,7 +99,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   if (pairs.empty()) return {};
   std::vector<TrianglePair> triangles;
   std::vector<Collision> found;
-  find_collisions(end.colliders(), pairs, by.contact, 0.0, by.narrow_phase, triangles, found);
+  find_collisions(end.colliders(), pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
   std::erase_if(found, [&](Collision& c) {
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
     if (c.gap >= -kAllowed * activation || c.gap < -kDeepest * activation) return true;

@@ -61,7 +61,7 @@ class FittedColliders {
 }  // namespace
 
 void find_collisions(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
-                     const ContactSettings& settings, double time_step, NarrowPhase& narrow_phase,
+                     const ContactSettings& settings, double time_step, bool either_may_stop, NarrowPhase& narrow_phase,
                      std::vector<TrianglePair>& triangle_pairs, std::vector<Collision>& collisions) {
   const bool proximity = settings.points == ContactPoints::proximity;
   std::vector<BodyPair> mesh_pairs;
@@ -80,7 +80,7 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const BodyPair& pair = pairs[i];
     const double size = std::min(colliders[pair.a].size, colliders[pair.b].size);
-    const ContactQuery query{proximity, settings.activation_distance.at(size), time_step};
+    const ContactQuery query{proximity, settings.activation_distance.at(size), time_step, either_may_stop};
     if (!is_mesh_pair(colliders, pair)) return primitive_contacts(fitted.all(), pair, query, found[i]);
     const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
     if (proximity && mesh_in_mesh(colliders, pair, triangles, query, found[i])) return;

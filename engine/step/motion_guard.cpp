@@ -18,6 +18,7 @@ namespace {
 constexpr double kTurn = 0.25;     // radians between the poses of a path
 constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found before the motion don't lose
 constexpr double kSeen = 0.3;      // of that: what they see well
+constexpr double kRough = 5.0;     // of that, half the thickness: less than this leads nobody through
 constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
@@ -170,7 +171,7 @@ void MotionGuard::add_self(const Bodies& bodies, Continuous which, std::vector<U
   }
 }
 
-std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies, Continuous which) {
+std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies, Continuous which, bool is_rough) {
   std::vector<Sweep> sweeps;
   std::vector<double> far;
   double least = INFINITY;  // of how far pairs may approach unseen
@@ -186,7 +187,9 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   std::vector<UnsafeMotion::Pair> pairs;
   add_self(bodies, which, pairs);
   const bool all = which == Continuous::on;
-  const double seen = which == Continuous::off ? 1.0 : kSeen;
+  bool all_rigid = true;
+  for (const Body& body : bodies) all_rigid = all_rigid && !deforms(body);
+  const double seen = which == Continuous::off ? 1.0 : is_rough && all_rigid ? kRough : kSeen;
   if (most == 0.0 || (!all && most <= seen * least)) return pairs;
 
   std::vector<Aabb> boxes;
@@ -209,15 +212,18 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
 }
 
 void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings,
-                         bool is_deep) {
+                         Depth depth) {
   std::vector<std::pair<SurfacePath, SurfacePath>> paths;
   paths.reserve(pairs.size());
   for (const UnsafeMotion::Pair& pair : pairs)
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
-    PassageSettings own = settings(bodies[pairs[i].a], bodies[pairs[i].b]);
-    if (is_deep)
+    const Body &of_a = bodies[pairs[i].a], &of_b = bodies[pairs[i].b];
+    PassageSettings own = settings(of_a, of_b);
+    if (depth == Depth::safe)
       own.depth = pairs[i].safe;
+    else if (depth == Depth::rough && !deforms(of_a) && !deforms(of_b))
+      own.depth = std::max(own.depth, pairs[i].safe);
     else if (pairs[i].a != pairs[i].b)
       own.depth = std::max(own.depth, kShallow * pairs[i].safe);
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
@@ -235,14 +241,15 @@ MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a
 }
 
 void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassagesOf& settings) {
-  search(bodies, motion.pairs, settings, true);
+  search(bodies, motion.pairs, settings, Depth::safe);
 }
 
-std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassagesOf& settings) {
-  std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which);
+std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassagesOf& settings,
+                                              bool is_rough) {
+  std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which, is_rough);
   if (pairs.empty()) return std::nullopt;
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
-  search(bodies, pairs, settings, false);
+  search(bodies, pairs, settings, is_rough ? Depth::rough : Depth::shallow);
   std::erase_if(pairs, [](const UnsafeMotion::Pair& pair) { return pair.passages.empty(); });
   if (pairs.empty()) return std::nullopt;
   return UnsafeMotion{std::move(pairs)};

@@ -48,7 +48,9 @@ class MotionGuard {
   /// After the motion, of a body that was put back to where the sub-step began: it went nowhere.
   void stayed(BodyIndex body) { turns_[body].clear(); }
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
-  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings);
+  /// `is_rough`: rigid bodies may end in one another by a tenth of the thinner one's thickness, from where contacts still
+  /// know the way out.
+  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings, bool is_rough);
   /// What `look` holds against each other of two bodies after the motion.
   struct PairMotion {
     bool is_planar = false;  ///< a plane is among them: what is through it is still inside
@@ -61,14 +63,15 @@ class MotionGuard {
   void find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassagesOf& settings);
 
  private:
+  enum class Depth { shallow, rough, safe };  // from which on a passage counts
   struct Known;
   const PathSurface& surface_of(const Body& body);
   double thickness_of(const Body& body);
   double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
   void add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs);
-  std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, Continuous which);
-  void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings, bool is_deep);
+  std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, Continuous which, bool is_rough);
+  void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings, Depth depth);
 
   std::vector<Pose> start_;               // by body
   std::vector<std::vector<Pose>> turns_;  // by body: poses on the way of what turns far; else empty

@@ -100,7 +100,7 @@ class GroupSolve {
   /// can't be had, or does no better than the one before, is not taken.
   void follow_turns() {
     const int most = how_.contact.turning_solves;
-    if (most == 0 || !now_.deformable.empty() || how_.response.lives_on_overlap() || !result_.response.converged())
+    if (most == 0 || !now_.deformable.empty() || how_.response.is_approximate() || !result_.response.converged())
       return;
     const auto look = [&] { return end_gaps(bodies_, now_, input_.contacts, input_.time_step); };
     std::vector<double> gaps = look();
@@ -186,9 +186,11 @@ class GroupSolve {
 
   void hand_on() {
     const GroupSystem& s = system();
+    const double whole = how_.response.is_approximate() ? 1.0 / how_.context.share : 1.0;
     for (std::size_t i = 0; i < now_.contacts.size(); ++i) {
       const ContactIndex c = now_.contacts[i];
-      result_.impulses.push_back({input_.contacts.key(c), s.contacts[i].directions.transpose() * s.lambda[i]});
+      result_.impulses.push_back(
+          {input_.contacts.key(c), whole * (s.contacts[i].directions.transpose() * s.lambda[i])});
       const Collision* collision = input_.contacts.collision(c);
       if (collision == nullptr) continue;
       const auto& [a, b] = now_.points[i];

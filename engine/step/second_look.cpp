@@ -126,7 +126,7 @@ void SecondLook::find_driven(StageTimes& times) {
   for (const BodyPair& pair : pairs_)
     sought_[{pair.a, pair.b}] = {twist_of(colliders_[pair.a]), twist_of(colliders_[pair.b])};
   const StageTimer timer(times.narrow_ms);
-  find_collisions(colliders_, pairs_, by_.contact, step_.time_step, by_.narrow_phase, triangles_, found_);
+  find_collisions(colliders_, pairs_, by_.contact, step_.time_step, false, by_.narrow_phase, triangles_, found_);
   std::vector<ContactKey> known;
   for (const std::vector<Collision>* list : {&step_.collisions, &step_.dropped})
     for (const Collision& c : *list) known.push_back(key_of(c));

@@ -70,6 +70,7 @@ ResponseContext response_context(const Parameters& p) {
   context.time_step = p.simulation.time_step();
   context.max_push_out = p.contact.max_push_out;
   context.restitution_threshold = p.contact.restitution_threshold;
+  context.gravity = p.simulation.gravity;
   return context;
 }
 
@@ -82,7 +83,11 @@ Continuous watching(const Parameters& p) {
   return is_up_to_method && p.narrow_phase.method->watches_every_motion() ? Continuous::on : p.narrow_phase.continuous;
 }
 
-Detecting detecting(const Parameters& p) { return {p.contact, *p.broad_phase.method, *p.narrow_phase.method}; }
+Detecting detecting(const Parameters& p) {
+  const Response& response = *p.response.method;
+  return {p.contact, *p.broad_phase.method, *p.narrow_phase.method,
+          response.is_approximate() && !response.lives_on_overlap()};
+}
 
 Solving solving(const Parameters& p) {
   return {*p.response.method,       *p.lcp.method,

@@ -124,12 +124,13 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
   const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
+  const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = [&](const Body& a, const Body& b) {
     const double size = activation(a, b);
     return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
   };
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
-  const bool rebounds = !parameters.response.method->lives_on_overlap() && has_restitution(bodies_, parameters.contact);
+  const bool rebounds = !parameters.response.method->is_approximate() && has_restitution(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
   double rest = 1.0;         // of the sub-step
@@ -156,7 +157,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         }
       }
       hold_back();
-      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages);
+      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
       if (!unsafe) break;
@@ -169,7 +170,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
           if (held.pairs.empty()) break;
           note_unsafe(held, substep, UnsafeBody::held_back);
           hold_back();
-          unsafe = guard_.look(bodies_, which, passages);
+          unsafe = guard_.look(bodies_, which, passages, is_rough);
         }
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;

@@ -141,6 +141,7 @@ void World::make_motion(double h, double share, bool freezes) {
   // 9 Jacobian and group systems, 10 response
   Solving solve = solving(parameters);
   solve.context.time_step = h;
+  solve.context.share = h / parameters.simulation.time_step();
   solve.freezes = freezes;
   s.results.clear();
   respond(bodies_, contacts, s.start, s.groups, {}, solve, s.results, times);
@@ -158,7 +159,7 @@ void World::make_motion(double h, double share, bool freezes) {
 /// Between 10 and 11: contacts that only the response leads to.
 void World::look_again(const Solving& how) {
   const ContactSettings& contact = parameters.contact;
-  if (contact.points != ContactPoints::proximity || how.response.lives_on_overlap()) return;
+  if (contact.points != ContactPoints::proximity || how.response.is_approximate()) return;
   // Newton schemes have taken A and b of their bodies where the first answer led
   if (how.integrator.newton() != nullptr)
     for (const Body& body : bodies_)

@@ -10,7 +10,7 @@ namespace impinge {
 namespace {
 
 /// A bound on how fast any two points of the colliders that are near each other approach, m/s.
-double approach_speed(const Collider& a, const Collider& b) {
+double approach_speed(const Collider& a, const Collider& b, bool either_may_stop) {
   const Collider& bounded = b.shape->as<Plane>() != nullptr ? a : b;
   const Vec3 center = bounded.bounds.center();
   // the points of a contact lie within the bounded collider or a gap away from it; twice its radius covers what matters
@@ -23,6 +23,9 @@ double approach_speed(const Collider& a, const Collider& b) {
       extra_sq = std::max(extra_sq, (c->vertex_velocities[i] - c->velocity_at(c->vertices[i])).squaredNorm());
     speed += std::sqrt(extra_sq);
   }
+  if (either_may_stop)
+    for (const Collider* c : {&a, &b})
+      speed = std::max(speed, c->velocity_at(center).norm() + c->angular_velocity.norm() * radius);
   return speed;
 }
 
@@ -52,7 +55,8 @@ ContactSink::ContactSink(std::span<const Collider> colliders, const BodyPair& pa
       begin_(contacts.size()) {
   if (query_.proximity) {
     reach_ = std::max(0.0, query_.activation);
-    if (query_.time_step > 0.0) reach_ = std::max(reach_, query_.time_step * approach_speed(*first_, *second_));
+    if (query_.time_step > 0.0)
+      reach_ = std::max(reach_, query_.time_step * approach_speed(*first_, *second_, query_.either_may_stop));
   }
 }
 
@@ -61,9 +65,13 @@ bool ContactSink::add(const Candidate& c) {
   if (gap > 0.0) {
     if (!query_.proximity) return false;
     if (gap > query_.activation) {
-      const Vec3 relative = material_velocity(*first_, c.point_first, c.triangle_first) -
-                            material_velocity(*second_, c.point_second, c.triangle_second);
-      if (!(gap + query_.time_step * c.normal.dot(relative) < 0.0)) return false;
+      if (query_.either_may_stop) {
+        if (gap > reach_) return false;
+      } else {
+        const Vec3 relative = material_velocity(*first_, c.point_first, c.triangle_first) -
+                              material_velocity(*second_, c.point_second, c.triangle_second);
+        if (!(gap + query_.time_step * c.normal.dot(relative) < 0.0)) return false;
+      }
     }
   }
   IMPINGE_ASSERT(std::isfinite(gap));

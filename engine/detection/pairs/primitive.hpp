@@ -12,6 +12,9 @@ struct ContactQuery {
   bool proximity = true;     ///< false: only features that overlap (gap <= 0)
   double activation = 1e-3;  ///< metres
   double time_step = 0.0;    ///< seconds: features farther than `activation` count if they would meet within it
+  /// Also what either body could come to at its speed, wherever it goes: of what strikes it in the sub-step it is stopped,
+  /// or turned, on the way.
+  bool either_may_stop = false;
 };
 
 /// Appends the contacts of body pair (a, b). Two meshes are the triangle search's, and not handed in here; every other

@@ -14,6 +14,9 @@ namespace {
 /// all the points it is about to rest on, not by its lowest one alone.
 constexpr double kNearlyFace = 0.97;
 
+/// The same where contacts are not sought again in the sub-step: a box that lands on a corner comes down on the next one.
+constexpr double kSideways = 0.5;
+
 /// Of the smaller box's thickness: a box that stands this much below the level of another's face passes over it.
 constexpr double kLevel = 1e-5;
 
@@ -149,14 +152,52 @@ Candidate corner_candidate(const CornerDistance& d) {
   return c;
 }
 
+/// How far edges of two boxes are from each other at least, by planes at right angles to a few directions: most pairs are
+/// told apart so.
+class EdgeBounds {
+ public:
+  EdgeBounds(const std::array<Vec3, 8>& first, const std::array<Vec3, 8>& second, const Vec3& origin)
+      : first_(first), second_(second), origin_(origin) {}
+
+  /// A direction from the second towards the first, unit.
+  void add(const Vec3& direction) {
+    std::array<double, 8> of_first, of_second;
+    for (int k = 0; k < 8; ++k)
+      of_first[k] = direction.dot(first_[k] - origin_), of_second[k] = direction.dot(second_[k] - origin_);
+    Heights& heights = heights_[count_++];
+    for (int i = 0; i < 12; ++i) {
+      const auto ends = OrientedBox::edge_corners(i);
+      heights.low_first[i] = std::min(of_first[ends[0]], of_first[ends[1]]);
+      heights.high_second[i] = std::max(of_second[ends[0]], of_second[ends[1]]);
+    }
+  }
+
+  bool are_farther(int edge_first, int edge_second, double distance) const {
+    for (int k = 0; k < count_; ++k)
+      if (heights_[k].low_first[edge_first] - heights_[k].high_second[edge_second] > distance) return true;
+    return false;
+  }
+
+ private:
+  struct Heights {
+    std::array<double, 12> low_first, high_second;
+  };
+  const std::array<Vec3, 8>&first_, &second_;
+  Vec3 origin_;
+  std::array<Heights, 2> heights_;
+  int count_ = 0;
+};
+
 void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
+  std::array<Vec3, 8> of_first, of_second;
+  for (int k = 0; k < 8; ++k) of_first[k] = boxes.first.corner(k), of_second[k] = boxes.second.corner(k);
   std::array<CornerDistance, 16> corners;
   int nearest = 0;
   for (int i = 0; i < 16; ++i) {
     CornerDistance& d = corners[i];
     d.of_first = i < 8;
     d.index = i % 8;
-    d.corner = (d.of_first ? boxes.first : boxes.second).corner(d.index);
+    d.corner = (d.of_first ? of_first : of_second)[d.index];
     d.nearest = nearest_on_box(d.of_first ? boxes.second : boxes.first, d.corner);
     if (d.nearest.distance < corners[nearest].nearest.distance) nearest = i;
   }
@@ -170,13 +211,16 @@ void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
   Vec3 normal = corners[nearest].normal();
   Candidate crossing;
   bool edges_nearest = false;
+  EdgeBounds bounds(of_first, of_second, boxes.second.center);
+  bounds.add(face.normal);
+  bounds.add(normal);
   for (int i = 0; i < 12; ++i) {
     const auto a = OrientedBox::edge_corners(i);
-    const Vec3 p0 = boxes.first.corner(a[0]), p1 = boxes.first.corner(a[1]);
     for (int j = 0; j < 12; ++j) {
+      if (bounds.are_farther(i, j, distance)) continue;
       const auto b = OrientedBox::edge_corners(j);
       const SegmentSegment closest =
-          closest_between_segments(p0, p1, boxes.second.corner(b[0]), boxes.second.corner(b[1]));
+          closest_between_segments(of_first[a[0]], of_first[a[1]], of_second[b[0]], of_second[b[1]]);
       const Vec3 offset = closest.point0 - closest.point1;
       const double length = offset.norm();
       if (!(length < distance - boxes.tie)) continue;
@@ -192,7 +236,8 @@ void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
     }
   }
 
-  if (normal.dot(face.normal) > kNearlyFace) add_manifold(sink, boxes, face, false);
+  if (normal.dot(face.normal) > (sink.query().either_may_stop ? kSideways : kNearlyFace))
+    add_manifold(sink, boxes, face, false);
   // corners seen from both boxes, or held by the manifold already, count once
   const double same_place = 1e-4 * std::min(boxes.first.half.minCoeff(), boxes.second.half.minCoeff());
   const auto add = [&](const Candidate& c) {

@@ -127,12 +127,13 @@ TEST_CASE("every response: Δv belongs to λ, no contact pulls, friction stays i
           if (e.name == "penalty")
             rows = implicit ? std::vector<RowText>{{"stiffness", "1e5"}, {"damping", "10"}}
                             : std::vector<RowText>{{"form", "explicit"}, {"stiffness", "1e3"}, {"damping", "0.1"}};
+          if (e.name == "quick") rows = {{"deformable_iterations", std::to_string(kMost)}};
           const auto response = patient_response(e.name, kMost, rows);
           const ResponseResult result = response->solve(group.system, *lcp_solvers().front().make(), patient());
           CHECK(result.converged());
           const GroupVerdict verdict = judge_group(group.system);
           CHECK(verdict.momentum < 1e-9);
-          if (!response->lives_on_overlap()) CHECK(verdict.natural_map < 1e-8);
+          if (!response->is_approximate()) CHECK(verdict.natural_map < 1e-8);
           double acting = 0.0;
           for (std::size_t i = 0; i < group.system.contacts.size(); ++i) {
             const ContactRows& rows = group.system.contacts[i];

@@ -1,0 +1,412 @@
+#include "engine/response/packed_contacts.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
+
+namespace impinge {
+namespace {
+
+// a task should last longer than it takes to wake a thread: some 20 µs
+constexpr int kPairsPerTask = 192;
+constexpr int kRowsPerTask = 64;
+// turns below the root of this add to gaps in the second order, which is rounding to what they are known to
+constexpr double kNoTurn = 1e-10;
+
+template <class T>
+inline double dot(const T& a, const T& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+inline T cross(const T& a, const T& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+inline T sum(const T& a, const T& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+inline T difference(const T& a, const T& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+/// Adds s b to a.
+template <class T>
+inline void add(T& a, double s, const T& b) {
+  a.x += s * b.x, a.y += s * b.y, a.z += s * b.z;
+}
+/// A symmetric matrix times v.
+template <class T>
+inline T times(const double* m, const T& v) {
+  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
+          m[2] * v.x + m[4] * v.y + m[5] * v.z};
+}
+/// How far an arm r that turned by t has come along n in the second order: n·(t × (t × r))/2.
+template <class T>
+inline double bend(const T& t, const T& r, const T& n) {
+  return 0.5 * (dot(t, r) * dot(t, n) - dot(t, t) * dot(r, n));
+}
+
+double largest_across(const Mat3& w) {
+  const double mean = 0.5 * (w(1, 1) + w(2, 2)), half = 0.5 * (w(1, 1) - w(2, 2));
+  return mean + std::sqrt(half * half + w(1, 2) * w(1, 2));
+}
+
+/// W of one contact of rigid bodies, 1/kg.
+Mat3 mobility(const GroupSystem& group, const ContactRows& row) {
+  Mat3 w = Mat3::Zero();
+  for (const ContactSide* side : {&row.a, &row.b}) {
+    if (side->rigid < 0) continue;
+    const RigidBlock& block = group.rigid[side->rigid];
+    Vec3 moment[3], spin[3];
+    for (int k = 0; k < 3; ++k) {
+      moment[k] = side->arm.cross(row.directions.row(k).transpose());
+      spin[k] = block.inverse_inertia * moment[k];
+    }
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) w(r, c) += moment[r].dot(spin[c]);
+    w.diagonal().array() += block.inverse_mass;
+  }
+  return w;
+}
+
+}  // namespace
+
+SpringLaw spring_law(double hertz, double ratio, double h) {
+  const double omega = 2.0 * M_PI * hertz;
+  const double a1 = 2.0 * ratio + h * omega, a2 = h * omega * a1, a3 = 1.0 / (1.0 + a2);
+  return {omega / a1, a2 * a3, a3};
+}
+
+struct PackedContacts::Sides {
+  Sides(std::vector<Body>& bodies, int a, int b) : a(a < 0 ? still_ : bodies[a]), b(b < 0 ? still_ : bodies[b]) {}
+
+  /// Of the two points of arms from the centres, A against B.
+  Triple velocity(const Triple& arm_a, const Triple& arm_b) const {
+    return difference(sum(a.velocity, cross(a.angular_velocity, arm_a)),
+                      sum(b.velocity, cross(b.angular_velocity, arm_b)));
+  }
+  void push(const Triple& arm_a, const Triple& arm_b, const Triple& impulse) {
+    add(a.velocity, a.inverse_mass, impulse);
+    add(a.angular_velocity, 1.0, times(a.inverse_inertia, cross(arm_a, impulse)));
+    add(b.velocity, -b.inverse_mass, impulse);
+    add(b.angular_velocity, -1.0, times(b.inverse_inertia, cross(arm_b, impulse)));
+  }
+
+ private:
+  Body still_;
+
+ public:
+  Body &a, &b;
+};
+
+PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share,
+                               const Threshold& max_push_out) {
+  bodies_.resize(group.rigid.size());
+  start_velocity_.resize(group.rigid.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const RigidBlock& block = group.rigid[b];
+    Body& body = bodies_[b];
+    start_velocity_[b] = block.velocity - velocity_change;
+    body.velocity = triple(start_velocity_[b]);
+    body.angular_velocity = triple(block.angular_velocity);
+    body.inverse_mass = block.inverse_mass;
+    const Mat3& m = block.inverse_inertia;
+    const double upper[6] = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
+    std::copy(upper, upper + 6, body.inverse_inertia);
+  }
+
+  std::vector<Pair> pairs;  // in the rows' order, `first` in the group
+  std::vector<BodyPlaces> places;
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const ContactRows& row = group.contacts[i];
+    if (row.kind != RowKind::contact) {
+      add_joint(group, i, share);
+      continue;
+    }
+    const BodyPlaces now{row.a.rigid, row.b.rigid};
+    const bool follows =
+        !pairs.empty() && places.back() == now && pairs.back().first + pairs.back().count == static_cast<int>(i);
+    if (!follows) pairs.push_back({now.first, now.second, static_cast<int>(i), 0, false}), places.push_back(now);
+    ++pairs.back().count;
+    if (!row.surface.isZero(0.0)) pairs.back().is_driven = true;
+  }
+  PairColours colours = colour_pairs(places, static_cast<int>(bodies_.size()));
+  colours_ = std::move(colours.begin);
+  last_is_rest_ = colours.last_is_rest;
+  pairs_.reserve(pairs.size());
+  rows_.reserve(group.contacts.size());
+  for (const int k : colours.order) {
+    pairs_.push_back(pairs[k]);
+    pairs_.back().first = static_cast<int>(rows_.size());
+    for (int i = 0; i < pairs[k].count; ++i) rows_.push_back(pairs[k].first + i);
+  }
+  contacts_.resize(rows_.size());
+  if (std::any_of(pairs_.begin(), pairs_.end(), [](const Pair& p) { return p.is_driven; }))
+    surface_.resize(rows_.size());
+  sum_n_.assign(rows_.size(), 0.0);
+  sum_t_.assign(rows_.size(), Triple());
+  const std::size_t tasks = (rows_.size() + kRowsPerTask - 1) / kRowsPerTask;
+  parallel_for(tasks, 1, [&](std::size_t task) {
+    const std::size_t end = std::min(rows_.size(), (task + 1) * kRowsPerTask);
+    for (std::size_t i = task * kRowsPerTask; i < end; ++i) fill(group, i, share, max_push_out);
+  });
+}
+
+void PackedContacts::fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out) {
+  const ContactRows& row = group.contacts[rows_[place]];
+  Contact& c = contacts_[place];
+  const Mat3& d = row.directions;
+  const Mat3 w = mobility(group, row);
+  const double across = largest_across(w);
+  c.normal = triple(d.row(0));
+  c.arm_a = triple(row.a.arm), c.arm_b = triple(row.b.arm);
+  c.moment_a = cross(c.arm_a, c.normal), c.moment_b = cross(c.arm_b, c.normal);
+  c.spin_a = row.a.rigid < 0 ? Triple() : times(bodies_[row.a.rigid].inverse_inertia, c.moment_a);
+  c.spin_b = row.b.rigid < 0 ? Triple() : times(bodies_[row.b.rigid].inverse_inertia, c.moment_b);
+  c.inverse_n = w(0, 0) > 0.0 ? 1.0 / w(0, 0) : 0.0;
+  c.inverse_t = across > 0.0 ? 1.0 / across : 0.0;
+  c.gap = row.gap;
+  c.friction = row.friction;
+  c.max_push_out = max_push_out.at(row.scale.speed);
+  const Vec3 start = share * group.lambda[rows_[place]];
+  c.impulse = start.x();
+  c.tangent = triple(start.y() * d.row(1) + start.z() * d.row(2));
+  if (!surface_.empty()) surface_[place] = triple(d.transpose() * row.surface);
+}
+
+void PackedContacts::add_joint(const GroupSystem& group, std::size_t row, double share) {
+  const ContactRows& of = group.contacts[row];
+  Joint joint;
+  joint.a = of.a.rigid, joint.b = of.b.rigid, joint.row = static_cast<int>(row);
+  joint.kind = of.kind;
+  joint.directions = of.directions;
+  joint.arm_a = of.a.arm, joint.arm_b = of.b.arm;
+  joint.surface = of.surface;
+  joint.surface.x() -= of.bound;
+  const Mat3 w = mobility(group, of);
+  joint.inverse.setZero();
+  if (of.kind == RowKind::sliding)
+    joint.inverse(0, 0) = w(0, 0) > 0.0 ? 1.0 / w(0, 0) : 0.0;
+  else
+    joint.inverse = w.inverse();
+  joint.impulse = share * group.lambda[row];
+  joints_.push_back(joint);
+  joint_sum_.push_back(Vec3::Zero());
+}
+
+int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_change, double time_step,
+                            const Threshold& threshold, int most) {
+  struct Impact {
+    const Pair* pair;
+    std::size_t contact;
+    double restitution, least;
+  };
+  std::vector<Impact> impacts;
+  double fastest = 0.0;
+  for (const Pair& pair : pairs_)
+    for (int i = 0; i < pair.count; ++i) {
+      const std::size_t place = pair.first + i;
+      const ContactRows& row = group.contacts[rows_[place]];
+      if (row.restitution == 0.0 || contacts_[place].inverse_n == 0.0) continue;
+      fastest = std::max(fastest, -row.velocity_before);
+      impacts.push_back({&pair, place, row.restitution, threshold.at(row.scale.speed)});
+    }
+  if (impacts.empty()) return 0;
+  // the order of the scene, not of the colours: a shot runs through a row of balls
+  std::sort(impacts.begin(), impacts.end(),
+            [&](const Impact& l, const Impact& r) { return rows_[l.contact] < rows_[r.contact]; });
+  const double slow = 1e-9 * fastest;  // what is left of rounding
+  const Triple change = triple(velocity_change);
+  int rounds = 0;
+  for (bool more = true; more && rounds < most; ++rounds) {
+    check_interrupt();
+    more = false;
+    for (const Impact& at : impacts) {
+      Contact& c = contacts_[at.contact];
+      Sides sides(bodies_, at.pair->a, at.pair->b);
+      Triple u = sides.velocity(c.arm_a, c.arm_b);
+      if (at.pair->is_driven) u = sum(u, surface_[at.contact]);
+      const double closing = dot(c.normal, u);
+      // what closes by forces alone rests, and doesn't bounce
+      const double forced = (at.pair->a >= 0 ? 1 : 0) - (at.pair->b >= 0 ? 1 : 0);
+      const double moved = time_step * (closing + forced * dot(c.normal, change));
+      if (!(closing < -std::max(slow, at.least)) || c.gap + moved >= 0.0) continue;
+      const double given = -(1.0 + at.restitution) * closing * c.inverse_n, before = sum_n_[at.contact];
+      Triple impulse;
+      add(impulse, given, c.normal);
+      sides.push(c.arm_a, c.arm_b, impulse);
+      sum_n_[at.contact] = before + given;
+      if (c.friction > 0.0) {
+        u = sides.velocity(c.arm_a, c.arm_b);
+        if (at.pair->is_driven) u = sum(u, surface_[at.contact]);
+        add(u, -dot(c.normal, u), c.normal);
+        Triple tangent = sum_t_[at.contact];
+        add(tangent, -c.inverse_t, u);
+        const double limit = c.friction * sum_n_[at.contact], size = std::sqrt(dot(tangent, tangent));
+        Triple clamped;
+        add(clamped, size > limit ? limit / size : 1.0, tangent);
+        sides.push(c.arm_a, c.arm_b, difference(clamped, sum_t_[at.contact]));
+        sum_t_[at.contact] = clamped;
+      }
+      c.impulse = 0.0, c.tangent = Triple();  // that of a resting state says nothing about an impact
+      more = true;
+    }
+  }
+  return rounds;
+}
+
+void PackedContacts::accelerate(const Vec3& change) {
+  const Triple by = triple(change);
+  for (Body& body : bodies_) add(body.velocity, 1.0, by);
+}
+
+template <class Work>
+void PackedContacts::for_each_pair(const Work& work) {
+  for (std::size_t colour = 0; colour + 1 < colours_.size(); ++colour) {
+    const int begin = colours_[colour], end = colours_[colour + 1];
+    const bool is_rest = last_is_rest_ && colour + 2 == colours_.size();
+    if (is_rest || end - begin < 2 * kPairsPerTask) {
+      for (int p = begin; p < end; ++p) work(pairs_[p]);
+      continue;
+    }
+    const int tasks = (end - begin) / kPairsPerTask;
+    parallel_for(static_cast<std::size_t>(tasks), 1, [&](std::size_t task) {
+      const int first = begin + static_cast<int>(task) * kPairsPerTask,
+                last = static_cast<int>(task) + 1 == tasks ? end : first + kPairsPerTask;
+      for (int p = first; p < last; ++p) work(pairs_[p]);
+    });
+  }
+}
+
+void PackedContacts::warm_start() {
+  for (const Joint& joint : joints_) give(joint, joint.impulse);
+  for_each_pair([&](const Pair& pair) { give(pair); });
+}
+
+void PackedContacts::give(const Pair& pair) {
+  Sides sides(bodies_, pair.a, pair.b);
+  for (int i = pair.first; i < pair.first + pair.count; ++i) {
+    const Contact& c = contacts_[i];
+    if (c.impulse == 0.0) continue;
+    Triple impulse = c.tangent;
+    add(impulse, c.impulse, c.normal);
+    sides.push(c.arm_a, c.arm_b, impulse);
+  }
+}
+
+void PackedContacts::give(const Joint& joint, const Vec3& impulse) {
+  Sides sides(bodies_, joint.a, joint.b);
+  sides.push(triple(joint.arm_a), triple(joint.arm_b), triple(joint.directions.transpose() * impulse));
+}
+
+Vec3 PackedContacts::velocity(const Joint& joint) {
+  return joint.directions *
+             vector(Sides(bodies_, joint.a, joint.b).velocity(triple(joint.arm_a), triple(joint.arm_b))) +
+         joint.surface;
+}
+
+void PackedContacts::relax(Joint& joint) {
+  const Vec3 change = -(joint.inverse * velocity(joint));
+  joint.impulse += change;
+  give(joint, change);
+}
+
+void PackedContacts::sweep(const SweepLaw& law) {
+  check_interrupt();
+  for (Joint& joint : joints_) relax(joint);
+  for_each_pair([&](const Pair& pair) { relax(pair, law); });
+}
+
+inline double PackedContacts::gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const {
+  const Contact& c = contacts_[contact];
+  const Body &a = sides.a, &b = sides.b;
+  double gap = c.gap + dot(c.normal, difference(a.shift, b.shift)) + dot(c.moment_a, a.turn) - dot(c.moment_b, b.turn);
+  if (dot(a.turn, a.turn) > kNoTurn) gap += bend(a.turn, c.arm_a, c.normal);
+  if (dot(b.turn, b.turn) > kNoTurn) gap -= bend(b.turn, c.arm_b, c.normal);
+  if (pair.is_driven) gap += elapsed * dot(c.normal, surface_[contact]);
+  return gap;
+}
+
+void PackedContacts::relax(const Pair& pair, const SweepLaw& law) {
+  Sides sides(bodies_, pair.a, pair.b);
+  Body &a = sides.a, &b = sides.b;
+  const SpringLaw& spring = pair.a < 0 || pair.b < 0 ? law.fixed : law.between;
+  const double inverse_step = 1.0 / law.time_step;
+  for (int i = pair.first; i < pair.first + pair.count; ++i) {
+    Contact& c = contacts_[i];
+    double un = dot(c.normal, difference(a.velocity, b.velocity)) + dot(c.moment_a, a.angular_velocity) -
+                dot(c.moment_b, b.angular_velocity);
+    if (pair.is_driven) un += dot(c.normal, surface_[i]);
+    const double gap = gap_of(pair, i, sides, law.elapsed), before = c.impulse;
+    double next = before;
+    if (gap > 0.0)
+      next -= c.inverse_n * (un + gap * inverse_step);
+    else if (law.recovers)
+      next -= c.inverse_n * spring.mass_scale * (un + std::max(spring.bias_rate * gap, -c.max_push_out)) +
+              spring.impulse_scale * before;
+    else
+      next -= c.inverse_n * un;
+    next = std::max(0.0, next);
+    if (before == 0.0 && next == 0.0) continue;
+    const double change = next - before;
+    c.impulse = next;
+    add(a.velocity, a.inverse_mass * change, c.normal);
+    add(a.angular_velocity, change, c.spin_a);
+    add(b.velocity, -b.inverse_mass * change, c.normal);
+    add(b.angular_velocity, -change, c.spin_b);
+    if (c.friction == 0.0) continue;
+    Triple u = sides.velocity(c.arm_a, c.arm_b);
+    if (pair.is_driven) u = sum(u, surface_[i]);
+    add(u, -dot(c.normal, u), c.normal);
+    Triple tangent = c.tangent;
+    add(tangent, -c.inverse_t, u);
+    const double limit = c.friction * next, size = dot(tangent, tangent);
+    if (size > limit * limit) {
+      const double scale = limit / std::sqrt(size);
+      tangent.x *= scale, tangent.y *= scale, tangent.z *= scale;
+    }
+    sides.push(c.arm_a, c.arm_b, difference(tangent, c.tangent));
+    c.tangent = tangent;
+  }
+}
+
+void PackedContacts::move(double time_step) {
+  for (Body& body : bodies_) {
+    add(body.shift, time_step, body.velocity);
+    add(body.turn, time_step, body.angular_velocity);
+  }
+}
+
+void PackedContacts::close_step() {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    sum_n_[i] += contacts_[i].impulse;
+    add(sum_t_[i], 1.0, contacts_[i].tangent);
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i) joint_sum_[i] += joints_[i].impulse;
+}
+
+void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Mat3& d = group.contacts[rows_[i]].directions;
+    const Vec3 across = vector(sum_t_[i]);
+    group.lambda[rows_[i]] = {sum_n_[i], d.row(1).dot(across), d.row(2).dot(across)};
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i) group.lambda[joints_[i].row] = joint_sum_[i];
+  if (moved_for > 0.0) {
+    group.position_velocity.resize(bodies_.size());
+    group.position_angular_velocity.resize(bodies_.size());
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
+    group.delta_velocity[b] = vector(body.velocity) - (start_velocity_[b] + velocity_change);
+    group.delta_angular_velocity[b] = vector(body.angular_velocity) - group.rigid[b].angular_velocity;
+    if (!(moved_for > 0.0)) continue;
+    group.position_velocity[b] = vector(body.shift) / moved_for - vector(body.velocity);
+    group.position_angular_velocity[b] = vector(body.turn) / moved_for - vector(body.angular_velocity);
+  }
+}
+
+}  // namespace impinge

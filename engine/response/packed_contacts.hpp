@@ -1,0 +1,112 @@
+// The contacts of a group of rigid bodies as sweeps read them again and again: numbers side by side and nothing else, in
+// the order in which they are gone through. Directions, arms and mobilities are those of the sub-step's start; gaps are
+// those of the points where the bodies have carried them since.
+#pragma once
+
+#include "engine/contact/group_system.hpp"
+#include "engine/core/threshold.hpp"
+#include "engine/response/pair_colours.hpp"
+
+namespace impinge {
+
+/// Of a contact's spring over a solver step of implicit Euler, without a mass in it [Catto11].
+struct SpringLaw {
+  double bias_rate = 0.0;  ///< of the overlap that is taken out, 1/s
+  double mass_scale = 1.0, impulse_scale = 0.0;
+};
+/// Of `hertz` and damping ratio `ratio` over `h` seconds.
+SpringLaw spring_law(double hertz, double ratio, double h);
+
+/// How a sweep answers.
+struct SweepLaw {
+  double time_step = 0.0;    ///< of a solver step, s: what gaps may be closed in
+  double elapsed = 0.0;      ///< since the sub-step began, s: how long prescribed motions have moved their points
+  bool recovers = false;     ///< whether overlap is taken out; else it may not grow
+  SpringLaw between, fixed;  ///< of two that move; of one with a body that doesn't
+};
+
+class PackedContacts {
+ public:
+  /// `velocity_change`: what v* holds beside the velocities that the sub-step begins with. Solver steps
+  /// start from this share of λ.
+  PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share, const Threshold& max_push_out);
+
+  /// Bounces: each contact that closes in the sub-step faster than `threshold` (a part of its scale's speed) gets what
+  /// returns e of it, until none does, `most` rounds at most. Returns the rounds.
+  int collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, const Threshold& threshold,
+              int most);
+  /// All velocities change by this.
+  void accelerate(const Vec3& change);
+  /// Gives what the last solver step gave.
+  void warm_start();
+  void sweep(const SweepLaw& law);
+  /// Positions by the velocities.
+  void move(double time_step);
+  /// Adds the impulses of this solver step to the sum.
+  void close_step();
+  /// λ, Δv and position velocities of the group, whose velocities have changed by `velocity_change` since the start.
+  void write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const;
+
+ private:
+  /// Three numbers: what compilers keep in registers, where a matrix library's vectors go through calls.
+  struct Triple {
+    double x = 0.0, y = 0.0, z = 0.0;
+  };
+  struct Body {
+    Triple velocity, angular_velocity;
+    Triple shift, turn;  // since the sub-step began
+    double inverse_mass = 0.0;
+    double inverse_inertia[6] = {};  // xx, xy, xz, yy, yz, zz
+  };
+  struct Contact {
+    Triple normal, arm_a, arm_b;
+    Triple moment_a, moment_b;           // arm × normal
+    Triple spin_a, spin_b;               // angular velocity that a unit of normal impulse makes
+    double inverse_n, inverse_t;         // of the mobilities; 0: nothing can respond
+    double gap, friction, max_push_out;  // at the start
+    double impulse;                      // of this solver step, along the normal
+    Triple tangent;                      // and across
+  };
+  /// Contacts that follow each other and are of the same two bodies.
+  struct Pair {
+    int a, b, first, count;
+    bool is_driven;  // a prescribed motion is in it
+  };
+  /// Attachments and sliding points: hard.
+  struct Joint {
+    int a, b, row;  // in the group
+    RowKind kind;
+    Mat3 directions, inverse;
+    Vec3 arm_a, arm_b, surface, impulse;
+  };
+  /// The two bodies of a pair as a sweep changes them; one that doesn't move stands in for none.
+  struct Sides;
+
+  void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out);
+  void add_joint(const GroupSystem& group, std::size_t row, double share);
+  void relax(const Pair& pair, const SweepLaw& law);
+  double gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const;
+  void relax(Joint& joint);
+  void give(const Pair& pair);
+  void give(const Joint& joint, const Vec3& impulse);
+  Vec3 velocity(const Joint& joint);
+  template <class Work>
+  void for_each_pair(const Work& work);
+  static Triple triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+  static Vec3 vector(const Triple& t) { return {t.x, t.y, t.z}; }
+
+  std::vector<Body> bodies_;
+  std::vector<Vec3> start_velocity_;  // of the bodies' centres
+  std::vector<Pair> pairs_;           // colour by colour
+  std::vector<int> colours_;          // where each begins, and the end
+  bool last_is_rest_ = false;
+  std::vector<Contact> contacts_;  // in the order of the pairs
+  std::vector<int> rows_;          // of each, in the group
+  std::vector<Triple> surface_;    // of each: prescribed velocity, world axes
+  std::vector<double> sum_n_;      // of each: impulses of all solver steps
+  std::vector<Triple> sum_t_;
+  std::vector<Joint> joints_;
+  std::vector<Vec3> joint_sum_;
+};
+
+}  // namespace impinge
