@@ -14,8 +14,8 @@ namespace impinge {
 struct ResponseContext {
   LcpSettings lcp;                 ///< of cone problems; the tolerance holds for whatever else a method iterates
   double time_step = 1.0 / 240.0;  ///< Δt, s
-  /// Of a whole sub-step, that Δt is: an approximate method's start and the impulses that are remembered of it are those
-  /// of a whole one, whatever pieces a sub-step is made in.
+  /// The part of a whole sub-step that Δt is, where one is made in pieces. What contacts start from was a whole one's, as a
+  /// rule, and a method of few sweeps can't take back what is too much.
   double share = 1.0;
   /// Parts of the speed of a contact's scale, m/s, or numbers: of recovery from overlap, and slower impacts do not
   /// bounce.

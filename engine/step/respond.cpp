@@ -186,11 +186,9 @@ class GroupSolve {
 
   void hand_on() {
     const GroupSystem& s = system();
-    const double whole = how_.response.is_approximate() ? 1.0 / how_.context.share : 1.0;
     for (std::size_t i = 0; i < now_.contacts.size(); ++i) {
       const ContactIndex c = now_.contacts[i];
-      result_.impulses.push_back(
-          {input_.contacts.key(c), whole * (s.contacts[i].directions.transpose() * s.lambda[i])});
+      result_.impulses.push_back({input_.contacts.key(c), s.contacts[i].directions.transpose() * s.lambda[i]});
       const Collision* collision = input_.contacts.collision(c);
       if (collision == nullptr) continue;
       const auto& [a, b] = now_.points[i];

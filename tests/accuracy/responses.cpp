@@ -34,7 +34,7 @@ TEST_CASE("a resting box: exact responses leave it on the floor, springs sink by
     const double depth = judge_overlap(world.bodies()).penetration;
     if (e.name == "penalty")
       CHECK(depth == Approx(2.0 * kGravity / (4 * 2e4)).epsilon(1e-2));
-    else if (!regularised(e.name))
+    else if (!regularised(e.name) || e.name == "quick")
       CHECK(depth < 1e-6);
     else
       CHECK(depth > 1e-5);
@@ -162,7 +162,8 @@ TEST_CASE("stopping distance v²/2µg in every direction, for every response") {
       world.start();
       run(world, 60);
       const Vec3 moved = world.bodies()[1].pose.position - Vec3(0, 0.02, 0), flat(moved.x(), 0, moved.z());
-      CHECK(flat.norm() == Approx(exact - 0.5 * v * world.parameters.simulation.time_step()).epsilon(5e-3));
+      const double h = world.parameters.simulation.time_step() / (e.name == "quick" ? 6 : 1);  // of a solver step
+      CHECK(flat.norm() == Approx(exact - 0.5 * v * h).epsilon(5e-3));
       CHECK((flat - flat.dot(direction) * direction).norm() < 1e-3 * exact);
     }
 }
