@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
 constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
+constexpr double kRising = 1e-3;      // of the threshold of rebounds: what parts more slowly is rounding
 
 /// Velocities of a step and what impulses make of them.
 class Motion {
@@ -88,25 +89,27 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
   if (pairs.size() < 2) return std::nullopt;  // one impact brakes nobody but its own two
   const Motion motion(bodies, step);
   const double least = kLeastShare * step.time_step;
-  double first = step.time_step;
-  bool is_braked = false;
+  // what rebounds has to arrive before it can strike anybody; bodies at rest are braked by one another all the time
+  double first_blow = step.time_step, first_braked = step.time_step;
+  bool is_struck = false;
   for (const auto& [pair, contacts] : pairs) {
     const double threshold =
         settings.restitution_threshold.at(pair_scale(bodies[pair.first], bodies[pair.second], gravity).speed);
     for (const SolvedContact* c : contacts) {
+      const bool rebounds = motion.solved(c->collision) > kRising * threshold;
+      is_struck |= rebounds;
       const double gap = c->collision.gap;
       if (gap <= 0.0) continue;
-      const bool rebounds = motion.solved(c->collision) > 0.0;
       const double approach = rebounds ? -motion.free(c->collision) : -motion.without(c->collision, contacts);
       if (!(approach > threshold)) continue;
       const double time = (1.0 - kBefore) * gap / approach;
       if (time < least || time >= step.time_step) continue;
+      double& first = rebounds ? first_blow : first_braked;
       first = std::min(first, time);
-      is_braked |= !rebounds;
     }
   }
-  if (!is_braked) return std::nullopt;
-  return first / step.time_step;
+  if (!is_struck || first_braked == step.time_step) return std::nullopt;
+  return (first_blow < step.time_step ? first_blow : first_braked) / step.time_step;
 }
 
 }  // namespace impinge

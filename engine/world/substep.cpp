@@ -149,7 +149,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       };
       if (rebounds && impacts < kMostImpacts && motion < kMostMotions) {
         const std::optional<double> before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity);
-        if (before && share * *before >= kLeastShare) {
+        if (before) {
           ++impacts;
           share *= *before;
           start->bring_back(bodies_, sleeping_);

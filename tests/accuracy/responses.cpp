@@ -297,12 +297,15 @@ TEST_CASE("a shot runs through Newton's cradle whatever the gaps, the sub-steps 
           World world;
           use(world, name);
           world.parameters.simulation.substeps = substeps;
+          world.parameters.lcp.tolerance = 1e-13;
+          world.parameters.lcp.max_iterations = 20000;
+          allow_iterations(world, 20000);
           world.parameters.simulation.gravity.setZero();
           world.parameters.contact.restitution = 1.0;
           world.parameters.contact.friction = 0.0;
           for (int i = 0; i < 5; ++i) {
-            BodyDescription ball = dynamic_body("ball" + std::to_string(i), Sphere{0.1},
-                                                {(0.2 + gap) * i - (i == 0 ? 0.05 : 0.0), 0, 0});
+            BodyDescription ball =
+                dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {(0.2 + gap) * i - (i == 0 ? 0.05 : 0.0), 0, 0});
             if (i == 0) ball.velocity = Vec3(speed, 0, 0);
             world.add_body(ball);
           }
