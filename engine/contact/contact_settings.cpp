@@ -38,10 +38,13 @@ void ContactSettings::declare(const Rows& rows) {
   rows.add("turning_solves", turning_solves, {0, 100}, "",
            "How often rigid bodies are solved again where they come nearer to each other by turning than their "
            "velocities say: links, hooks, pins in holes. 0: never.");
-  rows.add(
-      "second_looks", second_looks, {0, 100}, "",
-      "How often contacts of rigid bodies are sought again in a sub-step with the velocities that the response gave "
-      "them: what was dropped and is wanted after all, and what it drives together that fell side by side. 0: never.");
+  rows.add("second_looks", second_looks, {0, 100}, "",
+           "How often contacts are sought again in a sub-step with the velocities that the response gave "
+           "them: what was dropped and is wanted after all, what it drives together that fell side by side, and where "
+           "bodies that deform end in others. 0: never.");
+  rows.add("successive_impacts", successive_impacts, {0, 1000}, "",
+           "How often a sub-step is cut between impacts of rigid bodies of which one leads to the next, so that each "
+           "rebounds; of pairs that return a tenth of their energy or more. 0: never.");
 }
 
 }  // namespace impinge

@@ -37,6 +37,7 @@ struct ContactSettings {
   int most_contacts = 40;
   int turning_solves = 4;
   int second_looks = 4;
+  int successive_impacts = 8;
 
   void declare(const Rows& rows);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "engine/bodies/rigid_body.hpp"
 #include "engine/contact/contact_frame.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
 constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
+constexpr double kWorth = 0.1;        // of an impact's energy: what returns less may as well be braked
 constexpr double kRising = 1e-3;      // of the threshold of rebounds: what parts more slowly is rounding
 
 /// Velocities of a step and what impulses make of them.
@@ -36,6 +38,7 @@ class Motion {
                         step_.colliders[c.body_b].velocity_at(place(c)));
   }
   double solved(const Collision& c) const { return along(c, solved_[c.body_a], solved_[c.body_b]); }
+  bool rebounds(const Collision& c, double threshold) const { return solved(c) > kRising * threshold; }
   double without(const Collision& c, std::span<const SolvedContact* const> of_pair) const {
     Twist a = solved_[c.body_a], b = solved_[c.body_b];
     for (const SolvedContact* other : of_pair) {
@@ -68,11 +71,13 @@ class Motion {
   std::vector<Twist> solved_;  // by body
 };
 
+bool is_worth_a_cut(double restitution) { return restitution * restitution >= kWorth; }
+
 }  // namespace
 
-bool has_restitution(const Bodies& bodies, const ContactSettings& settings) {
+bool has_rebounds(const Bodies& bodies, const ContactSettings& settings) {
   for (const Body& b : bodies)
-    if (b.restitution.value_or(settings.restitution) > 0.0) return true;
+    if (is_worth_a_cut(b.restitution.value_or(settings.restitution))) return true;
   return false;
 }
 
@@ -83,32 +88,41 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
     for (const SolvedContact& c : result.solved) {
       const Body &a = bodies[c.collision.body_a], &b = bodies[c.collision.body_b];
       const bool is_rigid = a.kind() != BodyKind::deformable && b.kind() != BodyKind::deformable;
-      if (is_rigid && c.lambda.x() > 0.0 && pair_restitution(a, b, settings) > 0.0)
+      if (is_rigid && c.lambda.x() > 0.0 && is_worth_a_cut(pair_restitution(a, b, settings)))
         pairs[{c.collision.body_a, c.collision.body_b}].push_back(&c);
     }
   if (pairs.size() < 2) return std::nullopt;  // one impact brakes nobody but its own two
   const Motion motion(bodies, step);
   const double least = kLeastShare * step.time_step;
-  // what rebounds has to arrive before it can strike anybody; bodies at rest are braked by one another all the time
-  double first_blow = step.time_step, first_braked = step.time_step;
-  bool is_struck = false;
-  for (const auto& [pair, contacts] : pairs) {
-    const double threshold =
-        settings.restitution_threshold.at(pair_scale(bodies[pair.first], bodies[pair.second], gravity).speed);
+  const auto threshold_of = [&](const Collision& c) {
+    return settings.restitution_threshold.at(pair_scale(bodies[c.body_a], bodies[c.body_b], gravity).speed);
+  };
+  double first_blow = step.time_step, first_braked = step.time_step;  // s
+  const auto take_closing = [&](const Collision& c, double approach, double& first) {
+    if (!(c.gap > 0.0 && approach > threshold_of(c))) return;
+    const double time = (1.0 - kBefore) * c.gap / approach;
+    if (time >= least) first = std::min(first, time);
+  };
+  std::set<BodyIndex> struck;
+  for (const auto& [pair, contacts] : pairs)
     for (const SolvedContact* c : contacts) {
-      const bool rebounds = motion.solved(c->collision) > kRising * threshold;
-      is_struck |= rebounds;
-      const double gap = c->collision.gap;
-      if (gap <= 0.0) continue;
-      const double approach = rebounds ? -motion.free(c->collision) : -motion.without(c->collision, contacts);
-      if (!(approach > threshold)) continue;
-      const double time = (1.0 - kBefore) * gap / approach;
-      if (time < least || time >= step.time_step) continue;
-      double& first = rebounds ? first_blow : first_braked;
-      first = std::min(first, time);
+      if (!motion.rebounds(c->collision, threshold_of(c->collision))) continue;
+      for (const BodyIndex b : {pair.first, pair.second})
+        if (bodies[b].has_freedom()) struck.insert(b);
+      take_closing(c->collision, -motion.free(c->collision), first_blow);
+    }
+  // what a body that was struck comes upon; and not what its weight alone would press on
+  for (const auto& [pair, contacts] : pairs) {
+    if (!struck.contains(pair.first) && !struck.contains(pair.second)) continue;
+    for (const SolvedContact* c : contacts) {
+      if (motion.rebounds(c->collision, threshold_of(c->collision))) continue;
+      const double by_itself = std::max(0.0, -motion.free(c->collision));
+      const double approach = -motion.without(c->collision, contacts);
+      if (approach - by_itself > threshold_of(c->collision)) take_closing(c->collision, approach, first_braked);
     }
   }
-  if (!is_struck || first_braked == step.time_step) return std::nullopt;
+  if (first_braked == step.time_step) return std::nullopt;
+  // what rebounds has to arrive before it can strike anybody
   return (first_blow < step.time_step ? first_blow : first_braked) / step.time_step;
 }
 

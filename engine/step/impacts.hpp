@@ -12,8 +12,8 @@
 
 namespace impinge {
 
-/// Whether any two bodies could rebound from each other.
-bool has_restitution(const Bodies& bodies, const ContactSettings& settings);
+/// Whether any two bodies rebound from each other with a part of their energy that is worth a cut, a tenth or more.
+bool has_rebounds(const Bodies& bodies, const ContactSettings& settings);
 
 /// Of a step that is solved: the share of it after which the first gap closes, if a row was braked that ought to rebound.
 /// Rigid bodies only. `gravity`: of scale_gravity, m/s².

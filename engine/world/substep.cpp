@@ -17,7 +17,6 @@ namespace {
 
 constexpr int kMostPieces = 64;       // of a sub-step
 constexpr int kMostMotions = 32;      // tried for a piece
-constexpr int kMostImpacts = 32;      // of a sub-step that follow one another; later ones are braked
 constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
@@ -130,7 +129,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
   };
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
-  const bool rebounds = !parameters.response.method->is_approximate() && has_restitution(bodies_, parameters.contact);
+  const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
   double rest = 1.0;         // of the sub-step
@@ -147,7 +146,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       const auto hold_back = [&] {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
       };
-      if (rebounds && impacts < kMostImpacts && motion < kMostMotions) {
+      if (rebounds && impacts < parameters.contact.successive_impacts && motion < kMostMotions) {
         const std::optional<double> before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity);
         if (before) {
           ++impacts;

@@ -7,6 +7,7 @@
 #include "tests/support/mechanics/bullets.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/pile.hpp"
+#include "tests/support/mechanics/response_worlds.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -158,15 +159,7 @@ TEST_CASE("quick: nothing passes a plate of 2 mm at 1 to 300 m/s, or leaves a sh
 TEST_CASE("quick: a shot runs through Newton's cradle") {
   World world;
   prepare(world);
-  world.parameters.simulation.gravity.setZero();
-  world.parameters.contact.restitution = 1.0;
-  world.parameters.contact.friction = 0.0;
-  for (int i = 0; i < 5; ++i) {
-    BodyDescription ball =
-        dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {0.2 * i - (i == 0 ? 0.05 : 0.0), 0, 0});
-    if (i == 0) ball.velocity = Vec3(1, 0, 0);
-    world.add_body(ball);
-  }
+  add_cradle(world, 0.0, 1.0);
   world.start();
   run(world, 10);
   for (int i = 0; i < 4; ++i) CHECK(std::abs(rigid(world, i).velocity.x()) < 1e-9);

@@ -21,6 +21,20 @@ inline double moving_step(World& world, std::string_view response) {
   return h / std::stod(format_value(rows.find("response.quick.steps")->get()));
 }
 
+/// Newton's cradle: five equal balls of 0.1 m along x that lose nothing, `gap` apart, of which the first flies at the others
+/// from another 0.05 m away.
+inline void add_cradle(World& world, double gap, double speed) {
+  world.parameters.simulation.gravity.setZero();
+  world.parameters.contact.restitution = 1.0;
+  world.parameters.contact.friction = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    BodyDescription ball =
+        dynamic_body("ball" + std::to_string(i), Sphere{0.1}, {(0.2 + gap) * i - (i == 0 ? 0.05 : 0.0), 0, 0});
+    if (i == 0) ball.velocity = Vec3(speed, 0, 0);
+    world.add_body(ball);
+  }
+}
+
 inline void use(World& world, std::string_view response) {
   world.parameters.response.method = response;
   world.parameters.simulation.sleeping = false;
