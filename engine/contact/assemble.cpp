@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/contact_frame.hpp"
+#include "engine/contact/mobility.hpp"
 #include "engine/contact/pair_coefficients.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/contact/row_bound.hpp"
@@ -152,10 +153,7 @@ class Assembly {
     const BlockIndex block = body.is_none() ? BlockIndex() : block_of(body);
     if (block.rigid < 0) return Mat3::Zero();
     const RigidBlock& of = result_.system.rigid[static_cast<std::size_t>(block.rigid)];
-    const Vec3 arm = at - bodies_[body].pose.position;
-    Mat3 cross;
-    cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
-    return of.inverse_mass * Mat3::Identity() - cross * of.inverse_inertia * cross;
+    return mobility(of, Mat3::Identity(), at - bodies_[body].pose.position);
   }
 
   void set_scale(const Attachment& attachment, ContactRows& rows) const {

@@ -3,6 +3,7 @@
 #include "engine/detection/contacts/surface_view.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/convex_point.hpp"
 #include "engine/geometry/nearest_triangle.hpp"
 #include "engine/shapes/primitives.hpp"
 
@@ -12,13 +13,8 @@ namespace {
 /// Of the mean edge: what is nearer to an edge or vertex has no direction of its own from there but rounding.
 constexpr double kInFeature = 1e-7;
 
-class Point final : public ConvexSet {
- public:
-  Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
-};
-
 SurfaceFoot foot_on_convex(const ConvexSet& solid, const Pose& pose, const Vec3& x) {
-  const Point point;
+  const ConvexPoint point;
   const ConvexGap gap = convex_gap({&point, {Mat3::Identity(), x}}, {&solid, pose});
   return {gap.point_b, gap.normal, gap.gap, {}};
 }

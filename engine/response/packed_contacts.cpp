@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/mobility.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -57,18 +58,8 @@ double largest_across(const Mat3& w) {
 /// W of one contact of rigid bodies, 1/kg.
 Mat3 mobility(const GroupSystem& group, const ContactRows& row) {
   Mat3 w = Mat3::Zero();
-  for (const ContactSide* side : {&row.a, &row.b}) {
-    if (side->rigid < 0) continue;
-    const RigidBlock& block = group.rigid[side->rigid];
-    Vec3 moment[3], spin[3];
-    for (int k = 0; k < 3; ++k) {
-      moment[k] = side->arm.cross(row.directions.row(k).transpose());
-      spin[k] = block.inverse_inertia * moment[k];
-    }
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) w(r, c) += moment[r].dot(spin[c]);
-    w.diagonal().array() += block.inverse_mass;
-  }
+  for (const ContactSide* side : {&row.a, &row.b})
+    if (side->rigid >= 0) w += mobility(group.rigid[side->rigid], row.directions, side->arm);
   return w;
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/convex_point.hpp"
 #include "engine/shapes/shape_entry.hpp"
 #include "engine/shapes/shape_size.hpp"
 
@@ -11,11 +12,6 @@ namespace impinge {
 namespace {
 
 constexpr double kDrawnEdges = 24.0;  // along the longest side
-
-class Point final : public ConvexSet {
- public:
-  Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
-};
 
 }  // namespace
 
@@ -47,7 +43,7 @@ double ConvexShape::bounding_radius() const {
 }
 
 double ConvexShape::signed_distance(const Vec3& x) const {
-  const Point point;
+  const ConvexPoint point;
   return convex_gap({&point, {Mat3::Identity(), x}}, {this, {}}).gap;
 }
 

@@ -1,6 +1,7 @@
 #include "engine/step/end_pose.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "engine/contact/pair_scale.hpp"
 #include "engine/geometry/distance.hpp"
@@ -16,22 +17,25 @@ constexpr double kDeepest = 100.0;  // of the same: what ends deeper has passed,
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
-/// Bodies where the velocities of a solved step lead.
+/// Bodies of some pairs where the velocities of a solved step lead; the others stay as they are.
 class EndPose {
  public:
-  EndPose(const Bodies& bodies, const SubStep& step) : bodies_(bodies), step_(step), vertices_(step.colliders.size()) {
+  EndPose(const Bodies& bodies, const SubStep& step, std::span<const BodyPair> pairs)
+      : bodies_(bodies), step_(step), vertices_(step.colliders.size()) {
     make_colliders(bodies, colliders_);
     std::vector<const BodyVector*> changes(colliders_.size(), nullptr);
     for (std::size_t g = 0; g < step.groups.size(); ++g)
       for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i)
         changes[step.groups[g].bodies[i]] = &step.results[g].velocity[i];
+    std::set<BodyIndex> wanted;
+    for (const BodyPair& pair : pairs) wanted.insert({pair.a, pair.b});
     std::size_t most = 0;
-    for (BodyIndex b(0); b < bodies.size(); ++b) {
+    for (const BodyIndex b : wanted) {
       move(b, changes[b]);
       most = std::max(most, vertices_[b].size());
     }
     resting_.assign(most, Vec3::Zero());
-    for (BodyIndex b(0); b < bodies.size(); ++b)
+    for (const BodyIndex b : wanted)
       if (deforms(bodies[b])) colliders_[b].vertex_velocities = std::span(resting_).first(vertices_[b].size());
   }
 
@@ -93,7 +97,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
     pairs.push_back({pair.a, pair.b, by.contact.activation(pair_size(a, b))});
   }
   if (pairs.empty()) return {};
-  const EndPose end(bodies, step);
+  const EndPose end(bodies, step, pairs);
   std::erase_if(pairs,
                 [&](const BodyPair& p) { return !overlap(end.colliders()[p.a].bounds, end.colliders()[p.b].bounds); });
   if (pairs.empty()) return {};

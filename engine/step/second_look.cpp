@@ -174,6 +174,15 @@ void SecondLook::add(const ContactCache& carried) {
 
 /// What came back takes the places of those that turned out not to carry: these wait in their turn.
 void SecondLook::exchange() {
+  const std::vector<Collision>& now = step_.collisions;
+  const auto most = static_cast<std::size_t>(by_.contact.most_contacts);
+  std::vector<std::span<const Collision>> crowded;  // by pair
+  for (std::size_t first = 0, last = 0; first < now.size(); first = last) {
+    const BodyPair pair{now[first].body_a, now[first].body_b};
+    while (last < now.size() && is_of(now[last], pair)) ++last;
+    if (last - first > most && is_awake_and_rigid(pair.a, pair.b)) crowded.emplace_back(&now[first], last - first);
+  }
+  if (crowded.empty()) return;
   std::vector<ContactKey> resting;
   for (const GroupResult& r : step_.results)
     for (const ContactCache::Item& item : r.impulses)
@@ -183,28 +192,23 @@ void SecondLook::exchange() {
     return std::any_of(step_.asked.begin(), step_.asked.end(), [&](const Collision& c) { return key_of(c) == key; });
   };
   std::vector<ContactKey> waiting;
-  std::vector<Collision>& all = step_.collisions;
-  const auto most = static_cast<std::size_t>(by_.contact.most_contacts);
-  for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
-    const BodyPair pair{all[first].body_a, all[first].body_b};
-    while (last < all.size() && is_of(all[last], pair)) ++last;
-    if (last - first <= most || !is_awake_and_rigid(pair.a, pair.b)) continue;
+  for (const std::span<const Collision> of_pair : crowded) {
     std::vector<std::pair<double, ContactKey>> idle;
-    for (std::size_t i = first; i < last; ++i) {
-      const ContactKey key = key_of(all[i]);
-      if (std::binary_search(resting.begin(), resting.end(), key) && !is_asked(key) && !ends_as_overlap(all[i]))
-        idle.emplace_back(-end_gap(all[i]), key);
+    for (const Collision& c : of_pair) {
+      const ContactKey key = key_of(c);
+      if (std::binary_search(resting.begin(), resting.end(), key) && !is_asked(key) && !ends_as_overlap(c))
+        idle.emplace_back(-end_gap(c), key);
     }
     std::sort(idle.begin(), idle.end());
-    idle.resize(std::min(idle.size(), last - first - most));
+    idle.resize(std::min(idle.size(), of_pair.size() - most));
     for (const auto& [gap, key] : idle) waiting.push_back(key);
   }
   if (waiting.empty()) return;
   std::sort(waiting.begin(), waiting.end());
   const auto waits = [&](const Collision& c) { return std::binary_search(waiting.begin(), waiting.end(), key_of(c)); };
   std::vector<Collision> more;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(more), waits);
-  std::erase_if(all, waits);
+  std::copy_if(now.begin(), now.end(), std::back_inserter(more), waits);
+  std::erase_if(step_.collisions, waits);
   insert(std::move(more), step_.dropped);
 }
 

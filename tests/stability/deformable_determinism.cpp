@@ -8,6 +8,7 @@
 #include "engine/response/response.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/methods.hpp"
+#include "tests/support/mechanics/state_hashes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -45,20 +46,6 @@ void fill(World& world) {
   world.add_attachment({"string", "ball", "bar", {0.14, 0.5, 0.13}});
   world.start();
 }
-
-std::vector<std::uint64_t> hashes(World& world, int frames) {
-  std::vector<std::uint64_t> list = {world.record().stats.state_hash};
-  for (int i = 0; i < frames; ++i) {
-    world.step();
-    list.push_back(world.record().stats.state_hash);
-  }
-  return list;
-}
-
-struct Threads {
-  explicit Threads(int n) { set_thread_count(n); }
-  ~Threads() { set_thread_count(0); }
-};
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "tests/support/mechanics/state_hashes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/random.hpp"
 
@@ -38,20 +39,6 @@ void fill(World& world) {
   }
   world.start();
 }
-
-std::vector<std::uint64_t> hashes(World& world, int frames) {
-  std::vector<std::uint64_t> list = {world.record().stats.state_hash};
-  for (int i = 0; i < frames; ++i) {
-    world.step();
-    list.push_back(world.record().stats.state_hash);
-  }
-  return list;
-}
-
-struct Threads {
-  explicit Threads(int n) { set_thread_count(n); }
-  ~Threads() { set_thread_count(0); }
-};
 
 }  // namespace
 

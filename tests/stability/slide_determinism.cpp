@@ -5,6 +5,7 @@
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/response_worlds.hpp"
 #include "tests/support/mechanics/slides.hpp"
+#include "tests/support/mechanics/state_hashes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -28,20 +29,6 @@ void fill(World& world, std::string_view response) {
   world.add_body(cube("box", 0.15, {0.2, 0.5, 0.15}));
   world.start();
 }
-
-std::vector<std::uint64_t> hashes(World& world, int frames) {
-  std::vector<std::uint64_t> list = {world.record().stats.state_hash};
-  for (int i = 0; i < frames; ++i) {
-    world.step();
-    list.push_back(world.record().stats.state_hash);
-  }
-  return list;
-}
-
-struct Threads {
-  explicit Threads(int n) { set_thread_count(n); }
-  ~Threads() { set_thread_count(0); }
-};
 
 }  // namespace
 

@@ -5,14 +5,10 @@
 #include "engine/detection/contacts/surface_view.hpp"
 #include "engine/detection/pairs/triangles_near.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/convex_point.hpp"
 
 namespace impinge {
 namespace {
-
-class Point final : public ConvexSet {
- public:
-  Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
-};
 
 const ConvexSet* solid_of(const Collider& c) {
   const auto form = c.shape->form();
@@ -38,7 +34,7 @@ void add_deforming_vertices(ContactSink& sink) {
       if (overlap(region, Aabb{mesh.vertex(v), mesh.vertex(v)})) vertices.push_back(v);
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const Point point;
+  const ConvexPoint point;
   for (const int v : vertices) {
     const ConvexGap gap = convex_gap(solid, {&point, {Mat3::Identity(), mesh.vertex(v)}}, sink.reach());
     if (!gap.is_within_reach || gap.normal.dot(mesh.normal({Feature::vertex, v})) <= 0.0) continue;

@@ -11,6 +11,7 @@
 #include "engine/detection/pairs/polyhedron_mesh.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
 #include "engine/detection/pairs/triangles_near.hpp"
+#include "engine/geometry/convex/convex_point.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
 namespace impinge {
@@ -171,7 +172,7 @@ class CurvedTest {
     for (int t : near_) corners.insert(corners.end(), mesh_.triangle(t).begin(), mesh_.triangle(t).end());
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    const Segment point(Vec3::Zero(), Vec3::Zero());
+    const ConvexPoint point;
     std::vector<Vec3> star;
     for (int v : corners) {
       if (!is_in_reach(mesh_.vertex(v))) continue;

@@ -57,13 +57,9 @@ bool BoxPairs::View::is_between_axes(const Vec3& c, const Vec3& ha, const Vec3& 
 void BoxPairs::prepare(std::span<const Collider> colliders, std::span<const BodyPair> pairs, BoxTest how) {
   sides_.assign(colliders.size(), {});
   if (fitted_.size() < colliders.size()) fitted_.resize(colliders.size());
-  std::vector<int> used;
-  for (const BodyPair& pair : pairs)
-    for (const BodyIndex body : {pair.a, pair.b}) used.push_back(body.value());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const std::vector<BodyIndex> used = bodies_of(pairs);
   parallel_for(used.size(), 1, [&](std::size_t i) {
-    const auto body = static_cast<std::size_t>(used[i]);
+    const BodyIndex body = used[i];
     const Collider& collider = colliders[body];
     if (!deforms(collider)) {
       sides_[body] = {&collider.mesh().tree(), nullptr};

@@ -94,13 +94,9 @@ void DiscPairs::find(std::span<const Collider> colliders, std::span<const BodyPa
 void DiscPairs::prepare(std::span<const Collider> colliders, std::span<const BodyPair> pairs) {
   trees_.assign(colliders.size(), nullptr);
   if (fitted_.size() < colliders.size()) fitted_.resize(colliders.size());
-  std::vector<int> used;
-  for (const BodyPair& pair : pairs)
-    for (const BodyIndex body : {pair.a, pair.b}) used.push_back(body.value());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const std::vector<BodyIndex> used = bodies_of(pairs);
   parallel_for(used.size(), 1, [&](std::size_t i) {
-    const auto body = static_cast<std::size_t>(used[i]);
+    const BodyIndex body = used[i];
     const Collider& collider = colliders[body];
     if (!deforms(collider)) {
       trees_[body] = &collider.mesh().discs();

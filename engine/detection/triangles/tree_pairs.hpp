@@ -1,6 +1,9 @@
 // What walks of two trees share: frames, margins, and the test of two triangles that they come to.
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 
 namespace impinge {
@@ -18,6 +21,15 @@ inline Pose tree_in_tree(const Collider& a, const Collider& b) {
 inline double tree_margin(const Collider& a, const Collider& b, double margin) {
   const double magnitude = std::max(largest_coordinate(a.bounds), largest_coordinate(b.bounds));
   return margin * (1.0 + 1e-9) + (4.0 * kTouchTolerance + 1e-13) * magnitude;
+}
+
+/// Each body of the pairs once, ascending.
+inline std::vector<BodyIndex> bodies_of(std::span<const BodyPair> pairs) {
+  std::vector<BodyIndex> bodies;
+  for (const BodyPair& pair : pairs) bodies.insert(bodies.end(), {pair.a, pair.b});
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
 }
 
 }  // namespace impinge

@@ -5,22 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/contact/mobility.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 
 namespace impinge {
-namespace {
-
-/// W_ii of one rigid side.
-Mat3 rigid_block(const ContactRows& rows, const ContactSide& side, const RigidBlock& block) {
-  Mat3 turn;
-  for (int k = 0; k < 3; ++k) turn.row(k) = side.arm.cross(rows.directions.row(k).transpose()).transpose();
-  return block.inverse_mass * rows.directions * rows.directions.transpose() +
-         turn * block.inverse_inertia * turn.transpose();
-}
-
-}  // namespace
-
 DelassusByContact::DelassusByContact(GroupSystem& group)
     : group_(group),
       node_inverse_(group.deformable.size()),
@@ -56,7 +45,7 @@ DelassusByContact::DelassusByContact(GroupSystem& group)
     const ContactRows& rows = group.contacts[i];
     for (const ContactSide* side : {&rows.a, &rows.b}) {
       if (side->rigid >= 0) {
-        const Mat3 w = rigid_block(rows, *side, group.rigid[side->rigid]);
+        const Mat3 w = mobility(group.rigid[side->rigid], rows.directions, side->arm);
         diagonal_[i] += w;
         split_[i] += rigid_contacts[side->rigid] * w;
       }

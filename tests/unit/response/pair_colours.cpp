@@ -46,6 +46,9 @@ TEST_CASE("pairs of one colour have no body in common, and those on the ground c
     }
     CAPTURE(bodies);
     check(pairs, bodies);
+    const PairColours colours = colour_pairs(pairs, bodies);
+    CHECK_FALSE(colours.last_is_rest);
+    CHECK(pairs[colours.order.back()].second < 0);
   }
 }
 
