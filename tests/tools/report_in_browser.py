@@ -102,9 +102,10 @@ class Page:
             self.call("Input.dispatchMouseEvent", type=kind, x=box[0], y=box[1], button="left", clickCount=1)
         self.settle()
 
-    def key(self, name, code):
+    def key(self, name, code, text=None):
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=code)
+            more = {"text": text} if text and kind == "keyDown" else {}
+            self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=code, **more)
         self.settle()
 
     def settle(self):
@@ -193,11 +194,9 @@ def use(page, report, check):
     check(not page.complaints, f"the console is silent {page.complaints[:3]}")
 
 
-def main():
-    words = sys.argv[1:]
-    if not words or len(words) not in (1, 3) or (len(words) == 3 and words[1] != "--pictures"):
-        sys.exit(__doc__)
-    report, chromium = Path(words[0]).resolve(), shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+def in_chromium(work):
+    """Calls `work` with a page of a browser of its own. 0, 77 where there is none, 1 where it does not start."""
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     if chromium is None:
         print("skipped: no chromium here")
         return 77
@@ -218,18 +217,29 @@ def main():
             from urllib.request import urlopen
             targets = json.load(urlopen(f"http://127.0.0.1:{port}/json/list"))
             path = re.sub(r"^ws://[^/]*", "", next(t for t in targets if t["type"] == "page")["webSocketDebuggerUrl"])
-            page, check = Page(port, path), Checks()
-            use(page, report, check)
-            if len(words) == 3:
-                Path(words[2]).mkdir(parents=True, exist_ok=True)
-                for width in (1280, 1920):
-                    page.open(report.as_uri(), width)
-                    page.settle()
-                    page.picture(Path(words[2]) / f"report_{width}.png")
-            return 1 if check.failed else 0
+            work(Page(port, path))
+            return 0
         finally:
             browser.terminate()
             browser.wait()
+
+
+def main():
+    words = sys.argv[1:]
+    if not words or len(words) not in (1, 3) or (len(words) == 3 and words[1] != "--pictures"):
+        sys.exit(__doc__)
+    report, check = Path(words[0]).resolve(), Checks()
+
+    def work(page):
+        use(page, report, check)
+        if len(words) == 3:
+            Path(words[2]).mkdir(parents=True, exist_ok=True)
+            for width in (1280, 1920):
+                page.open(report.as_uri(), width)
+                page.settle()
+                page.picture(Path(words[2]) / f"report_{width}.png")
+
+    return in_chromium(work) or (1 if check.failed else 0)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
+#include "viewer/app/debug_doors.hpp"
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/controller/interrupt.hpp"
@@ -57,6 +58,7 @@ struct Given {
   int width = 1280, height = 720;  // pixels
   int scale = 0;                   // of text; 0: by the height
   int memory = 256;                // megabytes
+  DebugDoors doors;
 };
 
 Source source_of(const Given& options) {
@@ -112,10 +114,13 @@ void check_recording(const Given& options) {
 void check_screen(const Given& options, bool windowed, int scale) {
   if (options.window && options.headless)
     refuse_option("--window and --headless", "one of them is allowed", "leave one out");
-  if (!windowed && options.script.empty())
+  if (options.doors.any() && options.headless)
+    refuse_option("--web or --vnc with --headless", "one of them is allowed", "leave one out");
+  options.doors.check();
+  if (!windowed && !options.doors.any() && options.script.empty())
     throw InputError(
         "command line: debug without a screen and without --script; one of them is wanted; set DISPLAY, or write "
-        "--script FILE");
+        "--web PORT for a browser, or --script FILE");
   if (options.window && !has_screen())
     throw InputError(
         "command line: --window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
@@ -138,7 +143,7 @@ std::unique_ptr<DebugWindow> make_window(const Given& options, int scale) {
 }
 
 int debug(const Given& options) {
-  const bool windowed = options.window || (!options.headless && has_screen());
+  const bool windowed = options.window || (!options.headless && !options.doors.any() && has_screen());
   const int scale = options.scale > 0 ? options.scale : debug_scale(options.height);
   check_screen(options, windowed, scale);
   const Source source = source_of(options);
@@ -189,11 +194,16 @@ int debug(const Given& options) {
   };
   for (std::size_t i = 0; i < script.lines.size(); ++i)
     if (!script.lines[i].empty()) debugger.check(line_at(i));
+  const std::string title = "impinge " + source.scene.filename().string();
+  std::vector<std::unique_ptr<Screen>> screens;
+  if (options.doors.any()) screens = options.doors.open(options.width, options.height, title);
   try {
     for (std::size_t i = 0; i < script.lines.size() && !loop.has_quit() && !interrupted(); ++i)
       if (!script.lines[i].empty()) loop.run_line(line_at(i));
     if (windowed && !loop.has_quit() && !interrupted())
-      show_window(loop, *window, "impinge " + source.scene.filename().string(), interrupted(), save_recording);
+      screens.push_back(std::make_unique<Window>(options.width, options.height, title));
+    if (!screens.empty() && !loop.has_quit() && !interrupted())
+      show_on_screens(loop, *window, screens, interrupted(), save_recording);
   } catch (const Interrupted&) {  // while a frame was drawn or brought back
   } catch (...) {
     save_recording();  // what was done before is kept
@@ -219,9 +229,10 @@ class DebugCommand : public SubCommand {
     options.flag("--window", given_.window,
                  "show a window, after the script if there is one (default where there is a screen)");
     options.flag("--headless", given_.headless, "no window: the script drives it");
+    given_.doors.declare(options);
     options.path("--out", given_.out, "folder that `shot FILE` lines write into (default: here)");
     size_option(options, given_.width, given_.height, "WIDTHxHEIGHT of the window in pixels (default: 1280x720)");
-    options.whole("--scale", given_.scale, 1, 8, "size of text, in steps of 13 pixels (default: by the height)");
+    options.whole("--scale", given_.scale, 1, 8, "size of text, in whole steps (default: by the height)");
     options.whole("--memory", given_.memory, 1, 1 << 20, "megabytes of states kept for going back (default: 256)");
     set_option(options, given_.overrides, "PATH=VALUE: override a parameter of the scene (repeatable)");
     quiet_option(options, given_.quiet, "say nothing but problems");

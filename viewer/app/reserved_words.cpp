@@ -9,8 +9,10 @@ constexpr std::string_view kCommands[] = {
     "mesh", "export", "shrink", "clean", "show", "judge", "trace",
 };
 constexpr ReservedOption kOptions[] = {
-    {"run", "--force"}, {"check", "--strict"}, {"check", "--trial"},  {"list", "--json"},
-    {"debug", "--vnc"}, {"debug", "--web"},    {"debug", "--listen"}, {"debug", "--password-file"},
+    {"run", "--force"},
+    {"check", "--strict"},
+    {"check", "--trial"},
+    {"list", "--json"},
 };
 
 }  // namespace

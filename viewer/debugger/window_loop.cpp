@@ -3,8 +3,6 @@
 #include <chrono>
 #include <thread>
 
-#include "viewer/present/window.hpp"
-
 namespace impinge {
 
 namespace {
@@ -17,18 +15,20 @@ constexpr int kIdle = 50;  // ms to wait for input where nothing moves
 
 }  // namespace
 
-void show_window(DebugLoop& loop, DebugWindow& pixels, const std::string& title, const std::atomic<bool>& interrupted,
-                 const std::function<void()>& now_and_then) {
-  Window window(pixels.width(), pixels.height(), title);
+void show_on_screens(DebugLoop& loop, DebugWindow& pixels, std::span<const std::unique_ptr<Screen>> screens,
+                     const std::atomic<bool>& interrupted, const std::function<void()>& now_and_then) {
+  const int patience = kIdle / static_cast<int>(screens.size());
   Image image;
   Clock::time_point called = Clock::now();
   while (!loop.has_quit() && !interrupted) {
     const Clock::time_point start = Clock::now();
-    const bool open = window.take_input(pixels.ui(), loop.is_busy() ? 0 : kIdle);
+    bool open = true, exposed = false;
+    for (const auto& screen : screens) open &= screen->take_input(pixels.ui(), loop.is_busy() ? 0 : patience);
     loop.tick();
-    if (pixels.has_changed() || window.is_exposed()) {
+    for (const auto& screen : screens) exposed |= screen->is_exposed();
+    if (pixels.has_changed() || exposed) {
       pixels.read(image);
-      window.show(image);
+      for (const auto& screen : screens) screen->show(image);
     }
     if (start - called > kNowAndThen) now_and_then(), called = start;
     if (!open) break;

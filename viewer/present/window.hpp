@@ -4,28 +4,24 @@
 #include <memory>
 #include <string>
 
-#include "viewer/image/image.hpp"
-#include "viewer/panels/debug/ui.hpp"
+#include "viewer/present/screen.hpp"
 
 namespace impinge {
 
 /// Whether there is a screen that a window can be opened on.
 bool has_screen();
 
-class Window {
+class Window : public Screen {
  public:
   /// Pixels. Throws InputError where no window can be had.
   Window(int width, int height, const std::string& title);
-  ~Window();
+  ~Window() override;
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Puts the input since the last call into the queue; where there is none, waits for some at most `milliseconds`.
-  /// False once the window is closed.
-  bool take_input(Ui& ui, int milliseconds);
-  /// Whether the desktop may have lost what was shown.
-  bool is_exposed() const;
-  void show(const Image& image);
+  bool take_input(Ui& ui, int milliseconds) override;
+  bool is_exposed() const override;
+  void show(const Image& image) override;
 
  private:
   struct Parts;

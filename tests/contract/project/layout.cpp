@@ -66,6 +66,8 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/panels/overlay", 23},
                                                  {"viewer/panels/debug", 23},
                                                  {"viewer/present", 24},
+                                                 {"viewer/web", 25},
+                                                 {"viewer/vnc", 25},
                                                  {"viewer/controller", 25},
                                                  {"viewer/debugger", 26},
                                                  {"viewer/study", 26},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "viewer/draw/palette.hpp"
+#include "viewer/gl/text_font.hpp"
 
 namespace impinge {
 namespace {
@@ -114,12 +115,7 @@ Ui::Ui(int scale) : scale_(scale) {
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   for (std::size_t k = 0; k < std::size(kKeys); ++k)
     if (kKeys[k].imgui >= 0) io.KeyMap[kKeys[k].imgui] = static_cast<int>(k);
-  ImFontConfig config;
-  config.SizePixels = 13.0f * static_cast<float>(scale);
-  config.OversampleH = config.OversampleV = 1;
-  config.PixelSnapH = true;
-  io.Fonts->AddFontDefault(&config);
-  io.Fonts->Flags |= ImFontAtlasFlags_NoMouseCursors;
+  add_text_font(*io.Fonts, static_cast<float>(scale));
   set_style(static_cast<float>(scale));
   backend_ = std::make_unique<ImguiBackend>(*io.Fonts);
 }

@@ -11,14 +11,14 @@ constexpr float kMark = 20.0f, kAfterMark = 9.0f;
 
 ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
 
-/// Draws a mark as it looks in the picture, in a cell of kMark x 13 whose top left is (x, y).
+/// Draws a mark as it looks in the picture, in a cell of kMark x kTextSize whose top left is (x, y).
 void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
-  const float u = pen.unit, middle = y + 6.5f * u, right = x + kMark * u;
+  const float u = pen.unit, middle = y + 0.5f * pen.text_size, right = x + kMark * u;
   const ImU32 ink = packed(row.color), dark = packed(role::kOutline);
   ImDrawList& list = pen.list;
   switch (row.mark) {
     case LegendRow::area:
-      list.AddRectFilled({x + 2.0f * u, y + 1.0f * u}, {right - 2.0f * u, y + 12.0f * u}, ink, 2.0f * u);
+      list.AddRectFilled({x + 2.0f * u, middle - 5.5f * u}, {right - 2.0f * u, middle + 5.5f * u}, ink, 2.0f * u);
       break;
     case LegendRow::point:
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.4f * u, dark, 24);

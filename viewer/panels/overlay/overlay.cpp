@@ -37,12 +37,7 @@ Overlay::Overlay(int scale) : scale_(scale) {
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  ImFontConfig config;
-  config.SizePixels = 13.0f * static_cast<float>(scale);  // the embedded font is drawn on a grid of 13
-  config.OversampleH = config.OversampleV = 1;
-  config.PixelSnapH = true;
-  io.Fonts->AddFontDefault(&config);
-  io.Fonts->Flags |= ImFontAtlasFlags_NoMouseCursors;
+  add_text_font(*io.Fonts, static_cast<float>(scale));
   backend_ = std::make_unique<ImguiBackend>(*io.Fonts);
 }
 
@@ -61,7 +56,7 @@ void Overlay::draw(int width, int height, const std::function<void(const Pen&)>&
   ImGui::NewFrame();
   const float unit = static_cast<float>(scale_);
   const Pen pen{
-      *ImGui::GetBackgroundDrawList(), *ImGui::GetFont(), 13.0f * unit, unit, io.DisplaySize.x, io.DisplaySize.y};
+      *ImGui::GetBackgroundDrawList(), *ImGui::GetFont(), kTextSize * unit, unit, io.DisplaySize.x, io.DisplaySize.y};
   paint(pen);
   ImGui::Render();
   backend_->draw(*ImGui::GetDrawData());

@@ -1,4 +1,4 @@
-// Text over the picture: panels and labels, through Dear ImGui's draw lists and its embedded font.
+// Text over the picture: panels and labels, through Dear ImGui's draw lists and the embedded font.
 #pragma once
 
 #include <functional>
@@ -6,6 +6,7 @@
 
 #include "viewer/draw/palette.hpp"
 #include "viewer/gl/imgui_backend.hpp"
+#include "viewer/gl/text_font.hpp"
 
 struct ImDrawList;
 struct ImFont;
@@ -17,8 +18,8 @@ namespace impinge {
 struct Pen {
   ImDrawList& list;
   ImFont& font;
-  float text_size = 13.0f;
-  float unit = 1.0f;  ///< a pixel of a picture with text of 13 pixels
+  float text_size = kTextSize;
+  float unit = 1.0f;  ///< a pixel of a picture with text of kTextSize
   float picture_width = 0.0f, picture_height = 0.0f;
 
   /// Whether panels should say less and stand closer together.
@@ -36,7 +37,7 @@ struct Pen {
 
 class Overlay {
  public:
-  /// A GL context must be current, here and in every call. `scale`: text size in steps of 13 pixels.
+  /// A GL context must be current, here and in every call. `scale`: text size in steps of kTextSize.
   explicit Overlay(int scale);
   ~Overlay();
   Overlay(const Overlay&) = delete;
