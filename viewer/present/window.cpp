@@ -88,8 +88,8 @@ bool take(const SDL_Event& event, Ui& ui) {
   return true;
 }
 
-struct Screen {
-  Screen() {
+struct Desktop {
+  Desktop() {
     SDL_SetHint(SDL_HINT_RENDER_DRIVER, "software");
     SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
     SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
@@ -99,7 +99,7 @@ struct Screen {
     const std::string driver = SDL_GetCurrentVideoDriver();
     if (driver != "x11" && driver != "wayland") refuse(fmt::format("SDL's video driver '{}' has none", driver));
   }
-  ~Screen() { SDL_Quit(); }
+  ~Desktop() { SDL_Quit(); }
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ bool has_screen() {
 
 /// In the order of making; what is made later goes first.
 struct Window::Parts {
-  Screen screen;
+  Desktop desktop;
   std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window{nullptr, SDL_DestroyWindow};
   std::unique_ptr<SDL_Renderer, void (*)(SDL_Renderer*)> renderer{nullptr, SDL_DestroyRenderer};
   std::unique_ptr<SDL_Texture, void (*)(SDL_Texture*)> texture{nullptr, SDL_DestroyTexture};
