@@ -1,9 +1,10 @@
-// How a long computation is ended from outside. Whoever may want that lends a flag to the thread that computes; the
-// model looks at it between stages and inside its long loops, and leaves by an exception. What is computed never
-// depends on the flag while it is down.
+// How a long computation is ended from outside, or paused. Whoever may want that lends a flag to the thread that computes;
+// the model looks at it between stages and inside its long loops, and leaves by an exception. What is computed never
+// depends on the flag while it is down. In the same places a computation lets others have their turn.
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 namespace impinge {
 
@@ -29,8 +30,36 @@ class InterruptScope {
   const std::atomic<bool>* outer_;
 };
 
-/// Throws Interrupted once the flag is raised. Costs a nanosecond.
+/// Who has something to do while another computes: shows a window, say.
+struct Pause {
+  std::atomic<bool> is_due = false;  ///< raised by whoever keeps the time
+  std::function<void()> take;        ///< must leave what is being computed alone, and not throw
+};
+
+/// While it lives, check_interrupt() in this thread (not in those that parallel_for uses) takes the pause when it is due.
+class PauseScope {
+ public:
+  explicit PauseScope(Pause* pause) : outer_(own_pause) { own_pause = pause; }
+  ~PauseScope() { own_pause = outer_; }
+  PauseScope(const PauseScope&) = delete;
+  PauseScope& operator=(const PauseScope&) = delete;
+
+  static Pause* pause() { return own_pause; }
+
+ private:
+  static inline constinit thread_local Pause* own_pause = nullptr;
+
+  Pause* outer_;
+};
+
+/// Takes the pause if it is due, and throws Interrupted once the flag is raised. Costs a nanosecond.
 inline void check_interrupt() {
+  if (Pause* pause = PauseScope::pause(); pause != nullptr && pause->is_due.load(std::memory_order_relaxed)) {
+    pause->is_due = false;
+    const PauseScope none(nullptr);  // in which nothing pauses
+    const InterruptScope finished(nullptr);
+    pause->take();
+  }
   const std::atomic<bool>* flag = InterruptScope::flag();
   if (flag != nullptr && flag->load(std::memory_order_relaxed)) throw Interrupted{};
 }

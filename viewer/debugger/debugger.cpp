@@ -109,6 +109,7 @@ bool Debugger::advance() {
   } catch (const Interrupted&) {
     if (next == 0) throw;  // there is no state yet
     playing_ = false;
+    was_ended_ = true;
     const InterruptScope finish(nullptr);
     restore_before(next - 1);
     return false;
@@ -279,7 +280,7 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
     return parsed;
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
-  stopped_ = false;
+  stopped_ = was_ended_ = false;
   const int before = session_.frame();
   if (const auto* commands = std::get_if<std::vector<Command>>(&parsed)) {
     for (const Command& command : *commands) do_command(command);
@@ -299,7 +300,8 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   const int made = session_.frame() - before;
   if (transport != nullptr && stopped_ && transport->verb == TransportLine::step && made < transport->frames)
     done = fmt::format("step {}", made);
-  else if (transport != nullptr && ((stopped_ && transport->verb == TransportLine::seek) || is_interrupted()))
+  else if (transport != nullptr &&
+           ((stopped_ && transport->verb == TransportLine::seek) || was_ended_ || is_interrupted()))
     done = fmt::format("seek {}", session_.frame());
   record(done);
   return std::nullopt;
@@ -313,6 +315,28 @@ std::optional<DebugLine> Debugger::try_execute(const std::string& line) {
     say(ConsoleLine::problem, error.what());
     return std::nullopt;
   }
+}
+
+bool Debugger::execute_meanwhile(const std::string& line) {
+  static const std::string kConsole = "console";
+  const auto leaves_model_alone = [](const DebugLine& parsed) {
+    if (const auto* commands = std::get_if<std::vector<Command>>(&parsed))
+      return std::none_of(commands->begin(), commands->end(), changes_model);
+    const auto* transport = std::get_if<TransportLine>(&parsed);
+    return std::holds_alternative<SelectLine>(parsed) || std::holds_alternative<PanelLine>(parsed) ||
+           (transport != nullptr && transport->verb == TransportLine::pause);
+  };
+  try {
+    const DebugLine parsed = parse_debug_line({line, &kConsole, 1, 1},
+                                              {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+    if (!leaves_model_alone(parsed)) return false;
+  } catch (const InputError&) {
+    return false;  // said when its turn comes
+  }
+  const auto outer = std::tuple(known_before_, puts_before_, stopped_, was_ended_);
+  try_execute(line);
+  std::tie(known_before_, puts_before_, stopped_, was_ended_) = outer;
+  return true;
 }
 
 bool Debugger::play_on() {

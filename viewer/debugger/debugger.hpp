@@ -39,6 +39,9 @@ class Debugger {
   std::optional<DebugLine> execute(const PlacedText& line);
   /// The same for a line typed or clicked: what is wrong becomes a message in the console.
   std::optional<DebugLine> try_execute(const std::string& line);
+  /// A line that comes while another is being done, at a pause of its computation: done at once where it leaves the model
+  /// alone. False: it must wait.
+  bool execute_meanwhile(const std::string& line);
   /// Makes the next frame while playing. False if it isn't.
   bool play_on();
 
@@ -92,7 +95,8 @@ class Debugger {
   DebugModel model_;
   Expectations expectations_;
   bool playing_ = false;
-  bool stopped_ = false;  // the line being done was cut short by a `break`
+  bool stopped_ = false;    // the line being done was cut short by a `break`,
+  bool was_ended_ = false;  // or by whoever did not want to wait
   std::vector<std::string> recorded_;
   bool may_merge_ = false;  // whether the next line may become one with the last: nothing was said in between
   int known_before_ = 0;    // of the line being done: how many frames were known,

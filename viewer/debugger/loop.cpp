@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/image/png.hpp"
@@ -27,20 +29,42 @@ DebugLoop::DebugLoop(Debugger& debugger, DebugWindow& window, std::filesystem::p
 
 void DebugLoop::draw(bool quick) {
   fresh_ = false;
-  for (const std::string& line : window_.paint(debugger_.model(), quick)) {
-    fresh_ = true;
-    static const std::string kConsole = "console";
-    const std::optional<DebugLine> rest = debugger_.try_execute(line);
-    if (!rest) continue;
-    try {
-      take(*rest, {line, &kConsole, 1, 1});
-    } catch (const InputError& error) {
-      debugger_.say(ConsoleLine::problem, error.what());
-    }
+  CommandLines lines;
+  {
+    const PauseScope none(nullptr);  // a pause draws
+    lines = window_.paint(debugger_.model(), quick);
+  }
+  for (const std::string& line : lines) obey(line);
+}
+
+void DebugLoop::obey(const std::string& line) {
+  fresh_ = true;
+  static const std::string kConsole = "console";
+  const std::optional<DebugLine> rest = debugger_.try_execute(line);
+  if (!rest) return;
+  try {
+    take(*rest, {line, &kConsole, 1, 1});
+  } catch (const InputError& error) {
+    debugger_.say(ConsoleLine::problem, error.what());
   }
 }
 
+bool DebugLoop::tick_meanwhile(double seconds) {
+  DebugModel model = debugger_.model();
+  model.computing = std::max(seconds, 1e-3);
+  bool goes_on = true;
+  for (const std::string& line : window_.paint(model, true)) {
+    if (line == "stop")
+      goes_on = false, waiting_.clear();  // what was asked for behind it is not wanted either
+    else if (!debugger_.execute_meanwhile(line))
+      waiting_.push_back(line);
+  }
+  fresh_ = true;  // drawn well again afterwards
+  return goes_on;
+}
+
 void DebugLoop::tick() {
+  for (const std::string& line : std::exchange(waiting_, {})) obey(line);
   draw(window_.ui().has_events());  // all that will be seen for long is drawn well
   if (debugger_.play_on()) fresh_ = true;
 }

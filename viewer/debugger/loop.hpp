@@ -18,6 +18,9 @@ class DebugLoop {
   void run_line(const PlacedText& line);
   /// One frame of the window: draws, does what was asked for, makes a frame of the scene while playing.
   void tick();
+  /// The same while a tick computes, at a pause: the window looks at its input and draws. What would change the model
+  /// waits for the next tick; `stop` is handed back as false. `seconds`: since the frame in work was begun.
+  bool tick_meanwhile(double seconds);
   /// Whether the next tick may show something new.
   bool is_busy() const { return fresh_ || window_.is_rough() || window_.ui().has_events(); }
   /// How long the frame that was made in the last tick is to be seen: while playing as long as it lasts in the scene,
@@ -26,6 +29,7 @@ class DebugLoop {
     return std::min(debugger_.model().playing ? debugger_.model().record->frame_time : 0.0, 0.1);
   }
   bool has_quit() const { return quit_; }
+  int frame() const { return debugger_.model().frame; }
   Vec2 pointer() const { return {window_.ui().mouse_x(), window_.ui().mouse_y()}; }
   /// The window as it is once everything that was asked for shows.
   Image picture();
@@ -35,6 +39,7 @@ class DebugLoop {
   void input(const InputLine& line, const PlacedText& place);
   const UiWidget& find(const std::string& name, const PlacedText& place);
   void draw(bool quick = false);
+  void obey(const std::string& line);
   void settle();
   void shoot(const std::string& file, const PlacedText& place);
 
@@ -42,6 +47,7 @@ class DebugLoop {
   DebugWindow& window_;
   std::filesystem::path out_;
   bool fresh_ = true, quit_ = false;
+  std::vector<std::string> waiting_;  // lines that came while something was computed
 };
 
 }  // namespace impinge

@@ -52,6 +52,7 @@ struct DebugModel {
   std::string scene;
   int frame = 0, known_last = 0;
   bool playing = false;
+  double computing = 0.0;  ///< seconds that the frame after this one has taken by now; 0: nothing is being computed
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
   const std::set<int>* changed_frames = nullptr;              ///< with commands by hand

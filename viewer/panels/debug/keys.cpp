@@ -10,6 +10,10 @@ namespace impinge {
 
 void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("f1")) lines.push_back(model.state.help ? "panel help off" : "panel help on");
+  if (model.computing > 0.0 && ui.key_pressed("escape")) {
+    lines.push_back("stop");
+    return;
+  }
   if (ui.takes_keys()) return;
   if (ui.key_pressed("space")) lines.push_back(model.playing ? "pause" : "play");
   if (ui.key_pressed("right")) lines.push_back("step");
@@ -32,7 +36,7 @@ void draw_help(const DebugModel& model, const UiArea& view) {
                                              {"page up, down", "ten frames"},
                                              {"home, end", "first, last known frame"},
                                              {"f", "fit the view"},
-                                             {"escape", "deselect; close this"},
+                                             {"escape", "end the frame in work; deselect; close this"},
                                              {"left button", "orbit; a click picks"},
                                              {"right, middle", "pan"},
                                              {"wheel", "zoom; scroll a panel"},

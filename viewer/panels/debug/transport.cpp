@@ -29,9 +29,11 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::SameLine();
 
   const std::string memory =
-      fmt::format("{}, {:.1f} of {:.0f} MB", counted(static_cast<std::int64_t>(model.snapshots), "state"),
-                  static_cast<double>(model.snapshot_bytes) / 1048576.0,
-                  static_cast<double>(model.most_snapshot_bytes) / 1048576.0);
+      model.computing > 0.0
+          ? fmt::format("computing frame {}, {:.1f} s; esc ends it", model.frame + 1, model.computing)
+          : fmt::format("{}, {:.1f} of {:.0f} MB", counted(static_cast<std::int64_t>(model.snapshots), "state"),
+                        static_cast<double>(model.snapshot_bytes) / 1048576.0,
+                        static_cast<double>(model.most_snapshot_bytes) / 1048576.0);
   const std::string time = fmt::format("{:.4f} s", model.record->stats.time);
   const float right = ImGui::CalcTextSize(memory.c_str()).x + ImGui::CalcTextSize(time.c_str()).x + 40.0f * ui.unit();
   ImGui::SetNextItemWidth(std::max(80.0f * ui.unit(), ImGui::GetContentRegionAvail().x - right));
@@ -48,7 +50,7 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::SameLine();
   ImGui::TextUnformatted(time.c_str());
   ImGui::SameLine();
-  ImGui::TextColored(dim(), "%s", memory.c_str());
+  ImGui::TextColored(model.computing > 0.0 ? ImVec4{1.0f, 0.72f, 0.3f, 1.0f} : dim(), "%s", memory.c_str());
   tooltip("states kept for going back; where there are too many the ones that are missed least go");
 }
 
