@@ -8,7 +8,7 @@ namespace impinge {
 
 /// What a deformable body is made of; positions in the file's frame, scaled.
 struct DeformableDescription {
-  TetMesh mesh;
+  TetMesh mesh;                  ///< of quadratic elements: cut (geometry/quadratic_tets)
   std::vector<double> fraction;  ///< filled fraction of each tetrahedron; empty: all full
   Embedding embedding;           ///< of the surface's vertices
   std::string model = "corotational";
@@ -16,6 +16,7 @@ struct DeformableDescription {
   std::vector<RowText> settings;  ///< rows of the model, which come after `material`
   double density = 1000.0;        ///< kg/m³
   MassKind mass = MassKind::lumped;
+  ElementKind element = ElementKind::linear;
   RayleighDamping damping;
   std::vector<NodeRegion> fixed;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bodies/quadratic_elements.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/svd3.hpp"
@@ -35,13 +36,17 @@ ElementState element_state(const DeformableBody& body, int element) {
   ElementState state;
   state.volume_ratio = f.determinant();
   state.stretch = rotation_svd(f).sigma;
-  ElementResponse response;
-  body.fem.material(element).force(rest, x, response);
-  // the forces of an element add up to nothing, so the origin doesn't matter but for rounding: take it near
-  const Corners arm = x.colwise() - Vec3(x.col(0));
-  const Mat3 virial = response.force * arm.transpose();
-  const double volume = rest.volume * std::max(std::abs(state.volume_ratio), 0.01);
-  state.stress = -0.5 / volume * (virial + virial.transpose());
+  state.stress.setZero();
+  for (const ElementPoint& point : body.fem.stress_points(element, body.position)) {
+    ElementResponse response;
+    body.fem.material(element).force(point.rest, point.x, response);
+    // the forces of an element add up to nothing, so the origin doesn't matter but for rounding: take it near
+    const Corners arm = point.x.colwise() - Vec3(point.x.col(0));
+    const Mat3 virial = response.force * arm.transpose();
+    const double ratio = deformation_gradient(point.rest, point.x).determinant();
+    const double volume = point.rest.volume * std::max(std::abs(ratio), 0.01);
+    state.stress -= 0.5 / volume * (virial + virial.transpose());
+  }
   return state;
 }
 

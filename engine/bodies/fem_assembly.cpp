@@ -1,17 +1,18 @@
 #include "engine/bodies/fem_assembly.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
+#include "engine/bodies/quadratic_elements.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace impinge {
 namespace {
 
-// an element takes about a microsecond, a node's sum a tenth of one
+// an element takes about a microsecond, a quadratic one some seven, a node's product with the mass a tenth of one
 constexpr std::size_t kElementsPerTask = 64;
+constexpr std::size_t kQuadraticPerTask = 8;
 constexpr std::size_t kNodesPerTask = 256;
 
 /// Half the modulus of confined compression: what is let go yields to no load that its own material would stand.
@@ -22,7 +23,7 @@ double unwinding_modulus(const Material& material) {
 }  // namespace
 
 FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass,
-                         std::vector<int> element_material, std::vector<double> fraction)
+                         std::vector<int> element_material, std::vector<double> fraction, ElementKind kind)
     : rest_(std::move(rest)),
       materials_(std::move(materials)),
       element_material_(std::move(element_material)),
@@ -31,7 +32,6 @@ FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassK
   if (element_material_.empty()) element_material_.assign(count, 0);
   if (fraction.empty()) fraction.assign(count, 1.0);
   IMPINGE_ASSERT(element_material_.size() == count && fraction.size() == count && !materials_.empty());
-  IMPINGE_ASSERT(count < std::numeric_limits<int>::max() / 32);
   elements_.reserve(count);
   for (std::size_t e = 0; e < count; ++e) {
     const Tet& t = rest_.tets[e];
@@ -39,35 +39,16 @@ FemAssembly::FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassK
                                       rest_.vertices[t[3]], fraction[e]));
     IMPINGE_ASSERT(elements_.back().volume > 0.0);
   }
-  pattern_ = std::make_shared<BlockPattern>(make_block_pattern(nodes(), rest_.tets));
-
-  // counting sort by node and by block keeps the order of elements
-  node_begin_.assign(nodes() + 1, 0);
-  block_begin_.assign(pattern_->blocks() + 1, 0);
-  std::vector<int> block_of(10 * count);
-  for (std::size_t e = 0; e < count; ++e) {
-    for (const int v : rest_.tets[e]) ++node_begin_[v + 1];
-    for (int k = 0; k < 10; ++k) {
-      const int i = rest_.tets[e][kBlockRow[k]], j = rest_.tets[e][kBlockColumn[k]];
-      block_of[10 * e + k] = pattern_->find(std::min(i, j), std::max(i, j));
-      ++block_begin_[block_of[10 * e + k] + 1];
-    }
+  if (kind == ElementKind::quadratic) {
+    quadratic_ = std::make_shared<QuadraticElements>(rest_, fraction);
+    pattern_ = std::make_shared<BlockPattern>(quadratic_->pattern(nodes()));
+    quadratic_sums_ = ElementSums<10>(*pattern_, quadratic_->all_nodes());
+    quadratic_slot_.resize(quadratic_->count());
+  } else {
+    pattern_ = std::make_shared<BlockPattern>(make_block_pattern(nodes(), rest_.tets));
+    sums_ = ElementSums<4>(*pattern_, rest_.tets);
+    slot_.resize(count);
   }
-  std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
-  std::partial_sum(block_begin_.begin(), block_begin_.end(), block_begin_.begin());
-  node_code_.resize(4 * count);
-  block_code_.resize(10 * count);
-  std::vector<int> node_cursor(node_begin_.begin(), node_begin_.end() - 1),
-      block_cursor(block_begin_.begin(), block_begin_.end() - 1);
-  for (std::size_t e = 0; e < count; ++e) {
-    const int element = static_cast<int>(e);
-    for (int k = 0; k < 4; ++k) node_code_[node_cursor[rest_.tets[e][k]]++] = 4 * element + k;
-    for (int k = 0; k < 10; ++k) {
-      const bool transposed = rest_.tets[e][kBlockRow[k]] > rest_.tets[e][kBlockColumn[k]];
-      block_code_[block_cursor[block_of[10 * e + k]]++] = 32 * element + 2 * k + (transposed ? 1 : 0);
-    }
-  }
-  slot_.resize(count);
   make_mass();
 }
 
@@ -80,6 +61,13 @@ void FemAssembly::set_material(int index, FemMaterial material) {
 void FemAssembly::make_mass() {
   node_mass_.assign(nodes(), 0.0);
   block_mass_.assign(pattern_->blocks(), 0.0);
+  if (quadratic_)
+    make_quadratic_mass();
+  else
+    make_linear_mass();
+}
+
+void FemAssembly::make_linear_mass() {
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     const double mass = materials_[element_material_[e]].density * elements_[e].volume;
     const Tet& tet = rest_.tets[e];
@@ -92,6 +80,21 @@ void FemAssembly::make_mass() {
   }
   if (mass_kind_ == MassKind::lumped)
     for (int i = 0; i < nodes(); ++i) block_mass_[pattern_->diagonal[i]] = node_mass_[i];
+}
+
+void FemAssembly::make_quadratic_mass() {
+  const bool lumped = mass_kind_ == MassKind::lumped;
+  for (int e = 0; e < quadratic_->count(); ++e) {
+    const double mass = materials_[element_material_[kTetParts * e]].density * quadratic_->volume(e);
+    const QuadraticTet& node = quadratic_->nodes(e);
+    for (int a = 0; a < 10; ++a)
+      for (int b = 0; b < 10; ++b) {
+        const double part = mass * QuadraticElements::mass(a, b, lumped);
+        if (part == 0.0) continue;
+        node_mass_[node[a]] += part;
+        block_mass_[pattern_->find(node[a], node[b])] += part;
+      }
+  }
 }
 
 double FemAssembly::total_mass() const { return std::accumulate(node_mass_.begin(), node_mass_.end(), 0.0); }
@@ -124,37 +127,39 @@ int FemAssembly::release_tangles(const VecX& x) {
     unwinding_.clear();
     return 0;
   }
-  return unwinding_.find(rest_, elements_, may, x);
+  return unwinding_.find(rest_, elements_, may, x, quadratic_ ? kTetParts : 1);
+}
+
+std::vector<ElementPoint> FemAssembly::stress_points(int tet, const VecX& x) const {
+  if (!quadratic_) return {{elements_[tet], corners(x, tet)}};
+  const std::array<ElementPoint, 2> both = quadratic_->stress_points(rest_, tet, x);
+  return {both.begin(), both.end()};
 }
 
 double FemAssembly::total_energy() const {
   double sum = 0.0;
   for (const ElementResponse& slot : slot_) sum += slot.energy;
+  for (const QuadraticAnswer& slot : quadratic_slot_) sum += slot.energy;
   return sum;
 }
 
 double FemAssembly::energy(const VecX& x) {
-  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
+  parallel_for(slot_.size(), kElementsPerTask, [&](std::size_t e) {
     const Material& m = material(static_cast<int>(e));
     const Corners c = corners(x, static_cast<int>(e));
     slot_[e].energy =
         unwinding_.lets_go(e) ? unwinding_.energy(elements_[e], c, e, unwinding_modulus(m)) : m.energy(elements_[e], c);
   });
+  parallel_for(quadratic_slot_.size(), kQuadraticPerTask, [&](std::size_t i) {
+    const int e = static_cast<int>(i);
+    const Material& m = material(kTetParts * e);
+    quadratic_slot_[i].energy = quadratic_->energy(e, m, x, unwinding_, unwinding_modulus(m));
+  });
   return total_energy();
 }
 
-void FemAssembly::gather_forces(VecX& f) const {
-  f.resize(3 * nodes());
-  parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {
-    Vec3 sum = Vec3::Zero();
-    for (int k = node_begin_[i]; k < node_begin_[i + 1]; ++k)
-      sum += slot_[node_code_[k] / 4].force.col(node_code_[k] % 4);
-    f.segment<3>(3 * static_cast<Eigen::Index>(i)) = sum;
-  });
-}
-
 double FemAssembly::forces(const VecX& x, VecX& f) {
-  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
+  parallel_for(slot_.size(), kElementsPerTask, [&](std::size_t e) {
     const Material& m = material(static_cast<int>(e));
     const Corners c = corners(x, static_cast<int>(e));
     if (unwinding_.lets_go(e))
@@ -162,13 +167,21 @@ double FemAssembly::forces(const VecX& x, VecX& f) {
     else
       m.force(elements_[e], c, slot_[e]);
   });
-  gather_forces(f);
+  parallel_for(quadratic_slot_.size(), kQuadraticPerTask, [&](std::size_t i) {
+    const int e = static_cast<int>(i);
+    const Material& m = material(kTetParts * e);
+    quadratic_->force(e, m, x, unwinding_, unwinding_modulus(m), quadratic_slot_[i]);
+  });
+  if (quadratic_)
+    quadratic_sums_.gather_forces(quadratic_slot_, f);
+  else
+    sums_.gather_forces(slot_, f);
   return total_energy();
 }
 
 double FemAssembly::stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k) {
   IMPINGE_ASSERT(k.pattern == pattern_);
-  parallel_for(elements_.size(), kElementsPerTask, [&](std::size_t e) {
+  parallel_for(slot_.size(), kElementsPerTask, [&](std::size_t e) {
     const Material& m = material(static_cast<int>(e));
     const Corners c = corners(x, static_cast<int>(e));
     if (unwinding_.lets_go(e))
@@ -176,22 +189,18 @@ double FemAssembly::stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatr
     else
       m.response(elements_[e], c, tangent, slot_[e]);
   });
-  gather_forces(f);
-  parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {
-    for (int block = pattern_->diagonal[i]; block < pattern_->begin[i + 1]; ++block) {
-      Mat3 sum = Mat3::Zero();
-      for (int c = block_begin_[block]; c < block_begin_[block + 1]; ++c) {
-        const int code = block_code_[c];
-        const Mat3& part = slot_[code / 32].stiffness[(code % 32) / 2];
-        if (code % 2 == 0)
-          sum += part;
-        else
-          sum += part.transpose();
-      }
-      k.values[block] = sum;
-      k.values[pattern_->mirror[block]] = sum.transpose();
-    }
+  parallel_for(quadratic_slot_.size(), kQuadraticPerTask, [&](std::size_t i) {
+    const int e = static_cast<int>(i);
+    const Material& m = material(kTetParts * e);
+    quadratic_->response(e, m, x, tangent, unwinding_, unwinding_modulus(m), quadratic_slot_[i]);
   });
+  if (quadratic_) {
+    quadratic_sums_.gather_forces(quadratic_slot_, f);
+    quadratic_sums_.gather_stiffness(quadratic_slot_, k);
+  } else {
+    sums_.gather_forces(slot_, f);
+    sums_.gather_stiffness(slot_, k);
+  }
   return total_energy();
 }
 

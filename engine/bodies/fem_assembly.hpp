@@ -1,4 +1,5 @@
 // A tetrahedral body's energy, forces, stiffness and mass, summed over its elements into a pattern that is made once.
+// Elements are the tetrahedra of its mesh, or quadratic ones that are eight of these each (bodies/quadratic_elements).
 //
 // Elements are evaluated in parallel, each into its own slot; nodes and blocks then add up what concerns them in order
 // of elements. So the sums don't depend on the number of threads. (Colouring needs no slots but at least 24 passes, the
@@ -7,12 +8,16 @@
 
 #include <memory>
 
-#include "engine/algebra/block_matrix.hpp"
+#include "engine/bodies/element_kind.hpp"
+#include "engine/bodies/element_sums.hpp"
 #include "engine/bodies/unwinding.hpp"
 #include "engine/geometry/tet_mesh.hpp"
 #include "engine/materials/material.hpp"
 
 namespace impinge {
+
+class QuadraticElements;
+struct ElementPoint;
 
 enum class MassKind { lumped, consistent };
 
@@ -26,14 +31,19 @@ class FemAssembly {
  public:
   /// rest: checked by check_tet_mesh. element_material: index into `materials` of each tetrahedron, or empty for all 0.
   /// fraction: how much of each tetrahedron is filled, in (0, 1], or empty for all 1; it weighs mass and stiffness.
+  /// Quadratic elements: `rest` is a mesh that was cut (geometry/quadratic_tets), the eight parts of each are alike.
   FemAssembly(TetMesh rest, std::vector<FemMaterial> materials, MassKind mass, std::vector<int> element_material = {},
-              std::vector<double> fraction = {});
+              std::vector<double> fraction = {}, ElementKind kind = ElementKind::linear);
 
+  ElementKind element_kind() const { return quadratic_ ? ElementKind::quadratic : ElementKind::linear; }
   const TetMesh& rest() const { return rest_; }
   int nodes() const { return static_cast<int>(rest_.vertices.size()); }
+  /// The tetrahedra of rest().
   const std::vector<TetRest>& elements() const { return elements_; }
   const Material& material(int element) const { return *materials_[element_material_[element]].elastic; }
   const std::shared_ptr<const BlockPattern>& pattern() const { return pattern_; }
+  /// Where the stress of tetrahedron `tet` of rest() comes from: the sum over these points of the material's answers.
+  std::vector<ElementPoint> stress_points(int tet, const VecX& x) const;
   /// Exchanges a material between steps; its index is that of the constructor's list. Mass follows the density.
   void set_material(int index, FemMaterial material);
 
@@ -49,8 +59,8 @@ class FemAssembly {
   /// The same, and the stiffness −∂f/∂x (or the stand-in that `tangent` names) into k, whose pattern is pattern().
   double stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k);
 
-  /// Mass of each node, kg: a quarter of each tetrahedron round it. Row sums of either mass matrix; what gravity acts
-  /// on.
+  /// Mass of each node, kg: row sums of the mass matrix, what gravity acts on. Linear elements: a quarter of each
+  /// tetrahedron round it, whichever the matrix. Consistent quadratic ones: below zero at corners.
   const std::vector<double>& node_mass() const { return node_mass_; }
   /// The chosen mass matrix: one number a block of the pattern, kg (the block is that times the identity).
   const std::vector<double>& block_mass() const { return block_mass_; }
@@ -62,8 +72,9 @@ class FemAssembly {
  private:
   void make_mass();
   Corners corners(const VecX& x, int element) const;
+  void make_linear_mass();
+  void make_quadratic_mass();
   double total_energy() const;
-  void gather_forces(VecX& f) const;
 
   TetMesh rest_;
   std::vector<FemMaterial> materials_;
@@ -73,10 +84,12 @@ class FemAssembly {
   std::shared_ptr<const BlockPattern> pattern_;
   std::vector<double> node_mass_, block_mass_;
 
-  // what each node, and each block on or above the diagonal, adds up: codes in order of elements
-  std::vector<int> node_begin_, node_code_;    // code: 4 element + corner
-  std::vector<int> block_begin_, block_code_;  // code: 32 element + 2 block + (1 if transposed)
+  // one of the two
+  ElementSums<4> sums_;
   std::vector<ElementResponse> slot_;
+  std::shared_ptr<const QuadraticElements> quadratic_;
+  ElementSums<10> quadratic_sums_;
+  std::vector<ElementAnswer<10>> quadratic_slot_;
   Unwinding unwinding_;
 };
 

@@ -123,9 +123,9 @@ std::unique_ptr<Body> make_deformable(const BodyDescription& d) {
   std::shared_ptr<Material> material = make_named(materials(), own.model);
   material->settings() = own.material;
   configure(*material, own.settings);
-  auto body = identified(
-      std::make_unique<DeformableBody>(FemAssembly(own.mesh, {{material, own.density}}, own.mass, {}, own.fraction)),
-      d);
+  auto body = identified(std::make_unique<DeformableBody>(
+                             FemAssembly(own.mesh, {{material, own.density}}, own.mass, {}, own.fraction, own.element)),
+                         d);
   body->material = material;
   body->model = own.model;
   body->damping = own.damping;

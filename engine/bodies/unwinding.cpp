@@ -47,7 +47,7 @@ std::vector<char> Unwinding::tangled_nodes(const TetMesh& rest, const std::vecto
 }
 
 int Unwinding::find(const TetMesh& rest, const std::vector<TetRest>& elements, const std::vector<char>& may,
-                    const VecX& x) {
+                    const VecX& x, int parts) {
   patch_.clear();
   const std::vector<char> tangled = tangled_nodes(rest, elements, x);
   if (tangled.empty()) return 0;
@@ -56,8 +56,12 @@ int Unwinding::find(const TetMesh& rest, const std::vector<TetRest>& elements, c
   std::iota(parent.begin(), parent.end(), 0);
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const Tet& tet = rest.tets[e];
-    let_go[e] = may[e] && std::any_of(tet.begin(), tet.end(), [&](int node) { return tangled[node] != 0; });
+    if (may[e] && std::any_of(tet.begin(), tet.end(), [&](int node) { return tangled[node] != 0; }))
+      std::fill_n(let_go.begin() + static_cast<std::ptrdiff_t>(e - e % parts), parts, 1);
+  }
+  for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!let_go[e]) continue;
+    const Tet& tet = rest.tets[e];
     for (int k = 1; k < 4; ++k) {
       const int a = root_of(parent, tet[0]), b = root_of(parent, tet[k]);
       parent[std::max(a, b)] = std::min(a, b);

@@ -18,8 +18,9 @@ namespace impinge {
 class Unwinding {
  public:
   /// Looks at x (node by node x, y, z). `may`: for each element, whether it is to be let go; `elements` those of
-  /// `rest`. Returns how many elements are let go until the next call.
-  int find(const TetMesh& rest, const std::vector<TetRest>& elements, const std::vector<char>& may, const VecX& x);
+  /// `rest`, of which `parts` in a row are let go together. Returns how many are let go until the next call.
+  int find(const TetMesh& rest, const std::vector<TetRest>& elements, const std::vector<char>& may, const VecX& x,
+           int parts = 1);
   void clear() { patch_.clear(); }
 
   bool lets_go(std::size_t element) const { return !patch_.empty() && patch_[element] >= 0; }

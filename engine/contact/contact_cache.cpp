@@ -14,16 +14,19 @@ Vec3 ContactCache::find(const ContactKey& key) const {
 
 void ContactCache::assign(std::vector<Item> items) {
   items_ = std::move(items);
-  std::stable_sort(items_.begin(), items_.end(), [](const Item& l, const Item& r) { return l.key < r.key; });
+  // those of bodies at rest come first, in order as they were
+  const auto before = [](const Item& l, const Item& r) { return l.key < r.key; };
+  const auto fresh = std::is_sorted_until(items_.begin(), items_.end(), before);
+  std::stable_sort(fresh, items_.end(), before);
+  std::inplace_merge(items_.begin(), fresh, items_.end(), before);
   items_.erase(std::unique(items_.begin(), items_.end(), [](const Item& l, const Item& r) { return l.key == r.key; }),
                items_.end());
 }
 
 void ContactCache::save(ByteWriter& out) const {
   out.put<std::uint64_t>(items_.size());
-  for (const Item& item : items_)
-    out.put(item.key.body_a.value()), out.put(item.key.body_b.value()), out.put(item.key.feature),
-        out.put(item.impulse);
+  static_assert(sizeof(Item) == 2 * sizeof(int) + sizeof(std::uint64_t) + sizeof(Vec3), "items lie as they are kept");
+  out.put_bytes(items_.data(), items_.size() * sizeof(Item));
 }
 
 void ContactCache::restore(ByteReader& in) {

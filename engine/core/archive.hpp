@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "engine/core/types.hpp"
@@ -12,14 +13,17 @@ namespace impinge {
 
 class ByteWriter {
  public:
+  ByteWriter() = default;
+  /// Writes where other bytes were, and takes their room.
+  explicit ByteWriter(std::string room) : bytes_(std::move(room)) { bytes_.clear(); }
   template <class T>
   requires std::is_arithmetic_v<T>
-  void put(T value) { bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T)); }
-  void put(const Vec3& v) { put(v.x()), put(v.y()), put(v.z()); }
-  void put(const Mat3& m) {
-    for (int i = 0; i < 9; ++i) put(m.data()[i]);
-  }
+  void put(T value) { put_bytes(&value, sizeof(T)); }
+  void put(const Vec3& v) { put_bytes(v.data(), 3 * sizeof(double)); }
+  void put(const Mat3& m) { put_bytes(m.data(), 9 * sizeof(double)); }
+  void put_bytes(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
   const std::string& bytes() const { return bytes_; }
+  std::string take() { return std::move(bytes_); }
 
  private:
   std::string bytes_;

@@ -12,15 +12,15 @@ namespace {
 
 class Corotational : public IsotropicMaterial {
  public:
-  double density(const Vec3& s) const override {
+  double density(const Lame& lame, const Vec3& s) const override {
     const double trace = s.sum() - 3.0;
-    return settings().mu() * (s - Vec3::Ones()).squaredNorm() + 0.5 * settings().lambda() * trace * trace;
+    return lame.mu * (s - Vec3::Ones()).squaredNorm() + 0.5 * lame.lambda * trace * trace;
   }
-  Vec3 density_gradient(const Vec3& s) const override {
-    return 2.0 * settings().mu() * (s - Vec3::Ones()) + Vec3::Constant(settings().lambda() * (s.sum() - 3.0));
+  Vec3 density_gradient(const Lame& lame, const Vec3& s) const override {
+    return 2.0 * lame.mu * (s - Vec3::Ones()) + Vec3::Constant(lame.lambda * (s.sum() - 3.0));
   }
-  StretchHessian density_hessian(const Vec3& s) const override {
-    const double mu = settings().mu(), lambda = settings().lambda(), trace = s.sum() - 3.0;
+  StretchHessian density_hessian(const Lame& lame, const Vec3& s) const override {
+    const double mu = lame.mu, lambda = lame.lambda, trace = s.sum() - 3.0;
     StretchHessian h;
     h.principal = Mat3::Constant(lambda) + 2.0 * mu * Mat3::Identity();
     h.flip.setConstant(2.0 * mu);
@@ -42,12 +42,12 @@ class Corotational : public IsotropicMaterial {
     const Mat3 f = deformation_gradient(rest, x);
     const Mat3 rotation = nearest_rotation(f);
     forces(rest, f, rotation, out);
-    warped_stiffness(rest, rotation, settings().mu(), settings().lambda(), out);
+    warped_stiffness(rest, rotation, lame(rest), out);
   }
 
  private:
   double energy_and_stress(const TetRest& rest, const Mat3& f, const Mat3& rotation, Mat3& stress) const {
-    const double mu = settings().mu(), lambda = settings().lambda();
+    const auto [mu, lambda] = lame(rest);
     const Mat3 difference = f - rotation;
     const double trace = rotation.cwiseProduct(f).sum() - 3.0;
     stress = 2.0 * mu * difference + lambda * trace * rotation;

@@ -9,15 +9,15 @@ namespace {
 class FixedCorotated : public IsotropicMaterial {
  public:
   bool unwinds() const override { return true; }
-  double density(const Vec3& s) const override {
+  double density(const Lame& lame, const Vec3& s) const override {
     const double dj = s.prod() - 1.0;
-    return settings().mu() * (s - Vec3::Ones()).squaredNorm() + 0.5 * settings().lambda() * dj * dj;
+    return lame.mu * (s - Vec3::Ones()).squaredNorm() + 0.5 * lame.lambda * dj * dj;
   }
-  Vec3 density_gradient(const Vec3& s) const override {
-    return 2.0 * settings().mu() * (s - Vec3::Ones()) + settings().lambda() * (s.prod() - 1.0) * cofactors(s);
+  Vec3 density_gradient(const Lame& lame, const Vec3& s) const override {
+    return 2.0 * lame.mu * (s - Vec3::Ones()) + lame.lambda * (s.prod() - 1.0) * cofactors(s);
   }
-  StretchHessian density_hessian(const Vec3& s) const override {
-    const double mu = settings().mu(), lambda = settings().lambda(), dj = s.prod() - 1.0;
+  StretchHessian density_hessian(const Lame& lame, const Vec3& s) const override {
+    const double mu = lame.mu, lambda = lame.lambda, dj = s.prod() - 1.0;
     const Vec3 c = cofactors(s);
     StretchHessian h;
     h.principal = lambda * c * c.transpose();

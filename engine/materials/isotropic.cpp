@@ -16,8 +16,8 @@ void project(Mat3& h) {
   h = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-StretchHessian hessian_for(const IsotropicMaterial& material, const Vec3& stretch, bool exact) {
-  StretchHessian h = material.density_hessian(stretch);
+StretchHessian hessian_for(const IsotropicMaterial& material, const Lame& lame, const Vec3& stretch, bool exact) {
+  StretchHessian h = material.density_hessian(lame, stretch);
   if (!exact) {
     project(h.principal);
     h.flip = h.flip.cwiseMax(0.0);
@@ -36,30 +36,30 @@ double twist_denominator(double sum) {
 }
 
 double IsotropicMaterial::energy(const TetRest& rest, const Corners& x) const {
-  return rest.volume * density(rotation_svd(deformation_gradient(rest, x)).sigma);
+  return rest.volume * density(lame(rest), rotation_svd(deformation_gradient(rest, x)).sigma);
 }
 
 Mat3 IsotropicMaterial::stress(const Mat3& f) const {
   const Svd3 svd = rotation_svd(f);
-  return svd.u * density_gradient(svd.sigma).asDiagonal() * svd.v.transpose();
+  return svd.u * density_gradient(lame(), svd.sigma).asDiagonal() * svd.v.transpose();
 }
 
 void IsotropicMaterial::force(const TetRest& rest, const Corners& x, ElementResponse& out) const {
   const Svd3 svd = rotation_svd(deformation_gradient(rest, x));
-  out.energy = rest.volume * density(svd.sigma);
-  const Mat3 p = svd.u * density_gradient(svd.sigma).asDiagonal() * svd.v.transpose();
+  out.energy = rest.volume * density(lame(rest), svd.sigma);
+  const Mat3 p = svd.u * density_gradient(lame(rest), svd.sigma).asDiagonal() * svd.v.transpose();
   out.force.noalias() = -rest.volume * (p * rest.gradient);
 }
 
 void IsotropicMaterial::response(const TetRest& rest, const Corners& x, Tangent tangent, ElementResponse& out) const {
   const Svd3 svd = rotation_svd(deformation_gradient(rest, x));
-  out.energy = rest.volume * density(svd.sigma);
-  const Mat3 p = svd.u * density_gradient(svd.sigma).asDiagonal() * svd.v.transpose();
+  out.energy = rest.volume * density(lame(rest), svd.sigma);
+  const Mat3 p = svd.u * density_gradient(lame(rest), svd.sigma).asDiagonal() * svd.v.transpose();
   out.force.noalias() = -rest.volume * (p * rest.gradient);
 
   // in the frames of U and V only few entries of ∂P/∂F differ from zero: H_ij couples the diagonal, and each pair
   // couples the entries (i, j) and (j, i): `same` with itself, `cross` with the other
-  const StretchHessian h = hessian_for(*this, svd.sigma, wanted(tangent) == Tangent::exact);
+  const StretchHessian h = hessian_for(*this, lame(rest), svd.sigma, wanted(tangent) == Tangent::exact);
   Mat3 same = Mat3::Zero(), cross = Mat3::Zero();
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -82,7 +82,7 @@ void IsotropicMaterial::response(const TetRest& rest, const Corners& x, Tangent 
 
 Eigen::Matrix<double, 9, 9> IsotropicMaterial::stress_derivative(const Mat3& f, Tangent tangent) const {
   const Svd3 svd = rotation_svd(f);
-  const StretchHessian h = hessian_for(*this, svd.sigma, wanted(tangent) == Tangent::exact);
+  const StretchHessian h = hessian_for(*this, lame(), svd.sigma, wanted(tangent) == Tangent::exact);
   Eigen::Matrix<double, 9, 9> result;
   for (int column = 0; column < 9; ++column) {
     Mat3 df = Mat3::Zero();

@@ -20,10 +20,11 @@ class IsotropicMaterial : public Material {
   void force(const TetRest& rest, const Corners& x, ElementResponse& out) const override;
   void response(const TetRest& rest, const Corners& x, Tangent tangent, ElementResponse& out) const override;
 
-  // stretches: sorted by size, the last may be negative (rotation_svd); Pa
-  virtual double density(const Vec3& stretch) const = 0;
-  virtual Vec3 density_gradient(const Vec3& stretch) const = 0;
-  virtual StretchHessian density_hessian(const Vec3& stretch) const = 0;
+  // stretches: sorted by size, the last may be negative (rotation_svd); Pa. Each is linear in μ and λ together, and what
+  // is given counts, not settings(): an element may ask for one of the two only
+  virtual double density(const Lame& lame, const Vec3& stretch) const = 0;
+  virtual Vec3 density_gradient(const Lame& lame, const Vec3& stretch) const = 0;
+  virtual StretchHessian density_hessian(const Lame& lame, const Vec3& stretch) const = 0;
 
   /// First Piola–Kirchhoff stress ∂Ψ/∂F, Pa.
   Mat3 stress(const Mat3& f) const;

@@ -10,18 +10,20 @@ class Linear : public Material {
   double energy(const TetRest& rest, const Corners& x) const override {
     const Mat3 strain = strain_of(rest, x);
     const double trace = strain.trace();
-    return rest.volume * (settings().mu() * strain.squaredNorm() + 0.5 * settings().lambda() * trace * trace);
+    const auto [mu, lambda] = lame(rest);
+    return rest.volume * (mu * strain.squaredNorm() + 0.5 * lambda * trace * trace);
   }
   void force(const TetRest& rest, const Corners& x, ElementResponse& out) const override {
     const Mat3 strain = strain_of(rest, x);
-    const double trace = strain.trace(), mu = settings().mu(), lambda = settings().lambda();
+    const double trace = strain.trace();
+    const auto [mu, lambda] = lame(rest);
     out.energy = rest.volume * (mu * strain.squaredNorm() + 0.5 * lambda * trace * trace);
     const Mat3 stress = 2.0 * mu * strain + lambda * trace * Mat3::Identity();
     out.force.noalias() = -rest.volume * (stress * rest.gradient);
   }
   void response(const TetRest& rest, const Corners& x, Tangent, ElementResponse& out) const override {
     force(rest, x, out);
-    warped_stiffness(rest, Mat3::Identity(), settings().mu(), settings().lambda(), out);
+    warped_stiffness(rest, Mat3::Identity(), lame(rest), out);
   }
 
  private:

@@ -25,7 +25,7 @@ class MassSpring : public Material {
       sum += 0.5 * spring(rest, e) * stretch * stretch;
     }
     const double dj = deformation_gradient(rest, x).determinant() - 1.0;
-    return sum + 0.5 * volume_modulus() * rest.volume * dj * dj;
+    return sum + 0.5 * volume_modulus(rest) * rest.volume * dj * dj;
   }
 
   void force(const TetRest& rest, const Corners& x, ElementResponse& out) const override {
@@ -40,9 +40,9 @@ class MassSpring : public Material {
       out.force.col(a) -= pull;
       out.force.col(b) += pull;
     }
-    if (volume_modulus() == 0.0) return;
+    if (volume_modulus(rest) == 0.0) return;
     const Mat3 f = deformation_gradient(rest, x);
-    out.force.noalias() -= volume_modulus() * rest.volume * (f.determinant() - 1.0) * (cofactor(f) * rest.gradient);
+    out.force.noalias() -= volume_modulus(rest) * rest.volume * (f.determinant() - 1.0) * (cofactor(f) * rest.gradient);
   }
 
   void response(const TetRest& rest, const Corners& x, Tangent tangent, ElementResponse& out) const override {
@@ -69,10 +69,10 @@ class MassSpring : public Material {
         if (at_a && at_b) out.stiffness[i] += a == b ? block[e] : Mat3(-block[e]);
       }
     }
-    if (volume_modulus() == 0.0) return;
+    if (volume_modulus(rest) == 0.0) return;
     const Mat3 f = deformation_gradient(rest, x);
     const Corners g = cofactor(f) * rest.gradient;
-    const double scale = volume_modulus() * rest.volume, dj = f.determinant() - 1.0;
+    const double scale = volume_modulus(rest) * rest.volume, dj = f.determinant() - 1.0;
     for (int i = 0; i < 10; ++i) {
       const int a = kBlockRow[i], b = kBlockColumn[i];
       out.stiffness[i] += scale * g.col(a) * g.col(b).transpose();
@@ -87,10 +87,12 @@ class MassSpring : public Material {
   /// C/6, Pa.
   double edge_modulus() const { return has_volume_springs() ? 2.5 * settings().mu() : settings().young; }
   /// λ − μ where springs alone don't reach it, Pa.
-  double volume_modulus() const { return has_volume_springs() ? settings().lambda() - settings().mu() : 0.0; }
+  double volume_modulus(const TetRest& rest) const {
+    return has_volume_springs() ? rest.bulk * (settings().lambda() - settings().mu()) : 0.0;
+  }
   /// k = C V/(6 l²), N/m.
   double spring(const TetRest& rest, int e) const {
-    return edge_modulus() * rest.volume / (rest.edge_length[e] * rest.edge_length[e]);
+    return rest.shear * edge_modulus() * rest.volume / (rest.edge_length[e] * rest.edge_length[e]);
   }
   /// ∂ det F/∂F.
   static Mat3 cofactor(const Mat3& f) {

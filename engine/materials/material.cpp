@@ -4,7 +4,7 @@ namespace impinge {
 
 void Material::declare(const Rows& rows) {
   rows.add("young", settings_.young, {1e-3, 1e15, true}, "Pa", "Young's modulus.");
-  rows.add("poisson", settings_.poisson, {0.0, 0.4999}, "", "Poisson's ratio.");
+  rows.add("poisson", settings_.poisson, {0.0, 0.49999}, "", "Poisson's ratio.");
   rows.add("tangent", settings_.tangent,
            {{Tangent::automatic, "automatic"}, {Tangent::exact, "exact"}, {Tangent::projected, "projected"}},
            "Derivative of the force in linear systems: the material's own choice, exact, or never indefinite.");

@@ -22,6 +22,13 @@ struct TetRest {
   Corners gradient;     ///< column a: gradient of the shape function of corner a, 1/m; F = Σ x_a gradient_aᵀ
   double volume = 0.0;  ///< m³, times the filled fraction: all that energy and force are weighted with
   std::array<double, 6> edge_length;  ///< in the order of kTetEdges, m
+  // shares of μ and of λ that count here: elements that take shear and volume at points of their own ask for one of them
+  double shear = 1.0, bulk = 1.0;
+};
+
+/// What the isotropic laws are made of, Pa.
+struct Lame {
+  double mu, lambda;
 };
 
 /// Which derivative of the force is wanted.
@@ -41,13 +48,17 @@ struct MaterialSettings {
   double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }  ///< Lamé, Pa
 };
 
-/// The answer of one element. The stiffness is symmetric; only its ten blocks on and above the diagonal are kept, in
-/// the order of kBlockRow, kBlockColumn.
-struct ElementResponse {
-  double energy = 0.0;             ///< J
-  Corners force;                   ///< −∂energy/∂x, N
-  std::array<Mat3, 10> stiffness;  ///< ∂²energy/∂x∂x (or its stand-in), N/m
+/// The answer of an element of N nodes. The stiffness is symmetric; only its blocks on and above the diagonal are kept,
+/// row by row.
+template <int N>
+struct ElementAnswer {
+  static constexpr int kNodes = N, kBlocks = N * (N + 1) / 2;
+  double energy = 0.0;                  ///< J
+  Eigen::Matrix<double, 3, N> force;    ///< −∂energy/∂x, N
+  std::array<Mat3, kBlocks> stiffness;  ///< ∂²energy/∂x∂x (or its stand-in), N/m
 };
+/// That of a tetrahedron with its four corners: blocks in the order of kBlockRow, kBlockColumn.
+using ElementResponse = ElementAnswer<4>;
 inline constexpr std::array<int, 10> kBlockRow = {0, 0, 0, 0, 1, 1, 1, 2, 2, 3};
 inline constexpr std::array<int, 10> kBlockColumn = {0, 1, 2, 3, 1, 2, 3, 2, 3, 3};
 
@@ -55,6 +66,8 @@ class Material : public Method {
  public:
   MaterialSettings& settings() { return settings_; }
   const MaterialSettings& settings() const { return settings_; }
+  Lame lame() const { return {settings_.mu(), settings_.lambda()}; }
+  Lame lame(const TetRest& rest) const { return {settings_.mu() * rest.shear, settings_.lambda() * rest.bulk}; }
   /// Rows of settings(), then the material's own: keys of `material` in a scene, and `body.NAME.material.*`. What is
   /// derived from settings is to be computed where it is used: rows change them while the body moves.
   void declare(const Rows& rows) override;
@@ -69,6 +82,9 @@ class Material : public Method {
   /// Whether elements in a tangle are let go until they are free of it (bodies/unwinding.hpp): for materials that are
   /// meant to survive inversion and would hold a tangle together.
   virtual bool unwinds() const { return false; }
+  /// Principal stretch below which the law yields the more it is pressed, so that what is squeezed further may stay so;
+  /// 0: none.
+  virtual double collapse_stretch() const { return 0.0; }
 
  protected:
   /// The request with `automatic` replaced by the setting; still automatic if the setting leaves it to the material.

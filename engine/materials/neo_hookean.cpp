@@ -29,17 +29,16 @@ class NeoHookean : public IsotropicMaterial {
   }
 
   bool unwinds() const override { return true; }
-  double density(const Vec3& s) const override {
+  double density(const Lame& lame, const Vec3& s) const override {
     const double log_j = logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2]);
-    return 0.5 * settings().mu() * (s.squaredNorm() - 3.0) - settings().mu() * log_j +
-           0.5 * settings().lambda() * log_j * log_j;
+    return 0.5 * lame.mu * (s.squaredNorm() - 3.0) - lame.mu * log_j + 0.5 * lame.lambda * log_j * log_j;
   }
-  Vec3 density_gradient(const Vec3& s) const override {
+  Vec3 density_gradient(const Lame& lame, const Vec3& s) const override {
     const Vec3 slope(first(s[0]), first(s[1]), first(s[2]));
-    return settings().mu() * s + log_weight(s) * slope;
+    return lame.mu * s + log_weight(lame, s) * slope;
   }
-  StretchHessian density_hessian(const Vec3& s) const override {
-    const double mu = settings().mu(), lambda = settings().lambda(), weight = log_weight(s);
+  StretchHessian density_hessian(const Lame& lame, const Vec3& s) const override {
+    const double mu = lame.mu, lambda = lame.lambda, weight = log_weight(lame, s);
     const Vec3 slope(first(s[0]), first(s[1]), first(s[2]));
     StretchHessian h;
     h.principal = lambda * slope * slope.transpose();
@@ -53,8 +52,8 @@ class NeoHookean : public IsotropicMaterial {
   }
 
  private:
-  double log_weight(const Vec3& s) const {
-    return settings().lambda() * (logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2])) - settings().mu();
+  double log_weight(const Lame& lame, const Vec3& s) const {
+    return lame.lambda * (logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2])) - lame.mu;
   }
   double logarithm(double s) const {
     const double e = threshold_;

@@ -1,6 +1,8 @@
 // Saint Venant–Kirchhoff: Hooke's law for the Green strain E = (FᵀF − I)/2, in stretches E_i = (σ_i² − 1)/2, Ψ = μ
 // ΣE_i² + λ/2 (ΣE_i)². Right for large rotations, wrong for strong compression: it softens below a stretch of 1/√3 and
 // lets an element collapse and invert (its energy knows σ² only).
+#include <cmath>
+
 #include "engine/materials/isotropic.hpp"
 
 namespace impinge {
@@ -8,17 +10,18 @@ namespace {
 
 class SaintVenantKirchhoff : public IsotropicMaterial {
  public:
-  double density(const Vec3& s) const override {
+  double collapse_stretch() const override { return 1.0 / std::sqrt(3.0); }
+  double density(const Lame& lame, const Vec3& s) const override {
     const Vec3 strain = green(s);
     const double trace = strain.sum();
-    return settings().mu() * strain.squaredNorm() + 0.5 * settings().lambda() * trace * trace;
+    return lame.mu * strain.squaredNorm() + 0.5 * lame.lambda * trace * trace;
   }
-  Vec3 density_gradient(const Vec3& s) const override {
+  Vec3 density_gradient(const Lame& lame, const Vec3& s) const override {
     const Vec3 strain = green(s);
-    return s.cwiseProduct(2.0 * settings().mu() * strain + Vec3::Constant(settings().lambda() * strain.sum()));
+    return s.cwiseProduct(2.0 * lame.mu * strain + Vec3::Constant(lame.lambda * strain.sum()));
   }
-  StretchHessian density_hessian(const Vec3& s) const override {
-    const double mu = settings().mu(), lambda = settings().lambda();
+  StretchHessian density_hessian(const Lame& lame, const Vec3& s) const override {
+    const double mu = lame.mu, lambda = lame.lambda;
     const double pressure = lambda * green(s).sum() - mu;
     StretchHessian h;
     h.principal = lambda * s * s.transpose();

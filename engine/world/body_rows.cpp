@@ -83,6 +83,16 @@ class BodyRows {
       };
       set_.add(std::move(row));
     }
+    Parameter element;
+    element.path = path_ + ".material.element";
+    element.kind = ParameterKind::choice;
+    for (const auto& [kind, word] : element_words()) element.names.push_back(word);
+    element.doc =
+        "Shape functions of the tetrahedra: quadratic ones neither lock in bending nor towards poisson = 0.5.";
+    element.get = [b = &body] { return ParameterValue(word_of(element_words(), b->fem.element_kind())); };
+    element.initial = element.get();
+    element.live = false;
+    set_.add(std::move(element));
     const auto damping = [&](const char* name, double RayleighDamping::*member) {
       set_.add(body_row(
           path_, name, [b = &body, member] { return ParameterValue(b->damping.*member); },

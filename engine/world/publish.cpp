@@ -4,6 +4,7 @@
 
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/contact/pair_coefficients.hpp"
+#include "engine/core/archive.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
@@ -187,10 +188,14 @@ void World::publish(std::span<const SolvedContact> contacts) {
   stats_.self_crossings = count_self_crossings(bodies_, CrossingsOf::self_colliding);
   stats_.substep_penetration = std::max(stats_.substep_penetration, stats_.max_penetration);
   stats_.take(balance);
-  stats_.state_hash = state_hash();
   next_record_.stats = stats_;
   check_finite(next_record_, bodies_);
+  ByteWriter state(std::move(next_state_));
+  save_state(state);
+  next_state_ = state.take();
   std::swap(record_, next_record_);  // so that a frame that may not be published leaves the last one standing
+  std::swap(state_, next_state_);
+  hash_is_due_ = true;
 }
 
 }  // namespace impinge

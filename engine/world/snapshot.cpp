@@ -18,7 +18,7 @@ void World::save_state(ByteWriter& out) const {
 
 void World::save(ByteWriter& out) const {
   save_state(out);
-  put_record(out, record_);
+  put_record(out, record());
 }
 
 void World::restore(ByteReader& in) {
@@ -35,7 +35,8 @@ void World::restore(ByteReader& in) {
   stats_ = {};
   *sub_step_ = {};  // the record says what was found
   publish_found();
-  const std::uint64_t hash = record_.stats.state_hash;
+  was_still_ = false;
+  const std::uint64_t hash = record().stats.state_hash;
   get_record(in, record_);
   if (record_.stats.state_hash != hash)
     throw InputError(

@@ -80,6 +80,9 @@ FrozenStep World::step_and_freeze() {
 }
 
 void World::advance(FrozenStep* frozen) {
+  const bool still = is_still();
+  if (still && was_still_ && frozen == nullptr && watcher_ == nullptr) return repeat_still_frame();
+  was_still_ = false;
   stats_ = {};
   unsafe_.clear();
   ++frame_;
@@ -93,6 +96,7 @@ void World::advance(FrozenStep* frozen) {
   stats_.unsafe_motions = static_cast<std::int64_t>(unsafe_.size());
   for (const auto& [body, unsafe] : unsafe_) stats_.unsafe.push_back(unsafe);
   publish_solved();
+  was_still_ = still && is_still();
 }
 
 void World::drop_what_never_carries() {
@@ -202,6 +206,7 @@ void World::take_results(FrozenStep* frozen) {
 }
 
 void World::parameters_changed() {
+  was_still_ = false;
   // only what the model reads counts: a change of the view must not wake a sleeper, or pictures would change states
   ByteWriter settings;
   ParameterSet rows;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "engine/bodies/body_description.hpp"
 #include "engine/contact/attachments.hpp"
@@ -60,7 +61,8 @@ class World {
 
   int frame() const { return frame_; }
   double time() const { return time_; }
-  const StepRecord& record() const { return record_; }
+  /// Its state_hash is taken when the record is asked for first.
+  const StepRecord& record() const;
   /// 64 bits over poses, velocities, warm-start and sleep data and time.
   std::uint64_t state_hash() const;
 
@@ -77,6 +79,8 @@ class World {
   void make_motion(double time_step, double share, bool freezes);
   void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
+  bool is_still() const;
+  void repeat_still_frame();
   void save_state(ByteWriter& out) const;
   void publish_solved();
   void publish_found();
@@ -92,7 +96,12 @@ class World {
   StepWatcher* watcher_ = nullptr;
   FrameStats stats_;                 // of the frame being made: sums and maxima over its sub-steps
   std::uint64_t settings_seen_ = 0;  // hash of what parameters_changed compares with
-  StepRecord record_, next_record_;  // the published one; the one of the frame being made
+  mutable StepRecord record_;        // the published one
+  StepRecord next_record_;           // the one of the frame being made
+  std::string state_, next_state_;   // the bytes that their hashes are of
+  mutable bool hash_is_due_ = false;
+  mutable std::mutex hash_mutex_;
+  bool was_still_ = false;  // nothing moved in the last frame, nor was changed since
   int frame_ = 0;
   double time_ = 0.0;
 };

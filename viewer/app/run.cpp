@@ -10,6 +10,7 @@
 #include "engine/core/error.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/app/convergence_note.hpp"
+#include "viewer/app/crushed_note.hpp"
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/app/watchdog_note.hpp"
@@ -144,7 +145,7 @@ int RunCommand::run() {
     return code;
   }
 
-  fmt::print("{}{}", convergence.text(), watchdog.text());
+  fmt::print("{}{}{}", convergence.text(), watchdog.text(), crushed_note(result.crushed));
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options_.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);

@@ -139,6 +139,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   }
   view.finish();
   result.failures = expectations.failures();
+  if (result.diverged.empty()) result.crushed = find_crushed(session.world().bodies());
   if (result.diverged.empty() && !result.interrupted) {
     expectations.note_unchecked(result.last_frame);
     folder.finish();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "engine/bodies/crushed.hpp"
 #include "engine/io/folder_lock.hpp"
 #include "viewer/controller/session.hpp"
 
@@ -40,9 +41,10 @@ struct RunResult {
   bool interrupted = false;
   std::filesystem::path frozen_step;  ///< written, "" if none
   std::size_t frozen_contacts = 0, frozen_groups = 0;
-  double frames_per_second = 0;  ///< of simulated time
-  std::string diverged;          ///< why, if the simulation left the finite numbers
-  FolderLock lock;               ///< of the folder, for whoever adds to it what belongs to the run
+  double frames_per_second = 0;      ///< of simulated time
+  std::vector<CrushedBody> crushed;  ///< as the last frame left them
+  std::string diverged;              ///< why, if the simulation left the finite numbers
+  FolderLock lock;                   ///< of the folder, for whoever adds to it what belongs to the run
   int exit_code() const;
 };
 

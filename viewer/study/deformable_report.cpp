@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/algebra/linear_solver.hpp"
+#include "engine/bodies/quadratic_elements.hpp"
 #include "engine/geometry/mass_properties.hpp"
 
 namespace impinge {
@@ -35,8 +36,11 @@ void print_deformable_bodies(const Session& session) {
     const double enclosed = signed_volume(surface);
     const std::size_t outside = static_cast<std::size_t>(soft.embedding.outside);
 
-    fmt::print("  {}: {} nodes, {} tetrahedra, smallest dihedral angle {:.1f} degrees\n", body.name, fem.nodes(),
-               fem.rest().tets.size(), smallest_dihedral_angle(fem.rest()));
+    const bool is_quadratic = fem.element_kind() == ElementKind::quadratic;
+    fmt::print("  {}: {} nodes, {} tetrahedra{}, smallest dihedral angle {:.1f} degrees\n", body.name, fem.nodes(),
+               fem.rest().tets.size(),
+               is_quadratic ? fmt::format(" (the parts of {} quadratic ones)", fem.rest().tets.size() / kTetParts) : "",
+               smallest_dihedral_angle(fem.rest()));
     fmt::print("    freedom:  {} degrees free, {} held ({} nodes in {} regions)\n", soft.dofs(), 3 * held, held,
                soft.held.size());
     fmt::print(
@@ -58,8 +62,11 @@ void print_deformable_bodies(const Session& session) {
 std::size_t memory_of(const DeformableBody& body) {
   const FemAssembly& fem = body.fem;
   // an element keeps its rest data and its answer; the stiffness a block for each pair of neighbours, twice (all, free)
-  return fem.elements().size() * (sizeof(TetRest) + sizeof(ElementResponse) + sizeof(Tet)) +
-         fem.block_mass().size() * 2 * sizeof(Mat3) + static_cast<std::size_t>(fem.nodes()) * 6 * sizeof(Vec3);
+  const std::size_t answer = fem.element_kind() == ElementKind::quadratic
+                                 ? (sizeof(QuadraticAnswer) + sizeof(TetRest) + sizeof(QuadraticTet)) / kTetParts
+                                 : sizeof(ElementResponse);
+  return fem.elements().size() * (sizeof(TetRest) + answer + sizeof(Tet)) + fem.block_mass().size() * 2 * sizeof(Mat3) +
+         static_cast<std::size_t>(fem.nodes()) * 6 * sizeof(Vec3);
 }
 
 }  // namespace impinge

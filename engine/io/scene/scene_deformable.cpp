@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/bodies/body_keys.hpp"
+#include "engine/geometry/quadratic_tets.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/io/scene/scene_motion.hpp"
 #include "engine/io/scene/scene_values.hpp"
@@ -17,7 +18,8 @@ namespace {
 constexpr Range kLength{-1e6, 1e6};
 
 /// Of `material` beside the rows of materials.
-const std::vector<std::string> kMaterialKeys = {"model", "density", "damping", "damping_alpha", "damping_beta", "mass"};
+const std::vector<std::string> kMaterialKeys = {"model",        "density", "damping", "damping_alpha",
+                                                "damping_beta", "mass",    "element"};
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
@@ -56,11 +58,15 @@ void read_elastic(const TomlNode& table, const std::string& what, DeformableDesc
   };
   with("model", [&](const TomlNode& node, const std::string& key) { soft.model = choice(node, key, model_names()); });
   with("density", [&](const TomlNode& node, const std::string& key) { soft.density = scene_positive(node, key, 1e9); });
-  with("mass", [&](const TomlNode& node, const std::string& key) {
-    ParameterSet rows;
-    Rows(rows).add(key, soft.mass, {{MassKind::lumped, "lumped"}, {MassKind::consistent, "consistent"}}, "");
-    rows.find(key)->set(scene_value(*rows.find(key), node));
-  });
+  const auto with_choice = [&](const char* key, auto& variable, const auto& words) {
+    with(key, [&](const TomlNode& node, const std::string& name) {
+      ParameterSet rows;
+      Rows(rows).add(name, variable, words, "");
+      rows.find(name)->set(scene_value(*rows.find(name), node));
+    });
+  };
+  with_choice("mass", soft.mass, Words<MassKind>{{MassKind::lumped, "lumped"}, {MassKind::consistent, "consistent"}});
+  with_choice("element", soft.element, element_words());
   read_damping(table, what, soft.damping);
 
   // a scene may have settings of materials that it doesn't use at present, as it may of other methods
@@ -210,6 +216,12 @@ void read_deformable_body(const TomlNode& table, const std::string& what, double
   if (const TomlEntry* material = table.find("material")) read_elastic(material->value, what + ".material", *soft);
   const Regions regions = read_fixed(table, what, *soft);
   read_volume(table, what, scale, files, *soft, body);
+  if (soft->element == ElementKind::quadratic)
+    for (NodeRegion& region : soft->fixed)
+      if (region.kind == NodeRegion::list && std::all_of(region.nodes.begin(), region.nodes.end(), [&](int i) {
+            return i < static_cast<int>(soft->mesh.vertices.size());
+          }))
+        add_midpoints(soft->mesh, region.nodes);
   check_fixed(regions, what, *soft, body);
   if (body.mass) {
     double volume = 0.0;

@@ -8,6 +8,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/distance.hpp"
+#include "engine/geometry/quadratic_tets.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/geometry/tet_cage.hpp"
 #include "engine/io/scene/scene_shape.hpp"
@@ -95,11 +96,26 @@ MeshPointer outer_surface(const TomlNode& table, const std::string& what, double
                        cells > 0 ? longest / cells : std::max(edge, longest / kMostCells));
 }
 
-void take(const CarriedVolume& volume, const MeshPointer& surface, DeformableDescription& soft, BodyDescription& body) {
+/// Midpoints for elements that have some; parts are as full as the whole.
+void add_element_nodes(const TomlNode& node, const std::string& name, DeformableDescription& soft) {
+  if (soft.element == ElementKind::linear) return;
+  check_memory(node.place, fmt::format("{} of {} quadratic tetrahedra", name, soft.mesh.tets.size()),
+               deformable_memory(static_cast<double>(soft.mesh.tets.size() * kTetParts), 0.0), "use fewer of them");
+  soft.mesh = cut_at_midpoints(soft.mesh);
+  std::vector<double> fraction;
+  for (const double f : soft.fraction) fraction.insert(fraction.end(), kTetParts, f);
+  soft.fraction = std::move(fraction);
+}
+
+void take(const CarriedVolume& volume, const MeshPointer& surface, const TomlNode& node, const std::string& name,
+          DeformableDescription& soft, BodyDescription& body) {
   soft.mesh = volume.mesh;
   soft.fraction = volume.fraction;
   soft.embedding = volume.embedding;
   body.shape = surface;
+  if (soft.element == ElementKind::linear) return;
+  add_element_nodes(node, name, soft);
+  soft.embedding = embed(soft.mesh, surface->mesh.vertices);
 }
 
 // only what the scene leaves open is taken from the file
@@ -170,6 +186,7 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
   soft.mesh = file->mesh;
   for (Vec3& x : soft.mesh.vertices) x *= scale;
   check_extent(node, name, soft.mesh.vertices, scale);
+  add_element_nodes(node, name, soft);
   use_file_material(table, node, name, *file, soft);
   const MeshPointer surface = table.find("surface") != nullptr
                                   ? outer_surface(table, what, scale, 1.0, 0, files, body)
@@ -182,7 +199,9 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
 void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files,
                DeformableDescription& soft, BodyDescription& body) {
   const int cells = read_cells(way.value, what + ".volume.cage");
-  const MeshPointer outer = outer_surface(table, what, scale, 0.0, cells, files, body);
+  // a shape's surface is as fine as the nodes that carry it
+  const int fineness = soft.element == ElementKind::quadratic ? 2 : 1;
+  const MeshPointer outer = outer_surface(table, what, scale, 0.0, fineness * cells, files, body);
   check_memory(way.value.place, fmt::format("{}.volume.cage of {} cells", what, cells), cage_memory(outer->mesh, cells),
                "use fewer cells");
   const auto make = [&]() -> CarriedVolume {
@@ -191,7 +210,8 @@ void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& w
     TetCage cage = make_tet_cage(outer->mesh, settings);
     return {std::move(cage.mesh), std::move(cage.fraction), std::move(cage.embedding)};
   };
-  take(*files.volumes().get(outer->mesh, fmt::format("cage {}", cells), make), outer, soft, body);
+  take(*files.volumes().get(outer->mesh, fmt::format("cage {}", cells), make), outer, way.value, what + ".volume.cage",
+       soft, body);
 }
 
 void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
@@ -210,6 +230,7 @@ void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string
                deformable_memory(5.0 * count.prod(), 4.0 * faces), "use fewer cells");
   soft.mesh = make_alternating_box(2.0 * half, n.x(), n.y(), n.z());
   for (Vec3& x : soft.mesh.vertices) x -= half;
+  add_element_nodes(way.value, name, soft);
   const MeshPointer boundary = checked_surface(boundary_of(soft.mesh), way.value, name);
   soft.embedding = embed(soft.mesh, boundary->mesh.vertices);
   body.shape = boundary;
@@ -247,7 +268,7 @@ void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std:
   };
   const std::string options =
       fmt::format("tetrahedralize {} {}", shortest(settings.max_size), shortest(settings.min_angle));
-  take(*files.volumes().get(outer->mesh, options, make), outer, soft, body);
+  take(*files.volumes().get(outer->mesh, options, make), outer, node, name, soft, body);
   check_outside(node, name, outer->mesh, soft);
 }
 

@@ -1,6 +1,7 @@
 // Deformable bodies in worlds, built without files.
 #pragma once
 
+#include "engine/geometry/quadratic_tets.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 
@@ -9,6 +10,7 @@ namespace impinge::test {
 struct SoftOptions {
   double young = 1e5, poisson = 0.4, density = 1000.0, damping_beta = 0.01;
   std::string model = "corotational";
+  ElementKind element = ElementKind::linear;
 };
 
 /// The boundary of a tetrahedral mesh, with the nodes it uses as vertices.
@@ -35,6 +37,8 @@ inline BodyDescription soft_box(const std::string& name, const Vec3& size, const
                                 const Vec3& corner, const SoftOptions& o = {}) {
   auto soft = std::make_shared<DeformableDescription>();
   soft->mesh = make_tet_box(size, cells.x(), cells.y(), cells.z());
+  soft->element = o.element;
+  if (o.element == ElementKind::quadratic) soft->mesh = cut_at_midpoints(soft->mesh);
   soft->model = o.model;
   soft->material.young = o.young;
   soft->material.poisson = o.poisson;

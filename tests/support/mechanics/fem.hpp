@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "engine/geometry/quadratic_tets.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
 #include "tests/support/mechanics/elements.hpp"
 
@@ -14,11 +15,13 @@ struct BodyOptions {
   double young = 1e5, poisson = 0.4, density = 1000.0;
   MassKind mass = MassKind::consistent;
   Tangent tangent = Tangent::automatic;
+  ElementKind element = ElementKind::linear;
 };
 
 inline DeformableBody make_body(TetMesh mesh, const BodyOptions& o = {}) {
   std::shared_ptr<const Material> material = make_material(o.material, o.young, o.poisson, o.tangent);
-  return DeformableBody(FemAssembly(std::move(mesh), {{material, o.density}}, o.mass));
+  if (o.element == ElementKind::quadratic) mesh = cut_at_midpoints(mesh);
+  return DeformableBody(FemAssembly(std::move(mesh), {{material, o.density}}, o.mass, {}, {}, o.element));
 }
 
 /// Nodes whose rest position fulfils the condition.
