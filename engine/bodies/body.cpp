@@ -4,19 +4,24 @@
 
 namespace impinge {
 
-Aabb Body::bounds() const {
-  if (shape->mesh() == nullptr) return shape->bounds(pose);
-  Aabb box;
-  for (const Vec3& v : world_vertices) box.include(v);
-  return box;
+Aabb Body::bounds() const { return shape->mesh() == nullptr ? shape->bounds(pose) : vertex_bounds_; }
+
+void Body::find_vertex_bounds() {
+  vertex_bounds_ = {};
+  for (const Vec3& v : world_vertices) vertex_bounds_.include(v);
 }
 
 void Body::update_world_vertices() {
   const SurfaceMesh* mesh = shape->mesh();
   if (mesh == nullptr) return;
   const std::vector<Vec3>& local = mesh->mesh.vertices;
+  // what stands still is asked in every sub-step, however many vertices it has
+  if (world_vertices.size() == local.size() && pose.rotation == placed_.rotation && pose.position == placed_.position)
+    return;
   world_vertices.resize(local.size());
   for (std::size_t i = 0; i < local.size(); ++i) world_vertices[i] = pose.apply(local[i]);
+  placed_ = pose;
+  find_vertex_bounds();
 }
 
 SystemBlock Body::system_block() const { throw InternalError("body '" + name + "' has no freedom and no equations"); }

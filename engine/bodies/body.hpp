@@ -62,8 +62,8 @@ class Body {
 
   // where it is
   Pose pose;                         ///< of the centre of mass; of a deformable body: the world's frame
-  std::vector<Vec3> world_vertices;  ///< of a mesh
-  Aabb bounds() const;
+  std::vector<Vec3> world_vertices;  ///< of a mesh, where update_world_vertices() put them last
+  Aabb bounds() const;               ///< of a mesh those of its world_vertices, found with them
   virtual Pose file_pose() const { return {pose.rotation, pose.position - pose.rotation * center}; }
   virtual Vec3 center_of_mass() const { return pose.position; }
   virtual void update_world_vertices();
@@ -150,8 +150,15 @@ class Body {
   };
   Frame restore_frame(ByteReader& in);
 
+  /// To be called when world_vertices have changed.
+  void find_vertex_bounds();
+
   static constexpr double kLargest = 1e12;  ///< metres, m/s: beyond this nothing is resolved, squares overflow soon
   Twist before_;                            ///< at the start of the sub-step
+
+ private:
+  Pose placed_;         // that world_vertices belong to, of what is rigid
+  Aabb vertex_bounds_;  // of world_vertices
 };
 
 }  // namespace impinge

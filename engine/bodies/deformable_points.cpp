@@ -22,7 +22,9 @@ Vec3 interpolated(const std::vector<NodeWeight>& nodes, const VecX& values) {
 }  // namespace
 
 void DeformableBody::update_world_vertices() {
-  if (shape && shape->mesh() != nullptr) interpolate(embedding, fem.rest(), position, world_vertices);
+  if (!shape || shape->mesh() == nullptr) return;
+  interpolate(embedding, fem.rest(), position, world_vertices);
+  find_vertex_bounds();
 }
 
 void DeformableBody::set_center_velocity(const Vec3& v) {

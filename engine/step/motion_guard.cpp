@@ -42,6 +42,7 @@ Sweep sweep_of(const Body& body, const Pose& start, const std::vector<Pose>& tur
   }
   s.shift = body.pose.position - start.position;
   if (s.shift.isZero(0.0) && body.pose.rotation == start.rotation) return s;
+  const bool is_ball = body.shape->as<Sphere>() != nullptr;  // whose turning moves none of its surface
   double angle = 0.0;
   Pose last = start;
   const auto go = [&](const Pose& to) {
@@ -50,7 +51,7 @@ Sweep sweep_of(const Body& body, const Pose& start, const std::vector<Pose>& tur
   };
   for (const Pose& pose : turns) go(pose);
   go(body.pose);
-  s.turn = angle * body.radius;
+  s.turn = is_ball ? 0.0 : angle * body.radius;
   // about its centre it stays within its radius
   for (const Vec3& at : {start.position, body.pose.position}) s.box.include(Aabb{at, at}.inflated(body.radius));
   for (const Pose& pose : turns) s.box.include(Aabb{pose.position, pose.position}.inflated(body.radius));
@@ -68,6 +69,16 @@ double self_approach(const Body& body, const std::vector<Vec3>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i)
     most = std::max(most, (body.world_vertices[i] - nodes[i] - mean).squaredNorm());
   return 2.0 * std::sqrt(most);
+}
+
+/// The approach that contacts of two bodies see well: a share of the thinner one's thickness each, and where the search is
+/// one for triangles of two surfaces, or a surface bends, no more than an edge of theirs.
+double safe_for(const Body& a, double share_a, const Body& b, double share_b) {
+  const double share = std::min(share_a, share_b);
+  const bool has_shape = a.world_vertices.empty() || b.world_vertices.empty();
+  if (has_shape && !deforms(a) && !deforms(b)) return share;
+  const auto edge = [](const Body& body) { return body.world_vertices.empty() ? INFINITY : body.mean_edge; };
+  return std::min({share, edge(a), edge(b)});
 }
 
 double way_of(const Sweep& s) { return s.shift.norm() + s.turn; }
@@ -202,7 +213,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
     if (!may_respond(bodies, a, b) || is_plane(of_a) || is_plane(of_b)) continue;
-    const double safe = std::min(safe_approach(of_a), safe_approach(of_b));
+    const double safe = safe_for(of_a, kSafe * thickness_of(of_a), of_b, kSafe * thickness_of(of_b));
     const double both = approach(sweeps[a], sweeps[b]);
     if (all || both > seen * safe) pairs.push_back({a, b, {}, way_of(sweeps[a]), way_of(sweeps[b]), both, safe});
   }
@@ -236,7 +247,7 @@ MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a
               of_b = sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]);
   PairMotion motion{is_plane(bodies[a]) || is_plane(bodies[b]), overlap(of_a.box, of_b.box), way_of(of_a), way_of(of_b),
                     approach(of_a, of_b)};
-  motion.safe = std::min(safe_approach(bodies[a]), safe_approach(bodies[b]));
+  motion.safe = safe_for(bodies[a], kSafe * thickness_of(bodies[a]), bodies[b], kSafe * thickness_of(bodies[b]));
   return motion;
 }
 

@@ -51,7 +51,7 @@ class BallTest {
   void search() {
     const double limit = ball_.radius + sink_.reach(), limit_sq = limit * limit;
     const bool may_be_inside = squared_distance(sink_.second().bounds, ball_.center) == 0.0;
-    for (int t : triangles_round(sink_.second(), ball_.center, limit, may_be_inside)) {
+    for (int t : triangles_seen_from(sink_.second(), ball_.center, limit, may_be_inside)) {
       const double lower_sq = squared_distance(triangle_bounds(mesh_, t), ball_.center);
       if (lower_sq > limit_sq && !(may_be_inside && lower_sq < nearest_.distance_sq)) continue;
       const PointTriangle p = closest_on_triangle(ball_.center, mesh_.corners(t));

@@ -39,19 +39,42 @@ Candidate candidate_of(const Collision& f) {
   return c;
 }
 
-/// The mesh's triangles that reach into the polyhedron's frame, grown by the margin.
-std::vector<int> triangles_in_frame(const Collider& mesh, const OrientedBox& frame, double margin) {
-  const SurfaceView view(mesh, 1);
-  // wider by rounding: triangles that touch must not be lost
+/// The polyhedron's frame, grown by the margin; wider by rounding: triangles that touch must not be lost.
+struct Surrounding {
+  Vec3 reach;
+  Aabb box;
+};
+Surrounding surrounding(const OrientedBox& frame, double margin) {
   const Vec3 reach = frame.half + Vec3::Constant(margin + 1e-9 * (margin + frame.half.sum()));
   const Vec3 extent = frame.axes.cwiseAbs() * reach;
-  std::vector<int> near;
-  for (int t : triangles_near(mesh, {frame.center - extent, frame.center + extent})) {
+  return {reach, {frame.center - extent, frame.center + extent}};
+}
+
+/// Those of the triangles that reach into the polyhedron's frame, grown by the margin.
+std::vector<int> in_frame(std::vector<int> triangles, const SurfaceView& view, const OrientedBox& frame,
+                          const Surrounding& around) {
+  std::erase_if(triangles, [&](int t) {
     const TriangleCorners c = view.corners(t);
-    if (overlap(bounds_of(frame.to_local(c[0]), frame.to_local(c[1]), frame.to_local(c[2])), Aabb{-reach, reach}))
-      near.push_back(t);
-  }
-  return near;
+    return !overlap(bounds_of(frame.to_local(c[0]), frame.to_local(c[1]), frame.to_local(c[2])),
+                    Aabb{-around.reach, around.reach});
+  });
+  return triangles;
+}
+
+/// The mesh's triangles that may be within the margin of the polyhedron.
+std::vector<int> triangles_round_frame(const Collider& mesh, const OrientedBox& frame, double margin) {
+  const Surrounding around = surrounding(frame, margin);
+  const double reach = margin + 1e-9 * (margin + frame.half.sum());
+  const SolidFrame solid{{frame.axes, frame.center},
+                         [&](const Vec3& d) { return d.cwiseAbs().dot(frame.half); },
+                         [&](const Vec3& x) { return (x.cwiseAbs() - frame.half).cwiseMax(0.0).norm(); }};
+  return in_frame(triangles_within(mesh, around.box, solid, reach), SurfaceView(mesh, 1), frame, around);
+}
+
+/// Whether any triangle reaches into the frame, however far from the solid.
+bool has_neighbours(const Collider& mesh, const OrientedBox& frame, double margin) {
+  const Surrounding around = surrounding(frame, margin);
+  return !in_frame(triangles_near(mesh, around.box), SurfaceView(mesh, 1), frame, around).empty();
 }
 
 }  // namespace
@@ -77,9 +100,10 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const double margin =
       query.activation + std::min(sink.reach(), std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge));
   const SurfaceView view(mesh, 1);
-  const std::vector<int> near = triangles_in_frame(mesh, solid.frame, margin);
+  const std::vector<int> near = triangles_round_frame(mesh, solid.frame, margin);
   if (near.empty()) {
-    add_enclosed(sink, solid.frame.center, solid.reach_against);
+    if (may_be_inside(mesh, sink.first()) || !has_neighbours(mesh, solid.frame, margin))
+      add_enclosed(sink, solid.frame.center, solid.reach_against);
     return;
   }
 

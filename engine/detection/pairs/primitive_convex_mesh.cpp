@@ -48,14 +48,16 @@ class CurvedTest {
         solid_{std::get<const ConvexSet*>(sink.first().shape->form()), sink.first().pose},
         bounds_(sink.first().bounds),
         touch_(1e-9 * (bounds_.extent().norm() + sink.second().mean_edge)),
-        near_(triangles_near(sink.second(), bounds_.inflated(sink.reach() + touch_))) {}
+        around_(bounds_.inflated(sink.reach() + touch_)),
+        near_(triangles_in_reach()) {}
 
   void run() {
-    if (near_.empty()) {
-      leave();
-      return;
-    }
     for (int t : near_) add_face(t);
+    if (is_deep_ && !is_near_all_) {
+      near_ = all_triangles();
+      found_.clear();
+      for (int t : near_) add_face(t);
+    }
     add_edges();
     add_corners();
     look_ahead();
@@ -65,6 +67,22 @@ class CurvedTest {
 
  private:
   Vec3 center() const { return solid_.pose.position; }
+
+  /// Those that it may have contacts with: of the ones round it those in reach, unless it is inside the mesh and has to
+  /// find a way out of it.
+  std::vector<int> triangles_in_reach() {
+    if (mesh_.is_deforming() || way_out(sink_, mesh_, center())) return all_triangles();
+    const Shape& shape = *sink_.first().shape;
+    const SolidFrame solid{
+        solid_.pose, [&](const Vec3& d) { return d.dot(solid_.set->support(d)) + solid_.set->rounding() * d.norm(); },
+        [&](const Vec3& x) { return shape.signed_distance(x); }};
+    return triangles_within(sink_.second(), around_, solid, sink_.reach() + touch_);
+  }
+  std::vector<int> all_triangles() {
+    is_near_all_ = true;
+    return triangles_near(sink_.second(), around_);
+  }
+
   Vec3 farthest(const Vec3& direction) const {
     const Vec3 local = solid_.pose.rotation.transpose() * direction;
     return solid_.pose.apply(solid_.set->support(local) + solid_.set->rounding() * local);
@@ -90,6 +108,7 @@ class CurvedTest {
     const auto height = [&](const Vec3& x) { return n.dot(x - corners[0]); };
     const Vec3 lowest = farthest(-n);
     if (height(lowest) > sink_.reach()) return;
+    is_deep_ = is_deep_ || height(lowest) < -sink_.reach();  // a foot of it may then be out of reach
     std::vector<Candidate> points;
     const auto try_point = [&](const Vec3& x, Feature kind, int index) {
       const double h = height(x);
@@ -128,7 +147,7 @@ class CurvedTest {
     double nearest_sq = 1e300;
     Vec3 point = Vec3::Zero();
     SurfaceFeature feature;
-    for (int t : near_) {
+    for (int t : nearest_to(x)) {
       const PointTriangle p = closest_on_triangle(x, mesh_.corners(t));
       if (p.squared_distance >= nearest_sq) continue;
       nearest_sq = p.squared_distance;
@@ -136,6 +155,14 @@ class CurvedTest {
       feature = mesh_.feature(t, p.feature);
     }
     return (x - point).dot(mesh_.normal(feature)) < 0.0 && std::sqrt(nearest_sq) >= -kNearestExit * height;
+  }
+
+  /// Triangles round the solid among which the nearest of them to x is.
+  std::vector<int> nearest_to(const Vec3& x) const {
+    if (is_near_all_) return near_;
+    std::vector<int> nearest = triangles_round(sink_.second(), x, 0.0, true);
+    std::erase_if(nearest, [&](int t) { return !overlap(triangle_bounds(mesh_, t), around_); });
+    return nearest.empty() ? triangles_near(sink_.second(), around_) : nearest;
   }
 
   /// Edges that stand out, each as a segment.
@@ -206,7 +233,10 @@ class CurvedTest {
     for (const Vec3& from : {center(), farthest(way.normalized())}) {
       double first = 1.0;
       int hit = -1;
-      for (int t : near_) {
+      Aabb swept;
+      swept.include(from);
+      swept.include(from + way);
+      for (int t : triangles_near(sink_.second(), swept.inflated(touch_))) {
         if (mesh_.face_normal(t).dot(way) >= 0.0) continue;
         const std::optional<RayHit> ray = intersect_line(from, way, mesh_.corners(t), 1e-9);
         if (!ray || ray->t < 0.0 || ray->t > first || (hit >= 0 && ray->t == first)) continue;
@@ -237,7 +267,9 @@ class CurvedTest {
   PlacedConvex solid_;
   Aabb bounds_;
   double touch_;  ///< metres: closer is the same place
-  std::vector<int> near_;
+  Aabb around_;   ///< how far it may have contacts
+  bool is_near_all_ = false, is_deep_ = false;
+  std::vector<int> near_;  ///< of the triangles in that box those in reach, or all
   std::vector<Candidate> found_;
 };
 

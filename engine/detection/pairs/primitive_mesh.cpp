@@ -24,10 +24,7 @@ class CylinderTest {
  public:
   CylinderTest(ContactSink& sink, const SurfaceView& mesh)
       : sink_(sink), mesh_(mesh), axis_(world_axis(sink.first())), radius_(shape_of<Capsule>(sink.first()).radius) {
-    Aabb box;
-    box.include(axis_.p0);
-    box.include(axis_.p1);
-    near_ = triangles_near(sink.second(), box.inflated(radius_ + sink.reach()));
+    near_ = triangles_seen_from(sink.second(), axis_.p0, axis_.p1, radius_ + sink.reach());
   }
 
   void add_edges() {
@@ -71,8 +68,11 @@ class CylinderTest {
   /// apart.
   void add_passages() {
     const Vec3 d = axis_.p1 - axis_.p0;
+    Aabb box;
+    box.include(axis_.p0);
+    box.include(axis_.p1);
     std::vector<std::pair<double, bool>> crossings;  // parameter, leaves the body
-    for (int t : near_)
+    for (int t : triangles_near(sink_.second(), box.inflated(1e-6 * radius_)))
       if (const std::optional<RayHit> hit = intersect_line(axis_.p0, d, mesh_.corners(t));
           hit && hit->t > 0.0 && hit->t < 1.0)
         crossings.emplace_back(hit->t, mesh_.face_normal(t).dot(d) > 0.0);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/geometry/nearest_triangle.hpp"
+#include "engine/geometry/surface/disc_search.hpp"
 
 namespace impinge {
 namespace {
@@ -32,6 +33,22 @@ std::vector<int> search(const Collider& mesh, Meets&& meets) {
               [&](int t) { found.push_back(t); });
   std::sort(found.begin(), found.end());
   return found;
+}
+
+/// Whether to walk past what faces elsewhere.
+bool has_cones(const Collider& mesh) { return !deforms(mesh) && count_of(mesh) > kFewest; }
+
+/// How far to search round a point of the mesh's frame, `x` in the world: at least to the nearest triangle, if it is asked for.
+double reach_round(const Collider& mesh, const Vec3& x, const Vec3& local, double distance, bool and_nearest) {
+  double reach = distance;
+  if (and_nearest) {
+    const TriangleMesh& own = mesh.mesh().mesh;
+    const std::span<const Vec3> places = deforms(mesh) ? mesh.vertices : std::span<const Vec3>(own.vertices);
+    const NearestTriangle nearest = nearest_triangle(mesh.mesh().tree(), own.triangles, places, local, mesh.node_boxes);
+    reach = std::max(reach, std::sqrt(nearest.at.squared_distance));
+  }
+  // the box's, whose corner is farther by rounding than the sphere's
+  return reach * (1.0 + 1e-9) + slack(mesh, {x, x});
 }
 
 }  // namespace
@@ -65,16 +82,58 @@ std::vector<int> triangles_round(const Collider& mesh, const Vec3& x, double dis
     return all;
   }
   const Vec3 local = deforms(mesh) ? x : mesh.pose.apply_inverse(x);
-  double reach = distance;
-  if (and_nearest) {
-    const TriangleMesh& own = mesh.mesh().mesh;
-    const std::span<const Vec3> places = deforms(mesh) ? mesh.vertices : std::span<const Vec3>(own.vertices);
-    const NearestTriangle nearest = nearest_triangle(mesh.mesh().tree(), own.triangles, places, local, mesh.node_boxes);
-    reach = std::max(reach, std::sqrt(nearest.at.squared_distance));
-  }
-  // the box's, whose corner is farther by rounding than the sphere's
-  reach = reach * (1.0 + 1e-9) + slack(mesh, {x, x});
+  const double reach = reach_round(mesh, x, local, distance, and_nearest);
   return search(mesh, [&](const Aabb& node) { return squared_distance(node, local) <= reach * reach; });
+}
+
+std::vector<int> triangles_seen_from(const Collider& mesh, const Vec3& x, double distance, bool and_nearest) {
+  if (!has_cones(mesh)) return triangles_round(mesh, x, distance, and_nearest);
+  const Vec3 local = mesh.pose.apply_inverse(x);
+  const TriangleMesh& own = mesh.mesh().mesh;
+  // of a surface that doesn't close, either side is in front of something
+  const bool or_inside = and_nearest || !mesh.mesh().topology.is_closed();
+  const auto seen = [&](double reach) {
+    return seen_triangles(mesh.mesh(), reach, or_inside, [&](const Vec3& c) { return Vec3(local - c); });
+  };
+  std::vector<int> found = seen(reach_round(mesh, x, local, distance, false));
+  // the nearest of all is among those within the distance, if there are any
+  const auto is_within = [&](int t) {
+    const Triangle& c = own.triangles[static_cast<std::size_t>(t)];
+    return closest_on_triangle(local, {own.vertices[c[0]], own.vertices[c[1]], own.vertices[c[2]]}).squared_distance <=
+           distance * distance;
+  };
+  if (and_nearest && std::none_of(found.begin(), found.end(), is_within))
+    found = seen(reach_round(mesh, x, local, distance, true));
+  return found;
+}
+
+std::vector<int> triangles_seen_from(const Collider& mesh, const Vec3& p, const Vec3& q, double distance) {
+  Aabb box;
+  box.include(p), box.include(q);
+  if (!has_cones(mesh)) return triangles_near(mesh, box.inflated(distance));
+  const Vec3 from = mesh.pose.apply_inverse(p), to = mesh.pose.apply_inverse(q);
+  return seen_triangles(mesh.mesh(), distance * (1.0 + 1e-9) + slack(mesh, box), false,
+                        [&](const Vec3& c) { return Vec3(closest_on_segment(c, from, to).point - c); });
+}
+
+std::vector<int> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid, double reach) {
+  if (!has_cones(mesh)) return triangles_near(mesh, box);
+  const Mat3 turn = solid.pose.rotation.transpose() * mesh.pose.rotation;
+  const Vec3 shift = solid.pose.apply_inverse(mesh.pose.position);
+  const Pose to_solid{turn, shift};
+  const double most = reach * (1.0 + 1e-9) + slack(mesh, box);
+  const auto meets = [&](const PlacedDisc& disc, int, int, int) {
+    const Vec3 center = to_solid.apply(disc.center);
+    if (solid.distance(center) > most + disc.radius) return false;
+    if (disc.normal.isZero(0.0)) return true;
+    const Vec3 normal = product(turn, disc.normal);
+    const double level = normal.dot(center), thick = most + disc.thickness;
+    return level - solid.height(normal) <= thick && -solid.height(-normal) - level <= thick;
+  };
+  std::vector<int> found = search_discs(mesh.mesh().discs(), meets);
+  const SurfaceView view(mesh, 0);
+  std::erase_if(found, [&](int t) { return !overlap(triangle_bounds(view, t), box); });
+  return found;
 }
 
 }  // namespace impinge

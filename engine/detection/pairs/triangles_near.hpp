@@ -3,6 +3,8 @@
 // would give, to the bit.
 #pragma once
 
+#include <functional>
+
 #include "engine/detection/contacts/surface_view.hpp"
 
 namespace impinge {
@@ -19,5 +21,23 @@ std::vector<int> triangles_near(const Collider& mesh, const Aabb& box);
 /// At least those whose bounds are within `distance` of x, metres, and, if it is asked for, those whose distance to x is
 /// the least of all; ascending.
 std::vector<int> triangles_round(const Collider& mesh, const Vec3& x, double distance, bool and_nearest);
+
+/// Of those that triangles_round finds at least the ones that hold a place nearer to x than all the surface round it: from
+/// x a ball meets no other, and on a smooth rigid surface they are few, however fine it is.
+std::vector<int> triangles_seen_from(const Collider& mesh, const Vec3& x, double distance, bool and_nearest);
+
+/// The same of triangles near a segment, from outside: at least those whose nearest place is within `distance`.
+std::vector<int> triangles_seen_from(const Collider& mesh, const Vec3& p, const Vec3& q, double distance);
+
+/// A convex solid in the world, in a frame of its own.
+struct SolidFrame {
+  Pose pose;
+  std::function<double(const Vec3&)>
+      height;  ///< how far it goes along a direction from the frame's origin, times its length
+  std::function<double(const Vec3&)> distance;  ///< of a point, not more than it is; any number <= 0 in it
+};
+
+/// Of those whose bounds overlap the box at least the ones within `reach` of the solid; ascending.
+std::vector<int> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid, double reach);
 
 }  // namespace impinge

@@ -14,9 +14,12 @@
 #include <algorithm>
 #include <span>
 
+#include "engine/core/lazily.hpp"
 #include "engine/core/types.hpp"
 
 namespace impinge {
+
+class NormalCones;
 
 class DiscTree {
  public:
@@ -35,6 +38,7 @@ class DiscTree {
 
   int levels() const { return static_cast<int>(begin_.size()) - 1; }
   int triangle_count() const { return static_cast<int>(order_.size()); }
+  int node_count(int level) const { return begin_[level + 1] - begin_[level]; }
   const Node& node(int level, int j) const { return nodes_[static_cast<std::size_t>(begin_[level] + j)]; }
   /// How many discs a node holds.
   int disc_count(int level, int j) const {
@@ -49,6 +53,8 @@ class DiscTree {
   double reach() const { return reach_; }
   /// How large the discs above the triangles are, all in all.
   double size() const;
+
+  Lazily<NormalCones> lazy_cones = {};  ///< of the mesh it was made for: normal_cones.hpp
 
  private:
   void fit_triangles(int j, std::span<const Triangle> triangles, std::span<const Vec3> vertices);

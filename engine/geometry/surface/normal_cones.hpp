@@ -1,0 +1,38 @@
+// Which way a surface faces near each disc of its tree: a cone round the normals of the disc's triangles and of all others
+// that share a vertex with them. A place on the surface from which nothing round it is nearer to a solid sees the solid in
+// a direction of its own cone of normals; so parts that see it in no such direction hold no such place, however near they
+// are.
+//
+// Cones are made for a surface as its mesh has it: rigid ones'.
+#pragma once
+
+#include "engine/geometry/surface/disc_tree.hpp"
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace impinge {
+
+class NormalCones {
+ public:
+  /// Of the discs of a node of the tree, side by side.
+  struct Node {
+    float axis[4][3];          ///< unit; of the disc, in the mesh's own axes
+    float cosine[4], sine[4];  ///< of the angle round it; cosine -2: any direction
+    bool is_any(int k) const { return cosine[k] < -1.5f; }
+  };
+
+  NormalCones(const DiscTree& discs, const SurfaceMesh& surface);
+  const Node& node(int level, int j) const { return nodes_[static_cast<std::size_t>(begin_[level] + j)]; }
+
+  /// Whether the disc may hold a place that sees `away` (from its centre to the nearest point of a solid, metres) outside
+  /// (or inside, if `or_inside`) of the surface, when the disc's places lie within `radius` of its centre.
+  bool may_see(int level, int j, int k, const Vec3& away, double radius, bool or_inside) const;
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<int> begin_;  // by level
+};
+
+/// Those of the surface's discs (SurfaceMesh::discs), made when they are asked for first.
+const NormalCones& normal_cones(const SurfaceMesh& surface);
+
+}  // namespace impinge
