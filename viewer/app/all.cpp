@@ -19,6 +19,7 @@ const Registry<SubCommand>& sub_commands() {
     IMPINGE_LIST(all, compare_command);
     IMPINGE_LIST(all, debug_command);
     IMPINGE_LIST(all, sweep_command);
+    IMPINGE_LIST(all, clean_command);
     return all;
   }();
   return list;

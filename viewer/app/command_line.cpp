@@ -124,6 +124,8 @@ void Options::word(const char* name, std::filesystem::path& to, const std::strin
   app_.get_option(name)->required();
 }
 
+void Options::optional_word(const char* name, std::string& to, const std::string& doc) { text(name, to, doc); }
+
 void Options::optional_word(const char* name, std::filesystem::path& to, const std::string& doc) {
   path(name, to, doc);
 }

@@ -7,10 +7,12 @@
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/rigid_body.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/core/units.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/study/ablation.hpp"
 #include "viewer/study/deformable_report.hpp"
 #include "viewer/study/model_report.hpp"
+#include "viewer/study/scene_preflight.hpp"
 
 namespace impinge {
 
@@ -39,35 +41,32 @@ Counts count(const World& world) {
   return counts;
 }
 
-/// Pairs that start in one another by more than rounding, the deepest first, and surfaces that cross themselves.
-void print_overlaps(const World& world, const StepRecord& record) {
-  constexpr double kRounding = 1e-9;  // of the smaller body's size
-  constexpr std::size_t kMostNamed = 5;
-  std::map<std::pair<BodyIndex, BodyIndex>, double> deepest;
-  for (const ContactRecord& c : record.contacts) {
-    const double size = std::min(world.bodies()[c.body_a].size, world.bodies()[c.body_b].size);
-    if (c.body_a == c.body_b || -c.gap <= kRounding * size) continue;
-    double& depth = deepest[{c.body_a, c.body_b}];
-    depth = std::max(depth, -c.gap);
+/// Name, kind, shape, size and mass of the first of them.
+void print_bodies(const World& world) {
+  constexpr std::size_t kMostNamed = 40;
+  std::size_t width = 0, named = 0;
+  for (const Body& body : world.bodies())
+    if (named++ < kMostNamed) width = std::max(width, body.name.size());
+  named = 0;
+  for (const Body& body : world.bodies()) {
+    if (named++ == kMostNamed) break;
+    const Vec3 extent = body.bounds().extent();
+    const bool has_box = extent.allFinite() && (extent.array() >= 0.0).all();
+    fmt::print("  {:<{}}  {:<10}  {:<11}  {}{}\n", body.name, width, kind_name(body.kind()), body.shape->name(),
+               has_box ? fmt::format("{} × {} × {}, {} thick", length_text(extent.x()), length_text(extent.y()),
+                                     length_text(extent.z()), length_text(body.size))
+                       : "without end",
+               body.has_freedom() ? ", " + mass_text(body.mass) : "");
   }
-  std::vector<std::pair<double, std::pair<BodyIndex, BodyIndex>>> pairs;
-  for (const auto& [pair, depth] : deepest) pairs.emplace_back(depth, pair);
-  std::sort(pairs.begin(), pairs.end(),
-            [](const auto& l, const auto& r) { return l.first != r.first ? l.first > r.first : l.second < r.second; });
-  for (std::size_t i = 0; i < std::min(pairs.size(), kMostNamed); ++i)
-    fmt::print("  '{}' and '{}' start {:.3g} m in one another: pushed apart as response and push-out allow\n",
-               world.bodies()[pairs[i].second.first].name, world.bodies()[pairs[i].second.second].name, pairs[i].first);
-  if (pairs.size() > kMostNamed) fmt::print("  and {} pairs less deep\n", pairs.size() - kMostNamed);
-  if (record.stats.self_crossings > 0)
-    fmt::print(
-        "  {} pairs of triangles of bodies with self_collision cross: self_exempt_distance leaves such parts out\n",
-        record.stats.self_crossings);
+  const std::size_t all = static_cast<std::size_t>(world.bodies().size().value());
+  if (all > kMostNamed) fmt::print("  and {} more\n", all - kMostNamed);
 }
 
 void print_scene(const Session& session, const Counts& counts, const ModelFacts& facts) {
   const StepRecord& record = session.record();
   fmt::print("bodies:       {} ({} deformable, {} dynamic, {} scripted, {} static)\n", session.world().bodies().size(),
              facts.deformable, facts.dynamic, facts.scripted, facts.fixed);
+  print_bodies(session.world());
   std::vector<std::string> shapes;
   for (const auto& [name, number] : counts.shapes) shapes.push_back(fmt::format("{} {}", number, name));
   fmt::print("shapes:       {}\n", shapes.empty() ? "none" : fmt::format("{}", fmt::join(shapes, ", ")));
@@ -81,7 +80,6 @@ void print_scene(const Session& session, const Counts& counts, const ModelFacts&
              facts.dynamic, facts.deformable_dofs);
   fmt::print("at the start: {} body pairs, {} triangle pairs, {} contacts\n", record.stats.broad_pairs,
              record.stats.triangle_pairs, record.stats.contacts);
-  print_overlaps(session.world(), record);
   fmt::print("memory:       about {:.1f} MB for bodies and surfaces\n", static_cast<double>(counts.bytes) / 1e6);
 }
 
@@ -118,6 +116,7 @@ class InfoCommand : public SubCommand {
       fmt::print("{}\n", run_.scene.string());
       print_scene(session, counts, facts);
       print_model(session.world().parameters, facts);
+      fmt::print("{}", warning_lines(preflight_of(session)));
     }
     if (!ablation_) return 0;
     if (!threads_) set_thread_count(1);  // threads that wait for work would count as work

@@ -1,5 +1,6 @@
 // impinge run
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstring>
 
 #include "engine/core/error.hpp"
+#include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/app/convergence_note.hpp"
 #include "viewer/app/crushed_note.hpp"
@@ -26,18 +28,19 @@ namespace impinge {
 namespace {
 
 /// Before anything is simulated: a film that could not be written at the end.
-void check_video_path(const std::filesystem::path& video, const std::filesystem::path& out) {
+void check_video_path(const std::filesystem::path& video) {
   const std::filesystem::path folder = absolute_path(video).lexically_normal().parent_path();
   static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
   if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
     throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(),
                                  fmt::join(kEndings, ", ")));
-  // the run's own folder comes into being with the run
-  const bool is_own = folder == (absolute_path(out) / "").lexically_normal().parent_path();
-  if (!is_own && !is_folder(folder))
-    throw InputError(fmt::format("command line: --video is '{}'; there is no folder {}; make it or name another",
-                                 video.string(), folder.string()));
-  if (!is_own && access(folder.c_str(), W_OK | X_OK) != 0)
+  // a folder comes into being with the film, as that of --out does with the run
+  std::filesystem::path above = folder;
+  while (!is_there(above) && above.has_relative_path()) above = above.parent_path();
+  if (!is_folder(above))
+    throw InputError(
+        fmt::format("command line: --video is '{}'; {} is no folder; name another", video.string(), above.string()));
+  if (access(above.c_str(), W_OK | X_OK) != 0)
     throw InputError(
         fmt::format("command line: --video is '{}'; it can't be written ({}); a folder that may be written to is "
                     "wanted; name another",
@@ -54,10 +57,36 @@ std::string write_contact_sheet(const std::filesystem::path& out, int last_frame
 }
 
 bool write_video(const std::filesystem::path& out, const std::filesystem::path& video, double frames_per_second) {
+  make_folder(absolute_path(video).parent_path());
   const bool made = make_video(out / "frames", video, frames_per_second);
   if (!made) fmt::print(stderr, "note: ffmpeg is not installed, so there is no video\n");
   return made;
 }
+
+/// The first of FOLDER, FOLDER-2, FOLDER-3, ... that nobody has: made, so that no other process takes it, and removed
+/// again if nothing was written into it.
+class NumberedFolder {
+ public:
+  explicit NumberedFolder(const std::filesystem::path& wanted) {
+    const std::filesystem::path whole = wanted.has_filename() ? wanted : wanted.parent_path();
+    if (whole.has_parent_path()) make_folder(whole.parent_path());
+    for (int number = 1;; ++number) {
+      path_ = number == 1 ? whole : std::filesystem::path(fmt::format("{}-{}", whole.string(), number));
+      if (mkdir(path_.c_str(), 0777) == 0) return;
+      if (errno != EEXIST)
+        throw OutputError(
+            fmt::format("{}: can't be made ({}); a folder that may be written to is wanted; choose another --out",
+                        path_.string(), std::strerror(errno)));
+    }
+  }
+  ~NumberedFolder() { rmdir(path_.c_str()); }  // does nothing unless it is empty
+  NumberedFolder(const NumberedFolder&) = delete;
+  NumberedFolder& operator=(const NumberedFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 class RunCommand : public SubCommand {
  public:
@@ -67,7 +96,7 @@ class RunCommand : public SubCommand {
  private:
   RunOptions options_;
   std::filesystem::path video_;
-  bool quiet_ = false, strict_ = false;
+  bool quiet_ = false, strict_ = false, number_ = false;
 };
 
 void RunCommand::declare(Options& options) {
@@ -103,18 +132,24 @@ void RunCommand::declare(Options& options) {
                 "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_option(options);
   options.flag("--resume", options_.resume, "continue an interrupted run in the folder");
+  options.flag("--force", options_.force, "replace another run in the folder; files that no run wrote stay");
+  options.flag("--number", number_,
+               "if the folder is there already, write to the first of FOLDER-2, FOLDER-3, ... that is not");
   options.path("--video", video_, "video file to make of the pictures (needs ffmpeg)");
   quiet_option(options, quiet_);
 }
 
 int RunCommand::run() {
   if (options_.out.empty()) options_.out = default_out(options_.scene);
+  if (options_.resume + options_.force + number_ > 1)
+    refuse_option(fmt::format("{} and {}", options_.resume ? "--resume" : "--force", number_ ? "--number" : "--force"),
+                  "a folder that is there is continued, replaced or left alone", "leave out one of them");
   if (!video_.empty() && !options_.images)
     refuse_option("--video in a run without pictures", "pictures are wanted", "leave out --no-images");
   explain_interrupt("stopping at the last whole frame, within 2 s");
   FrameProgress progress;
   RunWatcher watcher;
-  if (!video_.empty()) check_video_path(video_, options_.out);
+  if (!video_.empty()) check_video_path(video_);
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   ConvergenceNote convergence;
   WatchdogNote watchdog;
@@ -128,6 +163,8 @@ int RunCommand::run() {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
   };
+  std::optional<NumberedFolder> numbered;
+  if (number_) options_.out = numbered.emplace(options_.out).path();
   const RunResult result = impinge::run(options_, watcher);
   progress.clear();
   if (!result.diverged.empty()) fmt::print(stderr, "diverged: {}\n", result.diverged);

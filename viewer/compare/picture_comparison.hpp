@@ -59,9 +59,10 @@ std::filesystem::path update_baseline(const PictureComparison& comparison, const
 /// InputError.
 std::filesystem::path update_ids(const PictureComparison& same);
 
-/// Into `out` (made if need be): the three-panel picture of each that differs, and report.html. Throws InputError where
-/// that can't be written; then nothing of it is left.
+/// Into `out` (made if need be): the three-panel picture of each that differs, and report.html. `failures`: what failed
+/// beside pictures, a line each. Throws InputError where that can't be written; then nothing of it is left.
 void write_picture_report(const std::filesystem::path& out, const std::string& title,
-                          const std::vector<PictureComparison>& pictures, const PictureRules& rules);
+                          const std::vector<PictureComparison>& pictures, const PictureRules& rules,
+                          const std::vector<std::string>& failures = {});
 
 }  // namespace impinge

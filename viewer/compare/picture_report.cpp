@@ -146,7 +146,7 @@ std::string tolerances(const std::vector<const PictureComparison*>& pictures, co
 }  // namespace
 
 void write_picture_report(const fs::path& out, const std::string& title, const std::vector<PictureComparison>& pictures,
-                          const PictureRules& rules) {
+                          const PictureRules& rules, const std::vector<std::string>& failures) {
   OutputFiles files;
   files.make_folder(out);
   std::vector<const PictureComparison*> order;
@@ -170,6 +170,15 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
       "charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n<h1>{0}</h1>\n",
       html_text(title), kStyle);
+  if (!failures.empty()) {
+    page += "<ul id=\"failures\">\n";
+    for (const std::string& line : failures) page += "<li>" + html_text(line) + "</li>\n";
+    page += "</ul>\n";
+  }
+  if (order.empty()) {
+    files.write(out / "report.html", page + "</body></html>\n");
+    return files.keep();
+  }
   page += fmt::format(
       "<p>{} of {} pictures differ. A pixel counts once a channel differs by more than {} of 255; the limits are {:g} "
       "a megapixel, {:g} % of what is drawn, and {} in any {} x {} window. "

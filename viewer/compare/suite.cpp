@@ -183,6 +183,8 @@ class Suite {
     const fs::path shown = out_ / outcome.name;
     std::error_code error;
     fs::remove(shown / "report.html", error);  // of the last time
+    std::vector<std::string> failures;
+    if (outcome.kind == TestOutcome::failed) failures = outcome.messages;
     std::vector<PictureComparison> all;
     for (const Script::ImageExpectation& picture : pictures) {
       if (picture.frame > last_frame) {
@@ -226,8 +228,9 @@ class Suite {
       for (const std::string& line : c.details) outcome.messages.push_back("  " + line);
       all.push_back(std::move(c));
     }
-    if (all.empty()) return;
-    write_picture_report(shown, outcome.name + ": A is wanted, B was drawn", all, {});
+    if (all.empty() && failures.empty()) return;
+    write_picture_report(shown, all.empty() ? outcome.name : outcome.name + ": A is wanted, B was drawn", all, {},
+                         failures);
     outcome.messages.push_back(fmt::format("see:   {}", (shown / "report.html").string()));
   }
 

@@ -74,7 +74,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const RunRecord record = record_of(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene().path.filename().string(), options.ids);
-  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), options.resume,
+  const RunStart how = options.resume ? RunStart::resume : options.force ? RunStart::force : RunStart::anew;
+  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), how,
                    options.snapshot_megabytes << 20);
 
   if (const std::string note = session.note_of_former_paths(); !note.empty() && watcher.message)

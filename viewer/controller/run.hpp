@@ -19,6 +19,7 @@ struct RunOptions {
   std::uint64_t snapshot_megabytes = 256;  ///< room for the states of the frames
   int width = 1280, height = 720;          ///< pixels
   bool images = true, ids = false, contacts = false, export_ply = false, judge = false, resume = false;
+  bool force = false;           ///< another run of ours in the folder gives way
   bool judge_substeps = false;  ///< at the end of each sub-step, not only of each frame
   /// false: `expect image` lines are left to the caller, and their files may be missing
   bool compares_pictures = true;

@@ -11,6 +11,7 @@
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/controller/contacts_table.hpp"
+#include "viewer/controller/run_files.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/surface_export.hpp"
 
@@ -75,15 +76,16 @@ bool is_our_number(const fs::path& path, const char* ending) {
 
 }  // namespace
 
-RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
+RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, RunStart how,
                      std::uint64_t snapshot_bytes)
     : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes), columns_(run.judge) {
-  check_new(resume, run_toml);  // before anything is written, the lock's file among it
+  check_new(how, run_toml);  // before anything is written, the lock's file among it
   make_folder(folder_);
   lock_ = FolderLock::take(folder_);
-  check_new(resume, run_toml);  // what another process may have made of it until it gave the lock back
+  check_new(how, run_toml);  // what another process may have made of it until it gave the lock back
   clear_leftovers();
-  if (resume) {
+  if (how == RunStart::force && is_run_folder(folder_)) empty_run_folder(folder_);
+  if (how == RunStart::resume) {
     const std::string text = read_if_there(folder_ / "stats.csv");
     kept_ = whole_rows(text, run_.judge);
     kept_.resize(static_cast<std::size_t>(last_resumable(kept_)) + 1);
@@ -102,7 +104,7 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   stats_ = open_table(folder_ / "stats.csv", resume_frame(), columns_.header());
 }
 
-void RunFolder::check_new(bool resume, const std::string& run_toml) const {
+void RunFolder::check_new(RunStart how, const std::string& run_toml) const {
   const std::string name = folder_.string();
   if (!is_there(folder_)) return;
   if (!is_folder(folder_)) throw InputError(name + ": is a file; a folder is wanted; choose another --out");
@@ -114,19 +116,26 @@ void RunFolder::check_new(bool resume, const std::string& run_toml) const {
             "{}: holds {} and is no run's folder; a new or empty folder is wanted; choose another --out", name, other));
     return;
   }
+  if (how == RunStart::force) {
+    if (is_run_folder(folder_)) return;
+    throw InputError(fmt::format(
+        "{}: holds a run.toml that no run of impinge wrote; --force replaces runs only; choose another --out", name));
+  }
+  const bool resume = how == RunStart::resume;
   const auto [before, frames_before] = split_frames(read_file(recorded, kMostBytes));
   const auto [now, frames_now] = split_frames(run_toml);
   if (before != now)
     throw InputError(name +
                      ": holds another run (its run.toml differs); a new folder or the same scene, script and settings "
-                     "are wanted; choose another --out");
+                     "are wanted; choose another --out, or add --number, or --force to replace it");
   if (resume && frames_now < frames_before)
     throw InputError(fmt::format("{}: holds a run of {} frames; it can't be resumed with {}; choose another --out",
                                  name, frames_before, frames_now));
   if (!resume && frames_now != frames_before)
-    throw InputError(fmt::format(
-        "{}: holds this run with --frames {}; it can be continued to more frames; add --resume or choose another --out",
-        name, frames_before));
+    throw InputError(
+        fmt::format("{}: holds this run with --frames {}; it can be continued to more frames; add --resume, or --force "
+                    "to replace it, or choose another --out",
+                    name, frames_before));
 }
 
 int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {

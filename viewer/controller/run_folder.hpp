@@ -1,8 +1,8 @@
 // The folder of a run: what is in it, when it may be written to, and where an interrupted run goes on.
 //
 // A folder may be new or empty, or hold a run with the same run.toml, which is then made again in place. Any other
-// folder is refused. With `resume` a run that differs at most in a larger number of frames is continued. Foreign files
-// stay.
+// folder is refused. With `resume` a run that differs at most in a larger number of frames is continued; with `force` any
+// other run of ours gives way. Foreign files stay.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +17,15 @@
 
 namespace impinge {
 
+/// What to do with a folder that holds a run already.
+enum class RunStart { anew, resume, force };
+
 class RunFolder {
  public:
   /// Throws InputError, with nothing written, if the folder can't be taken, because another process writes into it for
   /// one, or resumed since another version wrote its states; otherwise it holds run.toml and the files that grow, cut
   /// back to the last frame from which the run can go on.
-  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, bool resume,
+  RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, RunStart how,
             std::uint64_t snapshot_bytes);
 
   /// Rows of the frames that are kept, 0 to resume_frame(); empty for a new run.
@@ -46,7 +49,7 @@ class RunFolder {
   FolderLock hand_over_lock() { return std::move(lock_); }
 
  private:
-  void check_new(bool resume, const std::string& run_toml) const;
+  void check_new(RunStart how, const std::string& run_toml) const;
   int last_resumable(const std::vector<StatsLine>& rows) const;
   void clear_markers();
   /// What a process that was killed in the middle of a file has left.

@@ -9,6 +9,7 @@
 #include "engine/frozen/frozen_step.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/world/figures.hpp"
+#include "viewer/preflight/preflight.hpp"
 
 namespace impinge {
 
@@ -82,6 +83,7 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   if (!script_file.empty()) check_utf8_name(absolute_path(script_file).string());
   world_.parameters.bind(rows_);
   view_.bind(rows_);
+  bind_silence(rows_, silenced_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
   judge_substeps_ = options.judge_substeps || (scene_.run && scene_.run->judge_substeps);
   judge_ = options.judge || judge_substeps_ || (scene_.run && scene_.run->judge);

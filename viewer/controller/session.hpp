@@ -54,6 +54,8 @@ class Session {
   const FrameView& view() const { return view_; }
   /// Which present paths to write for the former ones that scene, overrides and script name; "" if they name none.
   std::string note_of_former_paths() const;
+  /// Codes of warnings that the scene doesn't want to hear of (viewer/preflight).
+  const std::vector<std::string>& silenced() const { return silenced_; }
   bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
   bool is_judged_by_substep() const { return judge_substeps_; }
   /// Who looks on while frames are made, none: null.
@@ -67,6 +69,7 @@ class Session {
 
   World world_;
   FrameView view_;
+  std::vector<std::string> silenced_;
   ParameterSet rows_;
   Scene scene_;
   Script script_;

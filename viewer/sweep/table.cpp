@@ -214,8 +214,8 @@ std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& 
   std::vector<std::vector<std::string>> lines(1);
   lines[0] = {"job"};
   lines[0].insert(lines[0].end(), paths.begin(), paths.end());
-  for (const char* name :
-       {"status", "frames", "penetration max (m)", "residual max", "contacts max", "energy drift (J)", "step (ms)"})
+  for (const char* name : {"status", "frames", "penetration max (m)", "residual max", "contacts max",
+                           "energy drift (J)", "all steps (ms)"})
     lines[0].push_back(name);
   if (table.has_reference) lines[0].push_back("error (m)");
   const std::vector<std::string>& names = sweep_figure_columns();

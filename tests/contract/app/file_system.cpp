@@ -64,7 +64,7 @@ struct Files {
             {{"run", "s.toml", "--script", "X", "--no-images", "--out", "o"}, file},
             {{"run", "s.toml", "--frames", "1", "--no-images", "--out", "X"}, new_folder},
             {{"run", "s.toml", "--frames", "1", "--no-images", "--out", "X", "--resume"}, new_folder},
-            {{"run", "s.toml", "--frames", "1", "--size", "64x36", "--out", "o", "--video", "X.mp4"}, new_file},
+            {{"run", "s.toml", "--frames", "1", "--size", "64x36", "--out", "o", "--video", "X/v.mp4"}, new_folder},
             {{"replay", "X"}, Wants::folder},
             {{"check", "X"}, file},
             {{"check", "s.toml", "--script", "X"}, file},

@@ -71,6 +71,8 @@ TEST_CASE("a failure says why, leaves pictures and a report, and how to see it a
   CHECK(holds(outcome.out, "see:   out/rest/report.html"));
   CHECK(fs::exists(suite.folder / "out/rest/report.html"));
   CHECK(fs::exists(suite.folder / "out/rest/rest.png"));
+  CHECK(holds(slurp(suite.folder / "out/fall/report.html"),
+              "<li>suite/fall.script:2:1: frame 6: expected contacts &gt; 2; found contacts = 0"));
   CHECK(fs::exists(suite.folder / "out/rest/run/frames/000004.png"));
   // the command it prints does show the failure
   std::smatch again;

@@ -23,6 +23,18 @@ std::string line_of(const std::string& text, const std::string& word) {
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
+/// The same with the lines below it that are indented.
+std::string item_of(const std::string& text, const std::string& word) {
+  std::string item = line_of(text, word);
+  std::size_t end = text.find(item) + item.size();
+  while (!item.empty() && text.compare(end, 2, "\n ") == 0) {
+    const std::size_t next = std::min(text.find('\n', end + 1), text.size());
+    item += text.substr(end, next - end);
+    end = next;
+  }
+  return item;
+}
+
 struct Newcomer {
   const char *topic, *name, *path;  ///< of impinge list; where it is chosen, "" for none
 };
@@ -123,7 +135,7 @@ TEST_CASE("extension: a response's parameter is a row like any other") {
   folder.write("s.toml", "[response]\nmethod = \"relaxed_impulse\"\nrelaxed_impulse = { relaxation = 0.5 }\n" +
                              std::string(kScene));
   const Outcome rows = extended(folder, {"list", "parameters"});
-  const std::string row = line_of(rows.out, "response.relaxed_impulse.relaxation");
+  const std::string row = item_of(rows.out, "response.relaxed_impulse.relaxation");
   CHECK(contains(row, "[0.05, 1]"));
   CHECK(contains(row, "0.8"));
   CHECK(contains(row, "Part of the way that a sweep goes."));

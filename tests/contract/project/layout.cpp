@@ -58,6 +58,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/step", 15},
                                                  {"engine/world", 16},
                                                  {"engine/io/scene", 17},
+                                                 {"engine/preflight", 18},
                                                  {"viewer/image", 20},
                                                  {"viewer/draw", 20},
                                                  {"viewer/gl", 21},
@@ -65,6 +66,7 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/layers", 22},
                                                  {"viewer/panels/overlay", 23},
                                                  {"viewer/panels/debug", 23},
+                                                 {"viewer/preflight", 24},
                                                  {"viewer/present", 24},
                                                  {"viewer/web", 25},
                                                  {"viewer/vnc", 25},
@@ -142,7 +144,7 @@ TEST_CASE("a folder's list names every file that makes an entry, by its stem, an
         List{"engine/detection/triangles", "all.cpp", "_narrow_phase"},
         List{"engine/integrators", "all.cpp", "_integrator"}, List{"engine/lcp", "all.cpp", "_solver"},
         List{"engine/materials", "all.cpp", "_material"}, List{"engine/response", "all.cpp", "_response"},
-        List{"viewer/layers", "all.cpp", "_layer"}}) {
+        List{"engine/preflight", "all.cpp", "_warning"}, List{"viewer/layers", "all.cpp", "_layer"}}) {
     CAPTURE(list.folder);
     const auto names_in = [&](const std::string& text, const std::string& form) {
       std::set<std::string> names;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/units.hpp"
+#include "engine/shapes/shape.hpp"
 #include "engine/world/figures.hpp"
 #include "viewer/panels/overlay/picture_panels.hpp"
 
@@ -49,21 +51,36 @@ struct Shown {
   const char* figure;
   const char* label;
   bool brief;
-  std::string (*text)(double value);
+  std::string (*text)(double value, const Unit& length);
 };
 
-std::string number(double value) { return grouped(static_cast<std::int64_t>(value)); }
+/// What overlaps are said in: millimetres, unless the bodies are so small, or so large, that these would be all zeros or
+/// all digits. By what doesn't change while they move.
+Unit length_of(const StepRecord& record) {
+  double smallest = INFINITY;
+  for (const BodyRecord& body : record.bodies)
+    if (body.shape != nullptr && (body.kind == BodyKind::dynamic || body.kind == BodyKind::deformable))
+      smallest = std::min(smallest, body.shape->size());
+  if (smallest < 1e-5) return {"nm", 1e-9};
+  if (smallest < 1e-2) return {"µm", 1e-6};
+  if (smallest > 1e2 && std::isfinite(smallest)) return {"m", 1.0};
+  return {"mm", 1e-3};
+}
+
+std::string number(double value, const Unit&) { return grouped(static_cast<std::int64_t>(value)); }
 
 constexpr Shown kShown[] = {
     {"frame", "frame", true, number},
-    {"time_s", "time", true, [](double s) { return fmt::format("{:.4f} s", s); }},
+    {"time_s", "time", true, [](double s, const Unit&) { return fmt::format("{:.4f} s", s); }},
     {"broad_pairs", "body pairs", false, number},
     {"triangle_pairs", "triangle pairs", false, number},
     {"contacts", "contacts", true, number},
     {"groups", "groups", false, number},
-    {"max_penetration_m", "penetration", true, [](double m) { return fmt::format("{:.4f} mm", 1e3 * m); }},
+    {"max_penetration_m", "penetration", true,
+     [](double m, const Unit& length) { return fmt::format("{:.4f} {}", m / length.size, length.name); }},
     {"lcp_iterations", "iterations", false, number},
-    {"residual", "residual", true, [](double v) { return v > 0.0 ? fmt::format("{:.1e} m/s", v) : "0 m/s"; }},
+    {"residual", "residual", true,
+     [](double v, const Unit&) { return v > 0.0 ? fmt::format("{:.1e} m/s", v) : "0 m/s"; }},
 };
 
 /// Of a column of milliseconds. The picture's own time is not known while it is drawn.
@@ -74,9 +91,10 @@ std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) {
     return b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable;
   });
+  const Unit length = length_of(record);
   std::vector<Row> rows;
   for (const Shown& shown : kShown)
-    rows.push_back({shown.label, shown.text(find_figure(shown.figure)->value(s)), shown.brief});
+    rows.push_back({shown.label, shown.text(find_figure(shown.figure)->value(s), length), shown.brief});
   rows.push_back({"asleep", fmt::format("{} of {}", s.asleep, dynamic)});
   add_deformable(rows, record);
   if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), true, kWarning});

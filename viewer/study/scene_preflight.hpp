@@ -1,0 +1,20 @@
+// Preflight of a session, and the sub-step that it may be asked to try.
+#pragma once
+
+#include "viewer/controller/session.hpp"
+#include "viewer/preflight/preflight.hpp"
+
+namespace impinge {
+
+/// Frame 0 must not have been left.
+Preflight preflight_of(const Session& session, const Trial* trial = nullptr);
+
+/// The same scene once more, in frames of one sub-step of the same length. Gives up after a minute. Throws what loading
+/// a scene throws, and Interrupted.
+Trial try_scene(const Session& session, const std::filesystem::path& scene, const std::vector<std::string>& overrides,
+                const std::filesystem::path& script);
+
+/// What it came to, in a line without its end: "trial: ...".
+std::string trial_line(const Trial& trial, int frames);
+
+}  // namespace impinge
