@@ -17,6 +17,7 @@ const Registry<SubCommand>& sub_commands() {
     IMPINGE_LIST(all, verify_command);
     IMPINGE_LIST(all, test_command);
     IMPINGE_LIST(all, compare_command);
+    IMPINGE_LIST(all, export_command);
     IMPINGE_LIST(all, debug_command);
     IMPINGE_LIST(all, sweep_command);
     IMPINGE_LIST(all, clean_command);

@@ -6,7 +6,7 @@ namespace {
 
 // who builds one takes its line away
 constexpr std::string_view kCommands[] = {
-    "mesh", "export", "shrink", "show", "judge", "trace",
+    "mesh", "shrink", "show", "judge", "trace",
 };
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "viewer/app/watchdog_note.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/controller/run.hpp"
+#include "viewer/export/exports.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/png_sequence.hpp"
@@ -94,10 +95,29 @@ class RunCommand : public SubCommand {
   int run() override;
 
  private:
+  void take_formats(const std::string& formats);
+
   RunOptions options_;
   std::filesystem::path video_;
   bool quiet_ = false, strict_ = false, number_ = false;
 };
+
+/// ply is what it was before there were others.
+void RunCommand::take_formats(const std::string& formats) {
+  for (std::size_t begin = 0; begin <= formats.size();) {
+    const std::size_t end = std::min(formats.find(',', begin), formats.size());
+    const std::string format = formats.substr(begin, end - begin);
+    begin = end + 1;
+    if (format == "ply") {
+      options_.export_ply = true;
+    } else {
+      const std::string name = format == "sequence" ? "ply" : format;
+      find_exporter(name, "--export");
+      if (std::find(options_.exports.begin(), options_.exports.end(), name) == options_.exports.end())
+        options_.exports.push_back(name);
+    }
+  }
+}
 
 void RunCommand::declare(Options& options) {
   scene_options(options, options_.scene, options_.overrides);
@@ -106,11 +126,10 @@ void RunCommand::declare(Options& options) {
   frames_option(options, options_.frames);
   size_option(options, options_.width, options_.height);
   images_option(options, options_.images);
-  const auto take_format = [this](const std::string& format) {
-    if (format != "ply") refuse_option(fmt::format("--export is '{}'", format), "ply is wanted", "write --export ply");
-    options_.export_ply = true;
-  };
-  options.other("--export", take_format, "ply: the bodies' surfaces of each frame");
+  options.other(
+      "--export", [this](const std::string& formats) { take_formats(formats); },
+      "one or several, with commas between them. ply: the bodies' surfaces in a folder a frame, surfaces/NNNNNN; into "
+      "export/, as impinge export writes them: sequence (its ply), obj, gltf, vtu, usda, poses.csv, poses.json");
   options.flag("--contacts", options_.contacts, "write contacts.csv");
   options.flag("--ids", options_.ids,
                "write ids/NNNNNN.png too: what each pixel of a frame shows, for impinge diff to name what changed");
@@ -191,6 +210,7 @@ int RunCommand::run() {
     fmt::print("frozen:   {} ({} group{}, {} contact{}); impinge step solves it\n", result.frozen_step.string(),
                result.frozen_groups, result.frozen_groups == 1 ? "" : "s", result.frozen_contacts,
                result.frozen_contacts == 1 ? "" : "s");
+  for (const std::string& exported : result.exported) fmt::print("exported: {}\n", exported);
   if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
   if (filmed) fmt::print("video:    {}\n", video_.string());
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");

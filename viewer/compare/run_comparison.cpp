@@ -61,19 +61,6 @@ Settings settings_of(const RecordedRun& run) {
   return settings;
 }
 
-std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
-  const std::string table = read_file(file, kMostBytes);
-  const std::string name = file.string();
-  StatsReader reader(table, judged, name);
-  std::vector<StatsLine> rows;
-  for (StatsLine row; reader.next(row); rows.push_back(row))
-    if (row.figures[0] != static_cast<double>(rows.size()))
-      throw InputError(fmt::format("{}:{}: is of frame {}; rows in order are wanted; run the scene again", name,
-                                   rows.size() + 2, row.figures[0]));
-  if (rows.empty()) throw InputError(file.string() + ": has no frames; a recorded run is wanted; run the scene first");
-  return rows;
-}
-
 void compare_vectors(const std::string& body, const char* field, const char* unit, const Vec3& a, const Vec3& b,
                      std::vector<FieldDifference>& out) {
   if (a != b) out.push_back({body, field, unit, (a - b).norm(), ""});
@@ -116,36 +103,6 @@ std::vector<SettingDifference> setting_differences(const RecordedRun& run_a, con
   for (const auto& [path, value] : b)
     if (!in_a.contains(path)) differences.push_back({path, "", value});
   return differences;
-}
-
-RecordedRun::RecordedRun(const fs::path& folder) : folder_(folder) {
-  if (!is_file(folder / "run.toml"))
-    throw InputError(folder.string() +
-                     ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
-  session_ = std::make_unique<Session>(folder / "run.toml", std::vector<std::string>(), fs::path(),
-                                       SessionOptions{1280, 720, false, true});
-  if (!session_->scene().run)
-    throw InputError((folder / "run.toml").string() +
-                     ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
-  is_judged_ = session_->is_judged();
-  rows_ = read_rows(folder / "stats.csv", is_judged_);
-}
-
-fs::path RecordedRun::picture(int frame) const { return folder_ / "frames" / PngSequence::file_name(frame); }
-
-bool RecordedRun::has_snapshot(int frame) const {
-  return is_valid_snapshot(folder_ / "snapshots" / fmt::format("{:06}.bin", frame));
-}
-
-bool RecordedRun::go_to(int frame) {
-  IMPINGE_ASSERT(frame >= session_->frame() && frame < static_cast<int>(rows_.size()));
-  for (int from = frame; from > session_->frame() && from > 0; --from) {
-    if (!has_snapshot(from)) continue;
-    restore_snapshot(folder_ / "snapshots" / fmt::format("{:06}.bin", from), *session_);
-    break;
-  }
-  while (session_->frame() < frame) session_->advance();
-  return hex64(session_->world().state_hash()) == rows_[static_cast<std::size_t>(frame)].state_hash;
 }
 
 std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRecord& b) {

@@ -5,13 +5,11 @@
 // the recorded one. So no exported surface is needed and what is compared is the whole state, bit by bit.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "viewer/controller/session.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/controller/recorded_run.hpp"
 
 namespace impinge {
 
@@ -24,29 +22,6 @@ struct FieldDifference {
   std::string body, field, unit;
   double largest = 0.0;  ///< in `unit`
   std::string where;     ///< "node 17", or ""
-};
-
-class RecordedRun {
- public:
-  /// Throws InputError where the folder is no run's.
-  explicit RecordedRun(const std::filesystem::path& folder);
-
-  const std::filesystem::path& folder() const { return folder_; }
-  const std::vector<StatsLine>& rows() const { return rows_; }
-  const std::vector<std::string>& columns() const { return figure_names(is_judged_); }
-  std::filesystem::path picture(int frame) const;
-  bool has_snapshot(int frame) const;
-
-  /// The state of a frame, made again; frames in ascending order. False if it isn't the recorded one.
-  bool go_to(int frame);
-  const StepRecord& record() const { return session_->record(); }
-  const Session& session() const { return *session_; }
-
- private:
-  std::filesystem::path folder_;
-  std::vector<StatsLine> rows_;
-  bool is_judged_ = false;
-  std::unique_ptr<Session> session_;
 };
 
 /// Former paths of parameters count as the present ones.

@@ -8,8 +8,10 @@
 #include "engine/io/paths.hpp"
 #include "engine/world/frame_judge.hpp"
 #include "viewer/controller/expectations.hpp"
+#include "viewer/controller/recorded_run.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
+#include "viewer/export/exports.hpp"
 
 namespace impinge {
 
@@ -49,6 +51,17 @@ void check_options(const RunOptions& options, const Session& session, int last_f
                     *options.freeze, last_frame));
 }
 
+Exports open_exports(const RunOptions& options, const Session& session, int last_frame) {
+  ExportJob job;
+  job.folder = options.out / "export";
+  job.name =
+      export_name(session.scene().run ? std::filesystem::path(session.scene().run->scene) : session.scene().path);
+  job.option = "--export";
+  job.frames = last_frame + 1;
+  job.frame_time = session.world().parameters.simulation.frame_time;
+  return {options.exports, job, session.record()};
+}
+
 /// Of a run that goes on the frame to be frozen is not behind it, unless it was frozen then.
 void check_freeze(const RunOptions& options, const RunFolder& folder) {
   if (options.freeze && *options.freeze <= folder.resume_frame() && !is_there(folder.frozen_step(*options.freeze)))
@@ -56,6 +69,16 @@ void check_freeze(const RunOptions& options, const RunFolder& folder) {
         fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose "
                     "one, or another --out",
                     *options.freeze, folder.resume_frame()));
+}
+
+/// What the frames of before an interruption were: files that hold several frames need them all.
+void export_again(const std::filesystem::path& folder, int last, Exports& exports) {
+  RecordedRun earlier(folder);
+  for (int frame = 0; frame <= last; ++frame) {
+    check_interrupt();
+    earlier.go_to(frame);
+    exports.add(earlier.record());
+  }
 }
 
 }  // namespace
@@ -72,6 +95,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const int last_frame = options.frames.value_or(session.default_last_frame());
   check_options(options, session, last_frame);
   const RunRecord record = record_of(options, session, last_frame);
+  Exports exports = open_exports(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene().path.filename().string(), options.ids);
   const RunStart how = options.resume ? RunStart::resume : options.force ? RunStart::force : RunStart::anew;
@@ -99,6 +123,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
+    if (!exports.is_empty()) export_again(options.out, result.resumed_from, exports);
     for (int frame = 0; frame <= result.resumed_from && !stop; ++frame) {
       const std::vector<double>& figures = folder.kept()[frame].figures;
       if (watcher.earlier_frame) watcher.earlier_frame(frame, figures[figure_index("unsafe_motions", judged)]);
@@ -122,6 +147,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
       result.frozen_groups = frozen.groups.size();
     }
     folder.add_frame(session.record(), commands, stats);
+    exports.add(session.record());
     result.last_frame = frame;
     if (watcher.frame) watcher.frame(stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
@@ -139,6 +165,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     result.diverged = error.what();
   }
   view.finish();
+  exports.finish();
+  result.exported = exports.results();
   result.failures = expectations.failures();
   if (result.diverged.empty()) result.crushed = find_crushed(session.world().bodies());
   if (result.diverged.empty() && !result.interrupted) {

@@ -19,8 +19,9 @@ struct RunOptions {
   std::uint64_t snapshot_megabytes = 256;  ///< room for the states of the frames
   int width = 1280, height = 720;          ///< pixels
   bool images = true, ids = false, contacts = false, export_ply = false, judge = false, resume = false;
-  bool force = false;           ///< another run of ours in the folder gives way
-  bool judge_substeps = false;  ///< at the end of each sub-step, not only of each frame
+  bool force = false;                ///< another run of ours in the folder gives way
+  bool judge_substeps = false;       ///< at the end of each sub-step, not only of each frame
+  std::vector<std::string> exports;  ///< formats (viewer/export) that the frames go to as well, into out/export
   /// false: `expect image` lines are left to the caller, and their files may be missing
   bool compares_pictures = true;
 };
@@ -42,10 +43,11 @@ struct RunResult {
   bool interrupted = false;
   std::filesystem::path frozen_step;  ///< written, "" if none
   std::size_t frozen_contacts = 0, frozen_groups = 0;
-  double frames_per_second = 0;      ///< of simulated time
-  std::vector<CrushedBody> crushed;  ///< as the last frame left them
-  std::string diverged;              ///< why, if the simulation left the finite numbers
-  FolderLock lock;                   ///< of the folder, for whoever adds to it what belongs to the run
+  double frames_per_second = 0;       ///< of simulated time
+  std::vector<CrushedBody> crushed;   ///< as the last frame left them
+  std::string diverged;               ///< why, if the simulation left the finite numbers
+  std::vector<std::string> exported;  ///< what there is to open, one a format
+  FolderLock lock;                    ///< of the folder, for whoever adds to it what belongs to the run
   int exit_code() const;
 };
 

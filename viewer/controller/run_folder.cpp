@@ -153,7 +153,7 @@ int RunFolder::last_resumable(const std::vector<StatsLine>& rows) const {
 
 void RunFolder::clear_leftovers() const {
   std::vector<fs::path> folders = {folder_};
-  for (const char* name : {"snapshots", "frames", "ids", "frozen"}) folders.push_back(folder_ / name);
+  for (const char* name : {"snapshots", "frames", "ids", "frozen", "export"}) folders.push_back(folder_ / name);
   // of surfaces only the last frame's can be half written
   if (const fs::path surfaces = folder_ / "surfaces"; is_folder(surfaces))
     if (const std::vector<std::string> frames = names_in(surfaces); !frames.empty())

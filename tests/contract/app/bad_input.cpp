@@ -311,7 +311,7 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"run", "s.toml", "--threads", "0"}, "--threads");
   refused({"run", "s.toml", "--ids", "--no-images"}, "--ids");
   refused({"compare", "a"}, "B");
-  refused({"run", "s.toml", "--export", "obj"}, "ply is wanted");
+  refused({"run", "s.toml", "--export", "stl"}, "poses.csv");
   refused({"list", "parameter"}, "did you mean 'parameters'?");
   CHECK(impinge_run(folder.path(), {"--help"}).code == 0);
   CHECK(impinge_run(folder.path(), {"run", "--help"}).out.find("--resume") != std::string::npos);

@@ -68,6 +68,7 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/panels/debug", 23},
                                                  {"viewer/preflight", 24},
                                                  {"viewer/present", 24},
+                                                 {"viewer/export", 24},
                                                  {"viewer/web", 25},
                                                  {"viewer/vnc", 25},
                                                  {"viewer/controller", 25},

@@ -1,0 +1,86 @@
+// impinge export: the frames of a run, in files that other programs read.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "engine/core/interrupt.hpp"
+#include "engine/io/paths.hpp"
+#include "viewer/app/frame_progress.hpp"
+#include "viewer/app/shared_options.hpp"
+#include "viewer/controller/recorded_run.hpp"
+#include "viewer/export/exports.hpp"
+#include "viewer/export/frame_range.hpp"
+
+namespace impinge {
+
+namespace {
+
+class ExportCommand : public SubCommand {
+ public:
+  void declare(Options& options) override {
+    options.word("DIR", folder_, "folder of the run");
+    options.text("--format", format_, export_formats_doc());
+    options.other(
+        "--frames", [this](const std::string& text) { range_ = FrameRange(text, "--frames"); },
+        "FIRST:LAST:STEP, both ends included; FIRST:LAST, or one frame (default: all)");
+    options.path("--out", out_, "folder to write to (default: DIR/export)");
+    memory_option(options);
+    threads_option(options);
+    quiet_option(options, quiet_);
+  }
+  int run() override;
+
+ private:
+  std::filesystem::path folder_, out_;
+  std::string format_;
+  FrameRange range_;
+  bool quiet_ = false;
+};
+
+int ExportCommand::run() {
+  if (format_.empty())
+    refuse_option("export without --format", "what the files are to be is wanted", "write --format vtu, say");
+  find_exporter(format_, "--format");
+  if (out_.empty()) out_ = folder_ / "export";
+  if (is_there(out_) && !is_folder(out_))
+    throw InputError(out_.string() + ": is a file; a folder is wanted; choose another --out");
+  RecordedRun run(folder_);
+  const std::vector<int> frames = range_.frames(static_cast<int>(run.rows().size()) - 1);
+  const Session& session = run.session();
+  ExportJob job;
+  job.folder = out_;
+  job.name = export_name(session.scene().run->scene);
+  job.option = "--format";
+  job.first = frames.front(), job.stride = range_.stride();
+  job.frames = static_cast<int>(frames.size());
+  job.frame_time = session.world().parameters.simulation.frame_time;
+  Exports exports({format_}, job, run.record());
+  FrameProgress progress;
+  const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
+  bool is_the_run = true;
+  for (const int frame : frames) {
+    check_interrupt();
+    if (!run.go_to(frame) && is_the_run) {
+      is_the_run = false;
+      progress.clear();
+      fmt::print(stderr, "note: frame {} came out otherwise than recorded: another program or machine made the run\n",
+                 frame);
+    }
+    exports.add(run.record());
+    if (shows_progress) progress.show(frame, frames.back());
+  }
+  exports.finish();
+  progress.clear();
+  if (quiet_) return 0;
+  for (const std::string& result : exports.results())
+    fmt::print("exported: {} ({} frame{})\n", result, frames.size(), frames.size() == 1 ? "" : "s");
+  return 0;
+}
+
+}  // namespace
+
+Entry<SubCommand> export_command() {
+  return entry<SubCommand, ExportCommand>(
+      "export", "a run's frames as files for other programs: PLY, OBJ, glTF, VTK, USD, poses");
+}
+
+}  // namespace impinge
