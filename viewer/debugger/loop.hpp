@@ -36,6 +36,7 @@ class DebugLoop {
   const UiWidget& find(const std::string& name, const PlacedText& place);
   void draw(bool quick = false);
   void settle();
+  void write_plots(const std::string& file, const PlacedText& place);
   void shoot(const std::string& file, const PlacedText& place);
 
   Debugger& debugger_;

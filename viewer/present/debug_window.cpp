@@ -6,6 +6,7 @@
 
 #include "engine/shapes/primitives.hpp"
 #include "viewer/panels/debug/keys.hpp"
+#include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
 namespace {
@@ -14,7 +15,22 @@ constexpr Color kSelected = hex(0xfff2a8);
 constexpr Color kBetweenPanels = hex(0x0f1216);
 constexpr float kDegreesPerPixel = 0.4f;
 constexpr double kZoomPerStep = 1.15;
-constexpr float kClick = 3.0f;  // pixels that the pointer may move in a click
+constexpr double kMostLegend = 0.1;  // of the view
+constexpr float kClick = 3.0f;       // pixels that the pointer may move in a click
+
+Aabb bounds_of_selection(const DebugModel& model) {
+  Aabb box;
+  const Selection& s = model.selection;
+  if (!s.is_there()) return box;
+  if (s.kind == Selection::contact) {
+    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
+    box.include(c.point_a);
+    box.include(c.point_b);
+    return box;
+  }
+  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
+  return body.shape->as<Plane>() == nullptr ? body.bounds : box;
+}
 
 }  // namespace
 
@@ -41,6 +57,9 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   ViewSettings settings = *model.view;
   rough_ = quick && held_ >= 0 && dragged_ && settings.antialiasing;
   if (rough_) settings.antialiasing = false;
+  settings.most_legend = kMostLegend;
+  for (const BodyIndex body : selected_bodies(model)) settings.selected.push_back(name_of(model, body));
+  settings.picked = bounds_of_selection(model);
   if (settings.panel_scale == 0) settings.panel_scale = static_cast<int>(ui_.unit());  // as the panels around it
   std::string key = scene_key(model) + (rough_ ? " rough" : "");
   const bool is_new = key != painted_;
@@ -51,7 +70,8 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   CommandLines lines;
   ui_.begin(width(), height());
   keys_to_lines(ui_, model, lines);
-  for (std::size_t i = 0; i < panels().size(); ++i) draw_panel(panels()[i], layout_.panels[i], ui_, model, lines);
+  for (std::size_t i = 0; i < panels().size(); ++i)
+    if (is_in_front(panels()[i], model.state)) draw_panel(panels()[i], layout_.panels[i], ui_, model, lines);
   draw_help(model, layout_.view);
   use_mouse(model, lines);
   const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), layout_.panels);
@@ -99,13 +119,18 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
     last_y_ = y;
   }
   if (!ui_.went_up(held_)) return;
-  if (held_ == 0 && !dragged_) lines.push_back(pick(model, x, y));
+  if (held_ == 0 && !dragged_) {
+    const PanelArea& legend = scene_.legend();
+    const UiArea at{layout_.view.x + legend.x, layout_.view.y + legend.y, legend.width, legend.height};
+    lines.push_back(at.holds(x, y) ? fmt::format("set view.panel.legend_form {}", legend.is_folded ? "whole" : "folded")
+                                   : pick(model, x, y));
+  }
   held_ = -1;
 }
 
 std::string DebugWindow::pick(const DebugModel& model, float x, float y) {
   IdImage ids;
-  scene_.read_ids(*model.record, *model.view, ids);
+  scene_.read_ids(*model.record, *model.view, ids, true);
   const int px = static_cast<int>(x - layout_.view.x), py = static_cast<int>(y - layout_.view.y);
   if (px < 0 || py < 0 || px >= ids.width || py >= ids.height) return "select none";
   // a contact's point is small: within two pixels it is what was meant
