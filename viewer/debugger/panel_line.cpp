@@ -96,11 +96,11 @@ std::vector<std::string> columns_at_first(std::string_view table) {
 
 PanelLine parse_panel(const PlacedText& line, LineWords words, const ParameterSet& rows,
                       const std::vector<std::string>& figures) {
-  want(words, 2, 64, "panel sort|columns|fold|unfold|plot|filter|axis|search|tab|front|scroll|help ...");
+  want(words, 2, 64, "panel sort|columns|fold|unfold|plot|filter|axis|search|tab|front|trails|ghost|scroll|help ...");
   PanelLine p;
-  p.verb = static_cast<PanelLine::Verb>(find(
-      words[1], "panel command",
-      {"sort", "fold", "unfold", "plot", "filter", "scroll", "help", "columns", "search", "tab", "front", "axis"}));
+  p.verb = static_cast<PanelLine::Verb>(find(words[1], "panel command",
+                                             {"sort", "fold", "unfold", "plot", "filter", "scroll", "help", "columns",
+                                              "search", "tab", "front", "axis", "trails", "ghost"}));
   switch (p.verb) {
     case PanelLine::sort:
       parse_sort(words, p);
@@ -133,6 +133,14 @@ PanelLine parse_panel(const PlacedText& line, LineWords words, const ParameterSe
     }
     case PanelLine::plot:
       p.columns = parse_plots(words.subspan(2), figures, body_names(rows));
+      break;
+    case PanelLine::trails:
+      want(words, 3, 3, "panel trails on|off");
+      p.on = find(words[2], "word", {"off", "on"}) == 1;
+      break;
+    case PanelLine::ghost:
+      want(words, 3, 3, "panel ghost FRAME|off");
+      p.frame = words[2].text == "off" ? -1 : static_cast<int>(number(words[2], 0, 1e7, true));
       break;
     case PanelLine::axis:
       want(words, 3, 3, "panel axis log|linear");
@@ -168,6 +176,12 @@ void take(const PanelLine& line, PanelState& p) {
       if (columns.empty()) columns = before;  // a table without columns could not be got back by its heads
       break;
     }
+    case PanelLine::trails:
+      p.trails = line.on;
+      break;
+    case PanelLine::ghost:
+      p.ghost = line.frame;
+      break;
     case PanelLine::axis:
       p.log_plots = line.on;
       break;

@@ -4,33 +4,18 @@
 
 #include <cmath>
 
-#include "engine/shapes/primitives.hpp"
 #include "viewer/panels/debug/keys.hpp"
 #include "viewer/panels/debug/outliner.hpp"
+#include "viewer/present/debug_marks.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr Color kSelected = hex(0xfff2a8);
 constexpr Color kBetweenPanels = hex(0x0f1216);
 constexpr float kDegreesPerPixel = 0.4f;
 constexpr double kZoomPerStep = 1.15;
 constexpr double kMostLegend = 0.1;  // of the view
 constexpr float kClick = 3.0f;       // pixels that the pointer may move in a click
-
-Aabb bounds_of_selection(const DebugModel& model) {
-  Aabb box;
-  const Selection& s = model.selection;
-  if (!s.is_there()) return box;
-  if (s.kind == Selection::contact) {
-    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
-    box.include(c.point_a);
-    box.include(c.point_b);
-    return box;
-  }
-  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
-  return body.shape->as<Plane>() == nullptr ? body.bounds : box;
-}
 
 }  // namespace
 
@@ -44,9 +29,9 @@ DebugWindow::DebugWindow(int width, int height, int scale)
 DebugWindow::~DebugWindow() { context_->make_current(); }
 
 std::string DebugWindow::scene_key(const DebugModel& model) const {
-  std::string key = fmt::format("{} {:016x} {} {} {} {}", model.frame, model.record->stats.state_hash,
+  std::string key = fmt::format("{} {:016x} {} {} {} {} {} {}", model.frame, model.record->stats.state_hash,
                                 static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
-                                static_cast<const void*>(model.record));
+                                static_cast<const void*>(model.record), model.state.trails, model.state.ghost);
   for (const Parameter& row : model.rows->all())
     if (row.path.starts_with("view.")) key += ' ' + format_value(row.get());
   return key;
@@ -64,7 +49,11 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   std::string key = scene_key(model) + (rough_ ? " rough" : "");
   const bool is_new = key != painted_;
   if (is_new) {
-    scene_.paint(*model.record, settings, [&](DrawList& list) { mark_selection(model, list); });
+    scene_.paint(*model.record, settings, [&](DrawList& list) {
+      draw_ghost(model, list);
+      draw_trails(model, list);
+      mark_selection(model, list);
+    });
     painted_ = std::move(key);
   }
   CommandLines lines;
@@ -148,29 +137,6 @@ std::string DebugWindow::pick(const DebugModel& model, float x, float y) {
   std::string line = fmt::format("select body {}", object->body);
   if (!ids.part.empty() && ids.part[i] != IdImage::kNoPart) line += fmt::format(" {}", ids.part[i]);
   return line;
-}
-
-void DebugWindow::mark_selection(const DebugModel& model, DrawList& list) const {
-  const Selection& s = model.selection;
-  if (!s.is_there()) return;
-  if (s.kind == Selection::contact) {
-    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
-    list.points.push_back({c.point_a, kSelected, 17.0f, Depth::on_top});
-    list.points.push_back({c.point_a, hex(0x20242a), 9.0f, Depth::on_top});
-    list.arrows.push_back({c.point_a, c.normal, kSelected, 60.0f, 3.5f, Depth::on_top});
-    return;
-  }
-  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
-  if (!body.bounds.is_empty() && body.shape->as<Plane>() == nullptr)
-    list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
-  const SurfaceMesh* mesh = body.shape->mesh();
-  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>(mesh->mesh.triangles.size())) return;
-  const auto& t = mesh->mesh.triangles[static_cast<std::size_t>(s.triangle)];
-  list.triangles.push_back(
-      {{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])],
-        body.vertices[static_cast<std::size_t>(t[2])]},
-       kSelected,
-       Depth::on_top});
 }
 
 }  // namespace impinge

@@ -46,6 +46,8 @@ struct PanelState {
   /// in the timeline: columns of stats.csv, and figures of bodies and pairs (tracks.hpp)
   std::vector<std::string> plots = {"contacts", "max_penetration_m", "kinetic_J"};
   bool log_plots = false;               ///< the axis of plots is logarithmic
+  bool trails = false;                  ///< of bodies in the view
+  int ghost = -1;                       ///< frame that is seen through the present one; none: -1
   std::map<std::string, float> scroll;  ///< by panel, pixels
   bool help = false;
 };

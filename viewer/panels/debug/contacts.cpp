@@ -86,14 +86,14 @@ const Table& contacts_table() {
       {{"index", "#", "", C::whole, 4, true, "index in this frame"},
        {"a", "A", "", C::words, 5, true, "the body that stands earlier in the scene"},
        {"b", "B", "", C::words, 5, true, "the other body"},
-       {"gap", "gap", "m", C::number, 8, true, "at the end of the frame; negative: they overlap"},
-       {"normal", "n", "N s", C::number, 9, true, "normal impulse of the last sub-step"},
-       {"friction", "t", "N s", C::number, 9, true, "size of the friction impulse of the last sub-step"},
-       {"gap0", "gap0", "m", C::number, 8, false, "the gap that the solver saw"},
-       {"force", "force", "N", C::number, 8, false, "normal impulse by the sub-step's time"},
-       {"used", "used %", "", C::number, 8, false, "friction impulse by the most that friction may be"},
-       {"coefficient", "mu", "", C::number, 6, false, "coefficient of friction"},
-       {"group", "group", "", C::whole, 7, false, "its collision group"},
+       {"gap", "gap", "m", C::number, 0, true, "at the end of the frame; negative: they overlap"},
+       {"normal", "n", "N s", C::number, 0, true, "normal impulse of the last sub-step"},
+       {"friction", "t", "N s", C::number, 0, true, "size of the friction impulse of the last sub-step"},
+       {"gap0", "gap0", "m", C::number, 0, false, "the gap that the solver saw"},
+       {"force", "force", "N", C::number, 0, false, "normal impulse by the sub-step's time"},
+       {"used", "used %", "", C::number, 0, false, "friction impulse by the most that friction may be"},
+       {"coefficient", "mu", "", C::number, 0, false, "coefficient of friction"},
+       {"group", "group", "", C::whole, 4, false, "its collision group"},
        {"state", "", "", C::words, 2, true, "green: sticks, orange: slips, white: open"}}};
   return table;
 }

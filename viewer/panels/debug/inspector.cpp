@@ -10,8 +10,6 @@
 namespace impinge {
 namespace {
 
-constexpr float kDigits = 6.5f;  // letters that digits are given before their unit
-
 void label(const char* text) {
   ImGui::TableNextColumn();
   ImGui::TextColored(dim(), "%s", text);
@@ -27,7 +25,7 @@ void row(const char* name, const std::string& value) {
 void row(const char* name, double value, std::string_view unit, const std::string& more = "") {
   label(name);
   const NumberText text = number_text(value, unit);
-  const float room = kDigits * ImGui::CalcTextSize("0").x - ImGui::CalcTextSize(text.digits.c_str()).x;
+  const float room = ImGui::CalcTextSize("-888.8").x - ImGui::CalcTextSize(text.digits.c_str()).x;
   if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
   ImGui::TextUnformatted((text.whole() + more).c_str());
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "viewer/layers/body_style.hpp"
 #include "viewer/panels/debug/outliner.hpp"
@@ -32,8 +33,20 @@ std::vector<Touched> touched(const StepRecord& record) {
   return all;
 }
 
+/// Each body's place by the alphabet.
+std::vector<double> ranks(const StepRecord& record) {
+  std::vector<std::size_t> order(record.bodies.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t l, std::size_t r) { return record.bodies[l].name < record.bodies[r].name; });
+  std::vector<double> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<double>(i);
+  return rank;
+}
+
 std::vector<double> numbers_of(const DebugModel& model) {
   const StepRecord& record = *model.record;
+  const std::vector<double> rank = ranks(record);
   const std::vector<Touched> all = touched(record);
   const double step = substep_time(record);
   std::vector<double> numbers;
@@ -41,7 +54,7 @@ std::vector<double> numbers_of(const DebugModel& model) {
     const BodyRecord& b = record.bodies[i];
     const Touched& t = all[i];
     const bool moves = b.kind != BodyKind::fixed, is_plane = b.bounds.is_empty() || !b.bounds.extent().allFinite();
-    const double row[] = {static_cast<double>(i),
+    const double row[] = {rank[i],
                           static_cast<double>(b.kind),
                           moves ? b.velocity.norm() : kNone,
                           static_cast<double>(t.contacts),
@@ -118,16 +131,16 @@ const Table& bodies_table() {
   using C = TableColumn;
   static const Table table = {
       "bodies",
-      {{"name", "name", "", C::words, 8, true, "as the scene has it"},
+      {{"name", "name", "", C::words, 8, true, "a heading that is clicked sorts; this one by the alphabet"},
        {"kind", "kind", "", C::words, 6, false, "dynamic, deformable, scripted or static"},
-       {"speed", "speed", "m/s", C::number, 9, true, "of its centre"},
-       {"contacts", "cont.", "", C::whole, 7, true, "contacts that it has part in"},
-       {"gap", "gap", "m", C::number, 8, true, "the least of its contacts' gaps; negative: they overlap"},
-       {"mass", "mass", "kg", C::number, 8, false, "of dynamic and deformable bodies"},
-       {"size", "size", "m", C::number, 8, false, "longest edge of the box around it"},
-       {"spin", "spin", "rad/s", C::number, 11, false, "how fast it turns"},
-       {"force", "force", "N", C::number, 8, false, "sum of its contacts' normal forces, last sub-step"},
-       {"group", "group", "", C::whole, 7, false, "its collision group"}}};
+       {"speed", "speed", "m/s", C::number, 0, true, "of its centre"},
+       {"contacts", "cont.", "", C::whole, 4, true, "contacts that it has part in"},
+       {"gap", "gap", "m", C::number, 0, true, "the least of its contacts' gaps; negative: they overlap"},
+       {"mass", "mass", "kg", C::number, 0, false, "of dynamic and deformable bodies"},
+       {"size", "size", "m", C::number, 0, false, "longest edge of the box around it"},
+       {"spin", "spin", "rad/s", C::number, 0, false, "how fast it turns"},
+       {"force", "force", "N", C::number, 0, false, "sum of its contacts' normal forces, last sub-step"},
+       {"group", "group", "", C::whole, 4, false, "its collision group"}}};
   return table;
 }
 

@@ -66,12 +66,12 @@ const Table& groups_table() {
   static const Table table = {
       "groups",
       {{"members", "bodies", "", C::words, 9, true, "the first of its bodies, and how many more"},
-       {"bodies", "n", "", C::whole, 5, true, "how many bodies"},
-       {"contacts", "cont.", "", C::whole, 7, true, "contacts that are solved together"},
-       {"gap", "gap", "m", C::number, 8, true, "the least of its contacts' gaps; negative: they overlap"},
-       {"unknowns", "DoF", "", C::whole, 6, false, "degrees of freedom of its bodies"},
-       {"mass_ratio", "m:m", "", C::number, 6, false, "its heaviest body's mass by its lightest's"},
-       {"force", "force", "N", C::number, 8, false, "sum of its contacts' normal forces, last sub-step"}}};
+       {"bodies", "n", "", C::whole, 4, true, "how many bodies"},
+       {"contacts", "cont.", "", C::whole, 4, true, "contacts that are solved together"},
+       {"gap", "gap", "m", C::number, 0, true, "the least of its contacts' gaps; negative: they overlap"},
+       {"unknowns", "DoF", "", C::whole, 4, false, "degrees of freedom of its bodies"},
+       {"mass_ratio", "m:m", "", C::number, 0, false, "its heaviest body's mass by its lightest's"},
+       {"force", "force", "N", C::number, 0, false, "sum of its contacts' normal forces, last sub-step"}}};
   return table;
 }
 

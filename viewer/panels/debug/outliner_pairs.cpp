@@ -48,10 +48,10 @@ const Table& pairs_table() {
       "pairs",
       {{"a", "A", "", C::words, 6, true, "the body that stands earlier in the scene"},
        {"b", "B", "", C::words, 6, true, "the other body, or the same of one that touches itself"},
-       {"contacts", "cont.", "", C::whole, 7, true, "contacts between the two"},
-       {"triangle_pairs", "tri.", "", C::whole, 6, true, "pairs of triangles that were tested: what the pair costs"},
-       {"gap", "gap", "m", C::number, 8, true, "the least of their contacts' gaps; negative: they overlap"},
-       {"force", "force", "N", C::number, 8, false, "sum of their contacts' normal forces, last sub-step"}}};
+       {"contacts", "cont.", "", C::whole, 4, true, "contacts between the two"},
+       {"triangle_pairs", "tri.", "", C::whole, 4, true, "pairs of triangles that were tested: what the pair costs"},
+       {"gap", "gap", "m", C::number, 0, true, "the least of their contacts' gaps; negative: they overlap"},
+       {"force", "force", "N", C::number, 0, false, "sum of their contacts' normal forces, last sub-step"}}};
   return table;
 }
 

@@ -27,20 +27,35 @@ std::vector<std::size_t> chosen(const Table& table, const TableState& state) {
   return columns;
 }
 
+float wide(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
+
+// of a number: figures end where units begin, in every row
+float unit_room(const TableColumn& column) { return column.unit.empty() ? 0.0f : wide("m" + std::string(column.unit)); }
+float unit_gap(const TableColumn& column) { return column.unit.empty() ? 0.0f : 0.6f * wide("0"); }
+
+/// What its texts and its head with the arrow of sorting want.
+float width_of(const TableColumn& column) {
+  float content = static_cast<float>(column.letters) * wide("n");
+  if (column.look == TableColumn::whole) content = static_cast<float>(column.letters) * wide("0");
+  if (column.look == TableColumn::number) content = wide("-88.8") + unit_gap(column) + unit_room(column);
+  const float arrow = 0.9f * ImGui::GetFontSize();
+  return column.head.empty() ? content : std::max(content, wide(std::string(column.head)) + arrow);
+}
+
 struct Fitting {
   std::vector<std::size_t> columns;  // in the order of the table
   std::vector<std::string> left_out;
 };
 
 /// Words stay; of numbers those that were chosen last.
-Fitting fit(const Table& table, std::vector<std::size_t> wanted, float room, const std::function<float(int)>& width) {
+Fitting fit(const Table& table, std::vector<std::size_t> wanted, float room, float cell) {
   Fitting fitting;
   for (const std::size_t c : wanted)
-    if (table.columns[c].look == TableColumn::words) room -= width(table.columns[c].letters);
+    if (table.columns[c].look == TableColumn::words) room -= width_of(table.columns[c]) + cell;
   std::reverse(wanted.begin(), wanted.end());
   for (const std::size_t c : wanted) {
     const TableColumn& column = table.columns[c];
-    if (column.look != TableColumn::words && (room -= width(column.letters)) < 0.0f) {
+    if (column.look != TableColumn::words && (room -= width_of(column) + cell) < 0.0f) {
       fitting.left_out.emplace_back(column.name);
       continue;
     }
@@ -105,11 +120,8 @@ void draw_cell(const TableColumn& column, double value) {
     const std::string text = fmt::format("{:.0f}", value);
     return text_at(right - ImGui::CalcTextSize(text.c_str()).x, at.y, text, ink);
   }
-  // digits end where units begin, in every row
   const NumberText text = number_text(value, column.unit);
-  const std::string widest = "m" + std::string(column.unit);
-  const float units = column.unit.empty() ? 0.0f : ImGui::CalcTextSize(widest.c_str()).x,
-              between = column.unit.empty() ? 0.0f : ImGui::CalcTextSize(" ").x, edge = right - units - between;
+  const float between = unit_gap(column), edge = right - unit_room(column) - between;
   text_at(edge - ImGui::CalcTextSize(text.digits.c_str()).x, at.y, text.digits, ink);
   text_at(edge + between, at.y, text.unit, ImGui::GetColorU32(ImGuiCol_TextDisabled));
 }
@@ -181,9 +193,15 @@ void draw_row(Ui& ui, CommandLines& lines, std::string_view panel, const Table& 
                         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap))
     lines.push_back(rows.select(row));
   ImGui::SetItemAllowOverlap();
+  // it is as wide as the table, and so is where it can be clicked
+  const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  ImGui::PushClipRect(low, {low.x + size.x, low.y + size.y}, false);
   ui.name(fmt::format("{}/row:{}", panel, place));
   if (const std::string name = rows.name(row); !name.empty()) ui.name(fmt::format("{}/row:{}", panel, name));
-  tooltip(rows.tip(row));
+  ImGui::PopClipRect();
+  // icons have tips of their own
+  if (rows.icons == 0 || ui.mouse_x() > low.x + start.x + static_cast<float>(rows.icons) * ImGui::GetTextLineHeight())
+    tooltip(rows.tip(row));
   ImGui::SetCursorPos(start);
   if (rows.icons > 0) rows.draw_icons(row), ImGui::TableNextColumn();
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -205,12 +223,11 @@ void draw_row(Ui& ui, CommandLines& lines, std::string_view panel, const Table& 
 std::vector<std::string> draw_table(Ui& ui, const DebugModel& model, CommandLines& lines, std::string_view panel,
                                     const Table& table, const TableRows& rows) {
   const TableState& state = state_of(model, table);
-  const float letter = ImGui::CalcTextSize("0").x, cell = 4.0f * ui.unit(), line = ImGui::GetTextLineHeight();
+  const float cell = 4.0f * ui.unit(), line = ImGui::GetTextLineHeight();
   const float icons = static_cast<float>(rows.icons) * (line + 2.0f * ui.unit());
-  const auto width = [&](int letters) { return static_cast<float>(letters) * letter + cell; };
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize - 2.0f * cell -
                      (rows.icons > 0 ? icons + cell : 0.0f);
-  const Fitting fitting = fit(table, chosen(table, state), room, width);
+  const Fitting fitting = fit(table, chosen(table, state), room, cell);
   const int n = static_cast<int>(fitting.columns.size()) + (rows.icons > 0 ? 1 : 0);
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(2.0f * ui.unit(), 1.0f * ui.unit()));
   const bool open = n > 0 && ImGui::BeginTable("rows", n,
@@ -224,7 +241,7 @@ std::vector<std::string> draw_table(Ui& ui, const DebugModel& model, CommandLine
     const TableColumn& column = table.columns[c];
     const bool stretches = column.look == TableColumn::words && column.letters > 2;
     ImGui::TableSetupColumn("", stretches ? ImGuiTableColumnFlags_WidthStretch : ImGuiTableColumnFlags_WidthFixed,
-                            stretches ? static_cast<float>(column.letters) : width(column.letters) - cell);
+                            stretches ? static_cast<float>(column.letters) : width_of(column));
   }
   draw_heads(ui, state, lines, panel, table, fitting.columns, rows.icons);
   const std::vector<std::size_t> order = sorted(table, rows, state);

@@ -12,7 +12,7 @@ struct TableColumn {
   std::string_view head;
   std::string_view unit;  ///< of a number, which has it with its prefix in every row
   Look look = number;
-  int letters = 8;       ///< that it is wide at least
+  int letters = 0;       ///< of words and whole numbers: that there is room for; words of two or less are marks
   bool at_first = true;  ///< whether it is seen where nobody chose
   std::string_view doc;
 };

@@ -16,7 +16,7 @@ ImU32 ink(std::uint32_t rgb, float alpha = 1.0f) {
   return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
 }
 
-constexpr float kNames = 146.0f, kValues = 96.0f, kDigits = 50.0f;  // room for them beside the strips
+constexpr float kNames = 146.0f, kValues = 100.0f, kDigits = 56.0f;  // room for them beside the strips
 
 struct Axis {
   float left, right;
