@@ -5,13 +5,18 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <imgui.h>
+
 #include "engine/core/types.hpp"
+#include "tests/support/pictures/text_faults.hpp"
 #include "viewer/debugger/loop.hpp"
 #include "viewer/draw/palette.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/panels/debug/outliner.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -81,7 +86,8 @@ void check_baseline(const std::string& name, const Image& now, std::uintmax_t mo
 
 std::vector<std::pair<std::string, UiArea>> areas(const DebugLayout& l) {
   std::vector<std::pair<std::string, UiArea>> all = {{"view", l.view}};
-  for (std::size_t i = 0; i < panels().size(); ++i) all.emplace_back(panels()[i].name, l.panels[i]);
+  for (std::size_t i = 0; i < panels().size(); ++i)
+    if (panels()[i].shares.empty()) all.emplace_back(panels()[i].name, l.panels[i]);
   return all;
 }
 
@@ -103,6 +109,57 @@ TEST_CASE("the debugger's panels are those of the baselines") {
                              0.6f * layout.view.width, 0.6f * layout.view.height}),
                  60'000);
   check_baseline("inspector_of_a_body", crop(help, layout.area("inspector")), 60'000);
+}
+
+TEST_CASE("the outliner's tabs are those of the baselines") {
+  PanelSession session(1280, 720);
+  session.run(kLines).run({"panel front outliner", "select body crate", "hide ball", "lock floor"});
+  const UiArea area = debug_layout(1280, 720, 1.0f).area("outliner");
+  for (const std::string& tab : outliner_tabs())
+    check_baseline("outliner_" + tab, crop(session.run({"panel tab " + tab}).loop.picture(), area), 40'000);
+}
+
+TEST_CASE("no text of tables, numbers and plots is cut off or lies over another, small or large") {
+  for (const auto& [width, height] : {std::pair(1280, 720), {3840, 2160}, {kLeastWidth, kLeastHeight}}) {
+    PanelSession session(width, height);
+    session.run(kLines).run({"panel front outliner", "panel columns contacts +used +gap0"});
+    const DebugLayout layout = debug_layout(width, height, session.window.ui().unit());
+    for (const char* deed :
+         {"select body crate", "select body floor", "select contact 0", "panel tab groups",
+          "panel columns groups +force", "panel tab pairs", "panel tab bodies", "panel columns bodies +kind +mass",
+          "panel columns bodies -speed", "seek 0", "hide ball"}) {
+      session.run({deed}).loop.picture();
+      for (const char* panel : {"outliner", "contacts", "inspector", "timeline"}) {
+        CAPTURE(width, height, deed, panel);
+        const TextFaults faults = text_faults(*ImGui::GetDrawData(), layout.area(panel));
+        CHECK(faults.letters > 10);
+        CHECK(faults.cut_off == 0);
+        CHECK(faults.over_others == 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("texts that are cut off or lie over each other are found") {
+  PanelSession session(960, 600);
+  Ui& ui = session.window.ui();
+  const auto faults = [&](const std::function<void(ImDrawList&)>& draw) {
+    ui.begin(960, 600);
+    draw(*ImGui::GetForegroundDrawList());
+    return text_faults(ui.end(), {0, 0, 960, 600});
+  };
+  const auto text = [](ImDrawList& list, float x, float y, const char* words) {
+    list.AddText({x, y}, 0xffffffff, words);
+  };
+  const TextFaults good = faults([&](ImDrawList& list) { text(list, 20, 20, "one two"), text(list, 20, 40, "three"); });
+  CHECK(good.letters == 11);
+  CHECK(good.cut_off + good.over_others == 0);
+  CHECK(faults([&](ImDrawList& list) { text(list, 20, 20, "one"), text(list, 30, 22, "two"); }).over_others > 0);
+  CHECK(faults([&](ImDrawList& list) {
+          list.PushClipRect({0, 0}, {31, 100});
+          text(list, 20, 20, "one");
+          list.PopClipRect();
+        }).cut_off > 0);
 }
 
 TEST_CASE("a frame that is gone back to looks as it did") {

@@ -27,8 +27,29 @@ constexpr VerbRow kVerbs[] = {
     {"fit", 0, 0, 0, "camera fit"},
 };
 
+constexpr const char* kBodyVerbs[] = {"hide", "isolate", "show", "lock", "unlock", "frame", "follow"};
+
+/// Rows whose texts are names of bodies.
+bool names_bodies(const std::string& path) {
+  return path == "view.hidden" || path == "view.locked" || path == "view.camera.follow";
+}
+
 std::string remedy(const std::string& near, const char* otherwise) {
   return near.empty() ? otherwise : fmt::format("did you mean '{}'?", near);
+}
+
+void check_body(const PlacedText& word, std::string_view name, const std::vector<std::string>& bodies) {
+  if (std::find(bodies.begin(), bodies.end(), name) != bodies.end()) return;
+  word.refuse(fmt::format("unknown body '{}'", name), fmt::format("bodies: {}", some_of(bodies)),
+              remedy(nearest_word(name, bodies), "use one of them"));
+}
+
+void check_bodies(const PlacedText& word, const ParameterValue& value, const ParameterSet& rows) {
+  const std::vector<std::string> bodies = body_names(rows);
+  if (const auto* one = std::get_if<std::string>(&value); one != nullptr && !one->empty())
+    check_body(word, *one, bodies);
+  if (const auto* several = std::get_if<std::vector<std::string>>(&value))
+    for (const std::string& name : *several) check_body(word, name, bodies);
 }
 
 std::vector<Command> parse_set(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
@@ -43,7 +64,35 @@ std::vector<Command> parse_set(std::span<const PlacedText> words, const Paramete
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}; change the value", first.place(), error.what()));
     }
+  for (const Command& command : commands)
+    if (const auto& set = std::get<SetCommand>(command); names_bodies(set.path)) check_bodies(first, set.value, rows);
   return commands;
+}
+
+Command parse_bodies(std::span<const PlacedText> words, const ParameterSet& rows) {
+  const auto verb = static_cast<BodiesCommand::Verb>(
+      std::find(std::begin(kBodyVerbs), std::end(kBodyVerbs), words[0].text) - std::begin(kBodyVerbs));
+  const bool takes_all = verb == BodiesCommand::show || verb == BodiesCommand::unlock,
+             is_follow = verb == BodiesCommand::follow;
+  const std::string usage = fmt::format("{} NAME{}", words[0].text,
+                                        is_follow   ? "|none"
+                                        : takes_all ? "...|all"
+                                                    : "...");
+  if (words.size() < 2)
+    words[0].refuse(fmt::format("'{}' without a body", words[0].text), fmt::format("{} is wanted", usage),
+                    "add a body's name");
+  if (is_follow && words.size() > 2)
+    words[2].refuse(fmt::format("'{}' after the body", words[2].text), "one body can be followed",
+                    "name that one alone");
+  BodiesCommand command{verb, {}};
+  if (words.size() == 2 && ((takes_all && words[1].text == "all") || (is_follow && words[1].text == "none")))
+    return command;
+  const std::vector<std::string> bodies = body_names(rows);
+  for (const PlacedText& word : words.subspan(1)) {
+    check_body(word, word.text, bodies);
+    command.names.emplace_back(word.text);
+  }
+  return command;
 }
 
 Command parse_layer(std::span<const PlacedText> words, const ParameterSet& rows) {
@@ -121,9 +170,34 @@ struct Formatter {
     for (int i = 0; i < verb.numbers; ++i) text += " " + shortest(c.value[i]);
     return text;
   }
+  std::string operator()(const BodiesCommand& c) const {
+    if (c.names.empty())
+      return fmt::format("{} {}", kBodyVerbs[c.verb], c.verb == BodiesCommand::follow ? "none" : "all");
+    return fmt::format("{} {}", kBodyVerbs[c.verb], fmt::join(c.names, " "));
+  }
 };
 
 }  // namespace
+
+const std::vector<std::string>& command_verbs() {
+  static const std::vector<std::string> verbs = [] {
+    std::vector<std::string> all = {"set", "layer", "camera"};
+    all.insert(all.end(), std::begin(kBodyVerbs), std::end(kBodyVerbs));
+    return all;
+  }();
+  return verbs;
+}
+
+std::vector<std::string> body_names(const ParameterSet& rows) {
+  std::vector<std::string> names;
+  constexpr std::string_view kBegin = "body.", kEnd = ".friction";  // which every body has
+  for (const Parameter& row : rows.all()) {
+    if (!row.path.starts_with(kBegin) || !row.path.ends_with(kEnd)) continue;
+    std::string name = row.path.substr(kBegin.size(), row.path.size() - kBegin.size() - kEnd.size());
+    if (name.find('.') == std::string::npos) names.push_back(std::move(name));
+  }
+  return names;
+}
 
 std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterSet& rows, bool first_frame) {
   const std::vector<std::string>* renamed = rows.renamed(word.text);
@@ -149,8 +223,11 @@ std::vector<Command> parse_command(std::span<const PlacedText> words, const Para
   if (verb.text == "set") return parse_set(words, rows, first_frame);
   if (verb.text == "layer") return {parse_layer(words, rows)};
   if (verb.text == "camera") return {parse_camera(words)};
-  verb.refuse(fmt::format("unknown command '{}'", verb.text), "set, layer or camera is wanted",
-              remedy(nearest_word(verb.text, {"set", "layer", "camera"}), "use one of them"));
+  if (std::find(std::begin(kBodyVerbs), std::end(kBodyVerbs), verb.text) != std::end(kBodyVerbs))
+    return {parse_bodies(words, rows)};
+  verb.refuse(fmt::format("unknown command '{}'", verb.text),
+              fmt::format("allowed: {}", fmt::join(command_verbs(), ", ")),
+              remedy(nearest_word(verb.text, command_verbs()), "use one of them"));
 }
 
 std::string format_command(const Command& command) { return std::visit(Formatter{}, command); }

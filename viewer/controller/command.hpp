@@ -3,6 +3,10 @@
 //   set PATH VALUE...                           any parameter that may change while running
 //   layer +NAME -NAME ...                       debug layers on and off
 //   camera eye X Y Z | target X Y Z | orbit YAW PITCH | pan X Y | zoom FACTOR | fov DEGREES | fit
+//   hide NAME... | isolate NAME... | show NAME...|all       bodies that are drawn; isolate: these and no others
+//   lock NAME... | unlock NAME...|all                       bodies that a click goes through
+//   frame NAME...                                           the camera looks at them, near enough to fill the view
+//   follow NAME|none                                        the camera goes along with a body
 #pragma once
 
 #include <span>
@@ -25,7 +29,17 @@ struct CameraCommand {
   Verb verb = eye;
   Vec3 value = Vec3::Zero();  ///< as many numbers as the verb has, the rest 0; angles in degrees
 };
-using Command = std::variant<SetCommand, LayerCommand, CameraCommand>;
+struct BodiesCommand {
+  enum Verb { hide, isolate, show, lock, unlock, frame, follow };
+  Verb verb = hide;
+  std::vector<std::string> names;  ///< none: all; of follow: no body
+};
+using Command = std::variant<SetCommand, LayerCommand, CameraCommand, BodiesCommand>;
+
+/// The words that commands begin with.
+const std::vector<std::string>& command_verbs();
+/// The bodies' names: those that have rows.
+std::vector<std::string> body_names(const ParameterSet& rows);
 
 /// Reads a command from the words of a line and checks every name and value against the rows: one, but for a former path
 /// that stands for several parameters. Throws InputError at the word that is wrong. `first_frame`: the command takes

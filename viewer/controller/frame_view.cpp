@@ -2,26 +2,57 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "engine/core/archive.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/layers/layer.hpp"
+#include "viewer/layers/view_bodies.hpp"
 
 namespace impinge {
 
 namespace {
 
-// moving bodies, or what there is
-Aabb bounds_of(const StepRecord& record) {
+// moving bodies that are drawn, or what there is
+Aabb bounds_of(const StepRecord& record, const BodySet& hidden) {
   Aabb moving, all;
   for (const BodyRecord& body : record.bodies) {
     if (body.shape->as<Plane>() != nullptr) continue;
+    if (hidden.has(BodyIndex(static_cast<int>(&body - record.bodies.data())))) continue;
     all.include(body.bounds);
     if (body.kind != BodyKind::fixed) moving.include(body.bounds);
   }
   return moving.is_empty() ? all : moving;
+}
+
+// of the bodies with such names; planes have no ends
+Aabb bounds_of(const StepRecord& record, const std::vector<std::string>& names) {
+  Aabb box;
+  for (const BodyRecord& body : record.bodies)
+    if (body.shape->as<Plane>() == nullptr && std::find(names.begin(), names.end(), body.name) != names.end())
+      box.include(body.bounds);
+  return box;
+}
+
+std::vector<std::string> all_but(const StepRecord& record, const std::vector<std::string>& names) {
+  std::vector<std::string> others;
+  for (const BodyRecord& body : record.bodies)
+    if (std::find(names.begin(), names.end(), body.name) == names.end()) others.emplace_back(body.name);
+  return others;
+}
+
+void add(std::vector<std::string>& list, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+}
+
+// none: all
+void take_away(std::vector<std::string>& list, const std::vector<std::string>& names) {
+  std::erase_if(list, [&](const std::string& name) {
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  });
 }
 
 }  // namespace
@@ -31,6 +62,7 @@ FrameView::FrameView() : settings_(make_view_settings()) {}
 void FrameView::settle(const StepRecord& record, int width, int height) {
   width_ = width;
   height_ = height;
+  if (const std::string wrong = unknown_body(record, settings_); !wrong.empty()) throw InputError(wrong);
   settle_camera(settings_, record, static_cast<double>(width) / height);
 }
 
@@ -56,10 +88,52 @@ void FrameView::move_camera(const CameraCommand& command, const StepRecord& reco
       camera.fov_deg = command.value.x();
       break;
     case CameraCommand::fit:
-      camera.fit(bounds_of(record), static_cast<double>(width_) / height_);
+      fit(bounds_of(record, BodySet(record, settings_.hidden)), record);
       break;
   }
   settings_.camera_given = true;
+}
+
+void FrameView::fit(const Aabb& box, const StepRecord& record) {
+  if (box.is_empty()) return;
+  const Vec3 origin = camera_origin(record, settings_);
+  Camera& camera = settings_.camera;
+  camera.fit(box, static_cast<double>(width_) / height_);
+  camera.eye -= origin;
+  camera.target -= origin;
+  settings_.camera_given = true;
+}
+
+void FrameView::show(const BodiesCommand& command, const StepRecord& record) {
+  switch (command.verb) {
+    case BodiesCommand::hide:
+      add(settings_.hidden, command.names);
+      break;
+    case BodiesCommand::isolate:
+      settings_.hidden = all_but(record, command.names);
+      break;
+    case BodiesCommand::show:
+      take_away(settings_.hidden, command.names);
+      break;
+    case BodiesCommand::lock:
+      add(settings_.locked, command.names);
+      break;
+    case BodiesCommand::unlock:
+      take_away(settings_.locked, command.names);
+      break;
+    case BodiesCommand::frame:
+      fit(bounds_of(record, command.names), record);
+      break;
+    case BodiesCommand::follow: {
+      // what is seen now stays as it is
+      const Camera now = camera_in_world(record, settings_);
+      settings_.followed = command.names.empty() ? "" : command.names.front();
+      const Vec3 origin = camera_origin(record, settings_);
+      settings_.camera.eye = now.eye - origin;
+      settings_.camera.target = now.target - origin;
+      settings_.camera_given = true;
+    }
+  }
 }
 
 void FrameView::open(const std::string& scene_name, bool ids) {

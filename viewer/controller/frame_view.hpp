@@ -17,10 +17,12 @@ class FrameView {
 
   /// Declares the rows `view.*`. The set refers to this object.
   void bind(ParameterSet& rows) { settings_.bind(rows); }
-  /// Fixes the proportions of the pictures, and the camera, fitted to the record unless the scene gives one.
+  /// Fixes the proportions of the pictures, and the camera, fitted to the record unless the scene gives one. Throws
+  /// InputError (without a place) where the scene names a body that isn't there.
   void settle(const StepRecord& record, int width, int height);
   const ViewSettings& settings() const { return settings_; }
   void move_camera(const CameraCommand& command, const StepRecord& record);
+  void show(const BodiesCommand& command, const StepRecord& record);
 
   /// Makes ready to draw pictures of the settled size; without it no OpenGL is touched. `ids`: id pictures too. Throws
   /// InputError without OpenGL.
@@ -32,6 +34,8 @@ class FrameView {
   void finish();
 
  private:
+  void fit(const Aabb& box, const StepRecord& record);
+
   ViewSettings settings_;
   int width_ = 1280, height_ = 720;  // pixels
   std::string scene_name_;

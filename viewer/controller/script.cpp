@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -121,7 +122,7 @@ void Script::read_line(const PlacedText& line, const std::filesystem::path& fold
     breaks_.push_back({Expression(spanning(std::span(words).subspan(2), line), figures), first.place()});
   } else {
     const std::string near = nearest_word(first.text, {"at", "from", "expect", "break"});
-    const bool command = first.text == "set" || first.text == "layer" || first.text == "camera";
+    const bool command = std::find(command_verbs().begin(), command_verbs().end(), first.text) != command_verbs().end();
     first.refuse(fmt::format("'{}'", first.text), "a line starts with at, from, expect or break",
                  command        ? "put 'at K' before it"
                  : near.empty() ? "mend the line"

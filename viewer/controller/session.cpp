@@ -98,7 +98,11 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   }
   script_ = Script(script_name_, folder, script_lines_, rows_, figure_names(judge_), options.pictures_may_be_missing);
   start();
-  view_.settle(world_.record(), options.width, options.height);
+  try {
+    view_.settle(world_.record(), options.width, options.height);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", scene_.path.string(), error.what()));
+  }
 }
 
 void Session::start() {
@@ -144,8 +148,10 @@ void Session::apply(const Command& command) {
       if (on) names.push_back(name);
     }
     row.set(names);
+  } else if (const auto* camera = std::get_if<CameraCommand>(&command)) {
+    view_.move_camera(*camera, world_.record());
   } else {
-    view_.move_camera(std::get<CameraCommand>(command), world_.record());
+    view_.show(std::get<BodiesCommand>(command), world_.record());
   }
 }
 

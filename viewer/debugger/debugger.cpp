@@ -128,6 +128,7 @@ bool Debugger::advance() {
 void Debugger::note_frame() {
   const StepRecord& record = session_.record();
   const auto frame = static_cast<std::size_t>(session_.frame());
+  tracks_.note(record);
   std::vector<double> figures = figure_values(record.stats, session_.is_judged());
   if (frame < hashes_.size()) {
     check_hash(session_.frame());
@@ -223,6 +224,7 @@ void Debugger::do_command(const Command& command) {
     ring_.cut(session_.frame());
     history_.resize(static_cast<std::size_t>(next));
     hashes_.resize(static_cast<std::size_t>(next));
+    tracks_.forget_after(session_.frame());
     folder_last_ = std::min(folder_last_, session_.frame());  // its later frames are of another run now
     std::vector<Command>& commands = by_hand_[next];
     std::erase_if(commands,
@@ -255,9 +257,11 @@ void Debugger::do_transport(const TransportLine& line) {
 void Debugger::do_select(Selection s) {
   if (s.kind == Selection::contact) s.pair_id = session_.record().contacts[static_cast<std::size_t>(s.index)].pair_id;
   model_.selection = s;
+  model_.state.is_selected_sought = s.is_there();
 }
 
 void Debugger::follow_selection() {
+  model_.state.is_selected_sought = false;  // rows change places with every frame: nobody goes after them
   Selection& s = model_.selection;
   if (s.kind != Selection::contact) return;
   const std::vector<ContactRecord>& contacts = session_.record().contacts;
@@ -275,7 +279,7 @@ void Debugger::check(const PlacedText& line) const {
 
 std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   DebugLine parsed = parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
-  if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<ShotLine>(parsed) ||
+  if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<FileLine>(parsed) ||
       std::holds_alternative<QuitLine>(parsed))
     return parsed;
   known_before_ = static_cast<int>(hashes_.size());
@@ -378,7 +382,8 @@ void Debugger::record(const std::string& line) {
   if (may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb &&
       word_of(recorded_.back(), 1) == word_of(line, 1)) {
     const std::string what = verb == "panel" ? word_of(line, 1) : "";
-    if (verb == "set" || what == "filter" || (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2)))
+    if (verb == "set" || what == "filter" || what == "search" ||
+        (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2)))
       return replace_recorded(line);
   }
   add_recorded(line);
@@ -446,6 +451,7 @@ const DebugModel& Debugger::model() {
   model_.playing = playing_;
   model_.figure_names = &figure_names(session_.is_judged());
   model_.history = &history_;
+  model_.tracks = &tracks_;
   model_.changed_frames = &changed_frames_;
   model_.snapshots = ring_.count();
   model_.snapshot_bytes = ring_.bytes();

@@ -52,6 +52,8 @@ class Debugger {
   std::string note_of_former_paths() const { return session_.note_of_former_paths(); }
   int failures() const { return expectations_.failures(); }
   void say(ConsoleLine::Kind kind, const std::string& text);
+  /// A file was written by that line.
+  void record_file(const std::string& line) { add_recorded(line); }
   /// A picture was taken: with what was done, since it says where, and the pointer shows.
   void record_shot(const std::string& file, const Vec2& pointer);
   /// What was done so far, as lines that do it again. `pointer`: where it is now, so that what it hovers over looks the
@@ -87,9 +89,10 @@ class Debugger {
   Session session_;
   SnapshotRing ring_;
   std::filesystem::path run_folder_;
-  int folder_last_ = -1;                         // last frame up to which the folder's snapshots are of this run
-  std::vector<std::vector<double>> history_;     // figures by frame
-  std::vector<std::uint64_t> hashes_;            // by frame
+  int folder_last_ = -1;                      // last frame up to which the folder's snapshots are of this run
+  std::vector<std::vector<double>> history_;  // figures by frame
+  std::vector<std::uint64_t> hashes_;         // by frame
+  Tracks tracks_;
   std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first
   std::set<int> changed_frames_;
   DebugModel model_;

@@ -8,52 +8,12 @@
 #include <algorithm>
 
 #include "engine/core/error.hpp"
-#include "viewer/panels/debug/panel.hpp"
+#include "viewer/debugger/line_words.hpp"
+#include "viewer/debugger/panel_line.hpp"
+#include "viewer/panels/debug/ui.hpp"
 
 namespace impinge {
 namespace {
-
-using LineWords = std::span<const PlacedText>;
-
-std::string remedy(std::string_view word, const std::vector<std::string>& names) {
-  const std::string near = nearest_word(std::string(word), names);
-  return near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near);
-}
-
-std::size_t find(const PlacedText& word, const char* what, const std::vector<std::string>& names) {
-  const auto it = std::find(names.begin(), names.end(), word.text);
-  if (it == names.end())
-    word.refuse(fmt::format("unknown {} '{}'", what, word.text), fmt::format("allowed: {}", fmt::join(names, ", ")),
-                remedy(word.text, names));
-  return static_cast<std::size_t>(it - names.begin());
-}
-
-void want(LineWords words, std::size_t least, std::size_t most, const char* usage) {
-  if (words.size() >= least && words.size() <= most) return;
-  words[0].refuse(
-      fmt::format("'{}' with {} word{} after it", words[0].text, words.size() - 1, words.size() == 2 ? "" : "s"),
-      fmt::format("{} is wanted", usage), "mend the line");
-}
-
-double number(const PlacedText& word, double low, double high, bool whole = false) {
-  Parameter row;
-  row.path = "number";
-  row.kind = whole ? ParameterKind::integer : ParameterKind::real;
-  row.range = {low, high};
-  try {
-    const ParameterValue value = parse_value(row, word.text);
-    return whole ? static_cast<double>(std::get<std::int64_t>(value)) : std::get<double>(value);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}; change it", word.place(), error.what()));
-  }
-}
-
-/// Everything after the first `skip` words, as it was written.
-std::string rest(const PlacedText& line, LineWords words, std::size_t skip) {
-  if (words.size() <= skip) return "";
-  return std::string(words[skip].text.data(),
-                     static_cast<std::size_t>(line.text.data() + line.text.size() - words[skip].text.data()));
-}
 
 DebugLine parse_transport(LineWords words) {
   const std::string_view verb = words[0].text;
@@ -98,51 +58,6 @@ DebugLine parse_select(LineWords words, const DebugNames& names) {
                         "choose another");
   }
   return SelectLine{s};
-}
-
-DebugLine parse_panel(const PlacedText& line, LineWords words, const DebugNames& names) {
-  want(words, 2, 64, "panel sort|fold|unfold|plot|filter|scroll|help ...");
-  PanelLine p;
-  p.verb = static_cast<PanelLine::Verb>(
-      find(words[1], "panel command", {"sort", "fold", "unfold", "plot", "filter", "scroll", "help"}));
-  switch (p.verb) {
-    case PanelLine::sort:
-      want(words, 3, 4, "panel sort COLUMN [down]");
-      p.name = contact_columns()[find(words[2], "column", contact_columns())];
-      p.on = words.size() == 4 && find(words[3], "direction", {"up", "down"}) == 1;
-      break;
-    case PanelLine::fold:
-    case PanelLine::unfold: {
-      want(words, 3, 3, "panel fold GROUP");
-      std::vector<std::string> groups;
-      for (const Parameter& row : names.rows.all())
-        if (std::string group = row.path.substr(0, row.path.rfind('.'));
-            std::find(groups.begin(), groups.end(), group) == groups.end())
-          groups.push_back(std::move(group));
-      p.name = groups[find(words[2], "group", groups)];
-      break;
-    }
-    case PanelLine::plot:
-      for (const PlacedText& word : words.subspan(2)) {
-        if (word.text[0] != '+' && word.text[0] != '-')
-          word.refuse(fmt::format("'{}'", word.text), "+COLUMN or -COLUMN is wanted", "put + or - before the name");
-        p.columns.emplace_back(names.figures[find(word.part(1), "column", names.figures)], word.text[0] == '+');
-      }
-      break;
-    case PanelLine::filter:
-      p.name = rest(line, words, 2);
-      break;
-    case PanelLine::scroll:
-      want(words, 4, 4, "panel scroll PANEL PIXELS");
-      p.name = std::string(words[2].text);
-      find(words[2], "panel", panel_names());
-      p.pixels = static_cast<float>(number(words[3], 0, 1e7));
-      break;
-    case PanelLine::help:
-      want(words, 3, 3, "panel help on|off");
-      p.on = find(words[2], "word", {"off", "on"}) == 1;
-  }
-  return p;
 }
 
 DebugLine parse_input(const PlacedText& line, LineWords words) {
@@ -200,47 +115,26 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> verbs = {"set",   "layer",  "camera", "step", "back", "seek", "play",
-                                          "pause", "select", "panel",  "ui",   "shot", "quit"};
-  const std::size_t verb = find(words[0], "command", verbs);
-  if (verb < 3) return parse_command(words, names.rows, false);
-  if (verb < 8) return parse_transport(words);
-  if (verb == 8) return parse_select(words, names);
-  if (verb == 9) return parse_panel(line, words, names);
-  if (verb == 10) return parse_input(line, words);
-  if (verb == 12) return want(words, 1, 1, "quit"), QuitLine{};
-  want(words, 2, 2, "shot FILE");
-  if (!words[1].text.ends_with(".png"))
-    words[1].refuse(fmt::format("'{}'", words[1].text), "a file name that ends in .png is wanted", "add .png");
-  return ShotLine{std::string(words[1].text)};
-}
-
-void take(const PanelLine& line, PanelState& p) {
-  switch (line.verb) {
-    case PanelLine::sort:
-      p.sort = line.name, p.descending = line.on;
-      break;
-    case PanelLine::fold:
-      p.folded.insert(line.name);
-      break;
-    case PanelLine::unfold:
-      p.folded.erase(line.name);
-      break;
-    case PanelLine::plot:
-      for (const auto& [column, on] : line.columns) {
-        std::erase(p.plots, column);
-        if (on) p.plots.push_back(column);
-      }
-      break;
-    case PanelLine::filter:
-      p.filter = line.name;
-      break;
-    case PanelLine::scroll:
-      p.scroll[line.name] = line.pixels;
-      break;
-    case PanelLine::help:
-      p.help = line.on;
-  }
+  const std::vector<std::string> own = {"step",  "back", "seek", "play",  "pause", "select",
+                                        "panel", "ui",   "shot", "plots", "quit"};
+  std::vector<std::string> verbs = command_verbs();
+  const std::size_t commands = verbs.size();
+  verbs.insert(verbs.end(), own.begin(), own.end());
+  std::size_t verb = find(words[0], "command", verbs);
+  if (verb < commands) return parse_command(words, names.rows, false);
+  verb -= commands;
+  if (verb < 5) return parse_transport(words);
+  if (verb == 5) return parse_select(words, names);
+  if (verb == 6) return parse_panel(line, words, names.rows, names.figures);
+  if (verb == 7) return parse_input(line, words);
+  if (verb == 10) return want(words, 1, 1, "quit"), QuitLine{};
+  const bool is_shot = verb == 8;
+  const std::string ending = is_shot ? ".png" : ".csv";
+  want(words, 2, 2, is_shot ? "shot FILE" : "plots FILE");
+  if (!words[1].text.ends_with(ending))
+    words[1].refuse(fmt::format("'{}'", words[1].text), fmt::format("a file name that ends in {} is wanted", ending),
+                    "add " + ending);
+  return FileLine{is_shot ? FileLine::shot : FileLine::plots, std::string(words[1].text)};
 }
 
 }  // namespace impinge

@@ -1,17 +1,17 @@
 // What the debugger understands beside the commands of a script, one a line, done one after another:
 //
-//   set | layer | camera ...            as in a script, from the next frame on
+//   set | layer | camera | hide ...     as in a script, from the next frame on
 //   step [N] | back [N] | seek FRAME | play | pause
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
-//   panel sort COLUMN [down] | fold GROUP | unfold GROUP | plot +COLUMN -COLUMN | filter [TEXT] | scroll PANEL PIXELS |
-//   help on|off ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
+//   panel ...                           panel_line.hpp
+//   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
 //   text WORDS | wait FRAMES
-//   shot FILE                           the window as a PNG
+//   shot FILE.png | plots FILE.csv      the window; what the timeline plots
 //   quit
 #pragma once
 
 #include "viewer/controller/command.hpp"
-#include "viewer/state/debug_model.hpp"
+#include "viewer/debugger/panel_line.hpp"
 
 namespace impinge {
 
@@ -23,26 +23,20 @@ struct TransportLine {
 struct SelectLine {
   Selection selection;  ///< pair_id is not filled in
 };
-struct PanelLine {
-  enum Verb { sort, fold, unfold, plot, filter, scroll, help };
-  Verb verb = sort;
-  std::string name;                                   ///< column, group, text or panel
-  bool on = false;                                    ///< sort: down; help
-  float pixels = 0.0f;                                ///< scroll
-  std::vector<std::pair<std::string, bool>> columns;  ///< plot
-};
 struct InputLine {
   enum Verb { click, drag, move, press, release, wheel, key, type, wait };
   Verb verb = click;
   std::string name;         ///< widget, button, key or text
   double x = 0.0, y = 0.0;  ///< move; wheel: y; drag: value in x; wait: in x
 };
-struct ShotLine {
+struct FileLine {
+  enum What { shot, plots };
+  What what = shot;
   std::string file;
 };
 struct QuitLine {};
 using DebugLine =
-    std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, ShotLine, QuitLine>;
+    std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, FileLine, QuitLine>;
 
 /// What names a line may use.
 struct DebugNames {
@@ -53,8 +47,5 @@ struct DebugNames {
 
 /// Throws InputError at the word that is wrong. Whether a widget is there shows when it is used.
 DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names);
-
-/// What a panel line makes of the panels.
-void take(const PanelLine& line, PanelState& p);
 
 }  // namespace impinge

@@ -13,6 +13,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/panels/debug/series.hpp"
 
 namespace impinge {
 namespace {
@@ -87,7 +88,12 @@ void DebugLoop::run_line(const PlacedText& line) {
 
 void DebugLoop::take(const DebugLine& line, const PlacedText& place) {
   if (const auto* i = std::get_if<InputLine>(&line)) input(*i, place);
-  if (const auto* shot = std::get_if<ShotLine>(&line)) shoot(shot->file, place);
+  if (const auto* file = std::get_if<FileLine>(&line)) {
+    if (file->what == FileLine::shot)
+      shoot(file->file, place);
+    else
+      write_plots(file->file, place);
+  }
   if (std::holds_alternative<QuitLine>(line)) quit_ = true;
 }
 
@@ -161,6 +167,18 @@ void DebugLoop::input(const InputLine& line, const PlacedText& place) {
   }
   while (ui.has_events()) tick();
   tick();
+}
+
+void DebugLoop::write_plots(const std::string& file, const PlacedText& place) {
+  const std::filesystem::path path = out_ / file;
+  try {
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    write_file(path, plots_csv(debugger_.model()));
+  } catch (const OutputError& error) {
+    place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
+                 "a folder that may be written to is wanted", "change --out or the name");
+  }
+  debugger_.record_file("plots " + file);
 }
 
 void DebugLoop::shoot(const std::string& file, const PlacedText& place) {

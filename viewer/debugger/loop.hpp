@@ -41,6 +41,7 @@ class DebugLoop {
   void draw(bool quick = false);
   void obey(const std::string& line);
   void settle();
+  void write_plots(const std::string& file, const PlacedText& place);
   void shoot(const std::string& file, const PlacedText& place);
 
   Debugger& debugger_;

@@ -10,13 +10,36 @@ void DrawList::clear() {
   triangles.clear();
   planes.clear();
   labels.clear();
-  color_bar.reset();
+  color_bars.clear();
   layers.clear();
 }
 
 void DrawList::end_layer(std::string_view name) {
   layers.push_back(
       {name, points.size(), lines.size(), arrows.size(), surfaces.size(), triangles.size(), planes.size()});
+}
+
+void DrawList::leave_out(const std::function<bool(PickId)>& is_out) {
+  // what stays of a kind, and how much of it each layer had before
+  const auto thin = [&](auto& items, std::size_t DrawnLayer::*count) {
+    std::size_t kept = 0, next = 0;
+    auto layer = layers.begin();
+    for (; next < items.size(); ++next) {
+      for (; layer != layers.end() && (*layer).*count <= next; ++layer) (*layer).*count = kept;
+      if (is_out(items[next].pick)) continue;
+      if (kept != next) items[kept] = std::move(items[next]);
+      ++kept;
+    }
+    for (; layer != layers.end(); ++layer) (*layer).*count = kept;
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(kept), items.end());
+  };
+  thin(points, &DrawnLayer::points);
+  thin(lines, &DrawnLayer::lines);
+  thin(arrows, &DrawnLayer::arrows);
+  thin(surfaces, &DrawnLayer::surfaces);
+  thin(triangles, &DrawnLayer::triangles);
+  thin(planes, &DrawnLayer::planes);
+  std::erase_if(labels, [&](const DrawLabel& label) { return is_out(label.pick); });
 }
 
 void DrawList::add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth,

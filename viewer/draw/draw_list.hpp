@@ -1,6 +1,7 @@
 // What is to be drawn, as plain data: layers write it, the renderer reads it. No OpenGL, no physics.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -85,6 +86,7 @@ struct DrawLabel {
   Vec3 position;
   std::string text;
   Color color = role::kInk;
+  PickId pick = 0;
 };
 
 /// What the colours of heated surfaces mean: from 0 to `high`, beyond which the last colour stays.
@@ -108,12 +110,14 @@ struct DrawList {
   std::vector<DrawTriangle> triangles;
   std::vector<DrawPlane> planes;
   std::vector<DrawLabel> labels;
-  std::optional<ColorBar> color_bar;
-  std::vector<DrawnLayer> layers;  ///< in the order of drawing; may be empty
+  std::vector<ColorBar> color_bars;  ///< of heated surfaces the first
+  std::vector<DrawnLayer> layers;    ///< in the order of drawing; may be empty
 
   void clear();
   /// What was added since the last such call belongs to that layer.
   void end_layer(std::string_view name);
+  /// Takes away what belongs to such things.
+  void leave_out(const std::function<bool(PickId)>& is_out);
   /// The twelve edges of a box given in the frame of `pose`.
   void add_box(const Pose& pose, const Vec3& low, const Vec3& high, Color color, float width, Depth depth, PickId pick);
 };

@@ -81,6 +81,8 @@ void ViewSettings::bind(ParameterSet& set) {
   };
   all.add(std::move(distance));
   rows.add("camera.fov", camera.fov_deg, {1.0, 170.0}, "deg", "Vertical angle of view.");
+  rows.add("camera.follow", followed,
+           "The body that the camera goes along with: eye and target are then relative to its centre.");
 
   Parameter list;
   list.path = "view.layers";
@@ -114,8 +116,14 @@ void ViewSettings::bind(ParameterSet& set) {
            "Distance of the clip plane from the origin along its normal.");
   rows.add("backfaces", backs, {{Backs::shown, "shown"}, {Backs::hidden, "hidden"}, {Backs::only, "only"}},
            "Backs of surfaces; only leaves the fronts out, so that bodies are seen from inside.");
+  rows.add("hidden", hidden, "Bodies that are not drawn; a contact is while one of its two bodies is.");
+  rows.add("locked", locked, "Bodies that can't be picked in the view: a click goes through them.");
   rows.add("panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
   rows.add("panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
+  rows.add("panel.legend_form", legend_form,
+           {{LegendForm::automatic, "automatic"}, {LegendForm::whole, "whole"}, {LegendForm::folded, "folded"}},
+           "Folded, the legend is a heading; automatic, it is where it would cover a tenth of the debugger's view, or "
+           "what is picked there wherever it stood.");
   rows.add("panel.timings", show_timings,
            "Times of the stages among the figures; pictures then differ from run to run.");
   rows.add("panel.scale", panel_scale, {0, 16}, "",

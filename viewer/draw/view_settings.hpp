@@ -19,21 +19,35 @@ struct LayerSwitch {
 /// What stands behind the scene.
 enum class BackdropStyle { dark, light, flat };
 
+/// How much of the legend is seen: of the automatic one only its heading where it would cover too much.
+enum class LegendForm { automatic, whole, folded };
+
 struct ViewSettings {
   Camera camera;
   bool camera_given = false;        ///< else the painter fits the camera to what it paints
+  std::string followed;             ///< body whose centre eye and target are relative to; "": they are the world's
   std::vector<LayerSwitch> layers;  ///< in the order they are drawn; layers/layer.hpp fills them in
 
   double point_size = 9.0;     ///< diameter of a contact, pixels of a picture 720 high
   double arrow_length = 36.0;  ///< of a normal, and of the largest force or velocity, same pixels
   double line_width = 1.4;     ///< same pixels
   bool show_figures = true, show_legend = true, show_timings = false;
+  LegendForm legend_form = LegendForm::automatic;
   int panel_scale = 0;  ///< text size in steps of 13 pixels; 0: by the picture's height
   bool antialiasing = true;
   BackdropStyle backdrop = BackdropStyle::dark;
 
   ClipPlane clip;
   Backs backs = Backs::shown;
+
+  // bodies by name
+  std::vector<std::string> hidden;  ///< not drawn
+  std::vector<std::string> locked;  ///< drawn, and a click goes through them
+
+  // What a debugger has picked. No rows: pictures of a run have none of it.
+  std::vector<std::string> selected;  ///< bodies
+  Aabb picked;                        ///< around it, in the world: panels keep away from it
+  double most_legend = 1.0;           ///< share of the picture that an automatic legend may cover
 
   bool is_on(std::string_view layer) const;
   /// Throws InputError with the nearest name for a layer that is not there.

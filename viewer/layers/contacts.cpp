@@ -1,8 +1,40 @@
-// Contact points by what they do.
+// Contact points by what they do: coloured by state or by a quantity, as large as each other or by what they carry.
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/draw/color_map.hpp"
+#include "viewer/draw/number_text.hpp"
+#include "viewer/layers/contact_measures.hpp"
+#include "viewer/layers/heat_map.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
+
+constexpr float kLeastSize = 0.35f, kMostSize = 3.0f;  // times view.point_size
+
+enum class Shown { state, gap, impulse, slip };
+enum class Size { same, force };
+
+struct Settings {
+  bool carrying = false, of_selected = false;
+  Size size = Size::same;
+  Shown color = Shown::state;
+  double max = 0.0;  // of the colour bar
+
+  void declare(const Rows& rows) {
+    rows.add("carrying", carrying, "Only contacts that carry something.");
+    rows.add("of_selected", of_selected, "Only contacts of the bodies selected in the debugger, if any are.");
+    rows.add("size", size, {{Size::same, "same"}, {Size::force, "force"}},
+             "Discs of one size, or with areas like their normal forces: view.point_size is the mean one's.");
+    rows.add("color", color,
+             {{Shown::state, "state"}, {Shown::gap, "gap"}, {Shown::impulse, "impulse"}, {Shown::slip, "slip"}},
+             "What colours mean: the state; how deep the bodies overlap (m); the normal impulse (N s); the speed at "
+             "which the two points slide along each other (m/s).");
+    rows.add("max", max, {0.0, 1e15, true}, "",
+             "Upper end of the colour bar, in the unit of what it shows; 0 chooses by the frame.");
+  }
+};
 
 Color color_of(ContactState state) {
   switch (state) {
@@ -15,15 +47,89 @@ Color color_of(ContactState state) {
   }
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+double quantity_of(const StepRecord& record, const ContactRecord& c, Shown what) {
+  switch (what) {
+    case Shown::gap:
+      return std::max(0.0, -c.gap);
+    case Shown::impulse:
+      return c.lambda.x();
+    case Shown::slip:
+      return slip_speed(record, c);
+    default:
+      return 0.0;
+  }
+}
+
+/// Which are drawn, those that carry something last: they lie over the many that are merely near.
+std::vector<std::size_t> drawn(const LayerContext& context, const Settings& own) {
   const std::vector<ContactRecord>& contacts = context.record.contacts;
-  const float size = static_cast<float>(context.settings.point_size);
-  // those that carry something lie over the many that are merely near, and are larger
+  const std::vector<std::string>& selected = context.settings.selected;
+  const auto is_selected = [&](BodyIndex b) {
+    const std::string_view name = context.record.bodies[static_cast<std::size_t>(b.value())].name;
+    return std::find(selected.begin(), selected.end(), name) != selected.end();
+  };
+  // of a selected contact its pair; of a body all that touch it
+  const auto is_wanted = [&](const ContactRecord& c) {
+    if (!own.of_selected || selected.empty()) return true;
+    return selected.size() == 1 ? is_selected(c.body_a) || is_selected(c.body_b)
+                                : is_selected(c.body_a) && is_selected(c.body_b);
+  };
+  std::vector<std::size_t> order;
   for (const ContactState state : {ContactState::open, ContactState::stick, ContactState::slip})
     for (std::size_t i = 0; i < contacts.size(); ++i)
-      if (contacts[i].state == state)
-        list.points.push_back({0.5 * (contacts[i].point_a + contacts[i].point_b), color_of(state),
-                               (state == ContactState::open ? 0.65f : 1.0f) * size, Depth::on_top, contact_pick(i)});
+      if (contacts[i].state == state && (!own.carrying || contacts[i].lambda.x() > 0.0) && is_wanted(contacts[i]))
+        order.push_back(i);
+  return order;
+}
+
+struct BarRow {
+  const char *title, *unit;
+  double least;  // so that rounding is no picture
+};
+BarRow bar_row(Shown what) {
+  if (what == Shown::gap) return {"overlap", "m", 1e-12};
+  if (what == Shown::impulse) return {"normal impulse", "N s", 1e-12};
+  return {"slip", "m/s", 1e-12};
+}
+
+/// The bar's numbers in the prefix that its end has few figures in.
+ColorBar bar_of(Shown what, double high, bool exceeded) {
+  const BarRow row = bar_row(what);
+  const NumberText end = number_text(high, row.unit);
+  return {row.title, end.unit, std::stod(end.digits), exceeded};
+}
+
+void draw(const LayerContext& context, DrawList& list) {
+  const StepRecord& record = context.record;
+  const Settings& own = context.own<Settings>();
+  const std::vector<std::size_t> order = drawn(context, own);
+  const bool by_state = own.color == Shown::state;
+  double sum = 0.0, most = 0.0;
+  int carrying = 0;
+  for (const std::size_t i : order) {
+    const double force = std::max(0.0, record.contacts[i].lambda.x());
+    sum += force, carrying += force > 0.0;
+    if (!by_state) most = std::max(most, quantity_of(record, record.contacts[i], own.color));
+  }
+  const double mean = carrying > 0 ? sum / carrying : 0.0;
+  const double high = by_state ? 0.0 : own.max > 0.0 ? own.max : rounded_up(std::max(most, bar_row(own.color).least));
+  const auto size_of = [&](const ContactRecord& c) {
+    if (own.size == Size::same) return c.state == ContactState::open ? 0.65f : 1.0f;
+    if (!(mean > 0.0)) return kLeastSize;
+    return std::clamp(static_cast<float>(std::sqrt(std::max(0.0, c.lambda.x()) / mean)), kLeastSize, kMostSize);
+  };
+  for (const std::size_t i : order) {
+    const ContactRecord& c = record.contacts[i];
+    const Color color = by_state ? color_of(c.state) : heat_color(quantity_of(record, c, own.color) / high);
+    list.points.push_back({0.5 * (c.point_a + c.point_b), color,
+                           size_of(c) * static_cast<float>(context.settings.point_size), Depth::on_top,
+                           contact_pick(i)});
+  }
+  if (!by_state && !order.empty()) list.color_bars.push_back(bar_of(own.color, high, most > high));
+}
+
+bool shows_states(const ViewSettings& settings) {
+  return settings.of_layer<Settings>("contacts").color == Shown::state;
 }
 
 }  // namespace
@@ -33,9 +139,10 @@ Layer contacts_layer() {
           "Contact points: open, sticking, slipping.",
           true,
           draw,
-          {{LegendRow::point, role::kOpen, "contact, open"},
-           {LegendRow::point, role::kStick, "contact, sticks"},
-           {LegendRow::point, role::kSlip, "contact, slips"}}};
+          {{LegendRow::point, role::kOpen, "contact, open", nullptr, shows_states},
+           {LegendRow::point, role::kStick, "contact, sticks", nullptr, shows_states},
+           {LegendRow::point, role::kSlip, "contact, slips", nullptr, shows_states}},
+          Settings{}};
 }
 
 }  // namespace impinge

@@ -87,7 +87,10 @@ void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantit
     bar.exceeded = bar.exceeded || std::any_of(heat->begin(), heat->end(), [](float v) { return v > 1.0f; });
     item.heat = std::move(heat);
   }
-  list.color_bar = bar;
+  if (list.color_bars.empty())
+    list.color_bars.push_back(bar);
+  else
+    list.color_bars.front() = bar;  // strain's instead of stress's
 }
 
 }  // namespace impinge

@@ -5,9 +5,10 @@ namespace impinge {
 namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
-  for (const BodyRecord& body : context.record.bodies) {
+  for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
+    const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed || body.bounds.is_empty()) continue;
-    list.labels.push_back({body.bounds.center(), std::string(body.name), role::kInk});
+    list.labels.push_back({body.bounds.center(), std::string(body.name), role::kInk, body_pick(i)});
   }
 }
 

@@ -29,7 +29,8 @@ struct LegendRow {
   Mark mark = area;
   Color color;
   const char* text = "";
-  bool (*present)(const StepRecord& record) = nullptr;  ///< whether the scene has such a thing; null: it may
+  bool (*present)(const StepRecord& record) = nullptr;   ///< whether the scene has such a thing; null: it may
+  bool (*used)(const ViewSettings& settings) = nullptr;  ///< whether it is drawn so as things are set; null: it is
 };
 
 struct Layer {

@@ -77,8 +77,8 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
     auto heat = std::make_shared<std::vector<float>>();
     for (const int t : upright)
       heat->insert(heat->end(), 12, static_cast<float>(values[static_cast<std::size_t>(t)] / high));
-    if (list.color_bar)
-      list.color_bar->exceeded |= std::any_of(heat->begin(), heat->end(), [](float v) { return v > 1.0f; });
+    if (!list.color_bars.empty())
+      list.color_bars.front().exceeded |= std::any_of(heat->begin(), heat->end(), [](float v) { return v > 1.0f; });
     solids.heat = std::move(heat);
   }
 }

@@ -4,17 +4,18 @@
 
 #include <cmath>
 
-#include "engine/shapes/primitives.hpp"
 #include "viewer/panels/debug/keys.hpp"
+#include "viewer/panels/debug/outliner.hpp"
+#include "viewer/present/debug_marks.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr Color kSelected = hex(0xfff2a8);
 constexpr Color kBetweenPanels = hex(0x0f1216);
 constexpr float kDegreesPerPixel = 0.4f;
 constexpr double kZoomPerStep = 1.15;
-constexpr float kClick = 3.0f;  // pixels that the pointer may move in a click
+constexpr double kMostLegend = 0.1;  // of the view
+constexpr float kClick = 3.0f;       // pixels that the pointer may move in a click
 
 }  // namespace
 
@@ -28,9 +29,9 @@ DebugWindow::DebugWindow(int width, int height, int scale)
 DebugWindow::~DebugWindow() { context_->make_current(); }
 
 std::string DebugWindow::scene_key(const DebugModel& model) const {
-  std::string key = fmt::format("{} {:016x} {} {} {} {}", model.frame, model.record->stats.state_hash,
+  std::string key = fmt::format("{} {:016x} {} {} {} {} {} {}", model.frame, model.record->stats.state_hash,
                                 static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
-                                static_cast<const void*>(model.record));
+                                static_cast<const void*>(model.record), model.state.trails, model.state.ghost);
   for (const Parameter& row : model.rows->all())
     if (row.path.starts_with("view.")) key += ' ' + format_value(row.get());
   return key;
@@ -41,17 +42,25 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   ViewSettings settings = *model.view;
   rough_ = quick && held_ >= 0 && dragged_ && settings.antialiasing;
   if (rough_) settings.antialiasing = false;
+  settings.most_legend = kMostLegend;
+  for (const BodyIndex body : selected_bodies(model)) settings.selected.push_back(name_of(model, body));
+  settings.picked = bounds_of_selection(model);
   if (settings.panel_scale == 0) settings.panel_scale = static_cast<int>(ui_.unit());  // as the panels around it
   std::string key = scene_key(model) + (rough_ ? " rough" : "");
   const bool is_new = key != painted_;
   if (is_new) {
-    scene_.paint(*model.record, settings, [&](DrawList& list) { mark_selection(model, list); });
+    scene_.paint(*model.record, settings, [&](DrawList& list) {
+      draw_ghost(model, list);
+      draw_trails(model, list);
+      mark_selection(model, list);
+    });
     painted_ = std::move(key);
   }
   CommandLines lines;
   ui_.begin(width(), height());
   keys_to_lines(ui_, model, lines);
-  for (std::size_t i = 0; i < panels().size(); ++i) draw_panel(panels()[i], layout_.panels[i], ui_, model, lines);
+  for (std::size_t i = 0; i < panels().size(); ++i)
+    if (is_in_front(panels()[i], model.state)) draw_panel(panels()[i], layout_.panels[i], ui_, model, lines);
   draw_help(model, layout_.view);
   use_mouse(model, lines);
   const std::optional<std::vector<PanelDrawing>> changed = changes_.next(ui_.end(), layout_.panels);
@@ -99,13 +108,18 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
     last_y_ = y;
   }
   if (!ui_.went_up(held_)) return;
-  if (held_ == 0 && !dragged_) lines.push_back(pick(model, x, y));
+  if (held_ == 0 && !dragged_) {
+    const PanelArea& legend = scene_.legend();
+    const UiArea at{layout_.view.x + legend.x, layout_.view.y + legend.y, legend.width, legend.height};
+    lines.push_back(at.holds(x, y) ? fmt::format("set view.panel.legend_form {}", legend.is_folded ? "whole" : "folded")
+                                   : pick(model, x, y));
+  }
   held_ = -1;
 }
 
 std::string DebugWindow::pick(const DebugModel& model, float x, float y) {
   IdImage ids;
-  scene_.read_ids(*model.record, *model.view, ids);
+  scene_.read_ids(*model.record, *model.view, ids, true);
   const int px = static_cast<int>(x - layout_.view.x), py = static_cast<int>(y - layout_.view.y);
   if (px < 0 || py < 0 || px >= ids.width || py >= ids.height) return "select none";
   // a contact's point is small: within two pixels it is what was meant
@@ -123,29 +137,6 @@ std::string DebugWindow::pick(const DebugModel& model, float x, float y) {
   std::string line = fmt::format("select body {}", object->body);
   if (!ids.part.empty() && ids.part[i] != IdImage::kNoPart) line += fmt::format(" {}", ids.part[i]);
   return line;
-}
-
-void DebugWindow::mark_selection(const DebugModel& model, DrawList& list) const {
-  const Selection& s = model.selection;
-  if (!s.is_there()) return;
-  if (s.kind == Selection::contact) {
-    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
-    list.points.push_back({c.point_a, kSelected, 17.0f, Depth::on_top});
-    list.points.push_back({c.point_a, hex(0x20242a), 9.0f, Depth::on_top});
-    list.arrows.push_back({c.point_a, c.normal, kSelected, 60.0f, 3.5f, Depth::on_top});
-    return;
-  }
-  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
-  if (!body.bounds.is_empty() && body.shape->as<Plane>() == nullptr)
-    list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
-  const SurfaceMesh* mesh = body.shape->mesh();
-  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>(mesh->mesh.triangles.size())) return;
-  const auto& t = mesh->mesh.triangles[static_cast<std::size_t>(s.triangle)];
-  list.triangles.push_back(
-      {{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])],
-        body.vertices[static_cast<std::size_t>(t[2])]},
-       kSelected,
-       Depth::on_top});
 }
 
 }  // namespace impinge

@@ -39,7 +39,6 @@ class DebugWindow {
  private:
   void use_mouse(const DebugModel& model, CommandLines& lines);
   std::string pick(const DebugModel& model, float x, float y);
-  void mark_selection(const DebugModel& model, DrawList& list) const;
   std::string scene_key(const DebugModel& model) const;
 
   std::unique_ptr<GlContext> context_;

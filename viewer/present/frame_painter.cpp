@@ -2,6 +2,7 @@
 
 #include "viewer/gl/context.hpp"
 #include "viewer/layers/layer.hpp"
+#include "viewer/layers/view_bodies.hpp"
 #include "viewer/present/scene_painter.hpp"
 
 namespace impinge {
@@ -36,6 +37,9 @@ void FramePainter::paint(const StepRecord& record, const ViewSettings& settings,
 void settle_camera(ViewSettings& settings, const StepRecord& record, double aspect) {
   if (settings.camera_given) return;
   settings.camera = fitted_camera(record, settings.camera, aspect);
+  const Vec3 origin = camera_origin(record, settings);
+  settings.camera.eye -= origin;
+  settings.camera.target -= origin;
   settings.camera_given = true;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "viewer/layers/layer.hpp"
+#include "viewer/layers/view_bodies.hpp"
 
 namespace impinge {
 namespace {
@@ -26,7 +27,7 @@ RenderStyle style_of(const ViewSettings& settings, int height) {
 }
 
 Camera camera_of(const StepRecord& record, const ViewSettings& settings, int width, int height) {
-  return settings.camera_given ? settings.camera
+  return settings.camera_given ? camera_in_world(record, settings)
                                : fitted_camera(record, settings.camera, static_cast<double>(width) / height);
 }
 
@@ -50,6 +51,28 @@ void add_panel(IdImage& ids, const PanelArea& area, const char* mark) {
     }
 }
 
+/// Pixels that a box of the world covers; none where it is behind the eye, or so near that no panel could avoid it.
+PanelArea area_of(const Aabb& box, const Camera& camera, int width, int height) {
+  if (box.is_empty()) return {};
+  Vec2 low = Vec2::Constant(1e9), high = -low;
+  for (int bits = 0; bits < 8; ++bits) {
+    const Vec3 corner = {bits & 1 ? box.max.x() : box.min.x(), bits & 2 ? box.max.y() : box.min.y(),
+                         bits & 4 ? box.max.z() : box.min.z()};
+    const auto at = camera.project(corner, width, height);
+    if (!at) return {};
+    low = low.cwiseMin(at->head<2>());
+    high = high.cwiseMax(at->head<2>());
+  }
+  const Vec2 around = Vec2::Constant(0.02 * height);  // a contact is a point, and marked by a ring
+  low -= around;
+  high += around;
+  low = low.cwiseMax(Vec2::Zero());
+  high = high.cwiseMin(Vec2(width, height));
+  if (low.x() >= high.x() || low.y() >= high.y() || (high - low).prod() > 0.5 * width * height) return {};
+  return {static_cast<float>(low.x()), static_cast<float>(low.y()), static_cast<float>(high.x() - low.x()),
+          static_cast<float>(high.y() - low.y())};
+}
+
 }  // namespace
 
 ScenePainter::ScenePainter(int width, int height) : target_(width, height) {}
@@ -63,6 +86,8 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
     layer.draw({record, settings, camera, surfaces_, layer.name}, list_);
     list_.end_layer(layer.name);
   }
+  if (const BodySet hidden(record, settings.hidden); !hidden.is_empty())
+    list_.leave_out([&](PickId pick) { return hidden.has(pick); });
   if (more) more(list_), list_.end_layer("selection");
   surfaces_.forget_unused();
 
@@ -72,22 +97,30 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
   if (!overlay_ || overlay_->scale() != scale) overlay_ = std::make_unique<Overlay>(scale);
   overlay_->draw(width(), height(), [&](const Pen& pen) {
     figures_ = draw_figures(pen, record, settings);
-    legend_ = draw_legend(pen, record, settings, figures_);
-    bar_ = list_.color_bar ? draw_color_bar(pen, *list_.color_bar, settings, {figures_, legend_}) : PanelArea();
-    draw_labels(pen, list_.labels, camera, {figures_, legend_, bar_});
+    const PanelArea picked = area_of(settings.picked, camera, width(), height());
+    legend_ = draw_legend(pen, record, settings, figures_, picked);
+    std::vector<PanelArea> taken = {figures_, legend_};
+    bars_.clear();
+    for (const ColorBar& bar : list_.color_bars) {
+      bars_.push_back(draw_color_bar(pen, bar, settings, taken));
+      taken.push_back(bars_.back());
+    }
+    draw_labels(pen, list_.labels, camera, taken);
   });
   return target_;
 }
 
-void ScenePainter::read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids) {
+void ScenePainter::read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids, bool pickable) {
   if (!ids_) ids_ = std::make_unique<IdBuffer>(width(), height());
   DrawList coded = list_;
+  if (const BodySet locked(record, settings.locked); pickable && !locked.is_empty())
+    coded.leave_out([&](PickId pick) { return locked.has(pick); });
   ids.objects = code_colors(coded, record);
   renderer_.draw_ids(coded, camera_of(record, settings, width(), height()), style_of(settings, height()), *ids_);
   ids_->read(ids);
   add_panel(ids, figures_, "figures");
   add_panel(ids, legend_, "legend");
-  add_panel(ids, bar_, "bar");
+  for (const PanelArea& bar : bars_) add_panel(ids, bar, "bar");
 }
 
 }  // namespace impinge

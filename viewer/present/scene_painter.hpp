@@ -21,8 +21,11 @@ class ScenePainter {
   const Framebuffer& paint(const StepRecord& record, const ViewSettings& settings,
                            const std::function<void(DrawList&)>& more = {});
   Framebuffer& target() { return target_; }
+  /// Where the legend of the last picture is; no width: nowhere.
+  const PanelArea& legend() const { return legend_; }
   /// What each pixel of what was painted last shows; panels are objects too. Labels belong to what is behind them.
-  void read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids);
+  /// `pickable`: without locked bodies, so that what lies behind them is found.
+  void read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids, bool pickable = false);
 
  private:
   Framebuffer target_;
@@ -30,7 +33,9 @@ class ScenePainter {
   std::unique_ptr<Overlay> overlay_;
   SurfaceCache surfaces_;
   DrawList list_;
-  PanelArea figures_, legend_, bar_;  // of the last picture
+  // of the last picture
+  PanelArea figures_, legend_;
+  std::vector<PanelArea> bars_;
   std::unique_ptr<IdBuffer> ids_;
 };
 

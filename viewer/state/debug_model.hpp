@@ -13,6 +13,7 @@
 #include "engine/core/parameter.hpp"
 #include "engine/world/step_record.hpp"
 #include "viewer/draw/view_settings.hpp"
+#include "viewer/state/tracks.hpp"
 
 namespace impinge {
 
@@ -26,14 +27,27 @@ struct Selection {
   bool is_there() const { return kind != none && index >= 0; }
 };
 
+/// How one looks at a table of a panel.
+struct TableState {
+  std::string sort = {};  ///< column; "": as the scene has the rows
+  bool descending = false;
+  std::vector<std::string> columns = {};  ///< in the order in which they were chosen; none: those at first
+};
+
 /// The panels' own state. Only commands change it, so a recording holds it.
 struct PanelState {
-  std::string sort = "gap";  ///< column of the contact table
-  bool descending = false;
-  std::set<std::string> folded;  ///< groups of parameters
-  std::string filter;            ///< of parameters
-  /// columns of stats.csv in the timeline
+  std::map<std::string, TableState, std::less<>> tables = {{"contacts", {"gap"}}};
+  std::string tab = "bodies";                ///< of the outliner
+  std::string search;                        ///< in the outliner
+  std::map<std::string, std::string> front;  ///< of panels that share a room: by the one that owns it, who is seen
+  bool is_selected_sought = false;           ///< whether the selected row has still to be scrolled to
+  std::set<std::string> folded;              ///< groups of parameters
+  std::string filter;                        ///< of parameters
+  /// in the timeline: columns of stats.csv, and figures of bodies and pairs (tracks.hpp)
   std::vector<std::string> plots = {"contacts", "max_penetration_m", "kinetic_J"};
+  bool log_plots = false;               ///< the axis of plots is logarithmic
+  bool trails = false;                  ///< of bodies in the view
+  int ghost = -1;                       ///< frame that is seen through the present one; none: -1
   std::map<std::string, float> scroll;  ///< by panel, pixels
   bool help = false;
 };
@@ -55,11 +69,18 @@ struct DebugModel {
   double computing = 0.0;  ///< seconds that the frame after this one has taken by now; 0: nothing is being computed
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
-  const std::set<int>* changed_frames = nullptr;              ///< with commands by hand
+  const Tracks* tracks = nullptr;
+  const std::set<int>* changed_frames = nullptr;  ///< with commands by hand
   std::size_t snapshots = 0, snapshot_bytes = 0, most_snapshot_bytes = 0;
   Selection selection;
   PanelState state;
   std::vector<ConsoleLine> console;
+
+  std::vector<std::string> bodies() const {
+    std::vector<std::string> names;
+    for (const BodyRecord& body : record->bodies) names.emplace_back(body.name);
+    return names;
+  }
 
   /// Of the frame shown, by its column's name; 0 if there is none.
   double figure(std::string_view column) const {
@@ -69,8 +90,5 @@ struct DebugModel {
                : (*history)[static_cast<std::size_t>(frame)][static_cast<std::size_t>(it - figure_names->begin())];
   }
 };
-
-/// Columns that the contact table sorts by, as commands name them.
-const std::vector<std::string>& contact_columns();
 
 }  // namespace impinge

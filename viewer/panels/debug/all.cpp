@@ -9,6 +9,7 @@ const std::vector<Panel>& panels() {
     std::vector<Panel> all;
     IMPINGE_LIST(all, layers_panel);
     IMPINGE_LIST(all, parameters_panel);
+    IMPINGE_LIST(all, outliner_panel);
     IMPINGE_LIST(all, inspector_panel);
     IMPINGE_LIST(all, contacts_panel);
     IMPINGE_LIST(all, stages_panel);

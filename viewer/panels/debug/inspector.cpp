@@ -3,38 +3,50 @@
 
 #include <cmath>
 
+#include "viewer/draw/number_text.hpp"
+#include "viewer/layers/contact_measures.hpp"
 #include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
 namespace {
 
-void row(const char* label, const std::string& value) {
+void label(const char* text) {
   ImGui::TableNextColumn();
-  ImGui::TextColored(dim(), "%s", label);
+  ImGui::TextColored(dim(), "%s", text);
   ImGui::TableNextColumn();
+}
+
+void row(const char* name, const std::string& value) {
+  label(name);
   ImGui::TextWrapped("%s", value.c_str());
 }
 
-std::string vector(const Vec3& v) {
-  return fmt::format("{}  {}  {}", brief(v.x(), 3), brief(v.y(), 3), brief(v.z(), 3));
+/// Digits of all such rows end at one place.
+void row(const char* name, double value, std::string_view unit, const std::string& more = "") {
+  label(name);
+  const NumberText text = number_text(value, unit);
+  const float room = ImGui::CalcTextSize("-888.8").x - ImGui::CalcTextSize(text.digits.c_str()).x;
+  if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  ImGui::TextUnformatted((text.whole() + more).c_str());
 }
 
 void body_rows(const DebugModel& model, const Selection& s) {
   const BodyRecord& b = model.record->bodies[static_cast<std::size_t>(s.index)];
   row("body", std::string(b.name));
   row("kind", fmt::format("{}{}", kind_name(b.kind), b.asleep ? ", asleep" : ""));
-  if (b.mass > 0.0) row("mass", fmt::format("{:.5g} kg", b.mass));
-  row("place, m", vector(b.pose.position));
-  row("v, m/s", vector(b.velocity));
+  if (b.mass > 0.0) row("mass", b.mass, "kg");
+  row("place", vector_text(b.pose.position, "m"));
+  row("v", vector_text(b.velocity, "m/s"));
   if (b.deformable == nullptr)
-    row("w, rad/s", vector(b.angular_velocity));
+    row("w", vector_text(b.angular_velocity, "rad/s"));
   else
     row("unknowns", fmt::format("{} in {} tetrahedra", b.deformable->dofs(), b.deformable->fem.rest().tets.size()));
   int contacts = 0;
-  double force = 0.0;
+  double impulse = 0.0;
   for (const ContactRecord& c : model.record->contacts)
-    if (c.body_a == s.index || c.body_b == s.index) ++contacts, force += c.lambda.x();
-  row("contacts", fmt::format("{}, in all {} N s normal", contacts, brief(force, 3)));
+    if (c.body_a == s.index || c.body_b == s.index) ++contacts, impulse += c.lambda.x();
+  row("contacts", contacts, "");
+  if (contacts > 0) row("normal", impulse, "N s", ", of all");
   if (b.group >= 0)
     row("group",
         fmt::format("{}, of {} bodies", b.group, model.record->groups[static_cast<std::size_t>(b.group)].size()));
@@ -48,20 +60,19 @@ void contact_rows(const DebugModel& model, const Selection& s) {
                ? std::string(model.record->bodies[static_cast<std::size_t>(body)].name)
                : fmt::format("{}, triangle {}", model.record->bodies[static_cast<std::size_t>(body)].name, triangle);
   };
-  row("contact", fmt::format("{} ({})", s.index, state_name(c.state)));
+  row("contact", fmt::format("{} ({}), group {}", s.index, state_name(c.state), c.group));
   row("A", side(c.body_a, c.triangle_a));
   row("B", side(c.body_b, c.triangle_b));
-  row("point A, m", vector(c.point_a));
-  row("normal", vector(c.normal));
-  row("gap", fmt::format("{} mm, solved with {}", brief(1e3 * c.gap, 3), brief(1e3 * c.gap0, 3)));
-  row("impulse, N s",
-      fmt::format("{} normal, {} friction", brief(c.lambda.x(), 3), brief(std::hypot(c.lambda.y(), c.lambda.z()), 3)));
-  row("friction", c.friction > 0.0 ? fmt::format("{:.3g}, {:.0f} % of it used", c.friction,
-                                                 c.lambda.x() > 0.0 ? 100.0 * std::hypot(c.lambda.y(), c.lambda.z()) /
-                                                                          (c.friction * c.lambda.x())
-                                                                    : 0.0)
-                                   : "none");
-  row("group", std::to_string(c.group));
+  row("point A", vector_text(c.point_a, "m"));
+  row("direction", vector_text(c.normal, ""));
+  row("gap", c.gap, "m");
+  row("solved gap", c.gap0, "m");
+  row("normal", c.lambda.x(), "N s");
+  const double friction = std::hypot(c.lambda.y(), c.lambda.z()), most = c.friction * c.lambda.x();
+  row("friction", friction, "N s",
+      c.friction > 0.0 ? fmt::format(", {:.0f} % of {:.3g}", most > 0.0 ? 100.0 * friction / most : 0.0, c.friction)
+                       : ", none");
+  row("slip", slip_speed(*model.record, c), "m/s");
 }
 
 void draw(Ui& ui, const DebugModel& model, CommandLines&) {

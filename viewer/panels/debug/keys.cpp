@@ -4,9 +4,25 @@
 
 #include <algorithm>
 
-#include "viewer/panels/debug/widgets.hpp"
+#include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
+
+namespace {
+
+/// Hide, look at alone and frame what is selected; a contact means its two bodies.
+void bodies_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
+  std::string names;
+  for (const BodyIndex body : selected_bodies(model)) names += " " + name_of(model, body);
+  if (ui.key_pressed("f")) lines.push_back(names.empty() ? "camera fit" : "frame" + names);
+  if (!ui.key_pressed("h")) return;
+  if (ImGui::GetIO().KeyCtrl)
+    lines.push_back("show all");
+  else if (!names.empty())
+    lines.push_back((ImGui::GetIO().KeyShift ? "isolate" : "hide") + names);
+}
+
+}  // namespace
 
 void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("f1")) lines.push_back(model.state.help ? "panel help off" : "panel help on");
@@ -23,7 +39,8 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
     lines.push_back(fmt::format("back {}", std::min(10, model.frame)));
   if (ui.key_pressed("home")) lines.push_back("seek 0");
   if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
-  if (ui.key_pressed("f")) lines.push_back("camera fit");
+  if (ui.key_pressed("a")) lines.push_back("camera fit");
+  bodies_to_lines(ui, model, lines);
   constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
   if (ui.key_pressed("escape") && !ImGui::IsPopupOpen("", kAnyPopup))
     lines.push_back(model.state.help ? "panel help off" : "select none");
@@ -35,7 +52,10 @@ void draw_help(const DebugModel& model, const UiArea& view) {
                                              {"right, left", "a frame on, a frame back"},
                                              {"page up, down", "ten frames"},
                                              {"home, end", "first, last known frame"},
-                                             {"f", "fit the view"},
+                                             {"f", "frame the selected, else all"},
+                                             {"a", "fit the view to all"},
+                                             {"h, shift h", "hide the selected, all others"},
+                                             {"ctrl h", "show all"},
                                              {"escape", "end the frame in work; deselect; close this"},
                                              {"left button", "orbit; a click picks"},
                                              {"right, middle", "pan"},

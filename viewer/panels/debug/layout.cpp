@@ -17,7 +17,7 @@ std::vector<float> extents(PanelPlace place, float length, float gap, float unit
   float rest = length + gap;
   int takers = 0;  // of what the others leave
   for (const Panel& panel : panels()) {
-    if (panel.place != place) continue;
+    if (panel.place != place || !panel.shares.empty()) continue;
     const auto [share, most] = panel.room;
     all.push_back(share == 0.0f ? 0.0f : whole(most == 0.0f ? share * length : std::min(share * length, most * unit)));
     takers += share == 0.0f;
@@ -25,7 +25,7 @@ std::vector<float> extents(PanelPlace place, float length, float gap, float unit
   }
   auto extent = all.begin();
   for (const Panel& panel : panels()) {
-    if (panel.place != place) continue;
+    if (panel.place != place || !panel.shares.empty()) continue;
     if (panel.room.share == 0.0f) {
       *extent = takers == 1 ? rest : whole(rest / static_cast<float>(takers));
       rest -= *extent, --takers;
@@ -53,7 +53,7 @@ DebugLayout debug_layout(int width, int height, float unit) {
   const float top = h - below - gap;
   float bars = top + gap;  // where the next bar begins, and after the last one what lies below
   for (const Panel& panel : panels())
-    if (panel.place == PanelPlace::bar) bars += panel.room.most * unit + gap;
+    if (panel.place == PanelPlace::bar && panel.shares.empty()) bars += panel.room.most * unit + gap;
 
   DebugLayout layout;
   layout.view = {side + gap, 0, w - side - right - 2 * gap, top};
@@ -62,7 +62,12 @@ DebugLayout debug_layout(int width, int height, float unit) {
                            widths = extents(PanelPlace::below, w, gap, unit);
   std::size_t l = 0, r = 0, b = 0;
   float left_y = 0.0f, right_y = 0.0f, bar_y = top + gap, x = 0.0f;
-  for (const Panel& panel : panels()) switch (panel.place) {
+  for (const Panel& panel : panels()) {
+    if (!panel.shares.empty()) {
+      layout.panels.push_back(layout.area(panel.shares));
+      continue;
+    }
+    switch (panel.place) {
       case PanelPlace::left:
         layout.panels.push_back({0, left_y, side, lefts[l]});
         left_y += lefts[l++] + gap;
@@ -79,6 +84,7 @@ DebugLayout debug_layout(int width, int height, float unit) {
         layout.panels.push_back({x, bars, widths[b], h - bars});
         x += widths[b++] + gap;
     }
+  }
   return layout;
 }
 

@@ -32,11 +32,24 @@ struct Panel {
   std::string (*count)(const DebugModel& model) = nullptr;
   /// A line of widgets under the content that doesn't scroll with it; nullptr: none.
   void (*draw_footer)(Ui& ui, const DebugModel& model, CommandLines& lines) = nullptr;
+  /// The panel, before it in the list, in whose room it stands: one of them is seen, their headings are tabs. "": none.
+  std::string_view shares = {};
+  /// Whether a table in it scrolls, and not all of it.
+  bool scrolls_inside = false;
 };
 
 /// All of them, in the order of drawing.
 const std::vector<Panel>& panels();
 std::vector<std::string> panel_names();
+
+/// Whether it is the one that is seen in its room.
+bool is_in_front(const Panel& panel, const PanelState& state);
+/// The panel whose room it is: itself, or the one it shares that of.
+std::string_view room_of(const Panel& panel);
+
+/// Keeps the scroll position of the present window of Dear ImGui at what the model has for the panel; scrolled by hand
+/// it comes out as a line.
+void take_scroll(const std::string& panel, const Ui& ui, const DebugModel& model, CommandLines& lines);
 
 /// Draws the panel there. Its scroll position is the model's; scrolled by hand it comes out as a line.
 void draw_panel(const Panel& panel, const UiArea& area, Ui& ui, const DebugModel& model, CommandLines& lines);

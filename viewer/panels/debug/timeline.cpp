@@ -1,11 +1,12 @@
-// Chosen columns of stats.csv over the frames, one strip each: its name at its left, the present value at its right. A
-// click or drag seeks.
+// Chosen figures over the frames, one strip each: its name at its left, the present value at its right. A click or drag
+// seeks.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/panels/debug/widgets.hpp"
+#include "viewer/panels/debug/outliner.hpp"
+#include "viewer/panels/debug/series.hpp"
 
 namespace impinge {
 namespace {
@@ -15,7 +16,7 @@ ImU32 ink(std::uint32_t rgb, float alpha = 1.0f) {
   return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
 }
 
-constexpr float kNames = 146.0f, kValues = 74.0f;  // room for them beside the strips
+constexpr float kNames = 146.0f, kValues = 100.0f, kDigits = 56.0f;  // room for them beside the strips
 
 struct Axis {
   float left, right;
@@ -26,57 +27,148 @@ struct Axis {
   }
 };
 
-void draw_strip(const DebugModel& model, std::size_t column, const Axis& axis, float top, float bottom,
-                std::uint32_t rgb, float text, float unit) {
+/// Values to heights: from 0 (or what lies below) to the largest; logarithmic by the powers of ten of what is positive.
+struct Scale {
+  float top, bottom;
+  double low = 0.0, high = 0.0;
+  bool is_log = false;
+
+  float y(double v) const {
+    if (is_log) v = v > 0.0 ? std::log10(v) : low;
+    const double span = high > low ? high - low : 1.0, share = std::clamp((v - low) / span, 0.0, 1.0);
+    return bottom - 2.0f - static_cast<float>(share) * (bottom - top - 4.0f);
+  }
+};
+
+Scale scale_of(const std::vector<double>& values, float top, float bottom, bool is_log) {
+  Scale scale{top, bottom};
+  scale.is_log = is_log;
+  if (is_log) {  // whole decades
+    double least = 1e300, most = 0.0;
+    for (const double v : values)
+      if (std::isfinite(v) && v > 0.0) least = std::min(least, v), most = std::max(most, v);
+    if (most > 0.0) scale.low = std::floor(std::log10(least)), scale.high = std::ceil(std::log10(most) + 1e-9);
+    return scale;
+  }
+  for (const double v : values)
+    if (std::isfinite(v)) scale.low = std::min(scale.low, v), scale.high = std::max(scale.high, v);
+  return scale;
+}
+
+/// A pixel may hold many frames: from its least to its largest. Where there is no number the line is broken.
+void draw_line(const std::vector<double>& values, const Axis& axis, const Scale& scale, ImU32 color, float width) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const auto& history = *model.history;
-  double high = 0.0, low = 0.0;
-  for (const auto& row : history)
-    if (std::isfinite(row[column])) high = std::max(high, row[column]), low = std::min(low, row[column]);
-  const double span = high > low ? high - low : 1.0;
-  const auto y = [&](double v) { return bottom - 2.0f - static_cast<float>((v - low) / span) * (bottom - top - 4.0f); };
-  list.AddRectFilled({axis.left, top}, {axis.right, bottom}, ink(0x232931));
-  if (low < 0.0) list.AddLine({axis.left, y(0.0)}, {axis.right, y(0.0)}, ink(0x4a5563));
-  // a pixel may hold many frames: from its least to its largest
   std::vector<ImVec2> points;
-  for (std::size_t k = 0; k < history.size();) {
+  const auto finish = [&] {
+    if (points.size() == 1) points.push_back({points[0].x + 1.0f, points[0].y});
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, width);
+    points.clear();
+  };
+  for (std::size_t k = 0; k < values.size();) {
     const float x = axis.x(static_cast<double>(k));
-    double least = history[k][column], most = least;
+    double least = values[k], most = least;
     std::size_t end = k + 1;
-    for (; end < history.size() && axis.x(static_cast<double>(end)) < x + 1.0f; ++end)
-      least = std::min(least, history[end][column]), most = std::max(most, history[end][column]);
+    for (; end < values.size() && axis.x(static_cast<double>(end)) < x + 1.0f; ++end)
+      least = std::min(least, values[end]), most = std::max(most, values[end]);
     if (std::isfinite(least) && std::isfinite(most)) {
-      points.push_back({x, y(most)});
-      if (end > k + 1) points.push_back({x, y(least)});
+      points.push_back({x, scale.y(most)});
+      if (end > k + 1) points.push_back({x, scale.y(least)});
+    } else {
+      finish();
     }
     k = end;
   }
-  list.AddPolyline(points.data(), static_cast<int>(points.size()), ink(rgb), 0, std::max(1.0f, text / 10.0f));
-  const double now = history[static_cast<std::size_t>(model.frame)][column];
-  const float middle = 0.5f * (top + bottom - text);
-  list.AddText({axis.left - kNames * unit, middle}, ink(rgb), (*model.figure_names)[column].c_str());
-  const std::string value = fmt::format("{:.4g}", now);
-  const float width = ImGui::CalcTextSize(value.c_str()).x;
-  list.AddText({axis.right + kValues * unit - width, middle}, ink(0xf2f4f7), value.c_str());
+  finish();
+}
+
+/// The text, without its middle where it is too wide.
+std::string shortened(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  for (std::size_t tail = text.size() / 2; tail > 2; --tail) {
+    std::string shorter = text.substr(0, tail) + ".." + text.substr(text.size() - tail);
+    if (ImGui::CalcTextSize(shorter.c_str()).x <= width) return shorter;
+  }
+  return text.substr(0, 2);
+}
+
+void draw_strip(const DebugModel& model, const Series& series, const Axis& axis, float top, float bottom,
+                std::uint32_t rgb, float unit) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  std::vector<double> values;
+  for (int frame = 0; frame <= model.known_last; ++frame) values.push_back(series.value(frame));
+  const Scale scale = scale_of(values, top, bottom, model.state.log_plots);
+  list.AddRectFilled({axis.left, top}, {axis.right, bottom}, ink(0x232931));
+  if (scale.is_log)
+    for (double decade = scale.low + 1.0; decade < scale.high && scale.high - scale.low < 20.0; ++decade) {
+      const float y = scale.y(std::pow(10.0, decade));
+      list.AddLine({axis.left, y}, {axis.right, y}, ink(0x343c47));
+    }
+  else if (scale.low < 0.0)
+    list.AddLine({axis.left, scale.y(0.0)}, {axis.right, scale.y(0.0)}, ink(0x4a5563));
+  const float text = ImGui::GetFontSize(), middle = 0.5f * (top + bottom - text);
+  draw_line(values, axis, scale, ink(rgb), std::max(1.0f, text / 10.0f));
+  list.AddText({axis.left - kNames * unit, middle}, ink(rgb), shortened(series.name, (kNames - 6.0f) * unit).c_str());
+  // digits end where units begin
+  const NumberText value = series.text(values[static_cast<std::size_t>(model.frame)]);
+  const float edge = axis.right + kDigits * unit, width = ImGui::CalcTextSize(value.digits.c_str()).x;
+  list.AddText({edge - width, middle}, ink(0xf2f4f7), value.digits.c_str());
+  list.AddText({edge + 5.0f * unit, middle}, ink(0x98a2b0), value.unit.c_str());
+}
+
+/// Figures of the body or the pair that is selected.
+std::vector<std::string> quantities_of_selected(const DebugModel& model) {
+  std::string words;
+  const std::vector<BodyIndex> selected = selected_bodies(model);
+  for (const BodyIndex body : selected) words += (words.empty() ? "" : ",") + name_of(model, body);
+  std::vector<std::string> all;
+  for (const QuantityName& name : quantity_names())
+    if (!selected.empty() && (selected.size() == 1 || name.of_pairs))
+      all.push_back(fmt::format("{}({})", name.name, words));
+  return all;
+}
+
+void draw_chooser(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  ImGui::SetNextItemWidth(120.0f * ui.unit());
+  const bool open = ImGui::BeginCombo("##columns", "columns", ImGuiComboFlags_HeightLarge);
+  ui.name("timeline/columns");
+  if (!open) return;
+  // what is plotted though it is of nothing that is selected now can be taken away here too
+  std::vector<std::string> names = quantities_of_selected(model);
+  for (const std::string& plot : model.state.plots)
+    if (plot.ends_with(')') && std::find(names.begin(), names.end(), plot) == names.end()) names.push_back(plot);
+  names.insert(names.end(), model.figure_names->begin(), model.figure_names->end());
+  for (const std::string& name : names) {
+    bool on = std::find(model.state.plots.begin(), model.state.plots.end(), name) != model.state.plots.end();
+    if (ImGui::Checkbox(name.c_str(), &on)) lines.push_back(fmt::format("panel plot {}{}", on ? '+' : '-', name));
+    ui.name("timeline/columns:" + name);
+  }
+  close_on_escape(ui);
+  ImGui::EndCombo();
+}
+
+void draw_header(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "timeline");
+  ImGui::SameLine();
+  draw_chooser(ui, model, lines);
+  ImGui::SameLine();
+  bool is_log = model.state.log_plots;
+  if (ImGui::Checkbox("log", &is_log)) lines.push_back(fmt::format("panel axis {}", is_log ? "log" : "linear"));
+  ui.name("timeline/log");
+  tooltip("by powers of ten; what is not positive is at the bottom");
+}
+
+void draw_hovered(const std::vector<Series>& all, int frame) {
+  std::string text = fmt::format("frame {}", frame);
+  for (const Series& series : all)
+    text += fmt::format("\n{} {}", series.name, series.text(series.value(frame)).whole());
+  tooltip(text);
 }
 
 void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const float u = ui.unit();
-  ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "timeline");
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(120.0f * u);
-  const bool open = ImGui::BeginCombo("##columns", "columns", ImGuiComboFlags_HeightLarge);
-  ui.name("timeline/columns");
-  if (open) {
-    for (const std::string& name : *model.figure_names) {
-      bool on = std::find(model.state.plots.begin(), model.state.plots.end(), name) != model.state.plots.end();
-      if (ImGui::Checkbox(name.c_str(), &on)) lines.push_back(fmt::format("panel plot {}{}", on ? '+' : '-', name));
-      ui.name("timeline/columns:" + name);
-    }
-    close_on_escape(ui);
-    ImGui::EndCombo();
-  }
-  const std::vector<std::string>& plots = model.state.plots;
+  draw_header(ui, model, lines);
+  std::vector<Series> all;
+  for (const std::string& name : model.state.plots) all.push_back(series_of(model, name));
   const ImVec2 start = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   if (size.x < 20.0f * u || size.y < 20.0f * u) return;
   const float left = start.x + kNames * u, right = std::max(left + 20.0f * u, start.x + size.x - kValues * u);
@@ -84,33 +176,21 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::InvisibleButton("strips", {right - left, size.y});
   ui.name("timeline/plot");
   const Axis axis{left, right, std::max(1, model.known_last)};
-  const float each = plots.empty() ? size.y : size.y / static_cast<float>(plots.size());
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const auto column =
-        std::find(model.figure_names->begin(), model.figure_names->end(), plots[i]) - model.figure_names->begin();
+  const float each = all.empty() ? size.y : size.y / static_cast<float>(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
     const float top = start.y + static_cast<float>(i) * each;
-    draw_strip(model, static_cast<std::size_t>(column), axis, top, top + each - 2.0f * u,
-               kPlotInks[i % std::size(kPlotInks)], ImGui::GetFontSize(), u);
+    draw_strip(model, all[i], axis, top, top + each - 2.0f * u, kPlotInks[i % std::size(kPlotInks)], u);
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const int k : *model.changed_frames)
     list.AddLine({axis.x(k), start.y}, {axis.x(k), start.y + 5.0f * u}, ink(0xffb84d), 1.5f * u);
   list.AddLine({axis.x(model.frame), start.y}, {axis.x(model.frame), start.y + size.y}, ink(0xffffff, 0.8f), u);
+  const int at = axis.frame(ui.mouse_x());
   if (ImGui::IsItemActive()) {
-    const int to = std::clamp(axis.frame(ui.mouse_x()), 0, model.known_last);
+    const int to = std::clamp(at, 0, model.known_last);
     if (to != model.frame) lines.push_back(fmt::format("seek {}", to));
-  } else {
-    const int at = axis.frame(ui.mouse_x());
-    if (ImGui::IsItemHovered() && at >= 0 && at <= model.known_last) {
-      std::string text = fmt::format("frame {}", at);
-      for (const std::string& name : plots) {
-        const auto column =
-            std::find(model.figure_names->begin(), model.figure_names->end(), name) - model.figure_names->begin();
-        text += fmt::format("\n{} {:.6g}", name,
-                            (*model.history)[static_cast<std::size_t>(at)][static_cast<std::size_t>(column)]);
-      }
-      tooltip(text);
-    }
+  } else if (ImGui::IsItemHovered() && at >= 0 && at <= model.known_last) {
+    draw_hovered(all, at);
   }
 }
 

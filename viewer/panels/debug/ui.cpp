@@ -38,9 +38,10 @@ constexpr KeyRow kKeys[] = {{"tab", ImGuiKey_Tab},
                             {"f1", -1},
                             {"page_up", ImGuiKey_PageUp},
                             {"page_down", ImGuiKey_PageDown},
+                            {"h", -1},
                             {"ctrl", -1},
                             {"shift", -1}};
-constexpr int kCtrl = 23, kShift = 24;
+constexpr int kCtrl = 24, kShift = 25;
 
 ImVec4 color(std::uint32_t rgb, float alpha = 1.0f) {
   const Color c = hex(rgb, alpha);

@@ -28,6 +28,9 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
   area.height = 2.0f * pen.text_size + (kHeight + kTick + 5.0f) * u + 2.0f * pad;
   area.x = pen.picture_width - pen.margin() - area.width;
   area.y = pen.picture_height - pen.margin() - area.height;
+  // above another bar
+  for (const PanelArea& t : taken)
+    if (panels_meet(t, area)) area.y = std::min(area.y, t.y - pen.margin() - area.height);
   const bool meets = std::any_of(taken.begin(), taken.end(), [&](const PanelArea& t) { return panels_meet(t, area); });
   if (meets || area.width > 0.6f * pen.picture_width || area.y < 0.0f) return {};
   pen.sheet(area.x, area.y, area.width, area.height);

@@ -1,5 +1,6 @@
 #include <imgui.h>
 #include <algorithm>
+#include <optional>
 
 #include "viewer/panels/overlay/picture_panels.hpp"
 
@@ -40,27 +41,70 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
   }
 }
 
-}  // namespace
-
-PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other) {
-  if (!settings.show_legend) return {};
+std::vector<LegendRow> rows_of(const StepRecord& record, const ViewSettings& settings) {
   std::vector<LegendRow> rows;
   for (const Layer& layer : layers())
     if (settings.is_on(layer.name))
-      std::copy_if(layer.legend.begin(), layer.legend.end(), std::back_inserter(rows),
-                   [&](const LegendRow& row) { return row.present == nullptr || row.present(record); });
+      std::copy_if(layer.legend.begin(), layer.legend.end(), std::back_inserter(rows), [&](const LegendRow& row) {
+        return (row.present == nullptr || row.present(record)) && (row.used == nullptr || row.used(settings));
+      });
+  return rows;
+}
+
+/// Its corner, from the one at the top right clockwise.
+PanelArea in_corner(const Pen& pen, PanelArea area, int corner) {
+  area.x = corner == 0 || corner == 1 ? pen.picture_width - pen.margin() - area.width : pen.margin();
+  area.y = corner == 0 || corner == 3 ? pen.margin() : pen.picture_height - pen.margin() - area.height;
+  return area;
+}
+
+/// The first corner in which it hides nothing that is picked; none if all would.
+std::optional<PanelArea> free_corner(const Pen& pen, const PanelArea& area, const PanelArea& other,
+                                     const PanelArea& picked) {
+  for (int corner = 0; corner < 4; ++corner)
+    if (const PanelArea at = in_corner(pen, area, corner); !panels_meet(at, picked) && !panels_meet(at, other))
+      return at;
+  return std::nullopt;
+}
+
+PanelArea draw_folded(const Pen& pen, const PanelArea& other, const PanelArea& picked, std::size_t marks) {
+  const std::string text = "legend (" + std::to_string(marks) + ")";
+  const float pad = pen.padding();
+  PanelArea area{0.0f, 0.0f, pen.text_width(text) + 2.0f * pad, pen.text_size + 2.0f * pad, true};
+  area = free_corner(pen, area, other, picked).value_or(in_corner(pen, area, 0));
+  if (panels_meet(area, other)) return {};
+  pen.sheet(area.x, area.y, area.width, area.height);
+  pen.text(area.x + pad, area.y + pad, kInk, text);
+  return area;
+}
+
+}  // namespace
+
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other,
+                      const PanelArea& picked) {
+  if (!settings.show_legend) return {};
+  const std::vector<LegendRow> rows = rows_of(record, settings);
   if (rows.empty()) return {};
+  if (settings.legend_form == LegendForm::folded) return draw_folded(pen, other, picked, rows.size());
   const float mark = (kMark + (pen.is_small() ? 0.5f : 1.0f) * kAfterMark) * pen.unit, pad = pen.padding();
   float text = 0.0f;
   for (const LegendRow& row : rows) text = std::max(text, pen.text_width(row.text));
   PanelArea area;
   area.width = text + 2.0f * pad + mark;
   area.height = static_cast<float>(rows.size()) * pen.row() + 2.0f * pad - (pen.row() - pen.text_size);
-  area.x = pen.picture_width - pen.margin() - area.width;
-  area.y = pen.margin();
+  area = in_corner(pen, area, 0);
+  const bool is_automatic = settings.legend_form == LegendForm::automatic;
+  const bool is_large =
+      area.width * area.height > static_cast<float>(settings.most_legend) * pen.picture_width * pen.picture_height;
+  if (is_automatic && is_large) return draw_folded(pen, other, picked, rows.size());
   const bool meets = other.width > 0.0f && area.x < other.x + other.width + pen.margin();
   if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height)
     return {};
+  if (picked.width > 0.0f) {
+    const std::optional<PanelArea> free = free_corner(pen, area, other, picked);
+    if (!free && is_automatic) return draw_folded(pen, other, picked, rows.size());
+    area = free.value_or(area);
+  }
   pen.sheet(area.x, area.y, area.width, area.height);
   float y = area.y + pad;
   for (const LegendRow& row : rows) {

@@ -9,6 +9,7 @@ namespace impinge {
 /// Pixels of the picture that a panel covers; empty (width 0) if it was left out.
 struct PanelArea {
   float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
+  bool is_folded = false;  ///< a heading in its place
 };
 
 /// The frame's figures at the top left: deterministic ones only, unless timings are asked for; in a small picture only
@@ -17,8 +18,9 @@ struct PanelArea {
 PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
 
 /// What the visible layers' marks mean, as far as the scene has such things, at the top right; left out where it would
-/// meet `other`.
-PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other);
+/// meet `other`. What is picked, at `picked`, it leaves in sight: by another corner, or folded.
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other,
+                      const PanelArea& picked = {});
 
 /// What the colours of heated surfaces mean, at the bottom right; left out with the legend, or where it would meet one
 /// of `taken`.

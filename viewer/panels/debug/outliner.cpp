@@ -1,0 +1,143 @@
+// All that is in the scene, to be found by name or by any of its numbers: bodies, collision groups and pairs of bodies, a
+// tab each. What is selected can be hidden, looked at alone, framed and followed.
+#include "viewer/panels/debug/outliner.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace impinge {
+namespace {
+
+/// Of what is selected in the present tab: in that of groups all of the group.
+std::vector<std::string> meant(const DebugModel& model) {
+  std::vector<BodyIndex> bodies = selected_bodies(model);
+  if (model.state.tab == "groups" && !bodies.empty())
+    for (const std::vector<BodyIndex>& group : model.record->groups)
+      if (std::find(group.begin(), group.end(), bodies.back()) != group.end()) {
+        bodies = group;
+        break;
+      }
+  std::vector<std::string> names;
+  for (const BodyIndex body : bodies) names.push_back(name_of(model, body));
+  return names;
+}
+
+/// Buttons beside each other, and below each other where there is no room.
+class ButtonRow {
+ public:
+  explicit ButtonRow(Ui& ui) : ui_(ui), room_(ImGui::GetContentRegionAvail().x) {}
+
+  bool add(const char* label, const std::string& name, const char* doc, bool enabled, bool lit = false) {
+    const float width = ImGui::CalcTextSize(label).x + 2.0f * ImGui::GetStyle().FramePadding.x, gap = 4.0f * ui_.unit();
+    if (used_ > 0.0f && used_ + gap + width <= room_)
+      ImGui::SameLine(0.0f, gap), used_ += gap + width;
+    else
+      used_ = width;
+    ImGui::BeginDisabled(!enabled);
+    const bool clicked = named_button(ui_, name, label, lit);
+    ImGui::EndDisabled();
+    tooltip(doc);
+    return clicked;
+  }
+
+ private:
+  Ui& ui_;
+  float room_, used_ = 0.0f;
+};
+
+void draw_deeds(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  const std::vector<std::string> names = meant(model);
+  const std::string all = fmt::format("{}", fmt::join(names, " "));
+  const bool is_some = !names.empty();
+  ButtonRow row(ui);
+  if (row.add("isolate", "outliner/isolate", "hide all but the selected (shift h)", is_some))
+    lines.push_back("isolate " + all);
+  if (row.add("frame", "outliner/frame", "look at the selected (f)", is_some)) lines.push_back("frame " + all);
+  const bool follows = is_some && model.view->followed == names.front();
+  if (row.add("follow", "outliner/follow", "the camera goes along with the selected body",
+              is_some || !model.view->followed.empty(), follows))
+    lines.push_back("follow " + (follows || !is_some ? "none" : names.front()));
+  if (row.add("show all", "outliner/show_all", "nothing is hidden (ctrl h)", !model.view->hidden.empty()))
+    lines.push_back("show all");
+}
+
+void draw_tabs(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  const float gap = 4.0f * ui.unit();
+  for (const std::string& tab : outliner_tabs()) {
+    const bool is_open = tab == model.state.tab;
+    if (named_button(ui, "outliner/" + tab, tab.c_str(), is_open) && !is_open) lines.push_back("panel tab " + tab);
+    ImGui::SameLine(0.0f, gap);
+  }
+  if (ImGui::GetContentRegionAvail().x < 80.0f * ui.unit()) ImGui::NewLine();
+}
+
+void draw_search(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  char word[64] = {};
+  std::strncpy(word, model.state.search.c_str(), sizeof word - 1);
+  ImGui::SetNextItemWidth(-1.0f);
+  if (ImGui::InputTextWithHint("##search", "search", word, sizeof word))
+    lines.push_back(fmt::format("panel search {}", word));
+  ui.name("outliner/search");
+}
+
+void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  draw_tabs(ui, model, lines);
+  const Table& table = model.state.tab == "bodies"   ? bodies_table()
+                       : model.state.tab == "groups" ? groups_table()
+                                                     : pairs_table();
+  ImGui::SetNextItemWidth(-1.0f);
+  draw_column_chooser(ui, model, lines, "outliner", table);
+  draw_search(ui, model, lines);
+  draw_deeds(ui, model, lines);
+  const TableRows rows = model.state.tab == "bodies"   ? body_rows(ui, model, lines)
+                         : model.state.tab == "groups" ? group_rows(model)
+                                                       : pair_rows(model);
+  ImGui::PushID(model.state.tab.c_str());
+  draw_table(ui, model, lines, "outliner", table, rows);
+  ImGui::PopID();
+}
+
+std::string count(const DebugModel& model) {
+  const std::size_t hidden = model.view->hidden.size();
+  return hidden == 0 ? "" : fmt::format(": {} hidden", hidden);
+}
+
+}  // namespace
+
+const std::vector<std::string>& outliner_tabs() {
+  static const std::vector<std::string> tabs = {"bodies", "groups", "pairs"};
+  return tabs;
+}
+
+bool is_sought(const DebugModel& model, std::string_view name) {
+  return model.state.search.empty() || name.find(model.state.search) != std::string_view::npos;
+}
+
+std::string name_of(const DebugModel& model, BodyIndex body) {
+  return std::string(model.record->bodies[static_cast<std::size_t>(body.value())].name);
+}
+
+std::vector<BodyIndex> selected_bodies(const DebugModel& model) {
+  const Selection& s = model.selection;
+  if (!s.is_there()) return {};
+  if (s.kind == Selection::body) return {BodyIndex(s.index)};
+  const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
+  if (c.body_a == c.body_b) return {c.body_a};
+  return {c.body_a, c.body_b};
+}
+
+double substep_time(const StepRecord& record) {
+  return record.stats.substeps > 0 ? record.frame_time / record.stats.substeps : 0.0;
+}
+
+Panel outliner_panel() {
+  Panel panel{"outliner", "outliner", PanelPlace::left, {}, draw, count};
+  panel.shares = "parameters";
+  panel.scrolls_inside = true;
+  return panel;
+}
+
+}  // namespace impinge

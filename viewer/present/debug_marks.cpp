@@ -1,0 +1,97 @@
+#include "viewer/present/debug_marks.hpp"
+
+#include <algorithm>
+
+#include "engine/shapes/primitives.hpp"
+#include "viewer/layers/body_style.hpp"
+#include "viewer/panels/debug/outliner.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr Color kSelected = hex(0xfff2a8);
+constexpr float kTrailWidth = 1.6f;
+
+std::vector<BodyIndex> trailed(const DebugModel& model) {
+  std::vector<BodyIndex> bodies = selected_bodies(model);
+  std::erase_if(bodies, [&](BodyIndex b) {
+    return model.record->bodies[static_cast<std::size_t>(b.value())].kind == BodyKind::fixed;
+  });
+  if (bodies.empty() && !model.selection.is_there())
+    for (std::size_t i = 0; i < model.record->bodies.size(); ++i)
+      if (model.record->bodies[i].kind != BodyKind::fixed) bodies.push_back(BodyIndex(i));
+  return bodies;
+}
+
+}  // namespace
+
+Aabb bounds_of_selection(const DebugModel& model) {
+  Aabb box;
+  const Selection& s = model.selection;
+  if (!s.is_there()) return box;
+  if (s.kind == Selection::contact) {
+    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
+    box.include(c.point_a);
+    box.include(c.point_b);
+    return box;
+  }
+  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
+  return body.shape->as<Plane>() == nullptr ? body.bounds : box;
+}
+
+void mark_selection(const DebugModel& model, DrawList& list) {
+  const Selection& s = model.selection;
+  if (!s.is_there()) return;
+  if (s.kind == Selection::contact) {
+    const ContactRecord& c = model.record->contacts[static_cast<std::size_t>(s.index)];
+    list.points.push_back({c.point_a, kSelected, 17.0f, Depth::on_top});
+    list.points.push_back({c.point_a, hex(0x20242a), 9.0f, Depth::on_top});
+    list.arrows.push_back({c.point_a, c.normal, kSelected, 60.0f, 3.5f, Depth::on_top});
+    return;
+  }
+  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
+  if (!body.bounds.is_empty() && body.shape->as<Plane>() == nullptr)
+    list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
+  const SurfaceMesh* mesh = body.shape->mesh();
+  if (mesh == nullptr || s.triangle < 0 || s.triangle >= static_cast<int>(mesh->mesh.triangles.size())) return;
+  const auto& t = mesh->mesh.triangles[static_cast<std::size_t>(s.triangle)];
+  list.triangles.push_back(
+      {{body.vertices[static_cast<std::size_t>(t[0])], body.vertices[static_cast<std::size_t>(t[1])],
+        body.vertices[static_cast<std::size_t>(t[2])]},
+       kSelected,
+       Depth::on_top});
+}
+
+void draw_trails(const DebugModel& model, DrawList& list) {
+  if (!model.state.trails) return;
+  const std::vector<Color> colors = body_colors(*model.record);
+  for (const BodyIndex body : trailed(model)) {
+    const Color color = colors[static_cast<std::size_t>(body.value())];
+    std::optional<Pose> before;
+    for (int frame = model.tracks->first(); frame <= model.frame; ++frame) {
+      const std::optional<Pose> now = model.tracks->pose(frame, body);
+      if (before && now) list.lines.push_back({before->position, now->position, color, kTrailWidth, Depth::both, 0});
+      if (now) list.points.push_back({now->position, color, 2.0f * kTrailWidth, Depth::both, 0});
+      before = now;
+    }
+  }
+}
+
+void draw_ghost(const DebugModel& model, DrawList& list) {
+  if (model.state.ghost < 0) return;
+  const std::size_t surfaces = list.surfaces.size();
+  for (std::size_t i = 0; i < surfaces; ++i) {
+    DrawSurface ghost = list.surfaces[i];
+    if (ghost.pick == 0 || ghost.pick > model.record->bodies.size() || ghost.moved != nullptr) continue;
+    const BodyIndex body(ghost.pick - 1);
+    if (model.record->bodies[ghost.pick - 1].kind == BodyKind::fixed) continue;
+    const std::optional<Pose> pose = model.tracks->pose(model.state.ghost, body);
+    if (!pose) continue;
+    ghost.pose = *pose;
+    ghost.see_through = true;
+    ghost.pick = 0;
+    list.surfaces.push_back(std::move(ghost));
+  }
+}
+
+}  // namespace impinge

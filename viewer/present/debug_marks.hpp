@@ -1,0 +1,18 @@
+// What the debugger draws over a picture beside the layers: the selection, trails and the ghost of another frame.
+#pragma once
+
+#include "viewer/draw/draw_list.hpp"
+#include "viewer/state/debug_model.hpp"
+
+namespace impinge {
+
+/// A box around the selected body, its triangle; a ring and an arrow of a selected contact.
+void mark_selection(const DebugModel& model, DrawList& list);
+/// Where bodies' centres were in the frames before that were seen: of those selected, else of all that move.
+void draw_trails(const DebugModel& model, DrawList& list);
+/// Rigid bodies where they were in another frame, see-through, as far as that frame was seen.
+void draw_ghost(const DebugModel& model, DrawList& list);
+/// World box of what is selected; empty of nothing, and of a plane.
+Aabb bounds_of_selection(const DebugModel& model);
+
+}  // namespace impinge

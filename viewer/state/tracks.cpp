@@ -1,0 +1,113 @@
+#include "viewer/state/tracks.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace impinge {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{128} << 20;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<BodyIndex> body_of(std::string_view name, const std::vector<std::string>& bodies) {
+  while (name.starts_with(' ')) name.remove_prefix(1);
+  while (name.ends_with(' ')) name.remove_suffix(1);
+  const auto it = std::find(bodies.begin(), bodies.end(), name);
+  if (it == bodies.end()) return std::nullopt;
+  return BodyIndex(it - bodies.begin());
+}
+
+}  // namespace
+
+const std::vector<QuantityName>& quantity_names() {
+  static const std::vector<QuantityName> names = {
+      {"speed", "m/s", false}, {"contacts", ""}, {"gap", "m"}, {"depth", "m"}, {"force", "N"}};
+  return names;
+}
+
+std::optional<Quantity> parse_quantity(std::string_view text, const std::vector<std::string>& bodies) {
+  const std::size_t open = text.find('(');
+  if (open == std::string_view::npos || !text.ends_with(')')) return std::nullopt;
+  const std::vector<QuantityName>& names = quantity_names();
+  const auto name =
+      std::find_if(names.begin(), names.end(), [&](const QuantityName& n) { return n.name == text.substr(0, open); });
+  if (name == names.end()) return std::nullopt;
+  const std::string_view inner = text.substr(open + 1, text.size() - open - 2);
+  const std::size_t comma = inner.find(',');
+  Quantity quantity{static_cast<Quantity::What>(name - names.begin()), {}, {}};
+  const std::optional<BodyIndex> a = body_of(inner.substr(0, comma), bodies);
+  if (!a) return std::nullopt;
+  quantity.a = *a;
+  if (comma == std::string_view::npos) return quantity;
+  const std::optional<BodyIndex> b = body_of(inner.substr(comma + 1), bodies);
+  if (!b || !name->of_pairs) return std::nullopt;
+  quantity.b = *b;
+  if (quantity.b < quantity.a) std::swap(quantity.a, quantity.b);
+  return quantity;
+}
+
+void Tracks::Touch::take(const ContactRecord& contact) {
+  gap = contacts == 0 ? contact.gap : std::min(gap, contact.gap);
+  ++contacts;
+  impulse += contact.lambda.x();
+}
+
+std::size_t Tracks::Frame::bytes() const {
+  constexpr std::size_t kNode = 48;  // what a map adds to each
+  return bodies.size() * sizeof(OfBody) + (touched.size() + pairs.size()) * (sizeof(Touch) + kNode);
+}
+
+void Tracks::note(const StepRecord& record) {
+  Frame frame;
+  frame.substep_time = record.stats.substeps > 0 ? record.frame_time / record.stats.substeps : 0.0;
+  for (const BodyRecord& body : record.bodies) frame.bodies.push_back({body.pose, body.velocity.norm()});
+  for (const ContactRecord& c : record.contacts) {
+    frame.touched[c.body_a].take(c);
+    if (c.body_a != c.body_b) frame.touched[c.body_b].take(c);
+    frame.pairs[{std::min(c.body_a, c.body_b), std::max(c.body_a, c.body_b)}].take(c);
+  }
+  Frame& kept = frames_[record.stats.frame];
+  bytes_ -= kept.bytes();
+  kept = std::move(frame);
+  bytes_ += kept.bytes();
+  while (bytes_ > kMostBytes && frames_.size() > 1) {
+    const auto oldest = frames_.begin()->first == record.stats.frame ? std::next(frames_.begin()) : frames_.begin();
+    bytes_ -= oldest->second.bytes();
+    frames_.erase(oldest);
+  }
+}
+
+void Tracks::forget_after(int frame) {
+  for (auto it = frames_.upper_bound(frame); it != frames_.end(); it = frames_.erase(it)) bytes_ -= it->second.bytes();
+}
+
+double Tracks::value(int number, const Quantity& quantity) const {
+  const auto it = frames_.find(number);
+  if (it == frames_.end()) return kNone;
+  const Frame& frame = it->second;
+  if (quantity.what == Quantity::speed) return frame.bodies[static_cast<std::size_t>(quantity.a.value())].speed;
+  const Touch* touch = nullptr;
+  if (quantity.b.is_none()) {
+    if (const auto of = frame.touched.find(quantity.a); of != frame.touched.end()) touch = &of->second;
+  } else if (const auto of = frame.pairs.find({quantity.a, quantity.b}); of != frame.pairs.end()) {
+    touch = &of->second;
+  }
+  switch (quantity.what) {
+    case Quantity::contacts:
+      return touch == nullptr ? 0.0 : touch->contacts;
+    case Quantity::gap:
+      return touch == nullptr ? kNone : touch->gap;
+    case Quantity::depth:
+      return touch == nullptr ? 0.0 : std::max(0.0, -touch->gap);
+    default:
+      return touch == nullptr ? 0.0 : frame.substep_time > 0.0 ? touch->impulse / frame.substep_time : kNone;
+  }
+}
+
+std::optional<Pose> Tracks::pose(int frame, BodyIndex body) const {
+  const auto it = frames_.find(frame);
+  if (it == frames_.end()) return std::nullopt;
+  return it->second.bodies[static_cast<std::size_t>(body.value())].pose;
+}
+
+}  // namespace impinge

@@ -1,0 +1,62 @@
+// What bodies and pairs of bodies did in the frames that were seen, so that a figure of any of them can be plotted, and
+// where they were be drawn.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/world/step_record.hpp"
+
+namespace impinge {
+
+/// A number of a body or a pair: "speed(ball)", "gap(crate,ball)".
+struct Quantity {
+  enum What { speed, contacts, gap, depth, force };
+  What what = speed;
+  BodyIndex a, b;  ///< b none: of a alone
+};
+struct QuantityName {
+  std::string_view name, unit;
+  bool of_pairs = true;
+};
+const std::vector<QuantityName>& quantity_names();
+/// None if the text is none of a body that there is.
+std::optional<Quantity> parse_quantity(std::string_view text, const std::vector<std::string>& bodies);
+
+class Tracks {
+ public:
+  /// Takes what the record's frame had. The oldest frames go where there are too many.
+  void note(const StepRecord& record);
+  void forget_after(int frame);
+  /// NaN where the frame wasn't seen, or has no such thing.
+  double value(int frame, const Quantity& quantity) const;
+  /// Where a body's frame was; none where that wasn't seen.
+  std::optional<Pose> pose(int frame, BodyIndex body) const;
+  int first() const { return frames_.empty() ? 0 : frames_.begin()->first; }
+
+ private:
+  struct OfBody {
+    Pose pose;
+    double speed = 0.0;
+  };
+  struct Touch {  // of a body, or of a pair
+    int contacts = 0;
+    double gap = 0.0, impulse = 0.0;
+    void take(const ContactRecord& contact);
+  };
+  struct Frame {
+    double substep_time = 0.0;
+    std::vector<OfBody> bodies;
+    std::map<BodyIndex, Touch> touched;
+    std::map<std::pair<BodyIndex, BodyIndex>, Touch> pairs;
+    std::size_t bytes() const;
+  };
+
+  std::map<int, Frame> frames_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace impinge
