@@ -20,6 +20,7 @@ struct FrozenStep;
 class StepWatcher;
 
 struct Solving;
+enum class StepStage : std::uint8_t;
 
 class World {
  public:
@@ -78,9 +79,12 @@ class World {
   void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
   void save_state(ByteWriter& out) const;
+  void reached(StepStage stage);
+  std::vector<SolvedContact> solved_contacts() const;
   void publish_solved();
   void publish_found();
   void publish(std::span<const SolvedContact> contacts);
+  void describe(std::span<const SolvedContact> contacts, FrameStats& stats, StepRecord& record);
 
   Bodies bodies_;
   std::vector<Attachment> attachments_;

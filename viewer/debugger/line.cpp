@@ -65,9 +65,33 @@ DebugLine parse_transport(LineWords words) {
     want(words, 2, 2, "seek FRAME");
     return TransportLine{TransportLine::seek, static_cast<int>(number(words[1], 0, 1e7, true))};
   }
-  want(words, 1, 2, verb == "step" ? "step [N]" : "back [N]");
-  return TransportLine{verb == "step" ? TransportLine::step : TransportLine::back,
-                       words.size() == 2 ? static_cast<int>(number(words[1], 1, 1e7, true)) : 1};
+  const char* usage = verb == "step" ? "step [stage|substep] [N]" : "back [stage|substep] [N]";
+  TransportLine line{verb == "step" ? TransportLine::step : TransportLine::back, 1, TransportLine::frame};
+  std::size_t n = 1;
+  if (words.size() > 1 && std::isalpha(static_cast<unsigned char>(words[1].text[0])) != 0)
+    line.unit = find(words[n++], "unit", {"substep", "stage"}) == 0 ? TransportLine::substep : TransportLine::stage;
+  want(words, n, n + 1, usage);
+  if (words.size() > n) line.frames = static_cast<int>(number(words[n], 1, 1e7, true));
+  return line;
+}
+
+/// The words from the n-th on, as they stand in the line.
+PlacedText from_word(const PlacedText& line, LineWords words, std::size_t n) {
+  return line.part(static_cast<std::size_t>(words[n].text.data() - line.text.data()));
+}
+
+DebugLine parse_break(const PlacedText& line, LineWords words, const DebugNames& names) {
+  const char* usage = "break when CONDITION or break off";
+  want(words, 2, 1000, usage);
+  if (find(words[1], "word", {"when", "off"}) == 1) return want(words, 2, 2, usage), BreakLine{};
+  want(words, 3, 1000, usage);
+  return BreakLine{Expression(from_word(line, words, 2), names.conditions), words[0].place()};
+}
+
+std::vector<std::string> body_names(const DebugNames& names) {
+  std::vector<std::string> bodies;
+  for (const BodyRecord& body : names.record.bodies) bodies.emplace_back(body.name);
+  return bodies;
 }
 
 DebugLine parse_select(LineWords words, const DebugNames& names) {
@@ -80,10 +104,8 @@ DebugLine parse_select(LineWords words, const DebugNames& names) {
       break;
     case 1: {
       want(words, 3, 4, usage);
-      std::vector<std::string> bodies;
-      for (const BodyRecord& body : names.record.bodies) bodies.emplace_back(body.name);
       s.kind = Selection::body;
-      s.index = static_cast<int>(find(words[2], "body", bodies));
+      s.index = static_cast<int>(find(words[2], "body", body_names(names)));
       if (words.size() == 4) s.triangle = static_cast<int>(number(words[3], 0, 1e9, true));
       break;
     }
@@ -200,8 +222,9 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> verbs = {"set",   "layer",  "camera", "step", "back", "seek", "play",
-                                          "pause", "select", "panel",  "ui",   "shot", "quit"};
+  const std::vector<std::string> verbs = {"set",  "layer", "camera", "step",   "back", "seek",
+                                          "play", "pause", "select", "panel",  "ui",   "shot",
+                                          "quit", "break", "find",   "freeze", "why"};
   const std::size_t verb = find(words[0], "command", verbs);
   if (verb < 3) return parse_command(words, names.rows, false);
   if (verb < 8) return parse_transport(words);
@@ -209,6 +232,22 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   if (verb == 9) return parse_panel(line, words, names);
   if (verb == 10) return parse_input(line, words);
   if (verb == 12) return want(words, 1, 1, "quit"), QuitLine{};
+  if (verb == 13) return parse_break(line, words, names);
+  if (verb == 14) {
+    want(words, 2, 1000, "find CONDITION");
+    return FindLine{Expression(from_word(line, words, 1), names.conditions)};
+  }
+  if (verb == 16) {
+    want(words, 3, 3, "why NAME NAME");
+    const std::vector<std::string> bodies = body_names(names);
+    return WhyLine{static_cast<int>(find(words[1], "body", bodies)), static_cast<int>(find(words[2], "body", bodies))};
+  }
+  if (verb == 15) {
+    want(words, 2, 2, "freeze FILE");
+    if (!words[1].text.ends_with(".step"))
+      words[1].refuse(fmt::format("'{}'", words[1].text), "a file name that ends in .step is wanted", "add .step");
+    return FreezeLine{std::string(words[1].text)};
+  }
   want(words, 2, 2, "shot FILE");
   if (!words[1].text.ends_with(".png"))
     words[1].refuse(fmt::format("'{}'", words[1].text), "a file name that ends in .png is wanted", "add .png");

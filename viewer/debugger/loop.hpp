@@ -37,6 +37,7 @@ class DebugLoop {
   void draw(bool quick = false);
   void settle();
   void shoot(const std::string& file, const PlacedText& place);
+  void freeze(const std::string& file, const PlacedText& place);
 
   Debugger& debugger_;
   DebugWindow& window_;

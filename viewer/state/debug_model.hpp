@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/parameter.hpp"
-#include "engine/world/step_record.hpp"
+#include "engine/world/stage_place.hpp"
 #include "viewer/draw/view_settings.hpp"
 
 namespace impinge {
@@ -52,6 +52,9 @@ struct DebugModel {
   std::string scene;
   int frame = 0, known_last = 0;
   bool playing = false;
+  /// In the middle of the making of the frame, and where; null: at its end.
+  const FrameStages* stages = nullptr;
+  int place = 0;
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
   const std::set<int>* changed_frames = nullptr;              ///< with commands by hand
