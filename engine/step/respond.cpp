@@ -59,6 +59,7 @@ class GroupSolve {
 
   void solve() {
     if (how_.freezes) result_.frozen = freeze(system());  // before a later Newton iteration takes A anew
+    if (how_.watcher != nullptr) how_.watcher->solving(index_, now_, how_);
     const StageTimer timer(result_.response_ms);
     try {
       result_.response = how_.response.solve(system(), how_.lcp, how_.context);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/bodies/time_integration.hpp"
+#include "engine/step/solve_watcher.hpp"
 #include "engine/step/sub_step.hpp"
 
 namespace impinge {
@@ -15,6 +16,7 @@ struct Solving {
   const DeformableIntegrator& integrator;
   double gravity;        ///< that automatic thresholds go by, m/s²
   bool freezes = false;  ///< the groups are wanted as they were handed to the response
+  SolveWatcher* watcher = nullptr;
 };
 
 /// Groups are independent, so threads share them. What of several is thrown is what the lowest group throws. Results by

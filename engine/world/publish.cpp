@@ -2,36 +2,18 @@
 #include <algorithm>
 #include <map>
 
-#include "engine/bodies/deformable_body.hpp"
 #include "engine/contact/pair_coefficients.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
 #include "engine/world/finite_record.hpp"
+#include "engine/world/record_parts.hpp"
 #include "engine/world/self_crossings.hpp"
 #include "engine/world/world.hpp"
 
 namespace impinge {
 namespace {
-
-ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
-  const Collision& c = contact.collision;
-  ContactRecord record;
-  record.body_a = c.body_a, record.body_b = c.body_b;
-  record.triangle_a = c.triangle_a, record.triangle_b = c.triangle_b;
-  record.point_a = bodies[c.body_a].position_of(contact.point_a);
-  record.point_b = bodies[c.body_b].position_of(contact.point_b);
-  record.normal = normal_of(contact, bodies);
-  record.gap = record.normal.dot(record.point_a - record.point_b);
-  record.gap0 = c.gap;
-  record.lambda = contact.lambda;
-  record.friction = contact.friction;
-  record.state = contact.state;
-  record.group = contact.group;
-  record.pair_id = c.feature;
-  return record;
-}
 
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
 /// The deepest of two meshes is put where they overlap most, and none shows an overlap where there is none, or more than
@@ -92,24 +74,6 @@ void show_overlaps_at_end(const Bodies& bodies, const SubStep& step, const Param
   show_overlaps(bodies, colliders, step.triangle_pairs, record);
 }
 
-BodyRecord record_of(const Body& body) {
-  BodyRecord r;
-  r.name = body.name;
-  r.kind = body.kind();
-  r.shape = body.shape.get();
-  r.pose = {body.pose.rotation, body.center_of_mass()};
-  r.file_pose = body.file_pose();
-  r.vertices = body.world_vertices;
-  r.bounds = body.bounds();
-  const Twist twist = body.twist();
-  r.velocity = twist.linear;
-  r.angular_velocity = twist.angular;
-  r.mass = body.mass;
-  r.deformable = body.as<DeformableBody>();
-  r.asleep = body.asleep;
-  return r;
-}
-
 }  // namespace
 
 void World::publish_found() {
@@ -129,66 +93,17 @@ void World::publish_found() {
   publish(contacts);
 }
 
-void World::publish_solved() {
+std::vector<SolvedContact> World::solved_contacts() const {
   std::vector<SolvedContact> contacts;
   for (const GroupResult& result : sub_step_->results)
     contacts.insert(contacts.end(), result.solved.begin(), result.solved.end());
-  publish(contacts);
+  return contacts;
 }
 
-void World::publish(std::span<const SolvedContact> contacts) {
-  const SubStep& s = *sub_step_;
-  next_record_.bodies.clear();
-  for (const Body& body : bodies_) next_record_.bodies.push_back(record_of(body));
-  next_record_.groups.clear();
-  for (GroupIndex g(0); g < s.groups.size(); ++g) {
-    next_record_.groups.push_back(s.groups[g].bodies);
-    for (const BodyIndex b : s.groups[g].bodies) next_record_.bodies[b].group = g;
-  }
-  next_record_.broad_pairs = s.pairs;
-  next_record_.triangle_pairs = s.triangle_pairs;
-  next_record_.contacts.clear();
-  for (const SolvedContact& contact : contacts) next_record_.contacts.push_back(carried(contact, bodies_));
-  show_overlaps_at_end(bodies_, s, parameters, next_record_);
-  next_record_.attachments.clear();
-  stats_.attachment_error = 0.0;
-  for (const Attachment& a : attachments_) {
-    if (a.number < static_cast<int>(next_record_.attachments.size())) continue;  // the other normal of a line
-    const AttachmentHold hold = hold_of(a, bodies_);
-    next_record_.attachments.push_back(
-        {a.name, a.a.body, a.b.body, hold.point_a, hold.point_b, Vec3::Zero(), a.kind, hold.axis});
-    stats_.attachment_error = larger(stats_.attachment_error, next_record_.attachments.back().error());
-  }
-  const ContactList list = s.contacts(attachments_);
-  for (const GroupResult& result : s.results)
-    for (std::size_t i = 0; i < result.contacts.size(); ++i)
-      if (list.collision(result.contacts[i]) == nullptr)
-        next_record_.attachments[list.attachment(result.contacts[i]).number].impulse += result.impulses[i].impulse;
-  next_record_.gravity = parameters.simulation.gravity;
-  next_record_.frame_time = parameters.simulation.frame_time;
+void World::publish_solved() { publish(solved_contacts()); }
 
-  stats_.frame = frame_;
-  stats_.time = time_;
-  stats_.substeps = parameters.simulation.substeps;
-  stats_.bodies = bodies_.size();
-  stats_.dofs = stats_.asleep = 0;
-  Balance balance;
-  for (Body& body : bodies_) {
-    stats_.dofs += body.dofs();
-    stats_.asleep += body.asleep ? 1 : 0;
-    balance += body.balance(parameters.simulation.gravity);
-  }
-  stats_.broad_pairs = static_cast<std::int64_t>(next_record_.broad_pairs.size());
-  stats_.triangle_pairs = static_cast<std::int64_t>(next_record_.triangle_pairs.size());
-  stats_.contacts = static_cast<std::int64_t>(next_record_.contacts.size());
-  stats_.groups = static_cast<std::int64_t>(next_record_.groups.size());
-  stats_.max_penetration = 0.0;
-  for (const ContactRecord& c : next_record_.contacts)
-    stats_.max_penetration = std::max(stats_.max_penetration, -c.gap);
-  stats_.self_crossings = count_self_crossings(bodies_, CrossingsOf::self_colliding);
-  stats_.substep_penetration = std::max(stats_.substep_penetration, stats_.max_penetration);
-  stats_.take(balance);
-  next_record_.stats = stats_;
+void World::publish(std::span<const SolvedContact> contacts) {
+  describe(contacts, stats_, next_record_);
   check_finite(next_record_, bodies_);
   ByteWriter state(std::move(next_state_));
   save_state(state);
@@ -196,6 +111,59 @@ void World::publish(std::span<const SolvedContact> contacts) {
   std::swap(record_, next_record_);  // so that a frame that may not be published leaves the last one standing
   std::swap(state_, next_state_);
   hash_is_due_ = true;
+}
+
+/// The bodies as they are, with figures to which those of the sub-steps made so far have been added.
+void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats, StepRecord& record) {
+  const SubStep& s = *sub_step_;
+  record.bodies.clear();
+  for (const Body& body : bodies_) record.bodies.push_back(record_of(body));
+  record.groups.clear();
+  for (GroupIndex g(0); g < s.groups.size(); ++g) {
+    record.groups.push_back(s.groups[g].bodies);
+    for (const BodyIndex b : s.groups[g].bodies) record.bodies[b].group = g;
+  }
+  record.broad_pairs = s.pairs;
+  record.triangle_pairs = s.triangle_pairs;
+  record.contacts.clear();
+  for (const SolvedContact& contact : contacts) record.contacts.push_back(carried(contact, bodies_));
+  show_overlaps_at_end(bodies_, s, parameters, record);
+  show_attachments(attachments_, bodies_, record);
+  stats.attachment_error = 0.0;
+  for (const AttachmentRecord& a : record.attachments)
+    stats.attachment_error = larger(stats.attachment_error, a.error());
+  const ContactList list = s.contacts(attachments_);
+  for (const GroupResult& result : s.results)
+    for (std::size_t i = 0; i < result.contacts.size(); ++i)
+      if (list.collision(result.contacts[i]) == nullptr)
+        record.attachments[list.attachment(result.contacts[i]).number].impulse += result.impulses[i].impulse;
+  record.gravity = parameters.simulation.gravity;
+  record.frame_time = parameters.simulation.frame_time;
+
+  stats.unsafe_motions = static_cast<std::int64_t>(unsafe_.size());
+  stats.unsafe.clear();
+  for (const auto& [body, unsafe] : unsafe_) stats.unsafe.push_back(unsafe);
+  stats.frame = frame_;
+  stats.time = time_;
+  stats.substeps = parameters.simulation.substeps;
+  stats.bodies = bodies_.size();
+  stats.dofs = stats.asleep = 0;
+  Balance balance;
+  for (Body& body : bodies_) {
+    stats.dofs += body.dofs();
+    stats.asleep += body.asleep ? 1 : 0;
+    balance += body.balance(parameters.simulation.gravity);
+  }
+  stats.broad_pairs = static_cast<std::int64_t>(record.broad_pairs.size());
+  stats.triangle_pairs = static_cast<std::int64_t>(record.triangle_pairs.size());
+  stats.contacts = static_cast<std::int64_t>(record.contacts.size());
+  stats.groups = static_cast<std::int64_t>(record.groups.size());
+  stats.max_penetration = 0.0;
+  for (const ContactRecord& c : record.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
+  stats.self_crossings = count_self_crossings(bodies_, CrossingsOf::self_colliding);
+  stats.substep_penetration = std::max(stats.substep_penetration, stats.max_penetration);
+  stats.take(balance);
+  record.stats = stats;
 }
 
 }  // namespace impinge

@@ -33,6 +33,7 @@ void World::restore(ByteReader& in) {
   cache_.restore(in);
   sleeping_.restore(in);
   stats_ = {};
+  unsafe_.clear();
   *sub_step_ = {};  // the record says what was found
   publish_found();
   was_still_ = false;

@@ -150,6 +150,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         const std::optional<double> before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity);
         if (before) {
           ++impacts;
+          if (watcher_ != nullptr) watcher_->struck(bodies_, *sub_step_, *before);
           share *= *before;
           start->bring_back(bodies_, sleeping_);
           continue;
@@ -183,7 +184,14 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }
-  if (watcher_ != nullptr) watcher_->finished(bodies_, substep);
+  if (watcher_ == nullptr) return;
+  watcher_->finished(bodies_, substep);
+  const int substeps = parameters.simulation.substeps;
+  if (!watcher_->wants_record(substep, substeps)) return;
+  FrameStats so_far = stats_;
+  StepRecord record;
+  describe(solved_contacts(), so_far, record);
+  watcher_->recorded(bodies_, record, substep, substeps);
 }
 
 }  // namespace impinge

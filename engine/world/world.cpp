@@ -45,6 +45,7 @@ void World::start() {
   frame_ = 0;
   time_ = 0.0;
   stats_ = {};
+  unsafe_.clear();
   parameters_changed();
   const double h = parameters.simulation.time_step();
   place(bodies_, time_);
@@ -93,8 +94,6 @@ void World::advance(FrozenStep* frozen) {
   } catch (const DivergenceError& error) {  // the stages know no frame
     throw DivergenceError(fmt::format("frame {}, {}", frame_, error.what()));
   }
-  stats_.unsafe_motions = static_cast<std::int64_t>(unsafe_.size());
-  for (const auto& [body, unsafe] : unsafe_) stats_.unsafe.push_back(unsafe);
   publish_solved();
   was_still_ = still && is_still();
 }
@@ -127,10 +126,13 @@ void World::make_motion(double h, double share, bool freezes) {
 
   // 3 external forces, 4 A v* = b
   timed(times.integrate_ms, [&] { find_free_velocities(bodies_, how); });
+  reached(StepStage::free_motion);
 
   // 5 broad phase, 6 narrow phase
   detect(bodies_, attachments_, detecting(parameters), how, sleeping_, s, times);
+  for (const StepStage stage : {StepStage::broad_phase, StepStage::narrow_phase}) reached(stage);
   timed(times.narrow_ms, [&] { drop_what_never_carries(); });
+  reached(StepStage::reduction);
   if (watcher_ != nullptr) watcher_->found(bodies_, s);
   const ContactList contacts = s.contacts(attachments_);
 
@@ -141,23 +143,33 @@ void World::make_motion(double h, double share, bool freezes) {
     // 8 groups
     s.groups = find_groups(bodies_, contacts);
   });
+  reached(StepStage::groups);
 
   // 9 Jacobian and group systems, 10 response
   Solving solve = solving(parameters);
   solve.context.time_step = h;
   solve.context.share = h / parameters.simulation.time_step();
   solve.freezes = freezes;
+  if (watcher_ != nullptr) solve.watcher = watcher_->solve_watcher(s);
   s.results.clear();
   respond(bodies_, contacts, s.start, s.groups, {}, solve, s.results, times);
+  reached(StepStage::response);
+  solve.watcher = nullptr;  // of the groups as they were found
   look_again(solve);
 
   check_interrupt();
   // 11 integrate
   timed(times.integrate_ms, [&] {
     change_velocities(bodies_, s);
+    reached(StepStage::push_out);
     guard_.follow(bodies_, how, time_ + h);
     integrate(bodies_, how, s);
   });
+  reached(StepStage::integration);
+}
+
+void World::reached(StepStage stage) {
+  if (watcher_ != nullptr) watcher_->reached(stage, bodies_, *sub_step_);
 }
 
 /// Between 10 and 11: contacts that only the response leads to.
@@ -178,6 +190,7 @@ void World::look_again(const Solving& how) {
     look.add(cache_);
     stats_.lcp_iterations += before.solve_changed(bodies_, attachments_, how, s, stats_.times);
     if (before.was_better(s)) return before.restore(s);
+    reached(StepStage::second_look);
     if (watcher_ != nullptr) watcher_->found(bodies_, s);
   }
 }

@@ -21,6 +21,7 @@ struct FrozenStep;
 class StepWatcher;
 
 struct Solving;
+enum class StepStage : std::uint8_t;
 
 class World {
  public:
@@ -82,9 +83,12 @@ class World {
   bool is_still() const;
   void repeat_still_frame();
   void save_state(ByteWriter& out) const;
+  void reached(StepStage stage);
+  std::vector<SolvedContact> solved_contacts() const;
   void publish_solved();
   void publish_found();
   void publish(std::span<const SolvedContact> contacts);
+  void describe(std::span<const SolvedContact> contacts, FrameStats& stats, StepRecord& record);
 
   Bodies bodies_;
   std::vector<Attachment> attachments_;

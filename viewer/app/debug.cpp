@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A script may hold both: lines by frame (at, from, expect, break), and lines to be done one after another.
+/// A script may hold both: lines by frame (at, from, expect), and lines to be done one after another.
 struct DebugScript {
   std::string name;
   bool has_timed = false;
@@ -37,8 +37,8 @@ DebugScript read_script(const fs::path& path) {
   for (std::string& line : read_lines(path)) {
     const std::string bare = line.substr(0, line.find('#'));
     const std::vector<PlacedText> words = split_words({bare, &script.name, 1, 1});
-    const bool timed = !words.empty() && (words[0].text == "at" || words[0].text == "from" ||
-                                          words[0].text == "expect" || words[0].text == "break");
+    const bool timed =
+        !words.empty() && (words[0].text == "at" || words[0].text == "from" || words[0].text == "expect");
     script.has_timed |= timed;
     script.timed.push_back(timed ? line : "");
     script.lines.push_back(words.empty() || timed ? "" : bare.substr(0, bare.find_last_not_of(" \t\r") + 1));
@@ -150,7 +150,7 @@ int debug(const Given& options) {
   const DebugScript script = read_script(options.script);
   if (!source.run_folder.empty() && script.has_timed)
     throw InputError(
-        fmt::format("{}: lines by frame (at, from, expect, break) with a finished run, which has its own; lines done "
+        fmt::format("{}: lines by frame (at, from, expect) with a finished run, which has its own; lines done "
                     "one after another are wanted; debug the scene instead",
                     script.name));
   check_recording(options);
@@ -210,7 +210,11 @@ int debug(const Given& options) {
     throw;
   }
   save_recording();
-  if (!options.quiet) fmt::print("frame {}, state {}\n", debugger.model().frame, hex64(debugger.state_hash()));
+  if (!options.quiet) {
+    const DebugModel& model = debugger.model();
+    fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
+               model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
+  }
   for (const ConsoleLine& line : debugger.model().console)
     if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
   if (interrupted()) return 130;

@@ -9,16 +9,18 @@
 
 namespace impinge {
 
-void Expectations::check(int frame, std::span<const double> figures,
+void Expectations::check(int frame, const ConditionValues& values,
                          const std::function<std::filesystem::path()>& picture) {
   const auto fail = [&](const std::string& line) {
     ++failures_;
     if (report_) report_(line);
   };
   for (const Script::Expectation& expectation : script_.expectations()) {
-    if (expectation.frame != frame || expectation.condition.holds(figures)) continue;
+    if (expectation.frame != frame) continue;
+    const std::vector<double> found = values(expectation.condition);
+    if (expectation.condition.holds(found)) continue;
     fail(fmt::format("{}: frame {}: expected {}; found {}", expectation.place, frame, expectation.condition.text(),
-                     expectation.condition.describe(figures, figure_names(judged_))));
+                     expectation.condition.describe(found, figure_names(judged_))));
   }
   for (const Script::ImageExpectation& image : script_.images()) {
     if (!pictures_ || image.frame != frame) continue;
@@ -28,30 +30,15 @@ void Expectations::check(int frame, std::span<const double> figures,
   }
 }
 
-bool Expectations::becomes_true(const Script::Break& point, std::span<const double> figures,
-                                std::span<const double> before) {
-  return point.condition.holds(figures) && (before.empty() || !point.condition.holds(before));
-}
-
-bool Expectations::would_break(std::span<const double> figures, std::span<const double> before) const {
-  return std::any_of(script_.breaks().begin(), script_.breaks().end(),
-                     [&](const Script::Break& point) { return becomes_true(point, figures, before); });
+bool Expectations::asks_of_bodies(int frame) const {
+  return std::any_of(script_.expectations().begin(), script_.expectations().end(), [&](const auto& expectation) {
+    return expectation.frame == frame && !expectation.condition.terms().empty();
+  });
 }
 
 bool Expectations::needs_picture(int frame) const {
   for (const Script::ImageExpectation& image : script_.images())
     if (pictures_ && image.frame == frame) return true;
-  return false;
-}
-
-bool Expectations::breaks(int frame, std::span<const double> figures, std::span<const double> before) const {
-  for (const Script::Break& point : script_.breaks()) {
-    if (!becomes_true(point, figures, before)) continue;
-    if (report_)
-      report_(fmt::format("{}: frame {}: stopped by break when {}; {}", point.place, frame, point.condition.text(),
-                          point.condition.describe(figures, figure_names(judged_))));
-    return true;
-  }
   return false;
 }
 

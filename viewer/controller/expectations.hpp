@@ -1,8 +1,9 @@
-// `expect` and `break` lines of a script, judged frame by frame.
+// `expect` lines of a script, judged frame by frame.
 #pragma once
 
 #include <functional>
 
+#include "viewer/controller/condition_values.hpp"
 #include "viewer/controller/script.hpp"
 
 namespace impinge {
@@ -16,20 +17,15 @@ class Expectations {
 
   /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is
   /// compared.
-  void check(int frame, std::span<const double> figures, const std::function<std::filesystem::path()>& picture);
+  void check(int frame, const ConditionValues& values, const std::function<std::filesystem::path()>& picture);
+  /// Whether one of the frame's lines asks of bodies: then the figures alone don't judge it.
+  bool asks_of_bodies(int frame) const;
   bool needs_picture(int frame) const;
-  /// Whether a `break` becomes true with this frame, whose figures and those of the frame before (none: empty) are
-  /// given; says which.
-  bool breaks(int frame, std::span<const double> figures, std::span<const double> before) const;
-  /// The same for any `break`, without a word.
-  bool would_break(std::span<const double> figures, std::span<const double> before) const;
   /// Says how many `expect` lines lie after the last frame.
   void note_unchecked(int last_frame) const;
   int failures() const { return failures_; }
 
  private:
-  static bool becomes_true(const Script::Break& point, std::span<const double> figures, std::span<const double> before);
-
   const Script& script_;
   bool judged_ = false, pictures_ = true;
   std::function<void(const std::string&)> report_;

@@ -3,25 +3,44 @@
 //   or      = and { "||" and }          compare = sum [ ( < <= > >= == != ) sum ]
 //   and     = not { "&&" not }          sum     = product { ( + - ) product }
 //   not     = "!" not | compare         product = unary { ( * / ) unary }
-//                                       unary   = "-" unary | number | name | text | "(" or ")"
+//                                       unary   = "-" unary | number | name | call | text | "(" or ")"
+//                                       call    = function "(" body { "," body } ")"
 //
 // A name may hold dots and be a function of one word, `max(contacts)`; a text, bare or in quotes, is compared by == and
-// !=.
+// !=. Calls speak of bodies where there are any: `depth(crate, floor) > 1e-3`.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "viewer/controller/text_place.hpp"
 
 namespace impinge {
 
+/// What may be asked of one or two bodies.
+enum class BodyFunction : std::uint8_t {
+  contacts,  ///< of the two, handed to the response
+  depth,     ///< how deep they overlap, metres
+  gap,       ///< between them, metres; negative inside
+  speed,     ///< of a centre of mass, m/s
+  energy     ///< kinetic, elastic and potential, J
+};
+struct BodyTerm {
+  BodyFunction function = BodyFunction::contacts;
+  int a = 0, b = 0;  ///< places in ExpressionWords::bodies; b of a function of two
+  std::string text;  ///< "depth(crate,floor)"
+};
+/// "contacts(A,B)" and so on, for messages and help.
+const std::vector<std::string>& body_functions();
+
 /// What an expression may speak of, when that is more than figures.
 struct ExpressionWords {
-  std::vector<std::string> names;  ///< by position in `values`; "f(x)" is written as a call
-  std::vector<bool> is_text;       ///< by name: its value is a position in `texts`; may be shorter than `names`
-  std::vector<std::string> texts;  ///< all that such names may be
-  std::string allowed;             ///< for messages, instead of all names
-  bool takes_number = false;       ///< whether the whole may be a number too
+  std::vector<std::string> names;        ///< by position in `values`; "f(x)" is written as a call
+  std::vector<bool> is_text;             ///< by name: its value is a position in `texts`; may be shorter than `names`
+  std::vector<std::string> texts;        ///< all that such names may be
+  std::string allowed;                   ///< for messages, instead of all names
+  bool takes_number = false;             ///< whether the whole may be a number too
+  std::vector<std::string> bodies = {};  ///< that calls may name; none: there are no calls
 };
 
 class Expression {
@@ -31,6 +50,8 @@ class Expression {
   /// wrong.
   Expression(const PlacedText& text, const std::vector<std::string>& names);
 
+  /// What it asks of bodies: their values follow those of the names.
+  const std::vector<BodyTerm>& terms() const { return terms_; }
   /// Truth is 1, falsehood 0. Comparisons with NaN are false.
   double evaluate(std::span<const double> values) const;
   bool holds(std::span<const double> values) const { return evaluate(values) != 0.0; }
@@ -60,12 +81,13 @@ class Expression {
   struct Step {
     Operation operation;
     double number = 0.0;  ///< of a number
-    int name = -1;        ///< position of a name
+    int name = -1;        ///< position of a name, or, behind the last one, of a term
   };
 
  private:
   std::string text_;
   std::vector<Step> steps_;  // postfix order
+  std::vector<BodyTerm> terms_;
 };
 
 }  // namespace impinge

@@ -6,7 +6,9 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/frozen/frozen_step.hpp"
 #include "engine/io/paths.hpp"
+#include "engine/step/watcher_list.hpp"
 #include "engine/world/frame_judge.hpp"
+#include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/recorded_run.hpp"
 #include "viewer/controller/run_folder.hpp"
@@ -81,6 +83,30 @@ void export_again(const std::filesystem::path& folder, int last, Exports& export
   }
 }
 
+/// Frames that an earlier process made, made again for conditions that ask of their bodies.
+class EarlierFrames {
+ public:
+  EarlierFrames(const RunOptions& options, const RunFolder& folder) : options_(options), folder_(folder) {}
+  /// In ascending order.
+  Session& at(int frame) {
+    if (session_ == nullptr)
+      session_ =
+          std::make_unique<Session>(options_.scene, options_.overrides, options_.script, session_options(options_));
+    for (int k = frame; k > session_->frame(); --k)
+      if (is_valid_snapshot(folder_.snapshot(k))) {
+        restore_snapshot(folder_.snapshot(k), *session_);
+        break;
+      }
+    while (session_->frame() < frame) session_->advance();
+    return *session_;
+  }
+
+ private:
+  const RunOptions& options_;
+  const RunFolder& folder_;
+  std::unique_ptr<Session> session_;
+};
+
 }  // namespace
 
 int RunResult::exit_code() const {
@@ -109,25 +135,39 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = session.is_judged();
   Expectations expectations(session.script(), judged, options.compares_pictures, watcher.message);
-  const auto judge = [&](int frame, std::span<const double> figures) {
-    expectations.check(frame, figures, [&] { return folder.picture(frame); });
-    if (!expectations.breaks(frame, figures, {})) return false;  // the first that is true ends the run
-    result.stopped_by_break = true;
-    return true;
+  Breakpoints breaks(judged);
+  for (const Script::Break& point : session.script().breaks()) breaks.add(point.condition, point.place);
+  ConditionReader reader;
+  const auto judge = [&](int frame, std::span<const double> figures, Session& made) {
+    expectations.check(
+        frame,
+        [&](const Expression& condition) { return reader.values(condition, figures, made.record(), made.bodies()); },
+        [&] { return folder.picture(frame); });
+  };
+  const auto breaks_at = [&](int frame, std::span<const double> figures) {
+    breaks.end(frame, figures, session.record(), session.bodies());
+    const std::optional<BreakHit> hit = breaks.next(frame, 0);  // the first that is true ends the run
+    if (hit && watcher.message) watcher.message(breaks.tell(frame, *hit));
+    breaks.forget_before(frame);
+    return hit.has_value();
   };
 
   FrameJudge overlap(session.is_judged_by_substep() ? FrameJudge::each_substep : FrameJudge::each_frame);
-  if (judged) session.watch(&overlap);
+  WatcherList watchers;
+  if (judged) watchers.add(&overlap);
+  if (!breaks.empty()) watchers.add(&breaks);
+  if (!watchers.empty()) session.watch(&watchers);
   bool stop = false;
   check_freeze(options, folder);
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
     if (!exports.is_empty()) export_again(options.out, result.resumed_from, exports);
-    for (int frame = 0; frame <= result.resumed_from && !stop; ++frame) {
+    EarlierFrames earlier(options, folder);
+    for (int frame = 0; frame <= result.resumed_from; ++frame) {
       const std::vector<double>& figures = folder.kept()[frame].figures;
       if (watcher.earlier_frame) watcher.earlier_frame(frame, figures[figure_index("unsafe_motions", judged)]);
-      stop = judge(frame, figures);
+      judge(frame, figures, expectations.asks_of_bodies(frame) ? earlier.at(frame) : session);
     }
   }
   const auto make_frame = [&] {
@@ -151,8 +191,10 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     result.last_frame = frame;
     if (watcher.frame) watcher.frame(stats, last_frame);
     if (options.images && expectations.needs_picture(frame)) view.finish();
-    stop = judge(frame, figure_values(stats, judged));
-    folder.add_snapshot(session);
+    const std::vector<double> figures = figure_values(stats, judged);
+    judge(frame, figures, session);
+    result.stopped_by_break = stop = breaks_at(frame, figures);
+    if (!stop) folder.add_snapshot(session);  // a run that is resumed makes this frame again, and stops again
   };
   try {
     while (!stop && result.last_frame < last_frame) {

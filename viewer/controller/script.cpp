@@ -81,10 +81,10 @@ std::vector<std::string> read_lines(const std::filesystem::path& path) {
 }
 
 Script::Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines,
-               const ParameterSet& rows, const std::vector<std::string>& figures, bool pictures_may_be_missing)
+               const ParameterSet& rows, const ExpressionWords& words, bool pictures_may_be_missing)
     : pictures_may_be_missing_(pictures_may_be_missing) {
   int number = 0;
-  for (const std::string& line : lines) read_line({without_comment(line), &name, ++number, 1}, folder, rows, figures);
+  for (const std::string& line : lines) read_line({without_comment(line), &name, ++number, 1}, folder, rows, words);
 }
 
 int Script::read_frame(const PlacedText& word) {
@@ -98,7 +98,7 @@ int Script::read_frame(const PlacedText& word) {
 }
 
 void Script::read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows,
-                       const std::vector<std::string>& figures) {
+                       const ExpressionWords& conditions) {
   const std::vector<PlacedText> words = split_words(line);
   if (words.empty()) return;
   for (const PlacedText& word : words)
@@ -114,12 +114,12 @@ void Script::read_line(const PlacedText& line, const std::filesystem::path& fold
   } else if (first.text == "from") {
     read_ramp(words, rows);
   } else if (first.text == "expect") {
-    read_expect(line, words, folder, figures);
+    read_expect(line, words, folder, conditions);
   } else if (first.text == "break") {
     if (words.size() < 3 || words[1].text != "when")
       first.refuse("'break' without 'when' and a condition", "break when CONDITION is wanted",
                    "write break when contacts > 100");
-    breaks_.push_back({Expression(spanning(std::span(words).subspan(2), line), figures), first.place()});
+    breaks_.push_back({Expression(spanning(std::span(words).subspan(2), line), conditions), first.place()});
   } else {
     const std::string near = nearest_word(first.text, {"at", "from", "expect", "break"});
     const bool command = std::find(command_verbs().begin(), command_verbs().end(), first.text) != command_verbs().end();
@@ -165,7 +165,7 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
 }
 
 void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
-                         const std::vector<std::string>& figures) {
+                         const ExpressionWords& conditions) {
   const std::size_t n = words.size();
   if (n < 4 || words[n - 2].text != "at")
     words[0].refuse("'expect' without 'at K' at its end", "expect CONDITION at K is wanted",
@@ -173,7 +173,7 @@ void Script::read_expect(const PlacedText& line, std::span<const PlacedText> wor
   const int frame = read_frame(words[n - 1]);
   const std::span<const PlacedText> inner = words.subspan(1, n - 3);
   if (inner[0].text != "image") {
-    expectations_.push_back({frame, Expression(spanning(inner, line), figures), words[0].place()});
+    expectations_.push_back({frame, Expression(spanning(inner, line), conditions), words[0].place()});
     return;
   }
   if (inner.size() != 2 && !(inner.size() == 4 && inner[2].text == "tolerance"))

@@ -35,9 +35,12 @@ class Script {
   };
 
   Script() = default;
-  /// `name` is the file's in messages, `folder` what image paths are relative to. Throws InputError `file:line:column`.
+  /// `words` are those of conditions. `name` is the file's in messages, `folder` what image paths are relative to. Throws InputError `file:line:column`.
   Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines,
-         const ParameterSet& rows, const std::vector<std::string>& figures, bool pictures_may_be_missing = false);
+         const ParameterSet& rows, const ExpressionWords& words, bool pictures_may_be_missing = false);
+  Script(const std::string& name, const std::filesystem::path& folder, const std::vector<std::string>& lines,
+         const ParameterSet& rows, const std::vector<std::string>& figures, bool pictures_may_be_missing = false)
+      : Script(name, folder, lines, rows, ExpressionWords{figures, {}, {}, "", false, {}}, pictures_may_be_missing) {}
 
   /// What takes effect with the frame, in the order of the lines; ramps as `set`.
   std::vector<Command> commands_at(int frame) const;
@@ -58,10 +61,10 @@ class Script {
     ParameterValue from, to;
   };
   void read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows,
-                 const std::vector<std::string>& figures);
+                 const ExpressionWords& conditions);
   void read_ramp(std::span<const PlacedText> words, const ParameterSet& rows);
   void read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
-                   const std::vector<std::string>& figures);
+                   const ExpressionWords& conditions);
   int read_frame(const PlacedText& word);
 
   std::vector<Timed> timed_;

@@ -96,7 +96,7 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
     script_lines_ = scene_.run->script;
     folder = fs::path(script_name_).parent_path();
   }
-  script_ = Script(script_name_, folder, script_lines_, rows_, figure_names(judge_), options.pictures_may_be_missing);
+  script_ = Script(script_name_, folder, script_lines_, rows_, condition_words(), options.pictures_may_be_missing);
   start();
   try {
     view_.settle(world_.record(), options.width, options.height);

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "engine/io/scene/scene.hpp"
+#include "engine/world/figures.hpp"
+#include "viewer/controller/condition_values.hpp"
 #include "viewer/controller/frame_view.hpp"
 #include "viewer/controller/script.hpp"
 
@@ -46,6 +48,7 @@ class Session {
 
   int frame() const { return frame_; }  ///< the last one made, -1 before the first
   const World& world() const { return world_; }
+  Bodies& bodies() { return world_.bodies(); }
   const StepRecord& record() const { return world_.record(); }
   const ParameterSet& rows() const { return rows_; }
   const Scene& scene() const { return scene_; }
@@ -56,6 +59,8 @@ class Session {
   std::string note_of_former_paths() const;
   /// Codes of warnings that the scene doesn't want to hear of (viewer/preflight).
   const std::vector<std::string>& silenced() const { return silenced_; }
+  /// What conditions may speak of: figures and bodies.
+  ExpressionWords condition_words() const { return impinge::condition_words(figure_names(judge_), world_.bodies()); }
   bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
   bool is_judged_by_substep() const { return judge_substeps_; }
   /// Who looks on while frames are made, none: null.

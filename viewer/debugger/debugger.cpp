@@ -11,6 +11,7 @@
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/stats_table.hpp"
+#include "viewer/debugger/session_scopes.hpp"
 
 namespace impinge {
 namespace {
@@ -42,8 +43,11 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
       session_(scene, overrides, script, options.session),
       ring_(options.most_bytes),
       run_folder_(options.run_folder),
+      conditions_(session_.condition_words()),
       expectations_(session_.script(), session_.is_judged(), false,
-                    [this](const std::string& text) { say(ConsoleLine::problem, text); }) {
+                    [this](const std::string& text) { say(ConsoleLine::problem, text); }),
+      breaks_(session_.is_judged()) {
+  for (const Script::Break& point : session_.script().breaks()) breaks_.add(point.condition, point.place);
   model_.scene = session_.scene().path.filename().string();
   if (!run_folder_.empty()) {
     model_.scene = run_folder_.filename().string();
@@ -51,7 +55,9 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
   }
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
   if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
-  if (advance()) breaks_here();
+  if (!advance()) return;
+  look_through(0);
+  if (const std::optional<BreakHit> hit = breaks_.next(0, 0)) stop_at(0, *hit);
 }
 
 void Debugger::read_run_folder() {
@@ -71,7 +77,7 @@ void Debugger::read_run_folder() {
 }
 
 void Debugger::check_hash(int frame) {
-  const std::uint64_t before = hashes_[static_cast<std::size_t>(frame)], now = state_hash();
+  const std::uint64_t before = hashes_[static_cast<std::size_t>(frame)], now = session_.record().stats.state_hash;
   if (before == now || told_of_hash_) return;
   told_of_hash_ = true;  // what follows differs too
   if (frame <= folder_last_)
@@ -97,10 +103,13 @@ bool Debugger::bring_back(int frame) {
 
 bool Debugger::advance() {
   const int next = session_.frame() + 1;
-  if (next > 0 && bring_back(next)) {
+  const bool looks = next > 0 && !breaks_.empty() && !breaks_.know(next);
+  if (next > 0 && !looks && bring_back(next)) {
     note_frame();
     return true;
   }
+  if (looks) breaks_.forget_begun();
+  const WatchScope watch(session_, looks ? &breaks_ : nullptr);
   // again where they were applied already: a value set twice is the same value
   if (const auto it = by_hand_.find(next); it != by_hand_.end())
     for (const Command& command : it->second) session_.change(command);
@@ -122,6 +131,7 @@ bool Debugger::advance() {
     return false;
   }
   note_frame();
+  if (looks) breaks_.end(next, history_[static_cast<std::size_t>(next)], session_.record(), session_.bodies());
   return true;
 }
 
@@ -135,7 +145,9 @@ void Debugger::note_frame() {
   } else {
     history_.push_back(std::move(figures));
     hashes_.push_back(record.stats.state_hash);
-    expectations_.check(session_.frame(), history_.back(), [] { return fs::path(); });
+    expectations_.check(
+        session_.frame(), [this](const Expression& condition) { return values_here(condition); },
+        [] { return fs::path(); });
   }
   if (!ring_.has(session_.frame())) {
     ByteWriter state;
@@ -146,30 +158,9 @@ void Debugger::note_frame() {
   follow_selection();
 }
 
-std::span<const double> Debugger::figures_before(int frame) const {
-  if (frame == 0) return {};
-  return history_[static_cast<std::size_t>(frame) - 1];
-}
-
-/// Whether a `break` becomes true with the present frame; says which. Whoever goes on stops then.
-bool Debugger::breaks_here() {
-  const auto frame = static_cast<std::size_t>(session_.frame());
-  stopped_ = expectations_.breaks(session_.frame(), history_[frame], figures_before(session_.frame()));
-  if (stopped_) playing_ = false;
-  return stopped_;
-}
-
-/// The first frame after `frame`, up to `last`, that is known and with which a `break` becomes true; `last` if none.
-int Debugger::next_known_break(int frame, int last) const {
-  for (int k = frame + 1; k < std::min(last, static_cast<int>(history_.size())); ++k)
-    if (expectations_.would_break(history_[static_cast<std::size_t>(k)], figures_before(k))) return k;
-  return last;
-}
-
 void Debugger::restore_before(int frame) {
-  std::vector<std::pair<const Parameter*, ParameterValue>> view;  // stays as it is
-  for (const Parameter& row : session_.rows().all())
-    if (row.path.starts_with("view.")) view.emplace_back(&row, row.get());
+  within_.reset();
+  const KeptView view(session_);
   const std::optional<int> in_memory = ring_.at_or_before(frame);
   // which reads files
   const std::optional<int> in_folder = in_memory == frame ? std::nullopt : last_snapshot_before(frame);
@@ -179,7 +170,6 @@ void Debugger::restore_before(int frame) {
     ByteReader state(ring_.state(*in_memory));
     session_.restore(state);
   }
-  for (const auto& [row, value] : view) row->set(value);
 }
 
 fs::path Debugger::snapshot_file(int frame) const {
@@ -192,33 +182,16 @@ std::optional<int> Debugger::last_snapshot_before(int frame) const {
   return std::nullopt;
 }
 
-void Debugger::seek(int frame) {
-  const int from = session_.frame();
-  const bool back = frame < from;
-  frame = next_known_break(from, frame);  // a jump over frames that are known stops where going through them would
-  const bool known = frame < static_cast<int>(hashes_.size());
-  if (back || (known && std::max(ring_.at_or_before(frame).value_or(0), last_snapshot_before(frame).value_or(0)) >
-                            session_.frame())) {
-    restore_before(frame);
-    check_hash(session_.frame());
-  }
-  if (session_.frame() < std::min(frame, folder_last_) && !told_of_missing_) {
-    told_of_missing_ = true;
-    say(ConsoleLine::message,
-        fmt::format("the run kept no state of frame {}: made again from frame {}", frame, session_.frame()));
-  }
-  if (session_.frame() > from && session_.frame() == frame) breaks_here();
-  while (session_.frame() < frame && !is_interrupted() && advance()) {
-    if (progress_) progress_(session_.frame(), frame);
-    if (session_.frame() > from && breaks_here()) break;
-  }
-  if (progress_ && session_.frame() < frame) progress_(frame, frame);  // cut short: nothing more to show
-  follow_selection();
-}
-
 void Debugger::do_command(const Command& command) {
   if (changes_model(command)) {
+    if (within_) {
+      reach(frame() - 1);
+      say(ConsoleLine::message,
+          fmt::format("back to the end of frame {}: the change counts from the next on", frame()));
+    }
     const int next = session_.frame() + 1;
+    breaks_.cut(next);
+    if (stages_ && stages_->frame >= next) stages_.reset();
     by_hand_.erase(by_hand_.upper_bound(next), by_hand_.end());
     changed_frames_.erase(changed_frames_.upper_bound(next), changed_frames_.end());
     ring_.cut(session_.frame());
@@ -244,10 +217,12 @@ void Debugger::do_transport(const TransportLine& line) {
       playing_ = false;
       break;
     case TransportLine::step:
-      seek(session_.frame() + line.frames);
+      if (line.unit != TransportLine::frame) return step_within(line.unit, line.frames);
+      go_on(frame() + line.frames);
       break;
     case TransportLine::back:
-      seek(std::max(0, session_.frame() - line.frames));
+      if (line.unit != TransportLine::frame) return back_within(line.unit, line.frames);
+      seek(std::max(0, frame() - line.frames));
       break;
     case TransportLine::seek:
       seek(line.frames);
@@ -255,7 +230,7 @@ void Debugger::do_transport(const TransportLine& line) {
 }
 
 void Debugger::do_select(Selection s) {
-  if (s.kind == Selection::contact) s.pair_id = session_.record().contacts[static_cast<std::size_t>(s.index)].pair_id;
+  if (s.kind == Selection::contact) s.pair_id = shown().contacts[static_cast<std::size_t>(s.index)].pair_id;
   model_.selection = s;
   model_.state.is_selected_sought = s.is_there();
 }
@@ -264,7 +239,7 @@ void Debugger::follow_selection() {
   model_.state.is_selected_sought = false;  // rows change places with every frame: nobody goes after them
   Selection& s = model_.selection;
   if (s.kind != Selection::contact) return;
-  const std::vector<ContactRecord>& contacts = session_.record().contacts;
+  const std::vector<ContactRecord>& contacts = shown().contacts;
   const auto it =
       std::find_if(contacts.begin(), contacts.end(), [&](const ContactRecord& c) { return c.pair_id == s.pair_id; });
   s.index = it == contacts.end() ? -1 : static_cast<int>(it - contacts.begin());
@@ -274,18 +249,19 @@ void Debugger::do_panel(const PanelLine& line) { take(line, model_.state); }
 
 void Debugger::check(const PlacedText& line) const {
   if (line.text.starts_with("select contact")) return;  // how many there are depends on the frame
-  parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+  parse_debug_line(line, {session_.rows(), shown(), figure_names(session_.is_judged()), conditions_});
 }
 
 std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
-  DebugLine parsed = parse_debug_line(line, {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+  DebugLine parsed =
+      parse_debug_line(line, {session_.rows(), shown(), figure_names(session_.is_judged()), conditions_});
   if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<FileLine>(parsed) ||
-      std::holds_alternative<QuitLine>(parsed))
+      std::holds_alternative<FreezeLine>(parsed) || std::holds_alternative<QuitLine>(parsed))
     return parsed;
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
   stopped_ = was_ended_ = false;
-  const int before = session_.frame();
+  const int before = frame();
   if (const auto* commands = std::get_if<std::vector<Command>>(&parsed)) {
     for (const Command& command : *commands) do_command(command);
     const std::string path = word_of(std::string(line.text), 1);
@@ -296,17 +272,24 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
     }
   }
   if (const auto* transport = std::get_if<TransportLine>(&parsed)) do_transport(*transport);
+  if (const auto* point = std::get_if<BreakLine>(&parsed)) do_break(*point);
+  if (const auto* condition = std::get_if<FindLine>(&parsed)) find(*condition);
+  if (const auto* pair = std::get_if<WhyLine>(&parsed)) {
+    if (frame() == 0) line.refuse("why at frame 0, which no step made", "a later frame is wanted", "step on first");
+    why(*pair);
+  }
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
   if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
   // a line that was cut short is recorded as what it did
   const auto* transport = std::get_if<TransportLine>(&parsed);
   std::string done(line.text);
-  const int made = session_.frame() - before;
-  if (transport != nullptr && stopped_ && transport->verb == TransportLine::step && made < transport->frames)
+  const int made = std::max(1, frame() - before);
+  const bool by_frames = transport != nullptr && transport->unit == TransportLine::frame;
+  if (by_frames && stopped_ && transport->verb == TransportLine::step && made < transport->frames)
     done = fmt::format("step {}", made);
-  else if (transport != nullptr &&
-           ((stopped_ && transport->verb == TransportLine::seek) || was_ended_ || is_interrupted()))
-    done = fmt::format("seek {}", session_.frame());
+  else if ((by_frames && stopped_ && transport->verb == TransportLine::seek) ||
+           ((was_ended_ || is_interrupted()) && (transport != nullptr || std::holds_alternative<FindLine>(parsed))))
+    done = fmt::format("seek {}", frame());
   record(done);
   return std::nullopt;
 }
@@ -331,8 +314,8 @@ bool Debugger::execute_meanwhile(const std::string& line) {
            (transport != nullptr && transport->verb == TransportLine::pause);
   };
   try {
-    const DebugLine parsed = parse_debug_line({line, &kConsole, 1, 1},
-                                              {session_.rows(), session_.record(), figure_names(session_.is_judged())});
+    const DebugLine parsed = parse_debug_line(
+        {line, &kConsole, 1, 1}, {session_.rows(), shown(), figure_names(session_.is_judged()), conditions_});
     if (!leaves_model_alone(parsed)) return false;
   } catch (const InputError&) {
     return false;  // said when its turn comes
@@ -348,10 +331,9 @@ bool Debugger::play_on() {
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
   stopped_ = false;
-  if (advance()) {
-    breaks_here();
-    record("step");
-  }
+  const int before = frame();
+  go_on(before + 1);
+  if (frame() > before || stopped_) record("step");
   return true;
 }
 
@@ -376,7 +358,8 @@ void Debugger::replace_recorded(const std::string& line) {
 void Debugger::record(const std::string& line) {
   const std::string verb = word_of(line, 0);
   if (verb == "play" || verb == "pause") return;  // what counts is how many frames were made
-  if (verb == "step" || verb == "seek") return record_transport(line);
+  const std::string unit = word_of(line, 1);
+  if (verb == "seek" || (verb == "step" && unit != "stage" && unit != "substep")) return record_transport(line);
   trace_ = other;
   if (verb == "camera" && word_of(line, 1) != "fov") return record_camera();
   if (may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb &&
@@ -443,10 +426,12 @@ std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
 }
 
 const DebugModel& Debugger::model() {
-  model_.record = &session_.record();
+  model_.record = &shown();
   model_.rows = &session_.rows();
   model_.view = &view();
-  model_.frame = session_.frame();
+  model_.frame = frame();
+  model_.stages = within_ ? &*stages_ : nullptr;
+  model_.place = within_ ? within_->place : 0;
   model_.known_last = static_cast<int>(hashes_.size()) - 1;
   model_.playing = playing_;
   model_.figure_names = &figure_names(session_.is_judged());

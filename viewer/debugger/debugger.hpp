@@ -4,12 +4,17 @@
 //
 // Going back restores the nearest earlier state and repeats what was done since, so any frame comes out bit for bit. A
 // change of the model in the past forgets the frames after it.
+//
+// Within a frame the world is at one of its stages (engine/world/stage_watch.hpp): come to by making the frame again as far
+// as that, and left by restoring the frame's end. The frame itself was made before, whole, so that where the debugger
+// stands in it changes nothing of what follows.
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <optional>
 
+#include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/session.hpp"
 #include "viewer/debugger/line.hpp"
@@ -47,7 +52,8 @@ class Debugger {
 
   const DebugModel& model();
   const ViewSettings& view() const { return session_.view().settings(); }
-  std::uint64_t state_hash() const { return session_.record().stats.state_hash; }
+  /// Of the frame, also in the middle of it.
+  std::uint64_t state_hash() const { return hashes_[static_cast<std::size_t>(frame())]; }
   bool is_interrupted() const { return interrupted_ != nullptr && *interrupted_; }
   std::string note_of_former_paths() const { return session_.note_of_former_paths(); }
   int failures() const { return expectations_.failures(); }
@@ -56,6 +62,9 @@ class Debugger {
   void record_file(const std::string& line) { add_recorded(line); }
   /// A picture was taken: with what was done, since it says where, and the pointer shows.
   void record_shot(const std::string& file, const Vec2& pointer);
+  /// Writes the last sub-step of the frame as it was handed to the response. Throws InputError where it can't.
+  void freeze(const std::filesystem::path& file);
+  void record_freeze(const std::string& file) { add_recorded("freeze " + file), trace_ = other; }
   /// What was done so far, as lines that do it again. `pointer`: where it is now, so that what it hovers over looks the
   /// same.
   std::vector<std::string> recording(const Vec2& pointer) const;
@@ -65,15 +74,33 @@ class Debugger {
   void do_transport(const TransportLine& line);
   void do_select(Selection selection);
   void do_panel(const PanelLine& line);
+  void do_break(const BreakLine& line);
+  void find(const FindLine& line);
+  void why(const WhyLine& line);
   bool advance();
+  void jump(int frame);
   void seek(int frame);
+  void go_on(int frame);
+  void step_within(TransportLine::Unit unit, int count);
+  void back_within(TransportLine::Unit unit, int count);
+  void stop_at(int frame, BreakHit hit);
   void restore_before(int frame);
+  void reach(int frame);
+  /// Where it stands: a frame, within which it may be at a stage.
+  struct Within {
+    int place = 0;
+    StepRecord record;
+  };
+  int frame() const { return within_ ? stages_->frame : session_.frame(); }
+  const StepRecord& shown() const { return within_ ? within_->record : session_.record(); }
+  void remake(int frame, StepWatcher* watcher, FrozenStep* frozen = nullptr);
+  const FrameStages& stages_of(int frame);
+  void stand_in(int frame, int place);
+  void look_through(int frame);
+  std::vector<double> values_here(const Expression& condition);
   std::filesystem::path snapshot_file(int frame) const;
   std::optional<int> last_snapshot_before(int frame) const;
   void note_frame();
-  std::span<const double> figures_before(int frame) const;
-  bool breaks_here();
-  int next_known_break(int frame, int last) const;
   void read_run_folder();
   bool bring_back(int frame);
   void check_hash(int frame);
@@ -96,7 +123,12 @@ class Debugger {
   std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first
   std::set<int> changed_frames_;
   DebugModel model_;
+  ExpressionWords conditions_;
   Expectations expectations_;
+  Breakpoints breaks_;
+  ConditionReader reader_;
+  std::optional<FrameStages> stages_;  // of the frame looked into last
+  std::optional<Within> within_;       // its making; none: at the end of a frame
   bool playing_ = false;
   bool stopped_ = false;    // the line being done was cut short by a `break`,
   bool was_ended_ = false;  // or by whoever did not want to wait

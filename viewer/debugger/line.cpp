@@ -25,9 +25,33 @@ DebugLine parse_transport(LineWords words) {
     want(words, 2, 2, "seek FRAME");
     return TransportLine{TransportLine::seek, static_cast<int>(number(words[1], 0, 1e7, true))};
   }
-  want(words, 1, 2, verb == "step" ? "step [N]" : "back [N]");
-  return TransportLine{verb == "step" ? TransportLine::step : TransportLine::back,
-                       words.size() == 2 ? static_cast<int>(number(words[1], 1, 1e7, true)) : 1};
+  const char* usage = verb == "step" ? "step [stage|substep] [N]" : "back [stage|substep] [N]";
+  TransportLine line{verb == "step" ? TransportLine::step : TransportLine::back, 1, TransportLine::frame};
+  std::size_t n = 1;
+  if (words.size() > 1 && std::isalpha(static_cast<unsigned char>(words[1].text[0])) != 0)
+    line.unit = find(words[n++], "unit", {"substep", "stage"}) == 0 ? TransportLine::substep : TransportLine::stage;
+  want(words, n, n + 1, usage);
+  if (words.size() > n) line.frames = static_cast<int>(number(words[n], 1, 1e7, true));
+  return line;
+}
+
+/// The words from the n-th on, as they stand in the line.
+PlacedText from_word(const PlacedText& line, LineWords words, std::size_t n) {
+  return line.part(static_cast<std::size_t>(words[n].text.data() - line.text.data()));
+}
+
+DebugLine parse_break(const PlacedText& line, LineWords words, const DebugNames& names) {
+  const char* usage = "break when CONDITION or break off";
+  want(words, 2, 1000, usage);
+  if (find(words[1], "word", {"when", "off"}) == 1) return want(words, 2, 2, usage), BreakLine{};
+  want(words, 3, 1000, usage);
+  return BreakLine{Expression(from_word(line, words, 2), names.conditions), words[0].place()};
+}
+
+std::vector<std::string> body_names(const DebugNames& names) {
+  std::vector<std::string> bodies;
+  for (const BodyRecord& body : names.record.bodies) bodies.emplace_back(body.name);
+  return bodies;
 }
 
 DebugLine parse_select(LineWords words, const DebugNames& names) {
@@ -40,10 +64,8 @@ DebugLine parse_select(LineWords words, const DebugNames& names) {
       break;
     case 1: {
       want(words, 3, 4, usage);
-      std::vector<std::string> bodies;
-      for (const BodyRecord& body : names.record.bodies) bodies.emplace_back(body.name);
       s.kind = Selection::body;
-      s.index = static_cast<int>(find(words[2], "body", bodies));
+      s.index = static_cast<int>(find(words[2], "body", body_names(names)));
       if (words.size() == 4) s.triangle = static_cast<int>(number(words[3], 0, 1e9, true));
       break;
     }
@@ -115,26 +137,37 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> own = {"step",  "back", "seek", "play",  "pause", "select",
-                                        "panel", "ui",   "shot", "plots", "quit"};
+  const std::vector<std::string> own = {"step", "back",  "seek", "play",  "pause", "select", "panel", "ui",
+                                        "shot", "plots", "quit", "break", "find",  "freeze", "why"};
   std::vector<std::string> verbs = command_verbs();
   const std::size_t commands = verbs.size();
   verbs.insert(verbs.end(), own.begin(), own.end());
-  std::size_t verb = find(words[0], "command", verbs);
-  if (verb < commands) return parse_command(words, names.rows, false);
-  verb -= commands;
-  if (verb < 5) return parse_transport(words);
-  if (verb == 5) return parse_select(words, names);
-  if (verb == 6) return parse_panel(line, words, names.rows, names.figures);
-  if (verb == 7) return parse_input(line, words);
-  if (verb == 10) return want(words, 1, 1, "quit"), QuitLine{};
-  const bool is_shot = verb == 8;
-  const std::string ending = is_shot ? ".png" : ".csv";
-  want(words, 2, 2, is_shot ? "shot FILE" : "plots FILE");
+  const std::size_t at = find(words[0], "command", verbs);
+  if (at < commands) return parse_command(words, names.rows, false);
+  const std::string& verb = verbs[at];
+  if (at < commands + 5) return parse_transport(words);
+  if (verb == "select") return parse_select(words, names);
+  if (verb == "panel") return parse_panel(line, words, names.rows, names.figures);
+  if (verb == "ui") return parse_input(line, words);
+  if (verb == "quit") return want(words, 1, 1, "quit"), QuitLine{};
+  if (verb == "break") return parse_break(line, words, names);
+  if (verb == "find") {
+    want(words, 2, 1000, "find CONDITION");
+    return FindLine{Expression(from_word(line, words, 1), names.conditions)};
+  }
+  if (verb == "why") {
+    want(words, 3, 3, "why NAME NAME");
+    const std::vector<std::string> bodies = body_names(names);
+    return WhyLine{static_cast<int>(find(words[1], "body", bodies)), static_cast<int>(find(words[2], "body", bodies))};
+  }
+  const std::string ending = verb == "shot" ? ".png" : verb == "plots" ? ".csv" : ".step";
+  want(words, 2, 2, (verb + " FILE").c_str());
   if (!words[1].text.ends_with(ending))
     words[1].refuse(fmt::format("'{}'", words[1].text), fmt::format("a file name that ends in {} is wanted", ending),
                     "add " + ending);
-  return FileLine{is_shot ? FileLine::shot : FileLine::plots, std::string(words[1].text)};
+  const std::string file(words[1].text);
+  if (verb == "freeze") return FreezeLine{file};
+  return FileLine{verb == "shot" ? FileLine::shot : FileLine::plots, file};
 }
 
 }  // namespace impinge

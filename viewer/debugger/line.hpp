@@ -2,6 +2,10 @@
 //
 //   set | layer | camera | hide ...     as in a script, from the next frame on
 //   step [N] | back [N] | seek FRAME | play | pause
+//   step stage [N] | step substep [N] | back stage [N] | back substep [N]
+//   break when CONDITION | break off | find CONDITION
+//   why NAME NAME                       what each filter of detection made of two bodies
+//   freeze FILE                         the last sub-step of the frame, for impinge step
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
 //   panel ...                           panel_line.hpp
 //   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
@@ -11,14 +15,30 @@
 #pragma once
 
 #include "viewer/controller/command.hpp"
+#include "viewer/controller/expression.hpp"
 #include "viewer/debugger/panel_line.hpp"
 
 namespace impinge {
 
 struct TransportLine {
   enum Verb { step, back, seek, play, pause };
+  enum Unit { frame, substep, stage };
   Verb verb = step;
-  int frames = 1;  ///< of seek: which
+  int frames = 1;  ///< or sub-steps, or stages; of seek: which frame
+  Unit unit = frame;
+};
+struct BreakLine {
+  std::optional<Expression> condition;  ///< none: off
+  std::string place;
+};
+struct FindLine {
+  Expression condition;
+};
+struct WhyLine {
+  int a = 0, b = 0;  ///< bodies
+};
+struct FreezeLine {
+  std::string file;
 };
 struct SelectLine {
   Selection selection;  ///< pair_id is not filled in
@@ -35,14 +55,15 @@ struct FileLine {
   std::string file;
 };
 struct QuitLine {};
-using DebugLine =
-    std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, FileLine, QuitLine>;
+using DebugLine = std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, FileLine,
+                               QuitLine, BreakLine, FindLine, WhyLine, FreezeLine>;
 
 /// What names a line may use.
 struct DebugNames {
   const ParameterSet& rows;
   const StepRecord& record;                 ///< bodies; contacts of the present frame
   const std::vector<std::string>& figures;  ///< columns of stats.csv
+  const ExpressionWords& conditions;        ///< what these may speak of
 };
 
 /// Throws InputError at the word that is wrong. Whether a widget is there shows when it is used.

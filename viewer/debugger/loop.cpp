@@ -94,7 +94,22 @@ void DebugLoop::take(const DebugLine& line, const PlacedText& place) {
     else
       write_plots(file->file, place);
   }
+  if (const auto* frozen = std::get_if<FreezeLine>(&line)) freeze(frozen->file, place);
   if (std::holds_alternative<QuitLine>(line)) quit_ = true;
+}
+
+void DebugLoop::freeze(const std::string& file, const PlacedText& place) {
+  const std::filesystem::path path = out_ / file;
+  if (debugger_.model().frame == 0)
+    place.refuse("freeze at frame 0, which no step made", "a later frame is wanted", "step on first");
+  try {
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    debugger_.freeze(path);
+  } catch (const OutputError& error) {
+    place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
+                 "a folder that may be written to is wanted", "change --out or the name");
+  }
+  debugger_.record_freeze(file);
 }
 
 const UiWidget& DebugLoop::find(const std::string& name, const PlacedText& place) {
@@ -185,13 +200,14 @@ void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
   const std::filesystem::path path = out_ / file;
   const Image image = picture();
   const DebugModel& model = debugger_.model();
+  PngText text = {{"impinge:scene", model.scene},
+                  {"impinge:frame", std::to_string(model.frame)},
+                  {"impinge:state_hash", hex64(debugger_.state_hash())},
+                  {"impinge:renderer", window_.renderer_name()}};
+  if (model.stages != nullptr) text.emplace_back("impinge:stage", model.stages->words(model.place));
   try {
     if (path.has_parent_path()) make_folder(path.parent_path());
-    write_png(path, image,
-              {{"impinge:scene", model.scene},
-               {"impinge:frame", std::to_string(model.frame)},
-               {"impinge:state_hash", hex64(debugger_.state_hash())},
-               {"impinge:renderer", window_.renderer_name()}});
+    write_png(path, image, text);
   } catch (const OutputError& error) {
     place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
                  "a folder that may be written to is wanted", "change --out or the name");

@@ -43,6 +43,7 @@ class DebugLoop {
   void settle();
   void write_plots(const std::string& file, const PlacedText& place);
   void shoot(const std::string& file, const PlacedText& place);
+  void freeze(const std::string& file, const PlacedText& place);
 
   Debugger& debugger_;
   DebugWindow& window_;

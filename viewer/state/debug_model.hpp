@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/parameter.hpp"
-#include "engine/world/step_record.hpp"
+#include "engine/world/stage_place.hpp"
 #include "viewer/draw/view_settings.hpp"
 #include "viewer/state/tracks.hpp"
 
@@ -67,6 +67,9 @@ struct DebugModel {
   int frame = 0, known_last = 0;
   bool playing = false;
   double computing = 0.0;  ///< seconds that the frame after this one has taken by now; 0: nothing is being computed
+  /// In the middle of the making of the frame, and where; null: at its end.
+  const FrameStages* stages = nullptr;
+  int place = 0;
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
   const Tracks* tracks = nullptr;

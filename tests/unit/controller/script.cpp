@@ -134,6 +134,42 @@ TEST_CASE("conditions follow the usual rules of precedence") {
   CHECK(refused(fmt::format("{}(a > 1)", std::string(1000, '!'))));
 }
 
+TEST_CASE("conditions may ask of bodies, by names that may hold a minus") {
+  static const std::string file = "c";
+  ExpressionWords words;
+  words.names = kFigures;
+  words.bodies = {"floor", "b-1", "b"};
+  const auto read = [&](std::string_view text) { return Expression({text, &file, 1, 1}, words); };
+  const auto refusal = [&](std::string_view text) -> std::string {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Expression two = read("contacts(floor, b-1) - contacts > 2 && speed( b ) < 1 || contacts(floor,b-1) == 9");
+  REQUIRE(two.terms().size() == 2);  // asked once, however often it is named
+  CHECK(two.terms()[0].function == BodyFunction::contacts);
+  CHECK(two.terms()[0].a == 0);
+  CHECK(two.terms()[0].b == 1);
+  CHECK(two.terms()[1].a == 2);
+  CHECK(two.holds(std::vector<double>{0, 0, 1, 4, 0.5}));
+  CHECK_FALSE(two.holds(std::vector<double>{0, 0, 1, 3, 0.5}));
+  CHECK(two.holds(std::vector<double>{0, 0, 1, 9, 5.0}));
+  CHECK(two.describe(std::vector<double>{0, 0, 1, 4, 0.5}, kFigures) ==
+        "contacts(floor,b-1) = 4, contacts = 1, speed(b) = 0.5");
+  CHECK(read("depth(b,floor) + gap(b, floor) - energy(b-1) >= -1").terms().size() == 3);
+  CHECK(refusal("depth(bb,floor) > 0") == "c:1:7: unknown body 'bb'; bodies: floor, b-1, b; did you mean 'b'?");
+  CHECK(refusal("spead(b) > 0").find("did you mean 'speed'?") != std::string::npos);
+  CHECK(refusal("speed(b, floor) > 0").find("one body") != std::string::npos);
+  CHECK(refusal("depth(b) > 0").find("two bodies") != std::string::npos);
+  CHECK(refusal("depth(b, floor > 0").find("')' should stand here") != std::string::npos);
+  CHECK(refusal("depth(b, 3) > 0").find("unknown body '3'") != std::string::npos);
+  CHECK(refusal("depth > 0").find("unknown figure 'depth'") != std::string::npos);
+  CHECK(refused("contacts(a,b) > 0"));  // where there are no bodies to speak of
+}
+
 TEST_CASE("damaged scripts are refused or read, never more") {
   const Known rows;
   const std::string lines[] = {"from 5 to 12 ramp contact.friction 0.1 0.7",

@@ -37,6 +37,8 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("page_up")) lines.push_back("step 10");
   if (ui.key_pressed("page_down") && model.frame > 0)
     lines.push_back(fmt::format("back {}", std::min(10, model.frame)));
+  if (ui.key_pressed("down")) lines.push_back("step stage");
+  if (ui.key_pressed("up") && model.frame > 0) lines.push_back("back stage");
   if (ui.key_pressed("home")) lines.push_back("seek 0");
   if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
   if (ui.key_pressed("a")) lines.push_back("camera fit");
@@ -50,6 +52,7 @@ void draw_help(const DebugModel& model, const UiArea& view) {
   if (!model.state.help) return;
   static constexpr const char* kRows[][2] = {{"space", "play, pause"},
                                              {"right, left", "a frame on, a frame back"},
+                                             {"down, up", "a stage on, a stage back"},
                                              {"page up, down", "ten frames"},
                                              {"home, end", "first, last known frame"},
                                              {"f", "frame the selected, else all"},

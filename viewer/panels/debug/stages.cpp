@@ -1,7 +1,9 @@
-// What each stage of the last frame had to do, and, where view.panel.timings is on, how long it took.
+// What each stage of the last frame had to do, and, where view.panel.timings is on, how long it took. In the middle of a
+// frame: all its stages, sub-step by sub-step, with what came of each; a click goes to one.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "viewer/panels/debug/widgets.hpp"
 
@@ -9,7 +11,42 @@ namespace impinge {
 
 namespace {
 
+void draw_within(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  const FrameStages& stages = *model.stages;
+  const std::size_t now = stages.entry_at(model.place).first;
+  int first = 0, substep = 0;
+  std::string motion;
+  for (std::size_t i = 0; i < stages.entries.size(); ++i) {
+    const StageEntry& entry = stages.entries[i];
+    if (entry.substep != substep) {
+      substep = entry.substep;
+      motion = "piece 1, attempt 1";
+      ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "sub-step %d of %d", substep, stages.substeps);
+    }
+    if (const std::string here = fmt::format("piece {}, attempt {}", entry.piece, entry.motion);
+        here != motion && entry.kind != StageKind::end) {
+      motion = here;
+      ImGui::TextColored(dim(), "%s", here.c_str());
+    }
+    std::string words = entry.words;
+    if (entry.kind == StageKind::iteration) {
+      const int last = entry.count - 1 + entry.first_iteration;
+      words = i == now ? fmt::format("iteration {} of {}", model.place - first + entry.first_iteration, last)
+                       : counted(last, "iteration");
+    }
+    if (ImGui::Selectable(fmt::format("##{}", i).c_str(), i == now) && first != model.place)
+      lines.push_back(fmt::format("{} stage {}", first > model.place ? "step" : "back", std::abs(first - model.place)));
+    ui.name(fmt::format("stages/{}", i));
+    ImGui::SameLine(8.0f * ui.unit());
+    ImGui::TextUnformatted(std::string(name_of(entry.kind)).c_str());
+    ImGui::SameLine(100.0f * ui.unit());
+    ImGui::TextColored(dim(), "%s", words.c_str());
+    first += entry.count;
+  }
+}
+
 void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  if (model.stages != nullptr) return draw_within(ui, model, lines);
   const FrameStats& s = model.record->stats;
   struct Row {
     const char* name;

@@ -184,7 +184,18 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const int k : *model.changed_frames)
     list.AddLine({axis.x(k), start.y}, {axis.x(k), start.y + 5.0f * u}, ink(0xffb84d), 1.5f * u);
-  list.AddLine({axis.x(model.frame), start.y}, {axis.x(model.frame), start.y + size.y}, ink(0xffffff, 0.8f), u);
+  double now = model.frame;
+  if (model.stages != nullptr) {  // its sub-steps between the frame before and this one
+    const FrameStages& stages = *model.stages;
+    const auto after = [&](double substeps) { return model.frame - 1 + substeps / stages.substeps; };
+    for (int s = 0; s <= stages.substeps; ++s)
+      list.AddLine({axis.x(after(s)), start.y + size.y - 6.0f * u}, {axis.x(after(s)), start.y + size.y}, ink(0x8fd0ff),
+                   u);
+    const int ended = stages.ended_at(model.place);
+    const int from = ended == 0 ? -1 : stages.end_of(ended), to = stages.end_of(std::min(ended + 1, stages.substeps));
+    now = after(ended + (to > from ? double(model.place - from) / (to - from) : 0.0));
+  }
+  list.AddLine({axis.x(now), start.y}, {axis.x(now), start.y + size.y}, ink(0xffffff, 0.8f), u);
   const int at = axis.frame(ui.mouse_x());
   if (ImGui::IsItemActive()) {
     const int to = std::clamp(at, 0, model.known_last);

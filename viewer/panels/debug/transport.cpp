@@ -40,7 +40,9 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   double at = model.frame;  // of whole numbers the grab is as wide as one
   const double none = 0.0, last = std::max(1, model.known_last);
   if (ImGui::SliderScalar("##frame", ImGuiDataType_Double, &at, &none, &last,
-                          fmt::format("frame {} of {}", model.frame, model.known_last).c_str(),
+                          model.stages != nullptr
+                              ? fmt::format("frame {}: {}", model.frame, model.stages->words(model.place)).c_str()
+                              : fmt::format("frame {} of {}", model.frame, model.known_last).c_str(),
                           ImGuiSliderFlags_NoInput)) {
     const int to = std::clamp(static_cast<int>(std::lround(at)), 0, model.known_last);
     if (to != model.frame) lines.push_back(fmt::format("seek {}", to));

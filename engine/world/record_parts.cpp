@@ -1,0 +1,51 @@
+#include "engine/world/record_parts.hpp"
+
+namespace impinge {
+
+ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
+  const Collision& c = contact.collision;
+  ContactRecord record;
+  record.body_a = c.body_a, record.body_b = c.body_b;
+  record.triangle_a = c.triangle_a, record.triangle_b = c.triangle_b;
+  record.point_a = bodies[c.body_a].position_of(contact.point_a);
+  record.point_b = bodies[c.body_b].position_of(contact.point_b);
+  record.normal = normal_of(contact, bodies);
+  record.gap = record.normal.dot(record.point_a - record.point_b);
+  record.gap0 = c.gap;
+  record.lambda = contact.lambda;
+  record.friction = contact.friction;
+  record.state = contact.state;
+  record.group = contact.group;
+  record.pair_id = c.feature;
+  return record;
+}
+
+BodyRecord record_of(const Body& body) {
+  BodyRecord r;
+  r.name = body.name;
+  r.kind = body.kind();
+  r.shape = body.shape.get();
+  r.pose = {body.pose.rotation, body.center_of_mass()};
+  r.file_pose = body.file_pose();
+  r.vertices = body.world_vertices;
+  r.bounds = body.bounds();
+  const Twist twist = body.twist();
+  r.velocity = twist.linear;
+  r.angular_velocity = twist.angular;
+  r.mass = body.mass;
+  r.deformable = body.as<DeformableBody>();
+  r.asleep = body.asleep;
+  return r;
+}
+
+void show_attachments(std::span<const Attachment> attachments, const Bodies& bodies, StepRecord& record) {
+  record.attachments.clear();
+  for (const Attachment& a : attachments) {
+    if (a.number < static_cast<int>(record.attachments.size())) continue;  // the other normal of a line
+    const AttachmentHold hold = hold_of(a, bodies);
+    record.attachments.push_back(
+        {a.name, a.a.body, a.b.body, hold.point_a, hold.point_b, Vec3::Zero(), a.kind, hold.axis});
+  }
+}
+
+}  // namespace impinge
