@@ -120,10 +120,9 @@ TEST_CASE("a run that was cut off is exported as far as it came, and a resumed o
   const TempFolder folder;
   REQUIRE(export_run(folder, export_scene()).code == 0);
   folder.write("s.toml", export_scene());
-  const std::vector<std::string> words = {"run",        "s.toml",   "--out",
-                                          "cut",        "--frames", "4000",
-                                          "--contacts", "--export", "ply,vtu,usda,gltf,poses.csv",
-                                          "--no-images"};
+  const std::vector<std::string> words = {
+      "run",        "s.toml", "--out", "cut", "--frames", "4000", "--contacts", "--export", "ply,vtu,usda,poses.csv",
+      "--no-images"};
   const auto has_frames = [&] { return fs::exists(folder / "cut/snapshots/000014.bin"); };
   {
     RunningProgram killed(folder.path(), words);
