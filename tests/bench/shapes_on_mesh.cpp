@@ -133,7 +133,7 @@ void add_shapes(World& world, const Ground& ground, const std::string& shape, co
   const SharedShape made = shape_named(shape);
   const int row = static_cast<int>(std::ceil(std::sqrt(count)));
   for (int k = 0; k < count; ++k) {
-    const double apart = row == 1 ? 0.0 : std::min(0.22, 3.4 / row);
+    const double apart = row == 1 ? 0.0 : std::min(0.22, 3.7 / row);
     const double x = apart * (k % row - 0.5 * (row - 1)) + 0.013, z = apart * (k / row - 0.5 * (row - 1)) + 0.007;
     const double clear = (motion == "fall" ? 1.5 : 0.005) + (count > 1 ? 0.02 : 0.0);
     BodyDescription d = dynamic_body(fmt::format("{}{}", shape, k), made, Vec3::Zero());

@@ -1,9 +1,8 @@
-// Triangle pairs of two meshes beside Embree's rtcCollide and FCL's collide, in the same run: rigid ones, whose trees stay as they are, and
+// Triangle pairs of two meshes beside Embree's rtcCollide, in the same run: rigid ones, whose trees stay as they are, and
 // deforming ones, whose trees are fitted before they are asked. Far and near pose of two icospheres, and a dragon.
 //
-// Processor time of one thread. All are called in turn, 15 times and more; medians, and the median of the ratios of
-// neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list isn't sorted. FCL has
-// boxes of its best kind (OBBRSS) and its own test of triangles, which takes some pairs for others.
+// Processor time of one thread. Both are called in turn, 15 times and more; medians, and the median of the ratios of
+// neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list isn't sorted.
 //   bench_triangle_peers [--finest K]    20·4^K triangles a body (4 to 8, default 7: 655,360 together)
 #include <fmt/format.h>
 
@@ -17,11 +16,6 @@
 
 #ifdef IMPINGE_HAS_EMBREE
 #include <embree3/rtcore.h>
-#endif
-
-#ifdef IMPINGE_HAS_FCL
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/narrowphase/collision.h>
 #endif
 
 using namespace impinge;
@@ -180,60 +174,10 @@ class Embree {
   Pairs found_;
 };
 
-#ifdef IMPINGE_HAS_FCL
-class Fcl {
- public:
-  Fcl(const Scene& scene, const std::array<Places, 2>& at, bool is_deforming) {
-    std::vector<fcl::Triangle> triangles;
-    for (const Triangle& t : scene.mesh->mesh.triangles)
-      triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
-                             static_cast<std::size_t>(t[2]));
-    if (!is_deforming) pose_.linear() = scene.pose.rotation, pose_.translation() = scene.pose.position;
-    for (std::size_t i = 0; i < 2; ++i) {
-      models_[i] = std::make_shared<Model>();
-      models_[i]->beginModel();
-      models_[i]->addSubModel(is_deforming ? at[i] : scene.mesh->mesh.vertices, triangles);
-      models_[i]->endModel();
-    }
-  }
-  void place(const std::array<Places, 2>& at) { at_ = &at; }
-  void fit() {
-    for (std::size_t i = 0; i < 2; ++i) {
-      models_[i]->beginReplaceModel();
-      models_[i]->replaceSubModel((*at_)[i]);
-      models_[i]->endReplaceModel(true, true);
-    }
-  }
-  void find() {
-    result_.clear();
-    const fcl::CollisionRequest<double> request(std::size_t{1} << 30, false);
-    fcl::collide(models_[0].get(), fcl::Transform3<double>::Identity(), models_[1].get(), pose_, request, result_);
-  }
-  std::size_t pairs() const { return result_.numContacts(); }
-
- private:
-  using Model = fcl::BVHModel<fcl::OBBRSS<double>>;
-  std::array<std::shared_ptr<Model>, 2> models_;
-  fcl::Transform3<double> pose_ = fcl::Transform3<double>::Identity();
-  const std::array<Places, 2>* at_ = nullptr;
-  fcl::CollisionResult<double> result_;
-};
-#else
-struct Fcl {
-  Fcl(const Scene&, const std::array<Places, 2>&, bool) {}
-  void place(const std::array<Places, 2>&) {}
-  void fit() {}
-  void find() {}
-  static std::size_t pairs() { return 0; }
-};
-#endif
-
 struct Row {
   std::size_t triangles, pairs;
   double ours, peer, ratio;
   bool is_same;
-  double fcl = 0.0, ratio_fcl = 0.0;  // without it: 0
-  std::size_t pairs_fcl = 0;
 };
 
 Row compare(const Scene& scene, bool is_deforming) {
@@ -241,34 +185,28 @@ Row compare(const Scene& scene, bool is_deforming) {
   std::array<Places, 2> at = scene.places(0, is_deforming);
   Ours ours(scene);
   Embree embree(scene, at, is_deforming);
-  Fcl fcl(scene, at, is_deforming);
-  std::vector<double> own, other, ratios, third, ratios_fcl;
+  std::vector<double> own, other, ratios;
   Row row{2 * scene.mesh->mesh.triangles.size(), 0, 0.0, 0.0, 0.0, true};
   for (int k = 0; k <= kTimes; ++k) {
-    if (is_deforming) at = scene.places(k, true), ours.place(at), embree.place(at), fcl.place(at);
-    const auto run = [&](int whose) {
+    if (is_deforming) at = scene.places(k, true), ours.place(at), embree.place(at);
+    const auto run = [&](bool is_ours) {
       const double start = process_ms();
-      if (whose == 0) {
+      if (is_ours) {
         ours.find();
-      } else if (whose == 1) {
+      } else {
         if (is_deforming) embree.fit();
         embree.find();
-      } else {
-        if (is_deforming) fcl.fit();
-        fcl.find();
       }
       return process_ms() - start;
     };
-    std::array<double, 3> ms{};
-    for (int i = 0; i < 3; ++i) ms[static_cast<std::size_t>((k + i) % 3)] = run((k + i) % 3);
-    const double mine = ms[0], theirs = ms[1];
+    double mine = 0.0, theirs = 0.0;
+    if (k % 2 == 0) mine = run(true), theirs = run(false);
+    if (k % 2 == 1) theirs = run(false), mine = run(true);
     const Pairs found = ours.pairs();
     row.pairs = found.size(), row.is_same = row.is_same && found == embree.pairs();
     if (k == 0) continue;  // makes trees and allocates
     own.push_back(mine), other.push_back(theirs), ratios.push_back(mine / theirs);
-    third.push_back(ms[2]), ratios_fcl.push_back(mine / ms[2]);
   }
-  row.fcl = median(third), row.ratio_fcl = median(ratios_fcl), row.pairs_fcl = fcl.pairs();
   row.ours = median(own), row.peer = median(other), row.ratio = median(ratios);
   return row;
 }
@@ -284,9 +222,8 @@ double exponent(const std::vector<Row>& rows, double Row::*ms) {
 }
 
 void print(const std::string& name, const Row& row) {
-  fmt::print("{:<22} {:>9} {:>7} {:>10.3f} {:>10.3f} {:>6.2f} {:>10.3f} {:>6.2f} {:>7}{}\n", name, row.triangles,
-             row.pairs, row.ours, row.peer, row.ratio, row.fcl, row.ratio_fcl, row.pairs_fcl,
-             row.is_same ? "" : "  DIFFERENT PAIRS");
+  fmt::print("{:<22} {:>9} {:>7} {:>10.3f} {:>10.3f} {:>6.2f}{}\n", name, row.triangles, row.pairs, row.ours, row.peer,
+             row.ratio, row.is_same ? "" : "  DIFFERENT PAIRS");
   std::fflush(stdout);
 }
 
@@ -303,8 +240,7 @@ void compare_all(int finest) {
   series[1].first = "dragon";
   if (const std::string file = shared_file("meshes/dragon/dragon_20k.off"); !file.empty())
     series[1].second.push_back(surface(scaled_to(read_off(file), 2.0)));
-  fmt::print("{:<22} {:>9} {:>7} {:>10} {:>10} {:>6} {:>10} {:>6} {:>7}\n", "", "triangles", "pairs", "ours, ms",
-             "Embree, ms", "ratio", "FCL, ms", "ratio", "pairs");
+  fmt::print("{:<22} {:>9} {:>7} {:>10} {:>10} {:>6}\n", "", "triangles", "pairs", "ours, ms", "Embree, ms", "ratio");
   for (const auto& [name, meshes] : series)
     for (const bool is_deforming : {false, true})
       for (const bool is_far : {true, false}) {
@@ -314,8 +250,7 @@ void compare_all(int finest) {
         for (const MeshPointer& mesh : meshes)
           rows.push_back(compare({mesh, pose_of(is_far)}, is_deforming)), print(text, rows.back());
         if (rows.size() > 1)
-          fmt::print("  grows as n^{:.2f}, Embree n^{:.2f}, FCL n^{:.2f}\n", exponent(rows, &Row::ours),
-                     exponent(rows, &Row::peer), exponent(rows, &Row::fcl));
+          fmt::print("  grows as n^{:.2f}, Embree n^{:.2f}\n", exponent(rows, &Row::ours), exponent(rows, &Row::peer));
       }
 }
 #endif

@@ -15,7 +15,7 @@
 namespace impinge {
 namespace {
 
-constexpr int kEnd = 1 << 30;  // more sub-steps than a frame has
+constexpr int kEnd = 1 << 30;  // of a frame: more places, and more sub-steps, than one has
 
 /// Places of a frame that steps of the unit come to.
 std::vector<int> stops_of(const FrameStages& stages, TransportLine::Unit unit) {
@@ -155,11 +155,11 @@ void Debugger::stand_in(int frame, int place) {
 /// Has breakpoints that were set since look at a frame that is known.
 void Debugger::look_through(int frame) {
   if (breaks_.empty() || breaks_.know(frame)) return;
-  const std::optional<int> place = within_ ? std::optional(within_->place) : std::nullopt;
+  const int place = within_ ? within_->place : kEnd;
   breaks_.forget_begun();
   if (frame > 0) remake(frame, &breaks_);
   breaks_.end(frame, history_[static_cast<std::size_t>(frame)], session_.record(), session_.bodies());
-  if (place) stand_in(frame, *place);
+  if (place != kEnd) stand_in(frame, place);
 }
 
 void Debugger::step_within(TransportLine::Unit unit, int count) {
@@ -215,7 +215,7 @@ void Debugger::do_break(const BreakLine& line) {
 /// Through all that is known, from the first frame on, as far as where the condition holds.
 void Debugger::find(const FindLine& line) {
   const int home = frame(), last = static_cast<int>(hashes_.size()) - 1;
-  const std::optional<int> place = within_ ? std::optional(within_->place) : std::nullopt;
+  const int place = within_ ? within_->place : kEnd;
   Breakpoints search(session_.is_judged());
   search.add(line.condition, "");
   for (int k = 0; k <= last && !is_interrupted(); ++k) {
@@ -245,7 +245,7 @@ void Debugger::find(const FindLine& line) {
   within_.reset();
   restore_before(home);
   reach(home);
-  if (place && !is_interrupted()) stand_in(home, *place);
+  if (place != kEnd && !is_interrupted()) stand_in(home, place);
   if (!is_interrupted())
     say(ConsoleLine::message, fmt::format("{} holds in none of frames 0 to {}", line.condition.text(), last));
 }
@@ -253,9 +253,9 @@ void Debugger::find(const FindLine& line) {
 /// What detection made of two bodies in the sub-step in work, or in the last one of the frame.
 void Debugger::why(const WhyLine& line) {
   const int home = frame();
-  const std::optional<int> place = within_ ? std::optional(within_->place) : std::nullopt;
+  const int place = within_ ? within_->place : kEnd;
   const std::optional<int> substep =
-      place ? std::optional(stages_->entries[stages_->entry_at(*place).first].substep) : std::nullopt;
+      place != kEnd ? std::optional(stages_->entries[stages_->entry_at(place).first].substep) : std::nullopt;
   PairWatch watch(session_.world(), BodyIndex(line.a), BodyIndex(line.b), PairWatch::Asked{home, substep});
   remake(home, &watch);
   if (const std::optional<PairVerdict>& v = watch.verdict()) {
@@ -273,16 +273,16 @@ void Debugger::why(const WhyLine& line) {
         say(ConsoleLine::message,
             fmt::format("{}{}: {}", filter.filter, &filter == stop ? " stops it" : "", filter.words));
   }
-  if (place) stand_in(home, *place);
+  if (place != kEnd) stand_in(home, place);
 }
 
 void Debugger::freeze(const std::filesystem::path& file) {
   const int home = frame();
-  const std::optional<int> place = within_ ? std::optional(within_->place) : std::nullopt;
+  const int place = within_ ? within_->place : kEnd;
   FrozenStep frozen;
   remake(home, nullptr, &frozen);
   write_frozen_step(file, frozen);
-  if (place) stand_in(home, *place);
+  if (place != kEnd) stand_in(home, place);
 }
 
 }  // namespace impinge
