@@ -124,6 +124,10 @@ void Options::word(const char* name, std::filesystem::path& to, const std::strin
   app_.get_option(name)->required();
 }
 
+void Options::words(const char* name, std::vector<std::string>& to, const std::string& doc) {
+  app_.add_option(name, to, doc)->required();
+}
+
 void Options::optional_word(const char* name, std::filesystem::path& to, const std::string& doc) {
   path(name, to, doc);
 }

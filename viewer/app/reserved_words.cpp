@@ -6,7 +6,7 @@ namespace {
 
 // who builds one takes its line away
 constexpr std::string_view kCommands[] = {
-    "mesh", "export", "shrink", "clean", "show", "judge", "trace",
+    "export", "shrink", "clean", "show", "judge", "trace",
 };
 constexpr ReservedOption kOptions[] = {
     {"run", "--force"}, {"check", "--strict"}, {"check", "--trial"},  {"list", "--json"},
