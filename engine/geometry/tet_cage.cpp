@@ -196,6 +196,52 @@ double filled_fraction(const std::array<Vec3, 4>& corner, bool touched, const Ra
   return total > 0.0 ? std::clamp(inside / total, 0.0, 1.0) : 0.0;
 }
 
+/// The same by points, evenly spread.
+double sampled_fraction(const std::array<Vec3, 4>& corner, bool touched,
+                        const std::function<bool(const Vec3&)>& is_inside) {
+  if (!touched) return is_inside(0.25 * (corner[0] + corner[1] + corner[2] + corner[3])) ? 1.0 : 0.0;
+  constexpr int kSteps = 5;
+  int inside = 0, all = 0;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; i + j <= kSteps; ++j)
+      for (int k = 0; i + j + k <= kSteps; ++k, ++all) {
+        // moved off the faces, to the middles of as many equal pieces
+        const double n = kSteps + 1.0, a = (i + 0.25) / n, b = (j + 0.25) / n, c = (k + 0.25) / n;
+        inside += is_inside(corner[0] + a * (corner[1] - corner[0]) + b * (corner[2] - corner[0]) +
+                            c * (corner[3] - corner[0]))
+                      ? 1
+                      : 0;
+      }
+  return static_cast<double>(inside) / all;
+}
+
+/// Of each tetrahedron, by rays along the shortest side: more rays than along the others, but thin parts are thin along
+/// them, where they are exact.
+std::vector<double> fractions_by_rays(const TriangleMesh& surface, const Aabb& box, const Lattice& lattice,
+                                      const std::vector<char>& touched, const TetCageSettings& settings, int& dropped) {
+  int axis = 0;
+  box.extent().minCoeff(&axis);
+  const double faces = static_cast<double>(lattice.size()[(axis + 1) % 3]) * lattice.size()[(axis + 2) % 3];
+  constexpr double kMostRays = 4e6;
+  const int rays = std::clamp(static_cast<int>(std::sqrt(kMostRays / faces)), 4, settings.rays_per_cell);
+  const RayColumns columns(surface, axis, lattice.cell() / rays);
+  std::vector<double> fraction(lattice.tet_count(), 0.0);
+  parallel_for(lattice.tet_count(), 256, [&](std::size_t id) {
+    if (lattice.exists(id)) fraction[id] = filled_fraction(lattice.corners(id), touched[id] != 0, columns);
+  });
+  dropped = columns.dropped_rays();
+  return fraction;
+}
+
+std::vector<double> fractions_by_points(const Lattice& lattice, const std::vector<char>& touched,
+                                        const std::function<bool(const Vec3&)>& is_inside) {
+  std::vector<double> fraction(lattice.tet_count(), 0.0);
+  parallel_for(lattice.tet_count(), 16, [&](std::size_t id) {
+    if (lattice.exists(id)) fraction[id] = sampled_fraction(lattice.corners(id), touched[id] != 0, is_inside);
+  });
+  return fraction;
+}
+
 }  // namespace
 
 TetCage make_tet_cage(const TriangleMesh& surface, const TetCageSettings& settings) {
@@ -208,22 +254,12 @@ TetCage make_tet_cage(const TriangleMesh& surface, const TetCageSettings& settin
   parallel_for(home.size(), 4096, [&](std::size_t i) { home[i] = lattice.locate(surface.vertices[i]); });
   const std::vector<char> touched = touched_tets(lattice, surface, home);
 
-  // along the shortest side: more rays than along the others, but thin parts are thin along them, where they are exact
-  int axis = 0;
-  box.extent().minCoeff(&axis);
-  const double faces = static_cast<double>(lattice.size()[(axis + 1) % 3]) * lattice.size()[(axis + 2) % 3];
-  constexpr double kMostRays = 4e6;
-  const int rays = std::clamp(static_cast<int>(std::sqrt(kMostRays / faces)), 4, settings.rays_per_cell);
-  const RayColumns columns(surface, axis, lattice.cell() / rays);
-
-  std::vector<double> fraction(lattice.tet_count(), 0.0);
-  parallel_for(lattice.tet_count(), 256, [&](std::size_t id) {
-    if (lattice.exists(id)) fraction[id] = filled_fraction(lattice.corners(id), touched[id] != 0, columns);
-  });
-
   TetCage cage;
+  const std::vector<double> fraction =
+      settings.is_inside ? fractions_by_points(lattice, touched, settings.is_inside)
+                         : fractions_by_rays(surface, box, lattice, touched, settings, cage.dropped_rays);
+
   cage.cell_size = lattice.cell();
-  cage.dropped_rays = columns.dropped_rays();
   std::vector<int> node_index(lattice.node_count(), -1), tet_index(lattice.tet_count(), -1);
   InterruptPoll poll;
   for (std::size_t id = 0; id < lattice.tet_count(); ++id) {

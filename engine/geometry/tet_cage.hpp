@@ -7,6 +7,8 @@
 // are glued together.
 #pragma once
 
+#include <functional>
+
 #include "engine/geometry/embedding.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
@@ -16,6 +18,9 @@ struct TetCageSettings {
   int cells = 12;  ///< cubic cells along the surface's longest side, >= 1
   int rays_per_cell =
       64;  ///< per cell edge, for filled fractions; lowered where there would be more than 4 million rays
+  /// Whether a point is inside, where the surface is not closed enough for rays: asked at 56 points of each tetrahedron
+  /// that the surface touches, and in the middle of the others. Called from many threads.
+  std::function<bool(const Vec3&)> is_inside = {};
   double smallest_fraction = 0.02;  ///< floor of the fraction, so that no node is left without mass and stiffness
 };
 
@@ -29,7 +34,8 @@ struct TetCage {
   int dropped_rays = 0;  ///< see RayColumns
 };
 
-/// surface: closed, oriented outwards, welded (check_mesh finds no problem; self-intersections are allowed).
+/// surface: closed, oriented outwards, welded (check_mesh finds no problem; self-intersections are allowed); any if the
+/// settings say what is inside.
 /// Fractions are sampled by parallel rays, exact along each: with 64 rays a cell edge the error of a fraction is below
 /// 0.015 (0.003 root mean square), that of the volume about 1e-4 (tests/unit/geometry/tet_cage.cpp). A tetrahedron that the
 /// surface doesn't touch has exactly 1.

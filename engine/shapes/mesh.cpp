@@ -1,5 +1,6 @@
 // What a closed triangle surface encloses.
 #include <algorithm>
+#include <mutex>
 
 #include "engine/geometry/inside.hpp"
 #include "engine/shapes/shape_entry.hpp"
@@ -9,7 +10,8 @@ namespace {
 
 class MeshShape final : public Shape {
  public:
-  explicit MeshShape(MeshPointer surface) : Shape("mesh", surface.get()), surface_(std::move(surface)) {}
+  explicit MeshShape(MeshPointer surface)
+      : Shape("mesh", surface.get()), surface_(std::move(surface)), centered_(std::make_shared<Centered>()) {}
 
   ShapeForm form() const override { return surface_.get(); }
   Aabb bounds(const Pose& pose) const override {
@@ -24,9 +26,15 @@ class MeshShape final : public Shape {
   }
   MassProperties mass(double density) const override { return mesh_mass(surface_->mesh, density); }
   SharedShape recentered(const Vec3& center) const override {
-    auto moved = std::make_shared<SurfaceMesh>(*surface_);
-    for (Vec3& v : moved->mesh.vertices) v -= center;
-    return MeshPointer(std::move(moved));
+    // all bodies of one mesh share the moved one too
+    const std::lock_guard lock(centered_->mutex);
+    if (!centered_->shape || centered_->center != center) {
+      auto moved = std::make_shared<SurfaceMesh>(*surface_);
+      for (Vec3& v : moved->mesh.vertices) v -= center;
+      centered_->shape = MeshPointer(std::move(moved));
+      centered_->center = center;
+    }
+    return centered_->shape;
   }
   double signed_distance(const Vec3& x) const override {
     const double distance = distance_to_surface(x, surface_->mesh.vertices, surface_->mesh.triangles);
@@ -36,7 +44,13 @@ class MeshShape final : public Shape {
   TriangleMesh drawn() const override { return surface_->mesh; }
 
  private:
+  struct Centered {
+    std::mutex mutex;
+    Vec3 center = Vec3::Zero();
+    SharedShape shape;
+  };
   MeshPointer surface_;
+  std::shared_ptr<Centered> centered_;
 };
 
 }  // namespace

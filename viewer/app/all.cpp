@@ -12,6 +12,7 @@ const Registry<SubCommand>& sub_commands() {
     IMPINGE_LIST(all, check_command);
     IMPINGE_LIST(all, info_command);
     IMPINGE_LIST(all, why_command);
+    IMPINGE_LIST(all, mesh_command);
     IMPINGE_LIST(all, list_command);
     IMPINGE_LIST(all, step_command);
     IMPINGE_LIST(all, verify_command);

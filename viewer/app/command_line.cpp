@@ -125,6 +125,9 @@ void Options::word(const char* name, std::filesystem::path& to, const std::strin
 }
 
 void Options::optional_word(const char* name, std::string& to, const std::string& doc) { text(name, to, doc); }
+void Options::words(const char* name, std::vector<std::string>& to, const std::string& doc) {
+  app_.add_option(name, to, doc)->required();
+}
 
 void Options::optional_word(const char* name, std::filesystem::path& to, const std::string& doc) {
   path(name, to, doc);

@@ -6,7 +6,7 @@ namespace {
 
 // who builds one takes its line away
 constexpr std::string_view kCommands[] = {
-    "mesh", "shrink", "show", "judge", "trace",
+    "shrink", "show", "judge", "trace",
 };
 
 }  // namespace

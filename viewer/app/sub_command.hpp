@@ -28,6 +28,7 @@ class Options {
   void word(const char* name, std::string& to, const std::string& doc);
   void word(const char* name, std::filesystem::path& to, const std::string& doc);
   void optional_word(const char* name, std::string& to, const std::string& doc);
+  void words(const char* name, std::vector<std::string>& to, const std::string& doc);  ///< one or more
   void optional_word(const char* name, std::filesystem::path& to, const std::string& doc);
 
   // words by their name: --out, --frames

@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
 
-std::string ending(const std::string& name) {
-  std::string text = std::filesystem::path(name).extension().string();
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 bool has_own_reader(const std::string& end) { return end == ".ply" || end == ".off" || end == ".obj" || end == ".stl"; }
 
 void check_faces(const std::string& name, const TriangleMesh& mesh) {
@@ -30,6 +23,13 @@ void check_faces(const std::string& name, const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+std::string ending(const std::string& name) {
+  std::string text = std::filesystem::path(name).extension().string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
 
 TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
   const std::string end = ending(name);
@@ -48,10 +48,12 @@ TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
   return mesh;
 }
 
-TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard) {
+TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard, MeshOrigin* origin) {
   const std::string bytes = read_file(path, kMostBytes);
   if (has_own_reader(ending(path.string()))) return parse_mesh(path.string(), bytes);
-  TriangleMesh mesh = read_with_assimp(path, guard);
+  std::string unit;
+  TriangleMesh mesh = read_with_assimp(path, guard, unit);
+  if (origin != nullptr) origin->unit = unit;
   check_faces(path.string(), mesh);
   return mesh;
 }

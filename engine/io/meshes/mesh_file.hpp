@@ -15,11 +15,18 @@
 
 namespace impinge {
 
-/// The mesh in a file, by its ending: vertices in source order, polygons fanned from their first corner. Indices are in
+/// What a file says of itself beside its mesh.
+struct MeshOrigin {
+  /// What its numbers are in, in words, where the format says so and they were converted: "0.01 m"; "" where it doesn't
+  /// and they were taken as metres.
+  std::string unit;
+};
+
+/// The mesh in a file, by its ending: vertices in source order, polygons as triangles (polygon.hpp). Indices are in
 /// range and coordinates finite; whether the surface is closed is for others to check. Coordinates are metres: those of
 /// formats that say their unit (FBX, Collada) are converted, others are taken as they stand. What the file names in turn
 /// is read where the guard allows it.
-TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard = {});
+TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard = {}, MeshOrigin* origin = nullptr);
 
 /// The same from bytes; `name` is used in messages and its ending chooses among ply, off, obj and stl.
 TriangleMesh parse_mesh(const std::string& name, std::string_view bytes);

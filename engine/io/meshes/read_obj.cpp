@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "engine/io/meshes/mesh_readers.hpp"
+#include "engine/io/meshes/polygon.hpp"
 #include "engine/io/text_lines.hpp"
 
 namespace impinge {
@@ -48,7 +49,7 @@ TriangleMesh read_obj(const std::string& name, std::string_view bytes) {
                 "remove it from the file");
       corners.clear();
       for (std::size_t i = 1; i < in.count(); ++i) corners.push_back(corner(in, i, mesh.vertices.size()));
-      append_fan(corners, mesh.triangles);
+      append_polygon(corners, mesh.vertices, mesh.triangles);
     } else if (std::find(std::begin(kSkipped), std::end(kSkipped), key) == std::end(kSkipped)) {
       in.fail(0, quoted(key), "v, f and the usual attributes are read", "export the surface as polygons");
     }

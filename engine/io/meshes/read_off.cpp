@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/meshes/mesh_readers.hpp"
+#include "engine/io/meshes/polygon.hpp"
 #include "engine/io/text_lines.hpp"
 
 namespace impinge {
@@ -56,7 +57,7 @@ TriangleMesh read_off(const std::string& name, std::string_view bytes) {
                 "export the file again");
       corners.push_back(static_cast<int>(v));
     }
-    append_fan(corners, mesh.triangles);
+    append_polygon(corners, mesh.vertices, mesh.triangles);
   }
   if (in.next())
     in.fail(0, quoted(in.word(0)), fmt::format("the file should end after {} faces", faces),

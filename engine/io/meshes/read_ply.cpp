@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/io/meshes/mesh_readers.hpp"
+#include "engine/io/meshes/polygon.hpp"
 #include "engine/io/text_lines.hpp"
 
 namespace impinge {
@@ -204,9 +205,9 @@ class BinarySource {
 static_assert(std::endian::native == std::endian::little, "take() builds little-endian numbers");
 
 template <class Source>
-std::int64_t list_length(Source& in, const Property& property) {
+std::int64_t list_length(Source& in, const Property& property, std::int64_t most = kMostCorners) {
   const std::int64_t n = in.whole(property.count_type);
-  if (n < 0 || n > kMostCorners || !in.has_room(n))
+  if (n < 0 || n > most || !in.has_room(n))
     in.fail(fmt::format("a list of {} values", n), "no more than the file has room for");
   return n;
 }
@@ -216,6 +217,17 @@ void skip_property(Source& in, const Property& property) {
   std::int64_t n = 1;
   if (property.is_list) n = list_length(in, property);
   for (std::int64_t i = 0; i < n; ++i) in.skip(property.type);
+}
+
+std::size_t list_of_vertices(const std::string& name, const Element& element, const char* what) {
+  const int a = element.find("vertex_indices"), b = element.find("vertex_index");
+  const int indices = a >= 0 ? a : b;
+  if (indices < 0 || !element.properties[indices].is_list || !is_whole(element.properties[indices].type))
+    throw InputError(
+        fmt::format("{}:1: {} without vertex_indices; 'property list uchar int vertex_indices' is wanted "
+                    "in the head; export the file again",
+                    name, what));
+  return static_cast<std::size_t>(indices);
 }
 
 template <class Source>
@@ -259,7 +271,45 @@ void read_faces(Source& in, const Element& element, std::size_t indices, std::in
           in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1));
         corners.push_back(static_cast<int>(v));
       }
-      append_fan(corners, mesh.triangles);
+      append_polygon(corners, mesh.vertices, mesh.triangles);
+    }
+    in.end();
+  }
+}
+
+/// Vertices of which each makes a triangle with the two before it, every other one turned; −1 begins a new strip.
+template <class Source>
+void read_strips(Source& in, const Element& element, std::size_t indices, std::int64_t vertices, TriangleMesh& mesh) {
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    in.begin(element);
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const Property& property = element.properties[p];
+      if (p != indices) {
+        skip_property(in, property);
+        continue;
+      }
+      const std::int64_t n = list_length(in, property, kMostElements);
+      int before[2] = {-1, -1};
+      bool is_turned = false;
+      for (std::int64_t k = 0; k < n; ++k) {
+        const std::int64_t v = in.whole(property.type);
+        if (v < -1 || v >= vertices)
+          in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}, and -1", vertices - 1));
+        const int next = static_cast<int>(v);
+        if (next < 0) {
+          before[0] = before[1] = -1;
+          is_turned = false;
+          continue;
+        }
+        if (before[0] >= 0) {
+          // strips turn corners by naming a vertex twice
+          if (before[0] != before[1] && before[1] != next && before[0] != next)
+            mesh.triangles.push_back({before[is_turned ? 1 : 0], before[is_turned ? 0 : 1], next});
+          is_turned = !is_turned;
+        }
+        before[0] = before[1];
+        before[1] = next;
+      }
     }
     in.end();
   }
@@ -283,15 +333,9 @@ TriangleMesh read_body(Source& in, const std::string& name, const Head& head) {
       read_vertices(in, element, axes, mesh);
       has_vertices = true;
     } else if (element.name == "face") {
-      const int a = element.find("vertex_indices"), b = element.find("vertex_index");
-      const int indices = a >= 0 ? a : b;
-      if (indices < 0 || !element.properties[indices].is_list || !is_whole(element.properties[indices].type))
-        throw InputError(name +
-                         ":1: faces without vertex_indices; 'property list uchar int vertex_indices' is wanted in the "
-                         "head; export the file again");
-      read_faces(in, element, static_cast<std::size_t>(indices), vertices, mesh);
-    } else if (element.name == "tristrips" && element.count > 0) {
-      throw InputError(name + ":1: triangle strips; faces are read; export the file with faces");
+      read_faces(in, element, list_of_vertices(name, element, "faces"), vertices, mesh);
+    } else if (element.name == "tristrips") {
+      read_strips(in, element, list_of_vertices(name, element, "triangle strips"), vertices, mesh);
     } else {
       for (std::int64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
         in.begin(element);

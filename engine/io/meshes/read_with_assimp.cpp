@@ -1,5 +1,5 @@
 // Other formats through assimp, in a child process: assimp aborts or crashes on some damaged files, and nothing of that
-// may reach the caller. It only validates; polygons are fanned here and vertices welded by the caller, because its own
+// may reach the caller. It only validates; polygons become triangles here and vertices welded by the caller, because its own
 // steps for that crash on bad indices. Its coordinates are single precision.
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -16,6 +16,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/io/child_process.hpp"
 #include "engine/io/meshes/mesh_readers.hpp"
+#include "engine/io/meshes/polygon.hpp"
 
 namespace impinge {
 
@@ -43,7 +44,7 @@ void append_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pa
           throw InputError(fmt::format("face {} names vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
         corners.push_back(first + static_cast<int>(face.mIndices[k]));
       }
-      append_fan(corners, mesh.triangles);
+      append_polygon(corners, mesh.vertices, mesh.triangles);
     }
   }
   for (unsigned c = 0; c < node.mNumChildren; ++c) append_node(scene, *node.mChildren[c], transform, mesh, depth + 1);
@@ -80,15 +81,15 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
 
 /// Metres of a unit of the file. assimp converts Collada's <unit> by itself and hands FBX's over: centimetres, times a
 /// factor. Other formats have none, or none that assimp reads.
-double unit_of(const aiScene& scene) {
+std::optional<double> unit_of(const aiScene& scene) {
   constexpr const char* kFactor = "UnitScaleFactor";
   float single = 0.0f;
   double factor = 0.0;
-  if (scene.mMetaData == nullptr || !scene.mMetaData->HasKey(kFactor)) return 1.0;
+  if (scene.mMetaData == nullptr || !scene.mMetaData->HasKey(kFactor)) return std::nullopt;
   if (scene.mMetaData->Get(kFactor, single))
     factor = single;
   else if (!scene.mMetaData->Get(kFactor, factor))
-    return 1.0;
+    return std::nullopt;
   if (!std::isfinite(factor) || !(factor > 0.0)) throw InputError(fmt::format("its unit is {} cm", factor));
   return 0.01 * factor;
 }
@@ -104,10 +105,12 @@ std::string import_in_child(const std::string& path, const FileGuard& guard) {
     if (scene == nullptr || scene->mRootNode == nullptr) return std::string("E") + importer.GetErrorString();
     TriangleMesh mesh;
     append_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, 0);
-    if (const double unit = unit_of(*scene); unit != 1.0)
-      for (Vec3& x : mesh.vertices) x *= unit;
+    const std::optional<double> unit = unit_of(*scene);
+    if (unit)
+      for (Vec3& x : mesh.vertices) x *= *unit;
     ByteWriter out;
     out.put('M');
+    out.put<double>(unit.value_or(0.0));
     out.put<std::uint64_t>(mesh.vertices.size());
     out.put<std::uint64_t>(mesh.triangles.size());
     for (const Vec3& x : mesh.vertices) out.put(x);
@@ -147,7 +150,7 @@ void limit_resources() {
 
 }  // namespace
 
-TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard) {
+TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard, std::string& unit) {
   const std::string name = path.string();
   {
     const Assimp::Importer importer;
@@ -183,6 +186,14 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard
 
   ByteReader in(bytes);
   in.get<char>();
+  const auto metres = in.get<double>();
+  const std::string format = ending(name);
+  if (metres > 0.0)
+    unit = fmt::format("{:.6g} m, as it says", metres);
+  else if (format == ".dae")
+    unit = "as its <unit> says";  // which assimp has converted
+  else if (format == ".gltf" || format == ".glb")
+    unit = "metres, as the format has it";
   TriangleMesh mesh;
   const auto vertices = in.get<std::uint64_t>(), triangles = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < vertices; ++i) mesh.vertices.push_back(in.get_vec3());

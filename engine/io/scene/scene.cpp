@@ -12,6 +12,7 @@
 #include "engine/io/scene/run_record.hpp"
 #include "engine/io/scene/scene_attachments.hpp"
 #include "engine/io/scene/scene_body.hpp"
+#include "engine/io/scene/scene_copies.hpp"
 #include "engine/io/scene/scene_overrides.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
@@ -128,6 +129,7 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
   TomlNode root = parse_toml(name, read_file(path, std::uint64_t{1} << 30));
   Scene scene;
   scene.former_paths = rename_former_paths(root, rows);
+  expand_copies(root);
   apply_overrides(root, renamed_overrides(overrides, rows, scene.former_paths));
   scene.path = path;
   scene.folder = path.parent_path();

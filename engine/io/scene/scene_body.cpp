@@ -40,7 +40,13 @@ const std::vector<std::string> kKeys = {"name",
                                         "volume",
                                         "fixed",
                                         "sides",
-                                        "thickness"};
+                                        "thickness",
+                                        "mend",
+                                        "unit",
+                                        "up",
+                                        "component",
+                                        "convex",
+                                        "copies"};
 
 BodyKind read_kind(const TomlNode& table, const std::string& what) {
   const TomlEntry* entry = table.find("kind");
@@ -76,15 +82,33 @@ SurfaceSides read_sides(const TomlNode& node, const std::string& what) {
   refuse(node.place, fmt::format("{} is {}", what, toml_string(word)), "both or front is allowed", "use one of them");
 }
 
-MeshPointer read_surface(const TomlNode& table, const std::string& what, double scale, BodyKind kind,
-                         SurfaceFiles& surfaces) {
-  const TomlNode& surface = table.find("surface")->value;
-  if (kind == BodyKind::dynamic) return surfaces.load(surface, what + ".surface", scale);
+SharedShape read_surface(const TomlNode& table, const std::string& what, BodyKind kind, SurfaceFiles& surfaces) {
+  if (read_surface_keys(table, what).convex) return surfaces.load_hull(table, what);
+  if (kind == BodyKind::dynamic) return surfaces.shape_of(surfaces.load(table, what));
   const TomlEntry *sides = table.find("sides"), *thickness = table.find("thickness");
   ThinSurface how;
   if (sides != nullptr) how.sides = read_sides(sides->value, what + ".sides");
   if (thickness != nullptr) how.thickness = scene_positive(thickness->value, what + ".thickness", kMostThickness);
-  return surfaces.load_thin(surface, what + ".surface", scale, how, sides != nullptr || thickness != nullptr);
+  return surfaces.shape_of(surfaces.load_thin(table, what, how, sides != nullptr || thickness != nullptr));
+}
+
+/// Of shapes and volumes; a surface's may be three, which its own reader takes.
+double read_scale(const TomlNode& table, const TomlNode& node, const std::string& what) {
+  if (node.kind != TomlNode::array) return scene_positive(node, what, kMostScale);
+  const TomlEntry* volume = table.find("volume");
+  if (table.find("surface") == nullptr || (volume != nullptr && volume->value.kind == TomlNode::text))
+    refuse(node.place, what + " is a list", "one number is wanted but for a surface file alone", "use one number");
+  return 1.0;
+}
+
+void check_surface_keys(const TomlNode& table, const std::string& what, BodyKind kind) {
+  for (const std::string& key : surface_keys())
+    if (const TomlEntry* entry = table.find(key); entry != nullptr && table.find("surface") == nullptr)
+      refuse(entry->place, fmt::format("{}.{} belongs to a surface file, and this body has none", what, key),
+             "surface = \"file\" has it", "remove it");
+  if (const TomlEntry* convex = table.find("convex"); convex != nullptr && kind == BodyKind::deformable)
+    refuse(convex->place, what + ".convex belongs to bodies that keep their form, and this one is deformable",
+           "a shape convex_hull can be deformable", "use shape = { convex_hull = { surface = \"file\" } }");
 }
 
 // what has no meaning for the body's kind is refused: taken and ignored it would mislead
@@ -153,11 +177,12 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
                fmt::format("{}.{} belongs to the open surface of a body that is static or scripted", what, key),
                "kind = \"static\" with surface = \"file\" has it", "remove it");
 
+  check_surface_keys(table, what, body.kind);
   const auto with = [&](const char* key, auto&& read) {
     if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
   };
   double scale = 1.0;
-  with("scale", [&](const TomlNode& node, const std::string& key) { scale = scene_positive(node, key, kMostScale); });
+  with("scale", [&](const TomlNode& node, const std::string& key) { scale = read_scale(table, node, key); });
   with("position", [&](const TomlNode& node, const std::string& key) {
     body.position = scene_vector(node, key, body_key("position").range);
   });
@@ -205,7 +230,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
     return body;
   }
   check_kind(table, what, body);
-  body.shape = read_surface(table, what, scale, body.kind, surfaces);
+  body.shape = read_surface(table, what, body.kind, surfaces);
   body.surface_file = surface->value.string;
   return body;
 }

@@ -5,6 +5,8 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/geometry/mend/mend.hpp"
+#include "engine/geometry/mend/remesh.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
@@ -12,6 +14,7 @@
 #include "engine/io/paths.hpp"
 #include "engine/io/scene/scene_sizes.hpp"
 #include "engine/io/scene/scene_values.hpp"
+#include "engine/shapes/shape_entry.hpp"
 
 namespace impinge {
 
@@ -20,6 +23,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
+
+[[noreturn]] void refuse_mesh(const TomlNode& node, const std::string& problem) {
+  throw InputError(fmt::format("{}: surface {} {}; mend = true drops and mends what can be", node.place,
+                               toml_string(node.string), problem));
+}
 
 }  // namespace
 
@@ -48,36 +56,52 @@ fs::path SurfaceFiles::find(const TomlNode& node, const std::string& what) const
   return path;
 }
 
-MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
-  SurfaceFile file;
-  file.name = node.string;
+SurfaceFile& SurfaceFiles::file_named(const std::string& name) {
+  for (SurfaceFile& file : files_)
+    if (file.name == name) return file;
+  files_.emplace_back();
+  files_.back().name = name;
+  return files_.back();
+}
+
+TriangleMesh SurfaceFiles::read_file_of(const fs::path& path, const TomlNode& node, const SurfaceKeys& keys) {
   const MeshCount count = estimate_mesh(path);
   check_memory(node.place,
                fmt::format("surface {} ({}, about {:.2g} triangles)", toml_string(node.string),
                            describe_bytes(count.bytes), count.triangles),
                surface_memory(count), "simplify it");
-  file.hash = hash_bytes(read_file(path, kLargestFile));
+  const std::uint64_t hash = hash_bytes(read_file(path, kLargestFile));
+  check_interrupt();
+  MeshOrigin origin;
+  TriangleMesh mesh = read_mesh(path, guard_, &origin);
+  check_interrupt();
+  if (keys.is_unit_given && !origin.unit.empty())
+    refuse(node.place, fmt::format("surface {} says its own unit ({})", toml_string(node.string), origin.unit),
+           "unit belongs to files that say none", "remove unit, or use scale");
+  SurfaceFile& file = file_named(node.string);
+  file.hash = hash;
+  file.vertices = mesh.vertices.size();
+  file.triangles = mesh.triangles.size();
+  return mesh;
+}
+
+MeshPointer SurfaceFiles::read(const fs::path& path, const TomlNode& node) {
   auto surface = std::make_shared<SurfaceMesh>();
-  check_interrupt();
-  surface->mesh = read_mesh(path, guard_);
-  check_interrupt();
-  const auto refuse_mesh = [&](const std::string& problem) {
-    throw InputError(fmt::format("{}: surface {} {}", node.place, toml_string(node.string), problem));
-  };
-  if (const auto problem = check_indices(surface->mesh)) refuse_mesh(*problem);
+  surface->mesh = read_file_of(path, node, {});
+  if (const auto problem = check_indices(surface->mesh)) refuse_mesh(node, *problem);
   surface->topology = make_topology(surface->mesh);
   if (!surface->topology.is_closed()) {
     // formats without shared vertices, and seams of texture or material: the same point written more than once
     WeldedMesh welded = weld(surface->mesh);
     if (welded.mesh.vertices.size() < surface->mesh.vertices.size() && !check_indices(welded.mesh)) {
-      file.welded = surface->mesh.vertices.size() - welded.mesh.vertices.size();
+      file_named(node.string).welded = surface->mesh.vertices.size() - welded.mesh.vertices.size();
       surface->mesh = std::move(welded.mesh);
       surface->topology = make_topology(surface->mesh);
     }
   }
+  SurfaceFile& file = file_named(node.string);
   file.vertices = surface->mesh.vertices.size();
   file.triangles = surface->mesh.triangles.size();
-  files_.push_back(file);
   return surface;
 }
 
@@ -126,16 +150,69 @@ std::vector<Vec3> SurfaceFiles::load_points(const TomlNode& node, const std::str
   return place->second;
 }
 
-MeshPointer SurfaceFiles::load_thin(const TomlNode& node, const std::string& what, double scale, const ThinSurface& how,
+MeshPointer SurfaceFiles::prepared(const TomlNode& table, const std::string& what, const SurfaceKeys& keys) {
+  const TomlNode& node = table.find("surface")->value;
+  const fs::path path = find(node, what + ".surface");
+  MeshPointer& result = prepared_[node.string + '\n' + keys.text()];
+  if (result != nullptr) return result;
+  TriangleMesh mesh = placed(read_file_of(path, node, keys), keys, table, what);
+  if (keys.mend) {
+    if (keys.mend->remesh > 0)
+      check_memory(table.find("mend")->value.place, fmt::format("{}.mend.remesh = {}", what, keys.mend->remesh),
+                   remesh_memory(mesh, keys.mend->remesh), "use fewer cells");
+    MendedMesh mended = mend(std::move(mesh), *keys.mend);
+    if (mended.problem)
+      throw InputError(
+          fmt::format("{}: surface {} {}; even mended: mend = {{ remesh = 100 }} makes a new skin of so many "
+                      "cells, `impinge mesh {} --mend --picture FILE` shows where it is",
+                      node.place, toml_string(node.string), *mended.problem, path.string()));
+    std::vector<std::string>& notes = file_named(node.string).notes;
+    for (const std::string& step : mended.report.steps()) notes.push_back("mended: " + step);
+    mesh = std::move(mended.mesh);
+  } else {
+    if (const auto problem = check_indices(mesh)) refuse_mesh(node, *problem);
+    if (!make_topology(mesh).is_closed())
+      if (WeldedMesh welded = weld(mesh); !check_indices(welded.mesh)) mesh = std::move(welded.mesh);
+  }
+  MeshPointer surface = make_surface(std::move(mesh));
+  // an open one gets its thickness first
+  if (surface->topology.is_closed())
+    check_extent(node, what + ".surface", surface->mesh.vertices, keys.scale.maxCoeff());
+  return result = std::move(surface);
+}
+
+void SurfaceFiles::check_solid(const TomlNode& node, const std::string& key, const SurfaceMesh& surface) {
+  if (!solid_.insert(key).second) return;
+  const auto problem = check_mesh(surface.mesh, surface.topology);
+  if (!problem) return;
+  throw InputError(
+      fmt::format("{}: surface {} {}; mend = true mends it as far as can be, or impinge mesh {} --mend "
+                  "--out NEW.ply{}",
+                  node.place, toml_string(node.string), *problem, (folder_ / node.string).string(),
+                  surface.topology.is_closed() ? "" : "; a static or scripted body takes it as it is"));
+}
+
+MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& what_body, const ThinSurface& how,
                                     bool is_asked) {
+  const SurfaceKeys keys = read_surface_keys(table, what_body);
+  const TomlNode& node = table.find("surface")->value;
+  const std::string what = what_body + ".surface";
   const fs::path path = find(node, what);
-  MeshPointer& surface = unscaled_[node.string];
-  if (surface == nullptr) surface = read(path, node);
+  MeshPointer surface;
+  double scale = 1.0;
+  if (keys.is_plain()) {
+    MeshPointer& known = unscaled_[node.string];
+    if (known == nullptr) known = read(path, node);
+    surface = known;
+    scale = keys.scale.x();
+  } else {
+    surface = prepared(table, what_body, keys);
+  }
   if (surface->topology.is_closed()) {
     if (is_asked)
       refuse(node.place, fmt::format("surface {} is closed", toml_string(node.string)),
              "sides and thickness belong to open surfaces", "remove them");
-    return load(node, what, scale);
+    return load(table, what_body);
   }
   if (how.sides == SurfaceSides::front && surface->topology.misoriented_edges > 0)
     refuse(node.place,
@@ -143,7 +220,7 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& node, const std::string& wha
                        toml_string(node.string), surface->topology.misoriented_edges),
            "sides = \"both\" takes it as it is", "use that, or make the normals consistent");
   const std::string key =
-      fmt::format("{} {} {} {}", static_cast<int>(how.sides), how.thickness.value_or(0.0), scale, node.string);
+      fmt::format("{} {} {} {}", static_cast<int>(how.sides), how.thickness.value_or(0.0), keys.text(), node.string);
   MeshPointer& result = thin_[key];
   if (result != nullptr) return result;
   check_memory(node.place, fmt::format("surface {}, thickened,", toml_string(node.string)),
@@ -166,15 +243,20 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& node, const std::string& wha
   return result = std::move(solid);
 }
 
-MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, double scale) {
+MeshPointer SurfaceFiles::load(const TomlNode& table, const std::string& what_body) {
+  const SurfaceKeys keys = read_surface_keys(table, what_body);
+  const TomlNode& node = table.find("surface")->value;
+  if (!keys.is_plain()) {
+    MeshPointer surface = prepared(table, what_body, keys);
+    check_solid(node, node.string + '\n' + keys.text(), *surface);
+    return surface;
+  }
+  const std::string what = what_body + ".surface";
+  const double scale = keys.scale.x();
   const fs::path path = find(node, what);
   MeshPointer& surface = unscaled_[node.string];
   if (surface == nullptr) surface = read(path, node);
-  if (solid_.insert(node.string).second)
-    if (const auto problem = check_mesh(surface->mesh, surface->topology))
-      throw InputError(
-          fmt::format("{}: surface {} {}{}", node.place, toml_string(node.string), *problem,
-                      surface->topology.is_closed() ? "" : "; a static or scripted body takes it as it is"));
+  check_solid(node, node.string, *surface);
   if (scale == 1.0) {
     check_extent(node, what, surface->mesh.vertices, scale);
     return surface;
@@ -189,6 +271,35 @@ MeshPointer SurfaceFiles::load(const TomlNode& node, const std::string& what, do
     result = std::move(copy);
   }
   return result;
+}
+
+MeshPointer SurfaceFiles::load_open(const TomlNode& table, const std::string& what, MeshPointer& skin) {
+  skin = prepared(table, what, read_surface_keys(table, what));
+  return skin->topology.is_closed() ? load(table, what) : load_thin(table, what, {}, false);
+}
+
+SharedShape SurfaceFiles::shape_of(const MeshPointer& surface) {
+  SharedShape& shape = mesh_shapes_[surface];
+  if (!shape) shape = surface;
+  return shape;
+}
+
+SharedShape SurfaceFiles::load_hull(const TomlNode& table, const std::string& what) {
+  const SurfaceKeys keys = read_surface_keys(table, what);
+  const TomlNode& node = table.find("surface")->value;
+  const std::pair key("hull\n" + node.string + '\n' + keys.text(), 1.0);
+  if (const auto made = shapes_.find(key); made != shapes_.end()) return made->second;
+  const MeshPointer surface = prepared(table, what, keys);
+  ShapeValues values;
+  values.set("points", surface->mesh.vertices);
+  try {
+    const SharedShape hull = shape_entries()[static_cast<std::size_t>(shape_type("convex_hull"))].make(values);
+    shapes_.emplace(key, hull);
+    return hull;
+  } catch (const ShapeError& error) {
+    refuse(node.place, fmt::format("surface {}, whose hull is wanted, {}", toml_string(node.string), error.found),
+           error.allowed, error.remedy);
+  }
 }
 
 }  // namespace impinge

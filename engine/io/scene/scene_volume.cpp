@@ -8,6 +8,7 @@
 #include "engine/core/memory.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/distance.hpp"
+#include "engine/geometry/mend/winding_tree.hpp"
 #include "engine/geometry/quadratic_tets.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/geometry/tet_cage.hpp"
@@ -25,8 +26,8 @@ namespace {
 constexpr int kFewestCells = 2, kMostCells = 200;
 constexpr double kMostOutside = 0.1;  // of the volume's longest side: a vertex farther out belongs to another mesh
 
-int read_cells(const TomlNode& table, const std::string& what) {
-  check_keys(table, what, {"cells"});
+int read_cells(const TomlNode& table, const std::string& what, const std::vector<std::string>& keys = {"cells"}) {
+  check_keys(table, what, keys);
   const TomlEntry* cells = table.find("cells");
   if (cells == nullptr)
     refuse(table.place, what + " has no cells", "cells = how many along the longest side", "add cells = 12");
@@ -35,6 +36,17 @@ int read_cells(const TomlNode& table, const std::string& what) {
     refuse(cells->value.place, fmt::format("{}.cells is {}", what, shortest(n)), "a whole number is wanted",
            "round it");
   return static_cast<int>(n);
+}
+
+/// How a cage tells what is inside: by rays, exact along each, or by winding numbers, which open surfaces have too.
+bool is_by_winding(const TomlNode& table, const std::string& what) {
+  const TomlEntry* inside = table.find("inside");
+  if (inside == nullptr) return false;
+  const std::string& word = scene_text(inside->value, what + ".inside");
+  if (word != "rays" && word != "winding")
+    refuse(inside->value.place, fmt::format("{}.inside is {}", what, toml_string(word)),
+           "\"rays\" or \"winding\" is allowed", "use one of them");
+  return word == "winding";
 }
 
 Aabb bounds_of(const std::vector<Vec3>& points) {
@@ -86,7 +98,7 @@ MeshPointer outer_surface(const TomlNode& table, const std::string& what, double
                           SurfaceFiles& files, BodyDescription& body) {
   if (const TomlEntry* surface = table.find("surface")) {
     body.surface_file = surface->value.string;
-    return files.load(surface->value, what + ".surface", scale);
+    return files.load(table, what);
   }
   const TomlEntry* entry = table.find("shape");
   const SharedShape shape = read_shape(entry->value, what + ".shape", scale, files);
@@ -198,19 +210,30 @@ void read_volume_file(const TomlNode& table, const TomlNode& node, const std::st
 
 void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale, SurfaceFiles& files,
                DeformableDescription& soft, BodyDescription& body) {
-  const int cells = read_cells(way.value, what + ".volume.cage");
-  // a shape's surface is as fine as the nodes that carry it
-  const int fineness = soft.element == ElementKind::quadratic ? 2 : 1;
-  const MeshPointer outer = outer_surface(table, what, scale, 0.0, fineness * cells, files, body);
+  const int cells = read_cells(way.value, what + ".volume.cage", {"cells", "inside"});
+  const bool by_winding = is_by_winding(way.value, what + ".volume.cage");
+  const TomlEntry* surface = table.find("surface");
+  MeshPointer outer, skin;
+  if (by_winding && surface != nullptr) {
+    outer = files.load_open(table, what, skin);
+    body.surface_file = surface->value.string;
+  } else {
+    // a shape's surface is as fine as the nodes that carry it
+    const int fineness = soft.element == ElementKind::quadratic ? 2 : 1;
+    outer = outer_surface(table, what, scale, 0.0, fineness * cells, files, body);
+    skin = outer;
+  }
   check_memory(way.value.place, fmt::format("{}.volume.cage of {} cells", what, cells), cage_memory(outer->mesh, cells),
                "use fewer cells");
   const auto make = [&]() -> CarriedVolume {
     TetCageSettings settings;
     settings.cells = cells;
+    const WindingTree winding(skin->mesh.triangles, skin->mesh.vertices);
+    if (by_winding) settings.is_inside = [&](const Vec3& x) { return winding.is_inside(x); };
     TetCage cage = make_tet_cage(outer->mesh, settings);
     return {std::move(cage.mesh), std::move(cage.fraction), std::move(cage.embedding)};
   };
-  take(*files.volumes().get(outer->mesh, fmt::format("cage {}", cells), make), outer, way.value, what + ".volume.cage",
+  take(*files.volumes().get(outer->mesh, fmt::format("cage {}{}", cells, by_winding ? " winding" : ""), make), outer,
        soft, body);
 }
 

@@ -38,6 +38,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/geometry/convex", 3},
                                                  {"engine/geometry/surface", 3},
                                                  {"engine/rotation", 3},
+                                                 {"engine/geometry/mend", 4},
                                                  {"engine/io/meshes", 4},
                                                  {"engine/io/tets", 4},
                                                  {"engine/shapes", 4},

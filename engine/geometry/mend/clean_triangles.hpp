@@ -1,0 +1,27 @@
+// The first steps of mending: vertices that are meant to be one become one, and triangles that bound nothing go.
+#pragma once
+
+#include "engine/geometry/triangle_mesh.hpp"
+
+namespace impinge {
+
+/// Vertices on borders that are no farther apart than `tolerance`, metres, become the first of them; triangles that lose
+/// a corner by that go. Inner vertices stay: welding them would only make sheets touch that don't.
+struct BorderWeld {
+  int welded = 0, collapsed = 0;  ///< vertices and triangles that went
+  double largest_move = 0.0;      ///< metres
+};
+BorderWeld weld_borders(TriangleMesh& mesh, double tolerance);
+
+/// Removes triangles that name a vertex twice. How many.
+int drop_collapsed(TriangleMesh& mesh);
+
+/// Of triangles with the same three corners one stays: the first, where it belongs to the skin, and none where the
+/// copies face opposite ways between two solids, as a wall inside of their union. How many went.
+int drop_duplicates(TriangleMesh& mesh);
+
+/// Triangles whose corners lie on a line: the one in the middle is joined to the far corner of the neighbour across the
+/// long side, so that no vertex moves and no hole is left. How many.
+int flip_flat(TriangleMesh& mesh);
+
+}  // namespace impinge

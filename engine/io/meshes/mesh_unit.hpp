@@ -1,0 +1,15 @@
+// Units of length by their names.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace impinge {
+
+/// Metres of a unit: m, mm, cm, dm, km, um, inch, foot, yard, mile; nothing for another word.
+std::optional<double> metres_of(std::string_view unit);
+/// All of them, with commas.
+std::string unit_names();
+
+}  // namespace impinge

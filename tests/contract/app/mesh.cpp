@@ -1,0 +1,120 @@
+// impinge mesh: its page, table, JSON, picture and what it writes, held against what formulas say of the surface.
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include "engine/geometry/mass_properties.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
+#include "tests/support/geometry/mesh_text.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/program/refusal.hpp"
+#include "viewer/image/png.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+bool says(const Outcome& outcome, const std::string& text) { return outcome.out.find(text) != std::string::npos; }
+
+TriangleMesh open_cube() {
+  TriangleMesh mesh = box(Vec3::Constant(0.5), {4, 4, 4});
+  mesh.triangles.pop_back();
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("mesh says what a surface is") {
+  const TempFolder folder;
+  folder.write("ring.off", off_text(torus(1.0, 0.25, 60, 30)));
+  const Outcome page = impinge_run(folder.path(), {"mesh", "ring.off"});
+  CHECK(page.code == 0);
+  CHECK(page.err.empty());
+  CHECK(says(page, "2.5 x 0.5 x 2.5 m, unit not said: taken for metres"));
+  CHECK(says(page, "1800 vertices, 3600 triangles, 1 part, genus 1"));
+  CHECK(says(page, "faults:      none"));
+  CHECK(says(page, "any kind, as it is"));
+  const Outcome json = impinge_run(folder.path(), {"mesh", "ring.off", "--json"});
+  CHECK(says(json, "\"genus\": 1"));
+  CHECK(says(json, "\"closed\": true"));
+  CHECK(says(json, "\"problem\": null"));
+}
+
+TEST_CASE("mesh asks about the unit where a length is odd") {
+  const TempFolder folder;
+  folder.write("big.off", off_text(box({90.0, 10.0, 10.0})));
+  folder.write("small.off", off_text(box({1e-3, 1e-3, 1e-3})));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "big.off"}), "180 m long: is it in millimetres or centimetres?"));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "small.off"}), "0.002 m long: is it in kilometres or inches?"));
+  const Outcome told = impinge_run(folder.path(), {"mesh", "big.off", "--unit", "mm"});
+  CHECK_FALSE(says(told, "is it in"));
+  CHECK(says(told, "0.18 x 0.02 x 0.02 m, unit: mm"));
+}
+
+TEST_CASE("mesh --mend says what it did, and what it writes is a solid") {
+  const TempFolder folder;
+  folder.write("open.off", off_text(open_cube()));
+  const Outcome before = impinge_run(folder.path(), {"mesh", "open.off"});
+  CHECK(says(before, "none, it is open"));
+  CHECK(says(before, "3 border edges round 1 hole"));
+  CHECK(says(before, "impinge mesh open.off --mend --out NEW.ply"));
+  const Outcome mend = impinge_run(folder.path(), {"mesh", "open.off", "--mend", "--out", "new.ply"});
+  CHECK(mend.code == 0);
+  CHECK(says(mend, "mended:      filled 1 hole with 1 triangle"));
+  CHECK(says(mend, "1 m³ after"));
+  CHECK(says(mend, "moved:       no vertex"));
+  CHECK(signed_volume(read_mesh(folder / "new.ply")) == Approx(1.0));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "new.ply", "--mend"}), "nothing to do"));
+}
+
+TEST_CASE("several files are a table, and one that can't be read a row and exit code 2") {
+  const TempFolder folder;
+  folder.write("a.off", off_text(open_cube()));
+  folder.write("b.off", off_text(icosphere(2)));
+  Outcome table = impinge_run(folder.path(), {"mesh", "a.off", "b.off"});
+  CHECK(table.code == 0);
+  CHECK(std::count(table.out.begin(), table.out.end(), '\n') == 3);
+  CHECK(says(table, "open"));
+  CHECK(says(table, "yes"));
+  folder.write("c.off", "OFF\n1 1 0\n");
+  table = impinge_run(folder.path(), {"mesh", "a.off", "c.off", "b.off"});
+  CHECK(table.code == 2);
+  CHECK(says(table, "not read: c.off"));
+  CHECK(std::count(table.out.begin(), table.out.end(), '\n') == 4);
+}
+
+TEST_CASE("mesh draws the faults in colours that the sound surface has not") {
+  const TempFolder folder;
+  folder.write("open.off", off_text(open_cube()));
+  const auto red = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"mesh", "open.off", "--picture", "p.png", "--size", "320x240"};
+    words.insert(words.end(), more.begin(), more.end());
+    REQUIRE(impinge_run(folder.path(), words).code == 0);
+    const Image image = read_png(folder / "p.png");
+    CHECK(image.width == 320);
+    int count = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const std::uint8_t* p = image.pixel(x, y);
+        count += p[0] > 180 && p[1] < 100 && p[2] < 100 ? 1 : 0;
+      }
+    return count;
+  };
+  CHECK(red({}) > 20);
+  CHECK(red({"--mend"}) == 0);
+}
+
+TEST_CASE("mesh refuses what it can't do") {
+  const TempFolder folder;
+  folder.write("a.off", off_text(open_cube()));
+  const std::string line = "command line: ";
+  check_refused(folder, {"mesh", "a.off", "--out", "x.ply"}, line, "add --mend");
+  check_refused(folder, {"mesh", "a.off", "--weld", "1"}, line, "add --mend");
+  check_refused(folder, {"mesh", "a.off", "--mend", "--out", "x.obj"}, line, ".ply");
+  check_refused(folder, {"mesh", "a.off", "a.off", "--mend", "--out", "x.ply"}, line, "one file at a time");
+  check_refused(folder, {"mesh", "a.off", "--unit", "ell"}, line, "mm, cm");
+  check_refused(folder, {"mesh", "a.off", "--mend", "--weld", "-1"}, line, "metres from 0");
+  check_refused(folder, {"mesh", "none.off"}, "none.off", "");
+  folder.write("flat.off", "OFF\n3 4 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n3 0 2 1\n3 1 2 0\n3 1 2 0\n");
+  check_refused(folder, {"mesh", "flat.off", "--mend", "--out", "x.ply"}, "flat.off: ", "nothing is written");
+}

@@ -1,0 +1,274 @@
+// Mending: each fault planted into a solid whose volume a formula knows, alone and all together.
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "engine/core/parallel.hpp"
+#include "engine/geometry/mass_properties.hpp"
+#include "engine/geometry/mend/mend.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/random.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift = Vec3::Zero()) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (const Vec3& v : other.vertices) mesh.vertices.push_back(v + shift);
+  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+TriangleMesh cube(double half = 0.5, int cells = 1) {
+  return box(Vec3::Constant(half), Eigen::Vector3i::Constant(cells));
+}
+
+TriangleMesh inside_out(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// Three vertices a triangle, each moved by up to `noise` on each axis.
+TriangleMesh soup(const TriangleMesh& mesh, double noise, std::uint64_t seed = 1) {
+  Random random(seed);
+  TriangleMesh out;
+  for (const Triangle& t : mesh.triangles) {
+    const int first = static_cast<int>(out.vertices.size());
+    for (const int v : t) out.vertices.push_back(mesh.vertices[v] + noise * random.vector());
+    out.triangles.push_back({first, first + 1, first + 2});
+  }
+  return out;
+}
+
+MendedMesh mended(const TriangleMesh& mesh, const MendSettings& settings = {}) {
+  MendedMesh result = mend(mesh, settings);
+  INFO(result.problem.value_or(""));
+  CHECK_FALSE(result.problem);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a sound surface comes out of mending as it went in, to the bit") {
+  for (const TriangleMesh& mesh : {cube(), torus(1.0, 0.3, 24, 12), bumpy_sphere(3)}) {
+    const MendedMesh result = mended(mesh);
+    CHECK(result.mesh.vertices == mesh.vertices);
+    CHECK(result.mesh.triangles == mesh.triangles);
+    CHECK_FALSE(result.report.is_changed());
+    CHECK(result.report.largest_move == 0.0);
+    CHECK(result.report.volume_before == result.report.volume_after);
+  }
+}
+
+TEST_CASE("vertices of a border within the tolerance become one, and no others") {
+  const TriangleMesh sphere = icosphere(3);
+  const MendedMesh near = mended(soup(sphere, 1e-7));
+  CHECK(near.mesh.triangles.size() == sphere.triangles.size());
+  CHECK(near.mesh.vertices.size() == sphere.vertices.size());
+  CHECK(near.report.largest_move > 1e-8);
+  CHECK(near.report.largest_move < 2.0 * std::sqrt(3.0) * 1e-7);
+  CHECK(near.report.volume_after == Approx(signed_volume(sphere)).epsilon(1e-5));
+  // farther apart than a millionth of the diagonal: the scene has to say so
+  MendSettings settings;
+  settings.weld = 1e-3;
+  CHECK(mended(soup(sphere, 1e-4), settings).mesh.vertices.size() == sphere.vertices.size());
+  CHECK(mend(soup(sphere, 1e-4), {}).mesh.vertices.size() > sphere.vertices.size());
+}
+
+TEST_CASE("triangles without area, and those twice there, go; flat ones are flipped so that no hole is left") {
+  TriangleMesh mesh = cube();
+  mesh.triangles.push_back({0, 0, 3});
+  mesh.triangles.push_back(mesh.triangles[2]);
+  mesh.triangles.push_back({mesh.triangles[5][1], mesh.triangles[5][2], mesh.triangles[5][0]});
+  MendedMesh result = mended(mesh);
+  CHECK(result.report.collapsed == 1);
+  CHECK(result.report.duplicates == 2);
+  CHECK(result.report.volume_after == Approx(1.0));
+
+  // a vertex in the middle of a side of one of its triangles, and a triangle without area that closes the gap
+  mesh = cube();
+  const Triangle t = mesh.triangles[0];
+  const int middle = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.push_back(0.5 * (mesh.vertices[t[0]] + mesh.vertices[t[1]]));
+  mesh.triangles[0] = {t[0], middle, t[2]};
+  mesh.triangles.push_back({middle, t[1], t[2]});
+  mesh.triangles.push_back({t[0], t[1], middle});
+  result = mended(mesh);
+  CHECK(result.report.flipped_flat == 1);
+  CHECK(result.report.volume_after == Approx(1.0));
+  for (const Triangle& s : result.mesh.triangles) {
+    const Vec3& a = result.mesh.vertices[s[0]];
+    CHECK((result.mesh.vertices[s[1]] - a).cross(result.mesh.vertices[s[2]] - a).norm() > 0.1);
+  }
+}
+
+TEST_CASE("neighbours are turned alike, parts outwards, whatever the file had") {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    TriangleMesh mesh = bumpy_torus(24, 12);
+    for (Triangle& t : mesh.triangles)
+      if (random.below(2) == 0) std::swap(t[1], t[2]);
+    const MendedMesh result = mended(mesh);
+    CHECK(result.report.volume_after == Approx(signed_volume(bumpy_torus(24, 12))).epsilon(1e-12));
+  }
+  TriangleMesh two = cube();
+  append(two, inside_out(cube(0.25)), {3.0, 0.0, 0.0});
+  const MendedMesh result = mended(two);
+  CHECK(result.report.turned_parts == 1);
+  CHECK(result.report.volume_after == Approx(1.0 + 0.125));
+}
+
+TEST_CASE("a wall that faces into a solid is a cavity's, a part that faces outwards in it adds nothing") {
+  TriangleMesh hollow = cube();
+  append(hollow, inside_out(cube(0.25)));
+  CHECK(mended(hollow).report.volume_after == Approx(1.0 - 0.125));
+  CHECK(mended(inside_out(hollow)).report.volume_after == Approx(1.0 - 0.125));
+
+  TriangleMesh filled = cube();
+  append(filled, cube(0.25));
+  const MendedMesh without = mended(filled);
+  CHECK(without.report.inner_parts == 1);
+  CHECK(without.report.volume_after == Approx(1.0));
+  MendSettings settings;
+  settings.drop_inner = false;
+  CHECK(mended(filled, settings).report.volume_after == Approx(1.0 - 0.125));
+
+  append(hollow, cube(0.1));  // a solid of its own in the cavity
+  CHECK(mended(hollow).report.volume_after == Approx(1.0 - 0.125 + 0.008));
+}
+
+TEST_CASE("sheets that meet in an edge or a vertex are taken apart, each with the solid that it bounds") {
+  TriangleMesh edge = cube();
+  append(edge, cube(), {1.0, 1.0, 0.0});
+  edge = weld(edge).mesh;
+  REQUIRE(make_topology(edge).nonmanifold_edges == 1);
+  MendedMesh result = mended(edge);
+  CHECK(result.report.cut_edges == 1);
+  CHECK(result.report.volume_after == Approx(2.0));
+  CHECK(result.report.largest_move == 0.0);
+
+  TriangleMesh vertex = cube();
+  append(vertex, cube(), {1.0, 1.0, 1.0});
+  result = mended(weld(vertex).mesh);
+  CHECK(result.mesh.vertices.size() == 16);
+  CHECK(result.report.volume_after == Approx(2.0));
+
+  // a wall between two solids, there once for each: neither is part of the skin of both together
+  TriangleMesh wall = cube();
+  append(wall, cube(), {1.0, 0.0, 0.0});
+  result = mended(weld(wall).mesh);
+  CHECK(result.report.volume_after == Approx(2.0));
+  CHECK(result.mesh.vertices.size() == 12);
+
+  // an inner wall, there once
+  TriangleMesh room = weld(wall).mesh;
+  const auto same = std::find_if(room.triangles.begin(), room.triangles.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) { return room.vertices[v].x() == 0.5; });
+  });
+  REQUIRE(same != room.triangles.end());
+  const Triangle kept = *same;
+  std::erase_if(room.triangles, [&](const Triangle& t) {
+    return t != kept && std::all_of(t.begin(), t.end(), [&](int v) { return room.vertices[v].x() == 0.5; });
+  });
+  CHECK(mended(room).report.volume_after == Approx(2.0).epsilon(0.03));
+}
+
+TEST_CASE("holes are filled, flat ones exactly, whatever their form") {
+  // a cube without a face of 8 x 8 cells, and the same with an L of cells gone
+  for (const bool whole : {true, false}) {
+    TriangleMesh mesh = cube(0.5, 8);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+      Vec3 middle = Vec3::Zero();
+      for (const int v : t) middle += mesh.vertices[v] / 3.0;
+      return middle.y() > 0.499 && (whole || middle.x() < -0.25 || (middle.z() < -0.25 && middle.x() < 0.3));
+    });
+    const MendedMesh result = mended(mesh);
+    CHECK(result.report.holes == 1);
+    CHECK(result.report.volume_after == Approx(1.0).epsilon(1e-12));
+  }
+  // a border of more corners than the best filling is looked for
+  TriangleMesh tube = torus(1.0, 0.3, 400, 12);
+  std::erase_if(tube.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) { return tube.vertices[v].y() > 0.2; });
+  });
+  CHECK(mended(tube).report.volume_after == Approx(signed_volume(torus(1.0, 0.3, 400, 12))).epsilon(0.1));
+}
+
+TEST_CASE("what is mostly open is a sheet of the thickness that is asked for") {
+  MendSettings settings;
+  settings.thickness = 0.02;
+  const MendedMesh flat = mended(sheet(1.0, 8), settings);
+  CHECK(flat.report.sheets == 1);
+  CHECK(flat.report.volume_after == Approx(4.0 * 0.02));
+  CHECK(flat.report.largest_move == Approx(0.01));
+  CHECK(mended(sheet(1.0, 8)).report.volume_after == Approx(4.0 * 0.02));  // a hundredth of the side is the same
+
+  TriangleMesh bowl = icosphere(4);
+  std::erase_if(bowl.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) { return bowl.vertices[v].y() > -0.01; });
+  });
+  CHECK(mended(bowl, settings).report.volume_after == Approx(2.0 * M_PI * 0.02).epsilon(0.05));
+  settings.largest_hole = 1.0;  // the lid is half of the bowl's area: the half ball
+  CHECK(mended(bowl, settings).report.volume_after == Approx(2.0 / 3.0 * M_PI).epsilon(0.03));
+}
+
+TEST_CASE("damage of all kinds at once leaves the volume to within what was torn out") {
+  Random random(3);
+  for (int trial = 0; trial < 30; ++trial) {
+    const TriangleMesh sound = trial % 2 == 0 ? bumpy_sphere(4) : torus(1.0, 0.4, 40, 20);
+    TriangleMesh mesh = sound;
+    std::erase_if(mesh.triangles, [&](const Triangle&) { return random.below(50) == 0; });
+    for (Triangle& t : mesh.triangles)
+      if (random.below(3) == 0) std::swap(t[1], t[2]);
+    const std::size_t count = mesh.triangles.size();
+    for (int i = 0; i < 30; ++i) mesh.triangles.push_back(mesh.triangles[random.below(static_cast<int>(count))]);
+    for (int i = 0; i < 10; ++i) {
+      const int v = mesh.triangles[random.below(static_cast<int>(count))][0];
+      mesh.triangles.push_back({v, v, random.below(static_cast<int>(mesh.vertices.size()))});
+    }
+    const MendedMesh result = mended(soup(mesh, trial % 3 == 0 ? 0.0 : 1e-7, trial));
+    CHECK(result.report.volume_after == Approx(signed_volume(sound)).epsilon(0.02));
+    CHECK(result.report.holes > 0);
+  }
+}
+
+TEST_CASE("of any soup mending makes solids, or says that it can't") {
+  Random random(11);
+  int solids = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    TriangleMesh mesh;
+    const int vertices = 4 + random.below(20);
+    // few places, so that much coincides
+    for (int v = 0; v < vertices; ++v)
+      mesh.vertices.push_back(Vec3(random.below(4), random.below(4), random.below(trial % 5 == 0 ? 1 : 4)));
+    for (int t = 4 + random.below(60); t > 0; --t)
+      mesh.triangles.push_back({random.below(vertices), random.below(vertices), random.below(vertices)});
+    const MendedMesh result = mend(mesh, {});
+    CAPTURE(trial, result.problem.value_or(""));
+    for (const Vec3& v : result.mesh.vertices) REQUIRE(v.allFinite());
+    if (result.problem) continue;
+    ++solids;
+    REQUIRE_FALSE(check_mesh(result.mesh, make_topology(result.mesh)));
+    REQUIRE(signed_volume(result.mesh) > 0.0);
+  }
+  CHECK(solids > 320);
+}
+
+TEST_CASE("mending gives the same bits for any number of threads") {
+  TriangleMesh mesh = soup(bumpy_sphere(4), 1e-7);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return t[0] % 150 == 0; });
+  append(mesh, sheet(0.3, 6), {2.0, 0.0, 0.0});
+  MendSettings settings;
+  settings.remesh = 24;
+  std::vector<MendedMesh> results;
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    results.push_back(mend(mesh, settings));
+  }
+  set_thread_count(0);
+  CHECK(results[0].mesh.vertices == results[1].mesh.vertices);
+  CHECK(results[0].mesh.triangles == results[1].mesh.triangles);
+}

@@ -1,0 +1,195 @@
+#include "viewer/report/mesh_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/parameter.hpp"
+#include "viewer/report/parts.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kWater = 1000.0;                      // kg/m³
+constexpr double kOddLength = 50.0, kOddShort = 5e-3;  // metres: beyond these a file without a unit is asked about
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string row(const char* name, const std::string& text) { return fmt::format("  {:<12} {}\n", name, text); }
+
+std::string size_text(const Aabb& box) {
+  const Vec3 e = box.extent();
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} m", e.x(), e.y(), e.z());
+}
+
+/// What a length that no asset has suggests where the file doesn't say its unit.
+std::string unit_question(const MeshReport& report) {
+  if (report.says_unit || report.facts.box.is_empty()) return "";
+  const double longest = report.facts.box.extent().maxCoeff();
+  if (longest > kOddLength)
+    return fmt::format("{:.4g} m long: is it in millimetres or centimetres? unit = \"mm\" or \"cm\" then", longest);
+  if (longest < kOddShort && longest > 0.0)
+    return fmt::format("{:.3g} m long: is it in kilometres or inches? unit = \"km\" or \"inch\" then", longest);
+  return "";
+}
+
+std::string as_a_body(const MeshReport& report) {
+  if (!report.facts.problem) return "any kind, as it is";
+  const std::string mends =
+      report.mended ? "" : fmt::format("; mend = true, or impinge mesh {} --mend --out NEW.ply", report.file);
+  return fmt::format("{}: it {}{}",
+                     report.facts.is_closed ? "needs mending" : "static or scripted as it is, else mended",
+                     *report.facts.problem, mends);
+}
+
+std::string change_text(double before, double after) {
+  std::string text = fmt::format("{:.6g} m³ before, {:.6g} m³ after", before, after);
+  if (before > 0.0) text += fmt::format(" ({:+.3g} %)", 100.0 * (after - before) / before + 0.0);
+  return text;
+}
+
+std::string number(double x) { return std::isfinite(x) ? shortest(x + 0.0) : "null"; }
+template <class T>
+std::string optional_number(const std::optional<T>& x) {
+  return x ? number(static_cast<double>(*x)) : "null";
+}
+std::string vector_json(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
+}
+
+std::string facts_json(const MeshFacts& f) {
+  const double volume = f.is_closed ? f.volume : NAN;
+  return fmt::format(
+      "{{\"min\": {}, \"max\": {}, \"vertices\": {}, \"triangles\": {}, \"coinciding_vertices\": {}, "
+      "\"unused_vertices\": {}, \"area\": {}, \"closed\": {}, \"volume\": {}, \"mass\": {}, \"components\": {}, "
+      "\"genus\": {}, \"border_edges\": {}, \"holes\": {}, \"nonmanifold_edges\": {}, \"nonmanifold_vertices\": {}, "
+      "\"misoriented_edges\": {}, \"degenerate_triangles\": {}, \"duplicate_triangles\": {}, \"crossings\": {}, "
+      "\"more_crossings\": {}, \"thinnest\": {}, \"thin_triangles\": {}, \"edge_min\": {}, \"edge_median\": {}, "
+      "\"edge_max\": {}, \"problem\": {}}}",
+      f.box.is_empty() ? "null" : vector_json(f.box.min), f.box.is_empty() ? "null" : vector_json(f.box.max),
+      f.vertices, f.triangles, f.coinciding, f.unused, number(f.area), f.is_closed, number(volume),
+      number(kWater * volume), f.components, optional_number(f.genus), f.border_edges, f.holes, f.nonmanifold_edges,
+      f.nonmanifold_vertices, f.misoriented_edges, f.degenerate, f.duplicates, f.crossings, f.more_crossings,
+      optional_number(f.thinnest), f.thin, number(f.shortest_edge), number(f.median_edge), number(f.longest_edge),
+      f.problem ? json_text(*f.problem) : "null");
+}
+
+std::string report_json(const MeshReport& r) {
+  if (!r.error.empty()) return fmt::format("{{\"file\": {}, \"error\": {}}}", json_text(r.file), json_text(r.error));
+  std::string out = fmt::format("{{\"file\": {}, \"unit\": {}, \"says_unit\": {}, \"surface\": {}", json_text(r.file),
+                                json_text(r.unit), r.says_unit, facts_json(r.facts));
+  if (r.mended) {
+    std::string steps;
+    for (const std::string& step : r.mended->steps()) steps += (steps.empty() ? "" : ", ") + json_text(step);
+    out += fmt::format(
+        ", \"mend\": {{\"steps\": [{}], \"volume_before\": {}, \"volume_after\": {}, \"largest_move\": {}, "
+        "\"problem\": {}, \"surface\": {}}}",
+        steps, number(r.mended->volume_before), number(r.mended->volume_after), number(r.mended->largest_move),
+        r.problem_left ? json_text(*r.problem_left) : "null", r.after ? facts_json(*r.after) : "null");
+  }
+  return out + "}";
+}
+
+/// The end of a long name says more than its begin.
+std::string shortened_path(const std::string& path, std::size_t most) {
+  return path.size() <= most ? path : "..." + path.substr(path.size() - (most - 3));
+}
+
+}  // namespace
+
+std::vector<std::string> fault_lines(const MeshFacts& f) {
+  std::vector<std::string> lines;
+  if (f.border_edges > 0)
+    lines.push_back(fmt::format("{} round {}", counted(f.border_edges, "border edge", "border edges"),
+                                counted(f.holes, "hole", "holes")));
+  if (f.nonmanifold_edges > 0)
+    lines.push_back(counted(f.nonmanifold_edges, "edge", "edges") + " with three triangles or more");
+  if (f.nonmanifold_vertices > 0)
+    lines.push_back(counted(f.nonmanifold_vertices, "vertex", "vertices") + " where sheets touch");
+  if (f.misoriented_edges > 0)
+    lines.push_back(counted(f.misoriented_edges, "edge", "edges") + " whose triangles face opposite ways");
+  if (f.degenerate > 0) lines.push_back(counted(f.degenerate, "triangle", "triangles") + " without area");
+  if (f.duplicates > 0) lines.push_back(counted(f.duplicates, "triangle", "triangles") + " twice there");
+  if (f.crossings > 0)
+    lines.push_back(fmt::format("{}{} that cross or touch", f.more_crossings ? "at least " : "",
+                                counted(f.crossings, "pair of triangles", "pairs of triangles")));
+  if (f.thin > 0)
+    lines.push_back(counted(f.thin, "triangle", "triangles") + " over less than a thousandth of the size");
+  return lines;
+}
+
+std::string mesh_page(const MeshReport& r) {
+  if (!r.error.empty()) return r.error + "\n";
+  const MeshFacts& f = r.facts;
+  std::string out = r.file + "\n";
+  if (f.box.is_empty()) return out + row("problem:", f.problem.value_or("has no triangles"));
+  out += row("size:", fmt::format("{}, {}", size_text(f.box), r.unit));
+  if (const std::string question = unit_question(r); !question.empty()) out += row("", question);
+  out += row("solid:", f.is_closed ? fmt::format("volume {:.6g} m³, mass {:.6g} kg at {} kg/m³, area {:.6g} m²",
+                                                 f.volume, kWater * f.volume, kWater, f.area)
+                                   : fmt::format("none, it is open; area {:.6g} m²", f.area));
+  out += row("surface:",
+             fmt::format("{} vertices{}{}, {} triangles, {}{}", r.file_vertices,
+                         f.coinciding > 0 ? fmt::format(" ({} twice there)", f.coinciding) : "",
+                         f.unused > 0 ? fmt::format(" ({} unused)", f.unused) : "", f.triangles,
+                         counted(f.components, "part", "parts"), f.genus ? fmt::format(", genus {}", *f.genus) : ""));
+  out +=
+      row("edges:", fmt::format("{:.3g} to {:.3g} m, median {:.3g} m", f.shortest_edge, f.longest_edge, f.median_edge));
+  if (f.thinnest) out += row("thinnest:", fmt::format("{:.3g} m", *f.thinnest));
+  const std::vector<std::string> faults = fault_lines(f);
+  for (std::size_t i = 0; i < faults.size(); ++i) out += row(i == 0 ? "faults:" : "", faults[i]);
+  if (faults.empty()) out += row("faults:", "none");
+  out += row("as a body:", as_a_body(r));
+  if (!r.mended) return out;
+  const std::vector<std::string> steps = r.mended->steps();
+  if (steps.empty()) out += row("mended:", "nothing to do");
+  for (std::size_t i = 0; i < steps.size(); ++i) out += row(i == 0 ? "mended:" : "", steps[i]);
+  out += row("volume:", change_text(r.mended->volume_before, r.mended->volume_after));
+  out += row("moved:", r.mended->largest_move > 0.0 ? fmt::format("a vertex {:.3g} m at most", r.mended->largest_move)
+                                                    : "no vertex");
+  if (r.problem_left) out += row("left:", "it " + *r.problem_left);
+  if (r.after && r.after->crossings > 0)
+    out += row("left:", fmt::format("{}{} that cross or touch: overlaps count twice; --remesh 100 makes one skin",
+                                    r.after->more_crossings ? "at least " : "",
+                                    counted(r.after->crossings, "pair of triangles", "pairs of triangles")));
+  if (!r.written.empty()) out += row("written:", r.written);
+  return out;
+}
+
+std::string mesh_table(const std::vector<MeshReport>& reports) {
+  const bool is_mended = std::any_of(reports.begin(), reports.end(), [](const MeshReport& r) { return r.mended; });
+  std::string out =
+      fmt::format("{:<28} {:>9} {:>8} {:>10} {:>5} {:>6} {:>6} {:>7} {}\n", "file", "triangles", "long (m)",
+                  is_mended ? "mended m³" : "volume m³", "parts", "border", "multi", "crosses", "solid");
+  for (const MeshReport& r : reports) {
+    const std::string file = shortened_path(r.file, 28);
+    if (!r.error.empty()) {
+      out += fmt::format("{:<28} not read: {}\n", file, r.error);
+      continue;
+    }
+    const MeshFacts& f = r.facts;
+    const bool has_volume = is_mended ? !r.problem_left : f.is_closed;
+    const double volume = is_mended ? r.mended->volume_after : f.volume;
+    const char* state = is_mended ? (r.problem_left           ? "no"
+                                     : r.mended->is_changed() ? "mended"
+                                                              : "yes")
+                                  : (f.problem ? (f.is_closed ? "no" : "open") : "yes");
+    out += fmt::format("{:<28} {:>9} {:>8.4g} {:>10} {:>5} {:>6} {:>6} {:>7} {}\n", file, f.triangles,
+                       f.box.is_empty() ? 0.0 : f.box.extent().maxCoeff(),
+                       has_volume ? fmt::format("{:.4g}", volume) : "-", f.components, f.border_edges,
+                       f.nonmanifold_edges, f.crossings, state);
+  }
+  return out;
+}
+
+std::string mesh_json(const std::vector<MeshReport>& reports) {
+  if (reports.size() == 1) return report_json(reports[0]) + "\n";
+  std::string out = "[";
+  for (std::size_t i = 0; i < reports.size(); ++i) out += (i == 0 ? "\n  " : ",\n  ") + report_json(reports[i]);
+  return out + "\n]\n";
+}
+
+}  // namespace impinge
