@@ -6,7 +6,10 @@ namespace {
 
 // who builds one takes its line away
 constexpr std::string_view kCommands[] = {
-    "shrink", "show", "judge", "trace",
+    "shrink",
+    "show",
+    "judge",
+    "trace",
 };
 
 }  // namespace

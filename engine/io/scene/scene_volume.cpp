@@ -234,7 +234,7 @@ void read_cage(const TomlNode& table, const TomlEntry& way, const std::string& w
     return {std::move(cage.mesh), std::move(cage.fraction), std::move(cage.embedding)};
   };
   take(*files.volumes().get(outer->mesh, fmt::format("cage {}{}", cells, by_winding ? " winding" : ""), make), outer,
-       soft, body);
+       way.value, what + ".volume.cage", soft, body);
 }
 
 void read_lattice(const TomlNode& table, const TomlEntry& way, const std::string& what, double scale,
