@@ -97,7 +97,7 @@ TEST_CASE("the debugger's panels are those of the baselines") {
   PanelSession session(1280, 720);
   session.run(kLines);
   const Image whole = session.loop.picture();
-  check_baseline("window", whole, 150'000);
+  check_baseline("window", whole, 200000);
   const DebugLayout layout = debug_layout(1280, 720, 1.0f);
   for (const auto& [name, area] : areas(layout))
     if (name != "view") check_baseline(name, crop(whole, area), 60'000);

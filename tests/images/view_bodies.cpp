@@ -107,7 +107,7 @@ TEST_CASE("a body that is framed fills the picture, wherever the camera was and 
     CHECK(top > 0);
     CHECK(bottom < 179);
     CHECK(bottom - top > 90);  // a cube in a ball that just fits
-    CHECK(std::abs(top + bottom - 179) < 12);
+    CHECK(std::abs(top + bottom - 179) < 30);  // its near corners lie lower: perspective
     CHECK(std::abs(left + right - 319) < 12);
   }
 }

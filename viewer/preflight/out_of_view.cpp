@@ -55,9 +55,11 @@ class OutOfView : public ViewWarning {
       if (body.kind() == BodyKind::fixed || box.is_empty() || !box.extent().allFinite()) continue;
       const Seen at_first = seen(box, start);
       Seen s = at_first;
+      Vec3 last = Vec3::Zero();
       for (int frame = 1; frame <= kFrames && !s.in_picture; ++frame) {
         const Vec3 way = way_of(body, frame * p.frame_time, p.gravity);
-        s = seen({box.min + way, box.max + way}, start);
+        s = seen({box.min + last.cwiseMin(way), box.max + last.cwiseMax(way)}, start);  // it may fly by within a frame
+        last = way;
       }
       const std::string remedy = "leave out view.camera, which then is fitted to the scene, or turn it";
       if (!s.in_picture)

@@ -11,7 +11,7 @@
 namespace impinge {
 namespace {
 
-constexpr std::size_t kMostBest = 200;  // corners of a border whose best filling is looked for: n³ steps
+constexpr std::size_t kMostBest = 800;  // corners of a border whose best filling is looked for: n³ / 6 steps
 constexpr double kShape = 1e-4;         // what an edge's square counts beside area: among equal areas short edges win
 
 /// Edges that are there, and those that fillings add: none may get a third triangle.

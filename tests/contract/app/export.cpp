@@ -1,6 +1,7 @@
 // What other programs find in an export, read by them: VTK, meshio, and a strict reader of USD (tests/tools).
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
+#include <map>
 
 #include <sys/wait.h>
 
@@ -78,7 +79,7 @@ TEST_CASE("a scene far from the origin keeps its shape in single precision") {
   const TempFolder folder;
   REQUIRE(export_run(folder, export_scene(3e4), {}, 3).code == 0);
   export_all(folder, "out");
-  for (const std::string& format : {"vtu", "usda"}) check_read(folder / "out", format, folder / "out/export");
+  for (const std::string format : {"vtu", "usda"}) check_read(folder / "out", format, folder / "out/export");
 }
 
 TEST_CASE("an export of some frames has those alone, and what an earlier one left of its sequences is gone") {
@@ -144,7 +145,7 @@ TEST_CASE("a run that was cut off is exported as far as it came, and a resumed o
   const std::string stats = slurp(folder / "cut/stats.csv");
   const auto last = std::count(stats.begin(), stats.end(), '\n') - 2;
   REQUIRE(last >= 24);
-  for (const std::string& format : {"vtu", "usda", "poses.csv"})
+  for (const std::string format : {"vtu", "usda", "poses.csv"})
     check_read(folder / "cut", format, folder / "cut/export", fmt::format("0:{}", last));
 }
 

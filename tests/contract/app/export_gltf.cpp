@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "engine/core/types.hpp"
+#include "engine/geometry/aabb.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/program/export_scene.hpp"
 

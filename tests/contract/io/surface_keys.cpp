@@ -162,8 +162,8 @@ TEST_CASE("copies are bodies like those written out, to the bit") {
   CHECK(copies.body(2).name == "last");
   CHECK(copies.body(0).shape.get() == copies.body(1).shape.get());
 
-  const Loaded grid =
-      load(brick(), "position = [1, 0, 0]\ncopies = { count = [2, 1, 3], spacing = [2, 9, 4] }\n", {"body.b_6.mass=5"});
+  const Loaded grid(brick(), "position = [1, 0, 0]\ncopies = { count = [2, 1, 3], spacing = [2, 9, 4] }\n",
+                    {"body.b_6.mass=5"});
   REQUIRE(grid.session->world().bodies().size() == 6);
   CHECK(grid.body(5).mass == 5.0);
   CHECK(grid.body(5).pose.position.isApprox(Vec3(3.0, 0.0, 8.0)));

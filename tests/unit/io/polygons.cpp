@@ -63,7 +63,7 @@ TEST_CASE("a concave quad in each format, and an L with corners in a row") {
                    "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
                        dart + "4 1 2 3 0\n")}) {
     bool all_face_it = true;
-    CHECK(covered(mesh.vertices, mesh.triangles, Vec3::UnitZ(), all_face_it) == Approx(1.5));
+    CHECK(covered(mesh.vertices, mesh.triangles, Vec3::UnitZ(), all_face_it) == Approx(0.5));
     CHECK(all_face_it);
   }
   const TriangleMesh l = parse_mesh("a.obj",

@@ -34,10 +34,10 @@ TEST_CASE("a browser's lines are events") {
 
 TEST_CASE("anything else is no event") {
   for (const std::string_view line :
-       {"",           " ",           "move",     "move 1",       "move 1 2 3", "move nan 1", "move 1 inf",
-        "move 1,5 2", "move 0x10 2", "press",    "press fourth", "press 0",    "down",       "down q",
-        "down ctrl ", "wheel",       "wheel up", "type",         "type ",      "type \x01",  "type \n",
-        "type \xff",  "seen it",     "MOVE 1 2", "quit",         "password x"})
+       {"",           " ",           "move",  "move 1",       "move 1 2 3", "move nan 1", "move 1 inf",
+        "move 1,5 2", "move 0x10 2", "press", "press fourth", "press 0",    "down",       "down q",
+        "wheel",      "wheel up",    "type",  "type ",        "type \x01",  "type \n",    "type \xff",
+        "seen it",    "MOVE 1 2",    "quit",  "password x"})
     CHECK_FALSE(parse_web_event(line, 960, 600));
   CHECK_FALSE(parse_web_event("type " + std::string(65, 'a'), 960, 600));
   std::mt19937 random(7);

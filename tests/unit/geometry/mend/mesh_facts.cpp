@@ -77,7 +77,7 @@ TEST_CASE("every fault is counted and marked where it is") {
   facts = measure(two, &(marks = {}));
   CHECK(facts.crossings >= 6);
   CHECK(marks.crossing.size() >= 6);
-  for (std::size_t v = 8; v < 16; ++v) two.vertices[v] += Vec3(0.7, 0.8, 0.9);
+  for (std::size_t v = 8; v < 16; ++v) two.vertices[v] = two.vertices[v - 8] + Vec3::Ones();
   two.triangles.pop_back();  // open, so that coinciding vertices are one
   CHECK(measure(two).nonmanifold_vertices == 1);
 }
