@@ -106,7 +106,7 @@ TEST_CASE("a body that is framed fills the picture, wherever the camera was and 
     CAPTURE(followed, top, bottom, left, right);
     CHECK(top > 0);
     CHECK(bottom < 179);
-    CHECK(bottom - top > 90);  // a cube in a ball that just fits
+    CHECK(bottom - top > 90);                  // a cube in a ball that just fits
     CHECK(std::abs(top + bottom - 179) < 30);  // its near corners lie lower: perspective
     CHECK(std::abs(left + right - 319) < 12);
   }
