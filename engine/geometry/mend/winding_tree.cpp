@@ -6,7 +6,7 @@ namespace impinge {
 namespace {
 
 constexpr int kLeaf = 8;
-constexpr double kFar = 2.6;  // reaches: from there on a part is a dipole
+constexpr double kFar = 3.0;  // reaches: from there on a part is a dipole
 
 double solid_angle(const Vec3& x, const Vec3& p, const Vec3& q, const Vec3& r) {  // [VanOosterom83]
   const Vec3 a = p - x, b = q - x, c = r - x;

@@ -300,7 +300,7 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"verify"}, "NAME");
   refused({"verify", "stacks"}, "no case 'stacks'");
   refused({"verify", "ccd"}, "--queries");
-  refused({"debug", "s.toml", "--vnc", "5900"}, "not part of this version");
+  refused({"debug", "s.toml", "--vnc", "5900"}, "this build has no VNC");
   refused({"debug", "s.toml", "--headless"}, "--script");
   refused({"run"}, "SCENE");
   refused({"run", "s.toml", "--frame", "3"}, "--frames");

@@ -86,7 +86,8 @@ TEST_CASE("a session by clicks, drags and typing ends the same each time, as doe
   folder.write("a.script", kSession);
   std::vector<Outcome> outcomes;
   for (const char* out : {"one", "two", "three"}) {
-    outcomes.push_back(debug(folder, "s.toml", "a.script", {"--out", out, "--record", std::string(out) + ".script"}));
+    outcomes.push_back(debug(folder, "s.toml", "a.script",
+                             {"--out", out, "--record", std::string(out) + ".script", "--size", "1280x720"}));
     INFO(outcomes.back().err);
     REQUIRE(outcomes.back().code == 0);
   }

@@ -1,5 +1,6 @@
 // Bodies hidden, looked at alone, locked, framed and followed: by lines, in scripts of a run, and by the outliner.
 #include <fmt/format.h>
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/support/program/debug_session.hpp"
@@ -23,7 +24,8 @@ TEST_CASE("a script of a run hides, isolates, frames and follows, as the scene's
                "at 2 hide crate\nat 4 show all\nat 6 isolate ball\nat 8 show crate\nat 10 frame ball\n"
                "at 12 follow ball\nat 20 follow none\n");
   const auto run = [&](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> words = {"run", "s.toml", "--out", out, "--frames", "22", "--size", "320x180"};
+    std::vector<std::string> words = {"run", "s.toml", "--out", out, "--size", "320x180"};
+    if (std::find(more.begin(), more.end(), "--frames") == more.end()) words.insert(words.end(), {"--frames", "22"});
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = impinge_run(folder.path(), words);
     INFO(outcome.err);
@@ -120,7 +122,8 @@ ui key enter
 ui key h
 shot end.png
 )");
-  const Outcome first = debug(folder, "s.toml", "a.script", {"--out", "one", "--record", "r.script"});
+  const Outcome first =
+      debug(folder, "s.toml", "a.script", {"--out", "one", "--record", "r.script", "--size", "1280x720"});
   INFO(first.err);
   REQUIRE(first.code == 0);
   const std::string recording = slurp(folder / "r.script");

@@ -41,9 +41,10 @@ TEST_CASE("a frame is gone through by sub-steps and stages, there and back, and 
   CHECK(f.end("step 30\nstep substep 5\nback substep 5\n") == "frame 30");
   CHECK(f.end("step 30\nback substep\n") == "frame 30" + kIn + "sub-step 1 of 2, end");
   CHECK(f.end("step 30\nback substep 2\n") == "frame 29");
-  CHECK(f.end("step 30\nstep stage\n") == "frame 31" + kIn + "sub-step 1 of 2, free motion");
-  CHECK(f.end("step 30\nstep stage 2\n") == "frame 31" + kIn + "sub-step 1 of 2, broad phase");
-  CHECK(f.end("step 30\nstep stage 3\nback stage\nback stage\n") == "frame 31" + kIn + "sub-step 1 of 2, free motion");
+  CHECK(f.end("step 30\nstep stage\n") == "frame 31" + kIn + "sub-step 1 of 2, piece 1, free motion");
+  CHECK(f.end("step 30\nstep stage 2\n") == "frame 31" + kIn + "sub-step 1 of 2, piece 1, broad phase");
+  CHECK(f.end("step 30\nstep stage 3\nback stage\nback stage\n") ==
+        "frame 31" + kIn + "sub-step 1 of 2, piece 1, free motion");
   CHECK(f.end("step 30\nstep stage 3\nback stage 3\n") == "frame 30");
   CHECK(f.end("step 30\nback stage\nstep stage\n") == "frame 30");
   CHECK(f.end("step 30\nback stage 400\nstep stage 400\n") == "frame 30");

@@ -176,7 +176,7 @@ TEST_CASE("morph targets beyond their bound are refused before anything is simul
 name = "jelly"
 kind = "deformable"
 shape = { sphere = { radius = 0.2 } }
-volume = { lattice = { cells = 3 } }
+volume = { cage = { cells = 3 } }
 )");
   // 2562 vertices at most: 30 kB a frame
   check_refused(folder, {"run", "s.toml", "--out", "out", "--frames", "5000", "--export", "gltf"},
