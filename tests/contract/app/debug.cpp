@@ -117,7 +117,8 @@ TEST_CASE("a session by clicks, drags and typing ends the same each time, as doe
   CHECK(lines_with(recording, "ui press").empty());
 
   // what was recorded from the recording is the recording
-  const Outcome replay = debug(folder, "s.toml", "one.script", {"--out", "replay", "--record", "again.script"});
+  const Outcome replay =
+      debug(folder, "s.toml", "one.script", {"--out", "replay", "--record", "again.script", "--size", "1280x720"});
   INFO(replay.err);
   REQUIRE(replay.code == 0);
   CHECK(end_of(replay) == std::pair(frame, hash));

@@ -30,7 +30,7 @@ TEST_CASE("mesh says what a surface is") {
   const Outcome page = impinge_run(folder.path(), {"mesh", "ring.off"});
   CHECK(page.code == 0);
   CHECK(page.err.empty());
-  CHECK(says(page, "2.5 x 0.5 x 2.5 m, unit not said: taken for metres"));
+  CHECK(says(page, "2.5 x 0.4973 x 2.5 m, unit not said: taken for metres"));
   CHECK(says(page, "1800 vertices, 3600 triangles, 1 part, genus 1"));
   CHECK(says(page, "faults:      none"));
   CHECK(says(page, "any kind, as it is"));
