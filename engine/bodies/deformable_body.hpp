@@ -4,9 +4,9 @@
 
 #include "engine/bodies/body.hpp"
 #include "engine/bodies/deformable_step.hpp"
-#include "engine/bodies/fem_assembly.hpp"
 #include "engine/bodies/held_region.hpp"
-#include "engine/geometry/embedding.hpp"
+#include "engine/elements/fem_assembly.hpp"
+#include "engine/geometry/tets/embedding.hpp"
 
 namespace impinge {
 

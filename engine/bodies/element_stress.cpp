@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/bodies/quadratic_elements.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/elements/quadratic_elements.hpp"
 #include "engine/geometry/svd3.hpp"
 
 namespace impinge {

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 namespace impinge {
 namespace {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/closed_form_cube.hpp"
 #include "tests/support/mechanics/fem.hpp"

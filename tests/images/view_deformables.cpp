@@ -1,7 +1,7 @@
 // Deformable bodies and cut surfaces in pictures, against rigid bodies of the same form and against rays.
 #include <catch2/catch.hpp>
 
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/pictures/view_scenes.hpp"
 

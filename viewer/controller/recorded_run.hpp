@@ -25,6 +25,7 @@ class RecordedRun {
   bool go_to(int frame);
   const StepRecord& record() const { return session_->record(); }
   const Session& session() const { return *session_; }
+  Session& session() { return *session_; }
 
  private:
   std::filesystem::path folder_;

@@ -73,39 +73,61 @@ void check_freeze(const RunOptions& options, const RunFolder& folder) {
                     *options.freeze, folder.resume_frame()));
 }
 
-/// What the frames of before an interruption were: files that hold several frames need them all.
-void export_again(const std::filesystem::path& folder, int last, Exports& exports) {
-  RecordedRun earlier(folder);
-  for (int frame = 0; frame <= last; ++frame) {
-    check_interrupt();
-    earlier.go_to(frame);
-    exports.add(earlier.record());
-  }
-}
-
-/// Frames that an earlier process made, made again for conditions that ask of their bodies.
-class EarlierFrames {
+/// What the script expects of frames, and what ends the run.
+class Conditions {
  public:
-  EarlierFrames(const RunOptions& options, const RunFolder& folder) : options_(options), folder_(folder) {}
-  /// In ascending order.
-  Session& at(int frame) {
-    if (session_ == nullptr)
-      session_ =
-          std::make_unique<Session>(options_.scene, options_.overrides, options_.script, session_options(options_));
-    for (int k = frame; k > session_->frame(); --k)
-      if (is_valid_snapshot(folder_.snapshot(k))) {
-        restore_snapshot(folder_.snapshot(k), *session_);
-        break;
-      }
-    while (session_->frame() < frame) session_->advance();
-    return *session_;
+  Conditions(const RunOptions& options, const RunWatcher& watcher, const RunFolder& folder, const Session& session)
+      : folder_(folder),
+        watcher_(watcher),
+        expectations_(session.script(), session.is_judged(), options.compares_pictures, watcher.message),
+        breaks_(session.is_judged()) {
+    for (const Script::Break& point : session.script().breaks()) breaks_.add(point.condition, point.place);
+  }
+
+  Breakpoints& breaks() { return breaks_; }
+  Expectations& expectations() { return expectations_; }
+
+  void check(int frame, std::span<const double> figures, Session& made) {
+    expectations_.check(
+        frame,
+        [&](const Expression& condition) { return reader_.values(condition, figures, made.record(), made.bodies()); },
+        [&] { return folder_.picture(frame); });
+  }
+  /// The first that is true ends the run.
+  bool stop(int frame, std::span<const double> figures, Session& made) {
+    breaks_.end(frame, figures, made.record(), made.bodies());
+    const std::optional<BreakHit> hit = breaks_.next(frame, 0);
+    if (hit && watcher_.message) watcher_.message(breaks_.tell(frame, *hit));
+    breaks_.forget_before(frame);
+    return hit.has_value();
   }
 
  private:
-  const RunOptions& options_;
   const RunFolder& folder_;
-  std::unique_ptr<Session> session_;
+  const RunWatcher& watcher_;
+  Expectations expectations_;
+  Breakpoints breaks_;
+  ConditionReader reader_;
 };
+
+/// Frames of before an interruption: their figures are kept, and what asks for more of them gets them made again.
+void take_up(const RunFolder& folder, const RunWatcher& watcher, Session& session, Conditions& conditions,
+             Exports& exports) {
+  const std::size_t unsafe = figure_index("unsafe_motions", session.is_judged());
+  std::optional<RecordedRun> earlier;
+  for (int frame = 0; frame <= folder.resume_frame(); ++frame) {
+    check_interrupt();
+    const std::vector<double>& figures = folder.kept()[frame].figures;
+    if (watcher.earlier_frame) watcher.earlier_frame(frame, figures[unsafe]);
+    const bool is_made = !exports.is_empty() || conditions.expectations().asks_of_bodies(frame);
+    if (is_made) {
+      if (!earlier) earlier.emplace(folder.path());
+      earlier->go_to(frame);
+    }
+    if (!exports.is_empty()) exports.add(earlier->record());
+    conditions.check(frame, figures, is_made ? earlier->session() : session);
+  }
+}
 
 }  // namespace
 
@@ -134,41 +156,18 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   result.is_judged = session.is_judged();
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = session.is_judged();
-  Expectations expectations(session.script(), judged, options.compares_pictures, watcher.message);
-  Breakpoints breaks(judged);
-  for (const Script::Break& point : session.script().breaks()) breaks.add(point.condition, point.place);
-  ConditionReader reader;
-  const auto judge = [&](int frame, std::span<const double> figures, Session& made) {
-    expectations.check(
-        frame,
-        [&](const Expression& condition) { return reader.values(condition, figures, made.record(), made.bodies()); },
-        [&] { return folder.picture(frame); });
-  };
-  const auto breaks_at = [&](int frame, std::span<const double> figures) {
-    breaks.end(frame, figures, session.record(), session.bodies());
-    const std::optional<BreakHit> hit = breaks.next(frame, 0);  // the first that is true ends the run
-    if (hit && watcher.message) watcher.message(breaks.tell(frame, *hit));
-    breaks.forget_before(frame);
-    return hit.has_value();
-  };
-
+  Conditions conditions(options, watcher, folder, session);
   FrameJudge overlap(session.is_judged_by_substep() ? FrameJudge::each_substep : FrameJudge::each_frame);
   WatcherList watchers;
   if (judged) watchers.add(&overlap);
-  if (!breaks.empty()) watchers.add(&breaks);
+  if (!conditions.breaks().empty()) watchers.add(&conditions.breaks());
   if (!watchers.empty()) session.watch(&watchers);
   bool stop = false;
   check_freeze(options, folder);
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
     restore_snapshot(folder.snapshot(result.resumed_from), session);
-    if (!exports.is_empty()) export_again(options.out, result.resumed_from, exports);
-    EarlierFrames earlier(options, folder);
-    for (int frame = 0; frame <= result.resumed_from; ++frame) {
-      const std::vector<double>& figures = folder.kept()[frame].figures;
-      if (watcher.earlier_frame) watcher.earlier_frame(frame, figures[figure_index("unsafe_motions", judged)]);
-      judge(frame, figures, expectations.asks_of_bodies(frame) ? earlier.at(frame) : session);
-    }
+    take_up(folder, watcher, session, conditions, exports);
   }
   const auto make_frame = [&] {
     std::vector<Command> commands;
@@ -190,10 +189,10 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     exports.add(session.record());
     result.last_frame = frame;
     if (watcher.frame) watcher.frame(stats, last_frame);
-    if (options.images && expectations.needs_picture(frame)) view.finish();
+    if (options.images && conditions.expectations().needs_picture(frame)) view.finish();
     const std::vector<double> figures = figure_values(stats, judged);
-    judge(frame, figures, session);
-    result.stopped_by_break = stop = breaks_at(frame, figures);
+    conditions.check(frame, figures, session);
+    result.stopped_by_break = stop = conditions.stop(frame, figures, session);
     if (!stop) folder.add_snapshot(session);  // a run that is resumed makes this frame again, and stops again
   };
   try {
@@ -209,10 +208,10 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   view.finish();
   exports.finish();
   result.exported = exports.results();
-  result.failures = expectations.failures();
+  result.failures = conditions.expectations().failures();
   if (result.diverged.empty()) result.crushed = find_crushed(session.world().bodies());
   if (result.diverged.empty() && !result.interrupted) {
-    expectations.note_unchecked(result.last_frame);
+    conditions.expectations().note_unchecked(result.last_frame);
     folder.finish();
   }
   result.lock = folder.hand_over_lock();

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "viewer/draw/shaded_surface.hpp"
 
 namespace impinge {

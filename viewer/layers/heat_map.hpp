@@ -1,7 +1,7 @@
 // What the stress and strain layers share: a quantity of the tetrahedra as colours of surfaces.
 #pragma once
 
-#include "engine/geometry/embedding.hpp"
+#include "engine/geometry/tets/embedding.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {

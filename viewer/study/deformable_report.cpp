@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/algebra/linear_solver.hpp"
-#include "engine/bodies/quadratic_elements.hpp"
+#include "engine/elements/quadratic_elements.hpp"
 #include "engine/geometry/mass_properties.hpp"
 
 namespace impinge {

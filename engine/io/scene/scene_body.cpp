@@ -133,6 +133,23 @@ void check_kind(const TomlNode& table, const std::string& what, const BodyDescri
            "a plane is static or scripted", "use a box");
 }
 
+/// Keys that some kinds of bodies have and this one doesn't.
+void check_keys_of_kind(const TomlNode& table, const std::string& what, BodyKind kind) {
+  if (kind != BodyKind::deformable)
+    for (const char* key : {"volume", "fixed"})
+      if (const TomlEntry* entry = table.find(key))
+        refuse(entry->place,
+               fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(kind)),
+               "kind = \"deformable\" has it", "make it deformable, or remove it");
+
+  if (table.find("surface") == nullptr || (kind != BodyKind::fixed && kind != BodyKind::scripted))
+    for (const char* key : {"sides", "thickness"})
+      if (const TomlEntry* entry = table.find(key))
+        refuse(entry->place,
+               fmt::format("{}.{} belongs to the open surface of a body that is static or scripted", what, key),
+               "kind = \"static\" with surface = \"file\" has it", "remove it");
+}
+
 }  // namespace
 
 // a body's own, or nothing by the word that `set` and --set give it back to the scene with
@@ -163,20 +180,7 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   const std::string what = "body." + body.name;
   body.kind = read_kind(table, what);
   check_keys(table, what, kKeys);
-  if (body.kind != BodyKind::deformable)
-    for (const char* key : {"volume", "fixed"})
-      if (const TomlEntry* entry = table.find(key))
-        refuse(entry->place,
-               fmt::format("{}.{} belongs to deformable bodies, and this one is {}", what, key, kind_name(body.kind)),
-               "kind = \"deformable\" has it", "make it deformable, or remove it");
-
-  if (table.find("surface") == nullptr || (body.kind != BodyKind::fixed && body.kind != BodyKind::scripted))
-    for (const char* key : {"sides", "thickness"})
-      if (const TomlEntry* entry = table.find(key))
-        refuse(entry->place,
-               fmt::format("{}.{} belongs to the open surface of a body that is static or scripted", what, key),
-               "kind = \"static\" with surface = \"file\" has it", "remove it");
-
+  check_keys_of_kind(table, what, body.kind);
   check_surface_keys(table, what, body.kind);
   const auto with = [&](const char* key, auto&& read) {
     if (const TomlEntry* entry = table.find(key)) read(entry->value, what + "." + key);
@@ -225,11 +229,8 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   with("motion", [&](const TomlNode& node, const std::string& key) {
     body.motion = read_motion(node, key, body.position, body.rotation);
   });
-  if (surface == nullptr) {
-    check_kind(table, what, body);
-    return body;
-  }
   check_kind(table, what, body);
+  if (surface == nullptr) return body;
   body.shape = read_surface(table, what, body.kind, surfaces);
   body.surface_file = surface->value.string;
   return body;

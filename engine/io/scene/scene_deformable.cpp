@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "engine/bodies/body_keys.hpp"
-#include "engine/geometry/quadratic_tets.hpp"
 #include "engine/geometry/rotation.hpp"
+#include "engine/geometry/tets/quadratic_tets.hpp"
 #include "engine/io/scene/scene_motion.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "engine/io/scene/scene_volume.hpp"

@@ -5,7 +5,7 @@
 
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/mass_properties.hpp"
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 
 namespace impinge {
 namespace {

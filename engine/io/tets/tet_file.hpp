@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "engine/io/file_guard.hpp"
 
 namespace impinge {

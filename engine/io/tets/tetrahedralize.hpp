@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {

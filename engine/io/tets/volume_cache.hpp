@@ -10,7 +10,7 @@
 #include <map>
 #include <memory>
 
-#include "engine/geometry/embedding.hpp"
+#include "engine/geometry/tets/embedding.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {

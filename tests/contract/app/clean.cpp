@@ -57,7 +57,7 @@ std::map<std::string, std::string> timeless(std::map<std::string, std::string> f
 
 }  // namespace
 
-TEST_CASE("--force replaces another run and leaves what no run wrote") {
+TEST_CASE("run --force replaces another run and leaves what no run wrote") {
   const Files files;
   const auto dir = files.folder / "out";
   REQUIRE(files.run("fresh", {"--set", "contact.friction=0.1"}).code == 0);
@@ -84,7 +84,7 @@ TEST_CASE("--force replaces another run and leaves what no run wrote") {
   CHECK(timeless(now) == timeless(contents(files.folder / "fresh")));  // nothing of the first run is left
 }
 
-TEST_CASE("--force takes no folder that is none of a run") {
+TEST_CASE("run --force takes no folder that is none of a run") {
   const Files files;
   files.folder.write("foreign/a.txt", "mine");
   files.folder.write("false/run.toml", "[other]\n");
@@ -108,7 +108,7 @@ TEST_CASE("--force takes no folder that is none of a run") {
   CHECK(contents(files.folder / "out") == before);
 }
 
-TEST_CASE("--force, killed at any moment, leaves a run that did not end, and the same command mends it") {
+TEST_CASE("run --force, killed at any moment, leaves a run that did not end, and the same command mends it") {
   const Files files;
   const std::vector<std::string> changed = {
       "run", "s.toml", "--out", "out", "--frames", "30", "--size", "64x48", "--force", "--set", "contact.friction=0.1"};
@@ -127,7 +127,7 @@ TEST_CASE("--force, killed at any moment, leaves a run that did not end, and the
   }
 }
 
-TEST_CASE("--number takes the next folder that is free") {
+TEST_CASE("run --number takes the next folder that is free") {
   const Files files;
   for (const char* name : {"a/out", "a/out-2", "a/out-3"}) {
     const Outcome outcome = files.run("a/out", {"--number"});

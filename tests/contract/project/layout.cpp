@@ -37,48 +37,50 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/geometry", 2},
                                                  {"engine/geometry/convex", 3},
                                                  {"engine/geometry/surface", 3},
+                                                 {"engine/geometry/tets", 3},
                                                  {"engine/rotation", 3},
                                                  {"engine/geometry/mend", 4},
                                                  {"engine/io/meshes", 4},
                                                  {"engine/io/tets", 4},
                                                  {"engine/shapes", 4},
                                                  {"engine/materials", 4},
-                                                 {"engine/bodies", 5},
-                                                 {"engine/integrators", 6},
-                                                 {"engine/detection", 6},
-                                                 {"engine/detection/broadphase", 7},
-                                                 {"engine/detection/triangles", 7},
-                                                 {"engine/detection/continuous", 7},
-                                                 {"engine/detection/contacts", 8},
-                                                 {"engine/detection/pairs", 9},
-                                                 {"engine/contact", 10},
-                                                 {"engine/lcp", 11},
-                                                 {"engine/response/operators", 12},
-                                                 {"engine/response", 13},
-                                                 {"engine/frozen", 14},
-                                                 {"engine/step", 15},
-                                                 {"engine/world", 16},
-                                                 {"engine/io/scene", 17},
-                                                 {"engine/preflight", 18},
-                                                 {"viewer/image", 20},
-                                                 {"viewer/draw", 20},
-                                                 {"viewer/gl", 21},
-                                                 {"viewer/state", 21},
-                                                 {"viewer/layers", 22},
-                                                 {"viewer/panels/overlay", 23},
-                                                 {"viewer/panels/debug", 23},
-                                                 {"viewer/preflight", 24},
-                                                 {"viewer/present", 24},
-                                                 {"viewer/export", 24},
-                                                 {"viewer/web", 25},
-                                                 {"viewer/vnc", 25},
-                                                 {"viewer/controller", 25},
-                                                 {"viewer/debugger", 26},
-                                                 {"viewer/study", 26},
-                                                 {"viewer/sweep", 26},
-                                                 {"viewer/report", 27},
-                                                 {"viewer/compare", 28},
-                                                 {"viewer/app", 29}};
+                                                 {"engine/elements", 5},
+                                                 {"engine/bodies", 6},
+                                                 {"engine/integrators", 7},
+                                                 {"engine/detection", 7},
+                                                 {"engine/detection/broadphase", 8},
+                                                 {"engine/detection/triangles", 8},
+                                                 {"engine/detection/continuous", 8},
+                                                 {"engine/detection/contacts", 9},
+                                                 {"engine/detection/pairs", 10},
+                                                 {"engine/contact", 11},
+                                                 {"engine/lcp", 12},
+                                                 {"engine/response/operators", 13},
+                                                 {"engine/response", 14},
+                                                 {"engine/frozen", 15},
+                                                 {"engine/step", 16},
+                                                 {"engine/world", 17},
+                                                 {"engine/io/scene", 18},
+                                                 {"engine/preflight", 19},
+                                                 {"viewer/image", 21},
+                                                 {"viewer/draw", 21},
+                                                 {"viewer/gl", 22},
+                                                 {"viewer/state", 22},
+                                                 {"viewer/layers", 23},
+                                                 {"viewer/panels/overlay", 24},
+                                                 {"viewer/panels/debug", 24},
+                                                 {"viewer/preflight", 25},
+                                                 {"viewer/present", 25},
+                                                 {"viewer/export", 25},
+                                                 {"viewer/web", 26},
+                                                 {"viewer/vnc", 26},
+                                                 {"viewer/controller", 26},
+                                                 {"viewer/debugger", 27},
+                                                 {"viewer/study", 27},
+                                                 {"viewer/sweep", 27},
+                                                 {"viewer/report", 28},
+                                                 {"viewer/compare", 29},
+                                                 {"viewer/app", 30}};
   return map;
 }
 
@@ -172,7 +174,7 @@ TEST_CASE("a folder's list names every file that makes an entry, by its stem, an
   }
 }
 
-TEST_CASE("a folder holds at most 40 files", "[!mayfail]") {
+TEST_CASE("a folder holds at most 40 files") {
   std::map<std::string, int> files;
   for (const fs::path& file : sources()) ++files[fs::relative(file.parent_path(), kRoot).generic_string()];
   for (const auto& [folder, count] : files) {
@@ -193,7 +195,7 @@ TEST_CASE("a folder holds at most 40 files", "[!mayfail]") {
   }
 }
 
-TEST_CASE("a function has at most 80 lines", "[!mayfail]") {
+TEST_CASE("a function has at most 80 lines") {
   // as .clang-format writes them: a head at the margin, or two columns in as a class has it, up to the bracket below it
   const std::regex none(R"(^\s*(namespace|class|struct|enum|union|extern|if|for|while|switch|do|try|\}).*)");
   int functions = 0;

@@ -2,7 +2,7 @@
 // the same answer again. And what those promise that solve complementarity: the judge's natural map.
 #include <catch2/catch.hpp>
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "engine/response/group_judge.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/mechanics/methods.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 namespace impinge::test {
 

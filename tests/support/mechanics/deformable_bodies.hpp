@@ -1,7 +1,7 @@
 // Deformable bodies in worlds, built without files.
 #pragma once
 
-#include "engine/geometry/quadratic_tets.hpp"
+#include "engine/geometry/tets/quadratic_tets.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 

@@ -1,7 +1,7 @@
 // Tetrahedra and deformations for tests of materials.
 #pragma once
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "engine/materials/material.hpp"
 #include "tests/support/random.hpp"
 

@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "engine/geometry/quadratic_tets.hpp"
+#include "engine/geometry/tets/quadratic_tets.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
 #include "tests/support/mechanics/elements.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "engine/core/error.hpp"
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/core/parallel.hpp"
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

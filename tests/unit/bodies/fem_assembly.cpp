@@ -1,4 +1,4 @@
-#include "engine/bodies/fem_assembly.hpp"
+#include "engine/elements/fem_assembly.hpp"
 
 #include <catch2/catch.hpp>
 

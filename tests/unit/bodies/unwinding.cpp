@@ -1,4 +1,4 @@
-#include "engine/bodies/unwinding.hpp"
+#include "engine/elements/unwinding.hpp"
 
 #include <catch2/catch.hpp>
 #include <set>

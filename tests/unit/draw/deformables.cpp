@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/fem.hpp"
 #include "tests/support/pictures/hand_made_record.hpp"

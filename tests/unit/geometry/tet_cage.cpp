@@ -1,4 +1,4 @@
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -1,10 +1,10 @@
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "engine/geometry/embedding.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
+#include "engine/geometry/tets/embedding.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "tests/support/program/temp_folder.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "engine/geometry/mass_properties.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 using namespace impinge;
 

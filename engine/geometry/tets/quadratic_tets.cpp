@@ -1,4 +1,4 @@
-#include "engine/geometry/quadratic_tets.hpp"
+#include "engine/geometry/tets/quadratic_tets.hpp"
 
 #include <algorithm>
 #include <unordered_map>

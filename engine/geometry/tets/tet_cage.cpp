@@ -1,4 +1,4 @@
-#include "engine/geometry/tet_cage.hpp"
+#include "engine/geometry/tets/tet_cage.hpp"
 
 #include <algorithm>
 #include <cmath>

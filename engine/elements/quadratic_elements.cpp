@@ -1,4 +1,4 @@
-#include "engine/bodies/quadratic_elements.hpp"
+#include "engine/elements/quadratic_elements.hpp"
 
 #include <algorithm>
 #include <cmath>

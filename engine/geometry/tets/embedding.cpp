@@ -1,4 +1,4 @@
-#include "engine/geometry/embedding.hpp"
+#include "engine/geometry/tets/embedding.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,10 +8,10 @@
 
 #include <memory>
 
-#include "engine/bodies/element_kind.hpp"
-#include "engine/bodies/element_sums.hpp"
-#include "engine/bodies/unwinding.hpp"
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/elements/element_kind.hpp"
+#include "engine/elements/element_sums.hpp"
+#include "engine/elements/unwinding.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 #include "engine/materials/material.hpp"
 
 namespace impinge {

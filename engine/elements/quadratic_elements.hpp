@@ -16,9 +16,9 @@
 // go back by B.
 #pragma once
 
-#include "engine/bodies/element_sums.hpp"
-#include "engine/bodies/unwinding.hpp"
-#include "engine/geometry/quadratic_tets.hpp"
+#include "engine/elements/element_sums.hpp"
+#include "engine/elements/unwinding.hpp"
+#include "engine/geometry/tets/quadratic_tets.hpp"
 
 namespace impinge {
 

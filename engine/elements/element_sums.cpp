@@ -1,4 +1,4 @@
-#include "engine/bodies/element_sums.hpp"
+#include "engine/elements/element_sums.hpp"
 
 #include <algorithm>
 #include <limits>

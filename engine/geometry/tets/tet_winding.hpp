@@ -6,7 +6,7 @@
 // also where every element has a positive volume.
 #pragma once
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 namespace impinge {
 

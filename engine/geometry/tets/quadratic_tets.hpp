@@ -3,7 +3,7 @@
 // nothing of quadratic shape functions; only what asks for them puts the ten nodes together again.
 #pragma once
 
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 namespace impinge {
 

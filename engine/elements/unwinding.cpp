@@ -1,4 +1,4 @@
-#include "engine/bodies/unwinding.hpp"
+#include "engine/elements/unwinding.hpp"
 
 #include <algorithm>
 #include <numeric>

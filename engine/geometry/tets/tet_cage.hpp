@@ -9,7 +9,7 @@
 
 #include <functional>
 
-#include "engine/geometry/embedding.hpp"
+#include "engine/geometry/tets/embedding.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {

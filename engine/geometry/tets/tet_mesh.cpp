@@ -1,4 +1,4 @@
-#include "engine/geometry/tet_mesh.hpp"
+#include "engine/geometry/tets/tet_mesh.hpp"
 
 #include <fmt/format.h>
 

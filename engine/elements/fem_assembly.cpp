@@ -1,11 +1,11 @@
-#include "engine/bodies/fem_assembly.hpp"
+#include "engine/elements/fem_assembly.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-#include "engine/bodies/quadratic_elements.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/elements/quadratic_elements.hpp"
 
 namespace impinge {
 namespace {

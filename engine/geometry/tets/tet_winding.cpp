@@ -1,4 +1,4 @@
-#include "engine/geometry/tet_winding.hpp"
+#include "engine/geometry/tets/tet_winding.hpp"
 
 #include <algorithm>
 

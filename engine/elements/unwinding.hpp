@@ -10,7 +10,7 @@
 // What is unwound depends on the positions at the start of a step only, so a run that is resumed does the same.
 #pragma once
 
-#include "engine/geometry/tet_winding.hpp"
+#include "engine/geometry/tets/tet_winding.hpp"
 #include "engine/materials/material.hpp"
 
 namespace impinge {
