@@ -106,8 +106,22 @@ TEST_CASE("a body that is framed fills the picture, wherever the camera was and 
     CAPTURE(followed, top, bottom, left, right);
     CHECK(top > 0);
     CHECK(bottom < 179);
-    CHECK(bottom - top > 90);                  // a cube in a ball that just fits
-    CHECK(std::abs(top + bottom - 179) < 30);  // its near corners lie lower: perspective
-    CHECK(std::abs(left + right - 319) < 12);
+    CHECK(bottom - top > 90);      // a cube in a ball that just fits
+    if (*followed != 0) continue;  // its camera is told relative to the ball
+    const auto middle = settings.camera.project({0.5, 0.2, 0.0}, 320, 180);
+    REQUIRE(middle);
+    CHECK(middle->x() == Approx(160.0).margin(1.0));
+    CHECK(middle->y() == Approx(90.0).margin(1.0));
+    Vec2 low = Vec2::Constant(INFINITY), high = Vec2::Constant(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 x = Vec3(0.5, 0.2, 0.0) + 0.2 * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      const auto at = settings.camera.project(x, 320, 180);
+      REQUIRE(at);
+      low = low.cwiseMin(at->head<2>()), high = high.cwiseMax(at->head<2>());
+    }
+    CHECK(std::abs(left - low.x()) < 2.0);
+    CHECK(std::abs(right - high.x()) < 2.0);
+    CHECK(std::abs(top - low.y()) < 2.0);
+    CHECK(std::abs(bottom - high.y()) < 2.0);
   }
 }

@@ -18,24 +18,6 @@ std::string bytes_of(std::span<const T> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-/// The blocks behind the XML, each with its length before it, and the elements that say where they begin.
-class Appended {
- public:
-  std::string array(const std::string& name, const std::string& type, int components, std::string_view bytes) {
-    const std::string element =
-        fmt::format("        <DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n", type, name,
-                    components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", components), blocks_.size());
-    const std::uint64_t size = bytes.size();
-    blocks_.append(reinterpret_cast<const char*>(&size), sizeof size);
-    blocks_ += bytes;
-    return element;
-  }
-  const std::string& blocks() const { return blocks_; }
-
- private:
-  std::string blocks_;
-};
-
 }  // namespace
 
 void VtuGrid::add_point_field(const std::string& name, std::span<const double> values, int components) {
@@ -64,23 +46,40 @@ void VtuGrid::add_cell_field(const std::string& name, std::span<const int> value
 }
 
 void VtuGrid::write(const std::filesystem::path& path) const {
-  Appended data;
+  std::vector<Field> arrays = point_fields_;
+  arrays.insert(arrays.end(), cell_fields_.begin(), cell_fields_.end());
+  arrays.push_back({"Points", "Float64", 3, bytes_of(std::span(points))});
+  arrays.push_back({"connectivity", "Int64", 1, bytes_of(std::span(connectivity_))});
+  arrays.push_back({"offsets", "Int64", 1, bytes_of(std::span(offsets_))});
+  arrays.push_back({"types", "UInt8", 1, bytes_of(std::span(kinds_))});
+
+  // The blocks stand behind the XML in reverse order, each with its length before it: meshio 5.3 looks an element up by its
+  // offset while it writes new offsets into those of the blocks before, and takes the first that it finds.
+  std::vector<std::string> elements(arrays.size());
+  std::string blocks;
+  for (std::size_t i = arrays.size(); i-- > 0;) {
+    const Field& f = arrays[i];
+    elements[i] = fmt::format(
+        "        <DataArray type=\"{}\" Name=\"{}\"{} format=\"appended\" offset=\"{}\"/>\n", f.type, f.name,
+        f.components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", f.components), blocks.size());
+    const std::uint64_t size = f.bytes.size();
+    blocks.append(reinterpret_cast<const char*>(&size), sizeof size);
+    blocks += f.bytes;
+  }
   std::string xml = fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
       points.size(), offsets_.size());
-  const auto section = [&](const char* name, const std::vector<Field>& fields) {
+  auto next = elements.begin();
+  for (const auto& [name, count] : {std::pair("PointData", point_fields_.size()),
+                                    {"CellData", cell_fields_.size()},
+                                    {"Points", std::size_t{1}},
+                                    {"Cells", std::size_t{3}}}) {
     xml += fmt::format("      <{}>\n", name);
-    for (const Field& f : fields) xml += data.array(f.name, f.type, f.components, f.bytes);
+    for (std::size_t k = 0; k < count; ++k) xml += *next++;
     xml += fmt::format("      </{}>\n", name);
-  };
-  section("PointData", point_fields_);
-  section("CellData", cell_fields_);
-  xml += "      <Points>\n" + data.array("Points", "Float64", 3, bytes_of(std::span(points))) + "      </Points>\n";
-  xml += "      <Cells>\n" + data.array("connectivity", "Int64", 1, bytes_of(std::span(connectivity_))) +
-         data.array("offsets", "Int64", 1, bytes_of(std::span(offsets_))) +
-         data.array("types", "UInt8", 1, bytes_of(std::span(kinds_))) + "      </Cells>\n";
-  xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_" + data.blocks() +
+  }
+  xml += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_" + blocks +
          "\n  </AppendedData>\n</VTKFile>\n";
   write_file(path, xml);
 }

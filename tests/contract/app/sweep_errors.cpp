@@ -202,7 +202,8 @@ TEST_CASE("the cases that are listed are those that a reference may name") {
   std::istringstream lines(list.out);
   std::string names;
   for (std::string line; std::getline(lines, line);)
-    names += (names.empty() ? "" : ", ") + line.substr(0, line.find(' '));
+    if (!line.starts_with(' '))  // a meaning that goes on
+      names += (names.empty() ? "" : ", ") + line.substr(0, line.find(' '));
   CHECK(names == "free_fall, sliding, bouncing");
   CHECK(files.run("out", {"--vary", "simulation.substeps=1,2", "--reference", "case:none"})
             .err.find("allowed: " + names + ";") != std::string::npos);

@@ -86,8 +86,7 @@ TEST_CASE("a session by clicks, drags and typing ends the same each time, as doe
   folder.write("a.script", kSession);
   std::vector<Outcome> outcomes;
   for (const char* out : {"one", "two", "three"}) {
-    outcomes.push_back(debug(folder, "s.toml", "a.script",
-                             {"--out", out, "--record", std::string(out) + ".script", "--size", "1280x720"}));
+    outcomes.push_back(debug(folder, "s.toml", "a.script", {"--out", out, "--record", std::string(out) + ".script"}));
     INFO(outcomes.back().err);
     REQUIRE(outcomes.back().code == 0);
   }
@@ -117,8 +116,7 @@ TEST_CASE("a session by clicks, drags and typing ends the same each time, as doe
   CHECK(lines_with(recording, "ui press").empty());
 
   // what was recorded from the recording is the recording
-  const Outcome replay =
-      debug(folder, "s.toml", "one.script", {"--out", "replay", "--record", "again.script", "--size", "1280x720"});
+  const Outcome replay = debug(folder, "s.toml", "one.script", {"--out", "replay", "--record", "again.script"});
   INFO(replay.err);
   REQUIRE(replay.code == 0);
   CHECK(end_of(replay) == std::pair(frame, hash));

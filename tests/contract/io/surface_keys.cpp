@@ -89,7 +89,8 @@ TEST_CASE("one part of several, and a hull, can be the body") {
   refused(two, "component = 3\n", "5:13", "has 2 connected parts");
   const Loaded hull(torus(1.0, 0.3, 40, 20), "convex = true\n");
   CHECK(hull.body(0).shape->name() == "convex_hull");
-  CHECK(hull.body(0).mass > 1.5 * 1000.0 * signed_volume(torus(1.0, 0.3, 40, 20)));
+  // a disk swept by a ball: 2 r pi R^2 + pi^2 R r^2 + 4/3 pi r^3; its corners lie on that surface
+  CHECK(hull.body(0).mass == Approx(1000.0 * M_PI * (0.6 + M_PI * 0.09 + 4.0 / 3.0 * 0.027)).epsilon(0.02));
   TriangleMesh open = brick();
   open.triangles.pop_back();
   CHECK(mass(open, "convex = true\n") == Approx(6000.0));
@@ -175,7 +176,7 @@ TEST_CASE("copies are bodies like those written out, to the bit") {
   refused(brick(), "copies = { count = [1e3, 1e3, 1e3], spacing = [1, 1, 1] }\n", "5:20", "bodies at most");
 }
 
-TEST_CASE("a cage by winding numbers takes an open surface and weighs what the closed one does", "[!mayfail]") {
+TEST_CASE("a cage by winding numbers takes an open surface and weighs what the closed one does") {
   TriangleMesh torn = icosphere(4, 0.5);
   const auto deformable = [](const std::string& cage) {
     return "volume = { cage = { " + cage + " } }\nmaterial = { young = 1e5, poisson = 0.3, density = 1000 }\n";
@@ -189,7 +190,7 @@ TEST_CASE("a cage by winding numbers takes an open surface and weighs what the c
     return session.record().bodies[0].mass;
   };
   const double whole = 1000.0 * signed_volume(torn);
-  CHECK(soft(torn, "cells = 10") == Approx(whole).epsilon(1e-3));
+  CHECK(soft(torn, "cells = 24") == Approx(whole).epsilon(1e-3));
   CHECK(soft(torn, "cells = 10, inside = \"winding\"") == Approx(whole).epsilon(0.02));
   std::erase_if(torn.triangles, [](const Triangle& t) { return t[0] % 40 == 0; });
   CHECK(soft(torn, "cells = 10, inside = \"winding\"") == Approx(whole).epsilon(0.03));

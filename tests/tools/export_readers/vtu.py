@@ -25,7 +25,7 @@ class Grid:
         self.cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()) if grid.GetNumberOfCells() else np.zeros(0, int)
         self.point_data, self.cell_data = [
             {d.GetArrayName(i): vtk_to_numpy(d.GetArray(i)) for i in range(d.GetNumberOfArrays())} for d in (grid.GetPointData(), grid.GetCellData())]
-        if n > 1:  # meshio takes a block of one value for two points
+        if n:
             other = meshio.read(path)
             same = np.array_equal(other.points, self.points)
             for ours, theirs in ((self.point_data, other.point_data), (self.cell_data, {k: np.concatenate(v) for k, v in other.cell_data.items()})):

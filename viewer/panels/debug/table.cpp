@@ -17,12 +17,13 @@ const TableState& state_of(const DebugModel& model, const Table& table) {
   return it == model.state.tables.end() ? at_first : it->second;
 }
 
-/// Positions of those that are switched on, in the order in which they were chosen.
+/// Positions of those that are switched on, in the order in which they were chosen; of those that nobody chose the first
+/// ones as if chosen last.
 std::vector<std::size_t> chosen(const Table& table, const TableState& state) {
   std::vector<std::size_t> columns;
   for (const std::string& name : state.columns) columns.push_back(table.find(name));
   if (columns.empty())
-    for (std::size_t c = 0; c < table.columns.size(); ++c)
+    for (std::size_t c = table.columns.size(); c-- > 0;)
       if (table.columns[c].at_first) columns.push_back(c);
   return columns;
 }

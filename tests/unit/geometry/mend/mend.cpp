@@ -189,6 +189,18 @@ TEST_CASE("holes are filled, flat ones exactly, whatever their form") {
     CHECK(result.report.holes == 1);
     CHECK(result.report.volume_after == Approx(1.0).epsilon(1e-12));
   }
+  // two borders of 400 corners, so wide that they are a sheet's unless they are said to be holes: flat lids
+  TriangleMesh tube = torus(1.0, 0.3, 400, 12);
+  const double whole = signed_volume(tube);
+  std::erase_if(tube.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) { return tube.vertices[v].y() > 0.2; });
+  });
+  MendSettings wide;
+  wide.largest_hole = 1.0;
+  const double lidded = mended(tube, wide).report.volume_after;
+  CHECK(lidded < whole);
+  CHECK(lidded == Approx(whole).epsilon(0.1));
+  CHECK(mended(tube).report.volume_after < 0.2 * whole);
 }
 
 TEST_CASE("what is mostly open is a sheet of the thickness that is asked for") {
