@@ -1,32 +1,25 @@
 #include "engine/contact/collision_groups.hpp"
 
-#include <numeric>
+#include "engine/geometry/disjoint_sets.hpp"
 
 namespace impinge {
 
 std::vector<CollisionGroup> make_groups(std::span<const std::pair<BodyIndex, BodyIndex>> contacts,
                                         const std::vector<char>& joins) {
-  std::vector<int> parent(joins.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];  // path halving
-    return i;
-  };
+  DisjointSets together(joins.size());  // the lowest body stands for its group
   std::vector<char> touched(joins.size(), 0);
   for (const auto& [a, b] : contacts) {
     if (a.is_none() || b.is_none()) continue;
     if (joins[a]) touched[a] = 1;
     if (joins[b]) touched[b] = 1;
-    if (!joins[a] || !joins[b]) continue;
-    const int ra = root(a), rb = root(b);
-    if (ra != rb) parent[std::max(ra, rb)] = std::min(ra, rb);  // the lowest body stands for its group
+    if (joins[a] && joins[b]) together.join(a, b);
   }
 
   std::vector<CollisionGroup> groups;
   std::vector<GroupIndex> group_of(joins.size());
   for (BodyIndex i(0); i < joins.size(); ++i) {
     if (!touched[i]) continue;
-    const int r = root(i);
+    const int r = together.root(i);
     if (group_of[r].is_none()) {
       group_of[r] = GroupIndex(groups.size());
       groups.emplace_back();
@@ -37,7 +30,7 @@ std::vector<CollisionGroup> make_groups(std::span<const std::pair<BodyIndex, Bod
     const auto& [a, b] = contacts[c];
     if (a.is_none() || b.is_none()) continue;
     const BodyIndex body = joins[a] ? a : (joins[b] ? b : BodyIndex());
-    if (!body.is_none()) groups[group_of[root(body)]].contacts.push_back(c);
+    if (!body.is_none()) groups[group_of[together.root(body)]].contacts.push_back(c);
   }
   return groups;
 }

@@ -1,9 +1,9 @@
 #include "engine/elements/unwinding.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "engine/core/parallel.hpp"
+#include "engine/geometry/disjoint_sets.hpp"
 #include "engine/geometry/svd3.hpp"
 
 namespace impinge {
@@ -15,12 +15,6 @@ Mat3 gradient_of(const TetRest& rest, const Tet& tet, const VecX& x) {
   Corners corners;
   for (int k = 0; k < 4; ++k) corners.col(k) = x.segment<3>(3 * tet[k]);
   return deformation_gradient(rest, corners);
-}
-
-/// Smallest index of those joined with i.
-int root_of(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
 }
 
 }  // namespace
@@ -52,8 +46,7 @@ int Unwinding::find(const TetMesh& rest, const std::vector<TetRest>& elements, c
   const std::vector<char> tangled = tangled_nodes(rest, elements, x);
   if (tangled.empty()) return 0;
   std::vector<char> let_go(elements.size());
-  std::vector<int> parent(rest.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets together(rest.vertices.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const Tet& tet = rest.tets[e];
     if (may[e] && std::any_of(tet.begin(), tet.end(), [&](int node) { return tangled[node] != 0; }))
@@ -62,10 +55,7 @@ int Unwinding::find(const TetMesh& rest, const std::vector<TetRest>& elements, c
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!let_go[e]) continue;
     const Tet& tet = rest.tets[e];
-    for (int k = 1; k < 4; ++k) {
-      const int a = root_of(parent, tet[0]), b = root_of(parent, tet[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (int k = 1; k < 4; ++k) together.join(tet[0], tet[k]);
   }
 
   std::vector<int> number(rest.vertices.size(), -1);
@@ -74,7 +64,7 @@ int Unwinding::find(const TetMesh& rest, const std::vector<TetRest>& elements, c
   int count = 0;
   for (std::size_t e = 0; e < elements.size(); ++e) {
     if (!let_go[e]) continue;
-    int& patch = number[root_of(parent, rest.tets[e][0])];
+    int& patch = number[together.root(rest.tets[e][0])];
     if (patch < 0) {
       patch = static_cast<int>(mean.size());
       mean.push_back(Mat3::Zero());

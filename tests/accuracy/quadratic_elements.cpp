@@ -114,7 +114,8 @@ TEST_CASE("quadratic elements: a linear displacement of the boundary is reproduc
       for (int i = 0; i < body.nodes(); ++i)
         body.position.segment<3>(3 * i) = moved(body.fem.rest().vertices[i]) +
                                           (body.is_held(i) ? Vec3::Zero().eval() : Vec3(0.002 * random.vector()));
-      test::solve_static(body, VecX::Zero(3 * body.nodes()), "simplicial_llt", 60, 1e-14);
+      // the projected tangent is not the exact one where there is stress: its convergence is linear
+      test::solve_static(body, VecX::Zero(3 * body.nodes()), "simplicial_llt", 400, 1e-14);
       double worst = 0.0;
       for (int i = 0; i < body.nodes(); ++i)
         worst = std::max(worst, (Vec3(body.position.segment<3>(3 * i)) - moved(body.fem.rest().vertices[i])).norm());

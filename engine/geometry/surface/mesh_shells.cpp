@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "engine/geometry/disjoint_sets.hpp"
 #include "engine/geometry/surface/surface_side.hpp"
 
 namespace impinge {
@@ -17,21 +18,13 @@ constexpr double kFlat = 1e-12;
 
 /// Number of the shell of each triangle, by the shells' first triangles.
 std::vector<int> label_triangles(const TriangleMesh& mesh, const MeshTopology& topology, int& count) {
-  std::vector<int> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (const MeshTopology::Edge& edge : topology.edges) {
-    if (edge.triangle1 < 0) continue;
-    const int a = root(edge.triangle0), b = root(edge.triangle1);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<int> label(parent.size(), -1);
+  DisjointSets shells(mesh.triangles.size());
+  for (const MeshTopology::Edge& edge : topology.edges)
+    if (edge.triangle1 >= 0) shells.join(edge.triangle0, edge.triangle1);
+  std::vector<int> label(mesh.triangles.size(), -1);
   count = 0;
-  for (int t = 0; t < static_cast<int>(parent.size()); ++t) {
-    const int r = root(t);
+  for (int t = 0; t < static_cast<int>(label.size()); ++t) {
+    const int r = shells.root(t);
     if (r == t) label[t] = count++;
     label[t] = label[r];
   }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "engine/geometry/disjoint_sets.hpp"
 
 namespace impinge {
 namespace {
@@ -49,23 +50,6 @@ void orient(std::vector<Triangle>& triangles, const MeshTopology& topology, std:
   }
 }
 
-/// Corners of triangles, three each, joined where they are one vertex of one sheet.
-class Corners {
- public:
-  explicit Corners(std::size_t triangles) : parent_(3 * triangles) { std::iota(parent_.begin(), parent_.end(), 0); }
-  void join(int l, int r) {
-    l = root(l), r = root(r);
-    parent_[std::max(l, r)] = std::min(l, r);
-  }
-  int root(int c) {
-    while (parent_[c] != c) c = parent_[c] = parent_[parent_[c]];
-    return c;
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 int corner_at(const std::vector<Triangle>& triangles, int t, int vertex) {
   for (int k = 0; k < 3; ++k)
     if (triangles[t][k] == vertex) return 3 * t + k;
@@ -78,7 +62,7 @@ TriangleMesh sheets_of(const TriangleMesh& mesh, bool may_turn) {
   std::vector<char> inner = inner_edges(topology);
   std::vector<Triangle> triangles = mesh.triangles;
   if (may_turn) orient(triangles, topology, inner);
-  Corners corners(triangles.size());
+  DisjointSets corners(3 * triangles.size());  // joined where they are one vertex of one sheet
   for (std::size_t e = 0; e < inner.size(); ++e) {
     if (inner[e] == 0) continue;
     const MeshTopology::Edge& edge = topology.edges[e];

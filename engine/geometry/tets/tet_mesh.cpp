@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "engine/geometry/disjoint_sets.hpp"
 
 namespace impinge {
 namespace {
@@ -119,20 +120,15 @@ std::optional<std::string> check_tet_mesh(const TetMesh& mesh, int tet_base) {
 }
 
 int component_count(const TetMesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets components(mesh.vertices.size());
   std::vector<char> used(mesh.vertices.size(), 0);
   for (const Tet& tet : mesh.tets)
     for (const int v : tet) {
       used[v] = 1;
-      parent[root(v)] = root(tet[0]);
+      components.join(v, tet[0]);
     }
   int count = 0;
-  for (std::size_t i = 0; i < parent.size(); ++i) count += used[i] && root(static_cast<int>(i)) == static_cast<int>(i);
+  for (int i = 0; i < static_cast<int>(used.size()); ++i) count += used[i] && components.root(i) == i;
   return count;
 }
 

@@ -207,7 +207,7 @@ TEST_CASE("a sub-step that is undone and cut shows its attempts") {
   World world;
   world.parameters.simulation.substeps = 1;
   world.parameters.simulation.gravity.setZero();
-  const Vec3 half(0.005, 0.005, 0.2), at(0.4, 0.1, 0.0);
+  const Vec3 half(0.005, 0.005, 0.2), at(-0.1, 0.4, 0.0);
   BodyDescription post = dynamic_body("post", surface(box(half)), at);
   post.kind = BodyKind::fixed;
   world.add_body(post);
