@@ -165,3 +165,48 @@ TEST_CASE("A film appears complete or not at all") {
   CHECK(slurp(film) == bytes);          // the older film is untouched
   CHECK(files_in(folder.path()) == 2);  // the frames and the film: no temporary file is left
 }
+
+TEST_CASE("A film for a message begins again and keeps its duration; a GIF its colours") {
+  const TempFolder folder;
+  const auto frames = folder.path() / "frames";
+  std::filesystem::create_directory(frames);
+  constexpr int kFrames = 12;
+  for (int k = 0; k < kFrames; ++k) write_png(frames / PngSequence::file_name(k), noise(64, 48, k));
+  const auto gif = folder.path() / "film.gif", webp = folder.path() / "film.webp";
+  if (!make_video(frames, gif, 60)) {
+    WARN("ffmpeg isn't installed: films are not tested");
+    return;
+  }
+  // [GIF89a] a picture's graphic control extension: 21 F9 04, flags, the delay in hundredths of a second
+  const std::string bytes = slurp(gif);
+  CHECK(bytes.starts_with("GIF89a"));
+  CHECK(bytes.find("NETSCAPE2.0") != std::string::npos);  // shown again and again
+  int pictures = 0, hundredths = 0, shortest = 100;
+  for (std::size_t at = bytes.find("\x21\xF9\x04"); at != std::string::npos; at = bytes.find("\x21\xF9\x04", at + 1)) {
+    if (bytes[at + 7] != 0) continue;  // its end
+    const int delay = static_cast<unsigned char>(bytes[at + 4]) + 256 * static_cast<unsigned char>(bytes[at + 5]);
+    ++pictures, hundredths += delay, shortest = std::min(shortest, delay);
+  }
+  CHECK(pictures == kFrames / 2);
+  CHECK(hundredths == Approx(100.0 * kFrames / 60.0).margin(2.0));
+  CHECK(shortest >= 2);
+
+  REQUIRE(make_video(frames, webp, 60));
+  // RIFF chunks: ANIM (background, number of showings), ANMF each picture, with its duration in ms at 12
+  const std::string riff = slurp(webp);
+  CHECK(riff.substr(8, 4) == "WEBP");
+  const auto little = [&](std::size_t at, int count) {
+    int value = 0;
+    for (int i = count; i-- > 0;)
+      value = 256 * value + static_cast<unsigned char>(riff[at + static_cast<std::size_t>(i)]);
+    return value;
+  };
+  int shown = 0, milliseconds = 0;
+  for (std::size_t at = 12; at + 8 <= riff.size(); at += 8 + static_cast<std::size_t>(little(at + 4, 4) + 1) / 2 * 2) {
+    const std::string chunk = riff.substr(at, 4);
+    if (chunk == "ANIM") CHECK(little(at + 12, 2) == 0);
+    if (chunk == "ANMF") ++shown, milliseconds += little(at + 8 + 12, 3);
+  }
+  CHECK(shown == kFrames);
+  CHECK(milliseconds == Approx(1000.0 * kFrames / 60.0).margin(20.0));
+}

@@ -31,10 +31,10 @@ namespace {
 /// Before anything is simulated: a film that could not be written at the end.
 void check_video_path(const std::filesystem::path& video) {
   const std::filesystem::path folder = absolute_path(video).lexically_normal().parent_path();
-  static const std::vector<std::string> kEndings = {".mp4", ".mkv", ".mov", ".avi"};
-  if (std::find(kEndings.begin(), kEndings.end(), video.extension().string()) == kEndings.end())
+  const std::vector<std::string>& endings = video_endings();
+  if (std::find(endings.begin(), endings.end(), video.extension().string()) == endings.end())
     throw InputError(fmt::format("command line: --video is '{}'; its name ends in one of {}; change it", video.string(),
-                                 fmt::join(kEndings, ", ")));
+                                 fmt::join(endings, ", ")));
   // a folder comes into being with the film, as that of --out does with the run
   std::filesystem::path above = folder;
   while (!is_there(above) && above.has_relative_path()) above = above.parent_path();
@@ -154,7 +154,7 @@ void RunCommand::declare(Options& options) {
   options.flag("--force", options_.force, "replace another run in the folder; files that no run wrote stay");
   options.flag("--number", number_,
                "if the folder is there already, write to the first of FOLDER-2, FOLDER-3, ... that is not");
-  options.path("--video", video_, "video file to make of the pictures (needs ffmpeg)");
+  options.path("--video", video_, "film to make of the pictures, by ffmpeg: NAME.mp4, or .gif, .webp for a message");
   quiet_option(options, quiet_);
 }
 

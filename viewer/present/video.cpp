@@ -80,7 +80,37 @@ std::string first_line(const std::string& text) {
   return line.empty() ? "it gave no reason" : line;
 }
 
+using Words = std::vector<std::string>;
+
+/// What ffmpeg is told of the output, one set of words after another until one succeeds.
+std::vector<Words> ways_to_write(const std::string& ending, double frames_per_second) {
+  if (ending == ".gif") {
+    constexpr double kFastest = 50.0;  // many viewers take a shorter delay than two hundredths for ten
+    const double rate = frames_per_second / std::ceil(frames_per_second / kFastest);
+    // colours of its own for all pictures; dithered by a fixed pattern, so that what stands still stays the same
+    return {{"-vf",
+             fmt::format("fps={},split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer", rate),
+             "-loop", "0"}};
+  }
+  if (ending == ".webp") return {{"-c:v", "libwebp_anim", "-quality", "85", "-loop", "0"}};
+  std::vector<Words> ways;
+  for (const Words& codec : {Words{"libx264", "-preset", "medium", "-crf", "18"}, Words{"mpeg4", "-q:v", "2"}}) {
+    Words words = {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-c:v"};
+    words.insert(words.end(), codec.begin(), codec.end());
+    for (const char* word :
+         {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"})
+      words.emplace_back(word);
+    ways.push_back(std::move(words));
+  }
+  return ways;
+}
+
 }  // namespace
+
+const std::vector<std::string>& video_endings() {
+  static const std::vector<std::string> endings = {".mp4", ".mkv", ".mov", ".avi", ".gif", ".webp"};
+  return endings;
+}
 
 bool make_video(const fs::path& frames, const fs::path& output, double frames_per_second) {
   if (!(frames_per_second > 0) || !std::isfinite(frames_per_second))
@@ -98,29 +128,22 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
     }
   } removed{temporary};
   std::string complaint;
-  for (const std::vector<std::string>& codec :
-       {std::vector<std::string>{"libx264", "-preset", "medium", "-crf", "18"}, {"mpeg4", "-q:v", "2"}}) {
-    std::vector<std::string> words = {"ffmpeg",
-                                      "-nostdin",
-                                      "-loglevel",
-                                      "error",
-                                      "-xerror",
-                                      "-y",
-                                      "-f",
-                                      "image2",
-                                      "-framerate",
-                                      fmt::format("{}", frames_per_second),
-                                      "-pattern_type",
-                                      "glob",
-                                      "-i",
-                                      "[0-9][0-9][0-9][0-9][0-9][0-9].png",
-                                      "-vf",
-                                      "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709",
-                                      "-c:v"};
-    words.insert(words.end(), codec.begin(), codec.end());
-    for (const char* word :
-         {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"})
-      words.emplace_back(word);
+  for (const Words& way : ways_to_write(output.extension().string(), frames_per_second)) {
+    Words words = {"ffmpeg",
+                   "-nostdin",
+                   "-loglevel",
+                   "error",
+                   "-xerror",
+                   "-y",
+                   "-f",
+                   "image2",
+                   "-framerate",
+                   fmt::format("{}", frames_per_second),
+                   "-pattern_type",
+                   "glob",
+                   "-i",
+                   "[0-9][0-9][0-9][0-9][0-9][0-9].png"};
+    words.insert(words.end(), way.begin(), way.end());
     words.push_back(temporary.string());
     const Outcome outcome = run_program(words, frames);
     if (!outcome.installed) return false;

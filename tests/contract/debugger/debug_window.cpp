@@ -299,3 +299,53 @@ TEST_CASE("the window of a script that quits closes by itself") {
   CHECK(window.wait(60) == 0);
   CHECK(slurp(folder / "log").find("frame 3, state ") != std::string::npos);
 }
+
+TEST_CASE("a window answers while it computes a frame, and Escape ends the frame") {
+  if (is_missing({"Xvfb", "xdotool"})) return;
+  const TempFolder folder;
+  // half a minute a frame at least
+  folder.write("slow.toml",
+               "[simulation]\nsubsteps = 1000\n\n[[body]]\nname = \"tower\"\nkind = \"deformable\"\n"
+               "shape = { box = { size = [1, 1, 1] } }\nvolume = { lattice = { cells = 24 } }\n"
+               "material = { young = 1e6, poisson = 0.3, density = 1000 }\n");
+  std::pair<int, int> box;
+  {
+    DebugWindow pixels(kWidth, kHeight);
+    Debugger debugger(folder / "slow.toml", {}, {}, {});
+    DebugLoop loop(debugger, pixels, folder.path());
+    loop.picture();
+    const UiWidget* widget = pixels.ui().find("layers/aabbs");
+    REQUIRE(widget != nullptr);
+    box = {static_cast<int>(widget->area.x + 0.5f * widget->area.width),
+           static_cast<int>(widget->area.y + 0.5f * widget->area.height)};
+  }
+  const Screen screen(folder.path());
+  Background window({IMPINGE_PROGRAM, "debug", "slow.toml", "--window", "--size", fmt::format("{}x{}", kWidth, kHeight),
+                     "--record", "r.script"},
+                    folder.path(), screen.display());
+  screen.hand({"search", "--sync", "--name", "impinge slow.toml", "windowfocus"});
+  const Image calm = screen.still();
+  screen.hand({"mousemove", std::to_string(box.first), std::to_string(box.second)});
+  nap(150);
+  screen.hand({"key", "Right"});
+  nap(1500);
+  screen.hand({"click", "1"});
+  nap(1000);
+  const Image working = screen.picture();  // with its boxes, in the middle of the frame
+  const DebugLayout layout = debug_layout(kWidth, kHeight, 1.0f);
+  int changed = 0;
+  for (int y = static_cast<int>(layout.view.y); y < static_cast<int>(layout.view.y + layout.view.height); ++y)
+    for (int x = static_cast<int>(layout.view.x); x < static_cast<int>(layout.view.x + layout.view.width); ++x)
+      changed += !std::equal(calm.pixel(x, y), calm.pixel(x, y) + 3, working.pixel(x, y));
+  CHECK(changed > 100);
+  screen.hand({"key", "Escape"});
+  nap(2000);
+  window.signal(SIGINT);
+  CHECK(window.wait(60) == 130);
+  INFO(slurp(folder / "log"));
+  CHECK(slurp(folder / "log").find("frame 0, state ") != std::string::npos);
+  const std::string script = slurp(folder / "r.script");
+  INFO(script);
+  REQUIRE(script.find("\nseek 0\n") != std::string::npos);
+  CHECK(script.find("\nlayer +aabbs\n") < script.find("\nseek 0\n"));
+}
