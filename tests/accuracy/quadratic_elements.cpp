@@ -1,7 +1,6 @@
 // Quadratic tetrahedra alone: what linear ones lock at, patch test, derivatives, vibration, momentum, mass.
 #include <catch2/catch.hpp>
 
-#include "engine/core/parallel.hpp"
 #include "tests/support/mechanics/fem.hpp"
 
 using namespace impinge;
@@ -185,22 +184,4 @@ TEST_CASE("quadratic elements: both mass matrices weigh the body; the consistent
       body.velocity.segment<3>(3 * i) = Vec3(body.fem.rest().vertices[i].x(), 0, 0);
     CHECK(body.kinetic_energy() == Approx(truth).epsilon(kind == MassKind::consistent ? 1e-12 : 0.05));
   }
-}
-
-TEST_CASE("quadratic elements: the same bits for any number of threads") {
-  DeformableBody body =
-      test::make_body(make_tet_box(Vec3::Ones(), 5, 5, 5), {.material = "neo_hookean", .element = kQuadratic});
-  const VecX x = deformed(body, 76, 0.01);
-  VecX f1, f2;
-  BlockMatrix k1(body.fem.pattern()), k2(body.fem.pattern());
-  set_thread_count(1);
-  const double e1 = body.fem.stiffness(x, Tangent::automatic, f1, k1);
-  set_thread_count(4);
-  const double e2 = body.fem.stiffness(x, Tangent::automatic, f2, k2);
-  set_thread_count(0);
-  CHECK(e1 == e2);
-  CHECK((f1.array() == f2.array()).all());
-  bool same = true;
-  for (int i = 0; i < k1.pattern->blocks(); ++i) same = same && k1.values[i] == k2.values[i];
-  CHECK(same);
 }

@@ -106,33 +106,27 @@ TEST_CASE("a damaged folder of a run is refused, and a window without a screen")
   folder.write("s.toml", kRigid);
   folder.write("a.script", "seek 5\n");
   REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--out", "done", "--frames", "10", "--no-images"}).code == 0);
-  const auto refused = [&](const Outcome& outcome, const std::string& part) {
-    INFO(outcome.err);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.error_lines() == 1);
-    CHECK(outcome.err.find(part) != std::string::npos);
-  };
   fs::create_directory(folder / "empty");
-  refused(debug(folder, "empty", "a.script"), "empty: this folder is no run's, it has no run.toml; ");
+  check_refused(debug(folder, "empty", "a.script"), "empty: this folder is no run's, it has no run.toml; ");
   folder.write("timed.script", "at 3 set contact.friction 1\n");
-  refused(debug(folder, "done", "timed.script"), "timed.script: lines by frame");
-  refused(debug(folder, "done", "a.script", {"--set", "contact.friction=1"}), "--set with a finished run");
+  check_refused(debug(folder, "done", "timed.script"), "timed.script: lines by frame");
+  check_refused(debug(folder, "done", "a.script", {"--set", "contact.friction=1"}), "--set with a finished run");
   const std::string table = slurp(folder / "done/stats.csv");
   folder.write("done/stats.csv", "frame,nothing\n0,1\n");
-  refused(debug(folder, "done", "a.script"), "stats.csv:1: this line is no whole row of a frame; ");
+  check_refused(debug(folder, "done", "a.script"), "stats.csv:1: this line is no whole row of a frame; ");
   std::string broken = table;
   const std::size_t third = broken.find("\n3,") + 1;
   broken[third] = 'x';
   folder.write("done/stats.csv", broken);
-  refused(debug(folder, "done", "a.script"), "stats.csv:5: this line is no whole row");
+  check_refused(debug(folder, "done", "a.script"), "stats.csv:5: this line is no whole row");
   folder.write("done/stats.csv", table.substr(0, table.size() - 20));  // cut off: what is whole is taken
   CHECK(debug(folder, "done", "a.script").code == 0);
   folder.write("done/run.toml", "frames = ");
-  refused(debug(folder, "done", "a.script"), "run.toml");
+  check_refused(debug(folder, "done", "a.script"), "run.toml");
 
   unsetenv("DISPLAY");
   unsetenv("WAYLAND_DISPLAY");
-  refused(impinge_run(folder.path(), {"debug", "s.toml", "--window"}),
-          "--window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
-  refused(impinge_run(folder.path(), {"debug", "s.toml"}), "debug without a screen and without --script; ");
+  check_refused(impinge_run(folder.path(), {"debug", "s.toml", "--window"}),
+                "--window without a screen; one is wanted; set DISPLAY, or use --headless with --script");
+  check_refused(impinge_run(folder.path(), {"debug", "s.toml"}), "debug without a screen and without --script; ");
 }

@@ -209,11 +209,8 @@ TEST_CASE("breakpoints of the debugger: set, hit again, off, and what is wrong i
         std::string::npos);
 
   const auto refused = [&](const std::string& line, const std::string& words) {
-    const Outcome outcome = said(line + "\n");
-    INFO(line << outcome.err);
-    CHECK(outcome.code == 2);
-    CHECK(outcome.error_lines() == 1);
-    CHECK(outcome.err.find(words) != std::string::npos);
+    CAPTURE(line);
+    check_refused(said(line + "\n"), words);
   };
   refused("break when depth(bal,floor) > 0", "did you mean 'ball'?");
   refused("break when dept(ball,floor) > 0", "did you mean 'depth'?");

@@ -75,4 +75,13 @@ inline std::string hash_in(const std::filesystem::path& stats, int frame) {
   return "";
 }
 
+/// One message that has `part`, exit code 2.
+inline void check_refused(const Outcome& outcome, const std::string& part) {
+  CAPTURE(part);
+  INFO(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.error_lines() == 1);
+  CHECK(outcome.err.find(part) != std::string::npos);
+}
+
 }  // namespace impinge::test

@@ -6,7 +6,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace impinge {
 namespace {
@@ -74,15 +73,6 @@ void draw_tabs(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ImGui::GetContentRegionAvail().x < 80.0f * ui.unit()) ImGui::NewLine();
 }
 
-void draw_search(Ui& ui, const DebugModel& model, CommandLines& lines) {
-  char word[64] = {};
-  std::strncpy(word, model.state.search.c_str(), sizeof word - 1);
-  ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::InputTextWithHint("##search", "search", word, sizeof word))
-    lines.push_back(fmt::format("panel search {}", word));
-  ui.name("outliner/search");
-}
-
 void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   draw_tabs(ui, model, lines);
   const Table& table = model.state.tab == "bodies"   ? bodies_table()
@@ -90,7 +80,8 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
                                                      : pairs_table();
   ImGui::SetNextItemWidth(-1.0f);
   draw_column_chooser(ui, model, lines, "outliner", table);
-  draw_search(ui, model, lines);
+  if (const auto words = search_field(ui, "outliner/search", model.state.search))
+    lines.push_back("panel search " + *words);
   draw_deeds(ui, model, lines);
   const TableRows rows = model.state.tab == "bodies"   ? body_rows(ui, model, lines)
                          : model.state.tab == "groups" ? group_rows(model)

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <functional>
 
 #include <imgui.h>
@@ -140,13 +139,9 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
 }
 
 void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
-  char filter[64] = {};
-  std::strncpy(filter, model.state.filter.c_str(), sizeof filter - 1);
-  ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::InputTextWithHint("##filter", "search", filter, sizeof filter))
-    lines.push_back(fmt::format("panel filter {}", filter));
-  ui.name("parameters/search");
-  const std::string word = filter;
+  const std::optional<std::string> typed = search_field(ui, "parameters/search", model.state.filter);
+  if (typed) lines.push_back("panel filter " + *typed);
+  const std::string word = typed.value_or(model.state.filter);
   const float label = 0.53f * ImGui::GetContentRegionAvail().x;
   std::string group;
   bool open = false;

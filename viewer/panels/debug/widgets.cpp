@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 
 namespace impinge {
 
@@ -12,6 +13,15 @@ bool named_button(Ui& ui, const std::string& name, const char* label, bool lit) 
   if (lit) ImGui::PopStyleColor();
   ui.name(name);
   return clicked;
+}
+
+std::optional<std::string> search_field(Ui& ui, const std::string& name, const std::string& now) {
+  char words[64] = {};
+  std::strncpy(words, now.c_str(), sizeof words - 1);
+  ImGui::SetNextItemWidth(-1.0f);
+  const bool is_changed = ImGui::InputTextWithHint(("##" + name).c_str(), "search", words, sizeof words);
+  ui.name(name);
+  return is_changed ? std::optional<std::string>(words) : std::nullopt;
 }
 
 void close_on_escape(const Ui& ui) {

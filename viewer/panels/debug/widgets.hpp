@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "viewer/draw/palette.hpp"
@@ -15,6 +16,8 @@ inline ImVec4 dim() { return ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled); }
 
 /// A button with a name for scripts.
 bool named_button(Ui& ui, const std::string& name, const char* label, bool lit = false);
+/// A line as wide as the panel for the words that what is below has to have; where they were changed, the new ones.
+std::optional<std::string> search_field(Ui& ui, const std::string& name, const std::string& now);
 /// In a list that is open.
 void close_on_escape(const Ui& ui);
 /// "1 contact", "2 contacts".
