@@ -250,69 +250,65 @@ void read_vertices(Source& in, const Element& element, const int (&axes)[3], Tri
   }
 }
 
+/// Hands the list that has number `indices` to `read`, row by row, and passes over all else.
+template <class Source, class Read>
+void read_lists(Source& in, const Element& element, std::size_t indices, const Read& read) {
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    in.begin(element);
+    for (std::size_t p = 0; p < element.properties.size(); ++p)
+      if (p == indices)
+        read(element.properties[p]);
+      else
+        skip_property(in, element.properties[p]);
+    in.end();
+  }
+}
+
 template <class Source>
 void read_faces(Source& in, const Element& element, std::size_t indices, std::int64_t vertices, TriangleMesh& mesh) {
   mesh.triangles.reserve(element.count);
   std::vector<int> corners;
-  for (std::int64_t i = 0; i < element.count; ++i) {
-    in.begin(element);
-    for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      const Property& property = element.properties[p];
-      if (p != indices) {
-        skip_property(in, property);
-        continue;
-      }
-      const std::int64_t n = list_length(in, property);
-      if (n < 3) in.fail(fmt::format("a face of {} corners", n), "a face has at least 3");
-      corners.clear();
-      for (std::int64_t k = 0; k < n; ++k) {
-        const std::int64_t v = in.whole(property.type);
-        if (v < 0 || v >= vertices)
-          in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1));
-        corners.push_back(static_cast<int>(v));
-      }
-      append_polygon(corners, mesh.vertices, mesh.triangles);
+  read_lists(in, element, indices, [&](const Property& property) {
+    const std::int64_t n = list_length(in, property);
+    if (n < 3) in.fail(fmt::format("a face of {} corners", n), "a face has at least 3");
+    corners.clear();
+    for (std::int64_t k = 0; k < n; ++k) {
+      const std::int64_t v = in.whole(property.type);
+      if (v < 0 || v >= vertices)
+        in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}", vertices - 1));
+      corners.push_back(static_cast<int>(v));
     }
-    in.end();
-  }
+    append_polygon(corners, mesh.vertices, mesh.triangles);
+  });
 }
 
 /// Vertices of which each makes a triangle with the two before it, every other one turned; −1 begins a new strip.
 template <class Source>
 void read_strips(Source& in, const Element& element, std::size_t indices, std::int64_t vertices, TriangleMesh& mesh) {
-  for (std::int64_t i = 0; i < element.count; ++i) {
-    in.begin(element);
-    for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      const Property& property = element.properties[p];
-      if (p != indices) {
-        skip_property(in, property);
+  read_lists(in, element, indices, [&](const Property& property) {
+    const std::int64_t n = list_length(in, property, kMostElements);
+    int before[2] = {-1, -1};
+    bool is_turned = false;
+    for (std::int64_t k = 0; k < n; ++k) {
+      const std::int64_t v = in.whole(property.type);
+      if (v < -1 || v >= vertices)
+        in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}, and -1", vertices - 1));
+      const int next = static_cast<int>(v);
+      if (next < 0) {
+        before[0] = before[1] = -1;
+        is_turned = false;
         continue;
       }
-      const std::int64_t n = list_length(in, property, kMostElements);
-      int before[2] = {-1, -1};
-      bool is_turned = false;
-      for (std::int64_t k = 0; k < n; ++k) {
-        const std::int64_t v = in.whole(property.type);
-        if (v < -1 || v >= vertices)
-          in.fail(fmt::format("vertex {}", v), fmt::format("there are vertices 0 to {}, and -1", vertices - 1));
-        const int next = static_cast<int>(v);
-        if (next < 0) {
-          before[0] = before[1] = -1;
-          is_turned = false;
-          continue;
-        }
-        if (before[0] >= 0) {
-          // strips turn corners by naming a vertex twice
-          if (before[0] != before[1] && before[1] != next && before[0] != next)
-            mesh.triangles.push_back({before[is_turned ? 1 : 0], before[is_turned ? 0 : 1], next});
-          is_turned = !is_turned;
-        }
-        before[0] = before[1];
-        before[1] = next;
+      if (before[0] >= 0) {
+        // strips turn corners by naming a vertex twice
+        if (before[0] != before[1] && before[1] != next && before[0] != next)
+          mesh.triangles.push_back({before[is_turned ? 1 : 0], before[is_turned ? 0 : 1], next});
+        is_turned = !is_turned;
       }
+      before[0] = before[1];
+      before[1] = next;
     }
-    in.end();
-  }
+  });
 }
 
 template <class Source>

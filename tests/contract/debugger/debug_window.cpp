@@ -92,6 +92,16 @@ class Background {
   std::optional<int> code_;
 };
 
+/// Where a script's name for a thing in the window is, in pixels.
+std::pair<int, int> middle_of(DebugWindow& window, const std::string& name) {
+  const UiWidget* widget = window.ui().find(name);
+  CAPTURE(name);
+  REQUIRE(widget != nullptr);
+  REQUIRE(widget->visible);
+  return {static_cast<int>(widget->area.x + 0.5f * widget->area.width),
+          static_cast<int>(widget->area.y + 0.5f * widget->area.height)};
+}
+
 /// An X server whose screen is a file.
 class Screen {
  public:
@@ -178,15 +188,9 @@ TEST_CASE("the window takes real mouse and keys, and shows what its recording sh
     debugger.try_execute("panel filter fric");  // as will be typed
     loop.picture();
     for (const char* name :
-         {"transport/play", "parameters/contact.friction", "parameters/search", "layers/aabbs", "console/line"}) {
-      const UiWidget* widget = pixels.ui().find(name);
-      CAPTURE(name);
-      REQUIRE(widget != nullptr);
-      REQUIRE(widget->visible);
-      at[name] = {static_cast<int>(widget->area.x + 0.5f * widget->area.width),
-                  static_cast<int>(widget->area.y + 0.5f * widget->area.height)};
-      if (widget->is_slider) friction_x = pixels.ui().slider_x(*widget, 0.15);
-    }
+         {"transport/play", "parameters/contact.friction", "parameters/search", "layers/aabbs", "console/line"})
+      at[name] = middle_of(pixels, name);
+    friction_x = pixels.ui().slider_x(*pixels.ui().find("parameters/contact.friction"), 0.15);
     layout = debug_layout(kWidth, kHeight, 1.0f);
   }
   const auto text = [](double v) { return std::to_string(static_cast<int>(v)); };
@@ -314,10 +318,7 @@ TEST_CASE("a window answers while it computes a frame, and Escape ends the frame
     Debugger debugger(folder / "slow.toml", {}, {}, {});
     DebugLoop loop(debugger, pixels, folder.path());
     loop.picture();
-    const UiWidget* widget = pixels.ui().find("layers/aabbs");
-    REQUIRE(widget != nullptr);
-    box = {static_cast<int>(widget->area.x + 0.5f * widget->area.width),
-           static_cast<int>(widget->area.y + 0.5f * widget->area.height)};
+    box = middle_of(pixels, "layers/aabbs");
   }
   const Screen screen(folder.path());
   Background window({IMPINGE_PROGRAM, "debug", "slow.toml", "--window", "--size", fmt::format("{}x{}", kWidth, kHeight),
@@ -332,10 +333,10 @@ TEST_CASE("a window answers while it computes a frame, and Escape ends the frame
   screen.hand({"click", "1"});
   nap(1000);
   const Image working = screen.picture();  // with its boxes, in the middle of the frame
-  const DebugLayout layout = debug_layout(kWidth, kHeight, 1.0f);
+  const UiArea view = debug_layout(kWidth, kHeight, 1.0f).view;
   int changed = 0;
-  for (int y = static_cast<int>(layout.view.y); y < static_cast<int>(layout.view.y + layout.view.height); ++y)
-    for (int x = static_cast<int>(layout.view.x); x < static_cast<int>(layout.view.x + layout.view.width); ++x)
+  for (int y = static_cast<int>(view.y); y < static_cast<int>(view.y + view.height); ++y)
+    for (int x = static_cast<int>(view.x); x < static_cast<int>(view.x + view.width); ++x)
       changed += !std::equal(calm.pixel(x, y), calm.pixel(x, y) + 3, working.pixel(x, y));
   CHECK(changed > 100);
   screen.hand({"key", "Escape"});
