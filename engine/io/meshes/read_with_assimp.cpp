@@ -1,6 +1,7 @@
 // Other formats through assimp, in a child process: assimp aborts or crashes on some damaged files, and nothing of that
 // may reach the caller. It only validates; polygons become triangles here and vertices welded by the caller, because its own
 // steps for that crash on bad indices. Its coordinates are single precision.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -137,7 +138,9 @@ void limit_resources() {
   sigset_t none;  // what the parent blocks, to take care of it by itself, ends this one
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  if (std::freopen("/dev/null", "w", stderr) == nullptr || std::freopen("/dev/null", "w", stdout) == nullptr) _exit(1);
+  // not by the streams: they would first write what the parent has put into them and will write itself
+  const int nowhere = open("/dev/null", O_WRONLY);
+  if (nowhere < 0 || dup2(nowhere, STDOUT_FILENO) < 0 || dup2(nowhere, STDERR_FILENO) < 0) _exit(1);
   const std::string bytes = import_in_child(path, guard);
   std::string_view rest = bytes;
   while (!rest.empty()) {

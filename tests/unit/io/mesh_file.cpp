@@ -2,6 +2,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
 #include "engine/core/error.hpp"
 #include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/program/temp_folder.hpp"
@@ -206,6 +211,22 @@ TEST_CASE("formats that know their unit arrive in metres") {
   check_edge("none.dae", dae_text(""), 100.0);  // metres unless it says otherwise
   check_edge("cm.dae", dae_text("<unit name=\"centimeter\" meter=\"0.01\"/>"), 1.0);
   check_edge("inch.dae", dae_text("<unit name=\"inch\" meter=\"0.0254\"/>"), 2.54);
+}
+
+TEST_CASE("what was said before another process reads a mesh is said once") {
+  const TempFolder folder;
+  const auto mesh = folder.write("a.fbx", fbx_text(""));
+  std::fflush(stdout);
+  const int before = dup(STDOUT_FILENO), file = open((folder / "said").c_str(), O_WRONLY | O_CREAT, 0600);
+  REQUIRE((before >= 0 && file >= 0));
+  dup2(file, STDOUT_FILENO);
+  std::fputs("hello", stdout);  // and not written yet
+  const std::size_t triangles = read_mesh(mesh).triangles.size();
+  std::fflush(stdout);
+  dup2(before, STDOUT_FILENO);
+  close(before), close(file);
+  CHECK(triangles == 4);
+  CHECK(slurp(folder / "said") == "hello");
 }
 
 TEST_CASE("a mesh file that names another one reads it where that is allowed only") {
