@@ -61,14 +61,14 @@ std::vector<int> in_frame(std::vector<int> triangles, const SurfaceView& view, c
   return triangles;
 }
 
-/// The mesh's triangles that may be within the margin of the polyhedron.
-std::vector<int> triangles_round_frame(const Collider& mesh, const OrientedBox& frame, double margin) {
-  const Surrounding around = surrounding(frame, margin);
-  const double reach = margin + 1e-9 * (margin + frame.half.sum());
-  const SolidFrame solid{{frame.axes, frame.center},
-                         [&](const Vec3& d) { return d.cwiseAbs().dot(frame.half); },
-                         [&](const Vec3& x) { return (x.cwiseAbs() - frame.half).cwiseMax(0.0).norm(); }};
-  return in_frame(triangles_within(mesh, around.box, solid, reach), SurfaceView(mesh, 1), frame, around);
+/// The mesh's triangles that may matter within the margin of the polyhedron.
+std::vector<int> triangles_round_frame(const ContactSink& sink, const PolyhedronView& solid, double margin) {
+  const Collider& mesh = sink.second();
+  const Surrounding around = surrounding(solid.frame, margin);
+  const double reach = margin + 1e-9 * (margin + solid.frame.half.sum());
+  TouchedTriangles touched =
+      touched_triangles(mesh, around.box, solid.touching, touch_limits(sink, reach), relative_motion(sink));
+  return in_frame(std::move(touched.triangles), SurfaceView(mesh, 1), solid.frame, around);
 }
 
 /// Whether any triangle reaches into the frame, however far from the solid.
@@ -100,10 +100,14 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const double margin =
       query.activation + std::min(sink.reach(), std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge));
   const SurfaceView view(mesh, 1);
-  const std::vector<int> near = triangles_round_frame(mesh, solid.frame, margin);
+  const auto reach_against = [&](const Vec3& n) {
+    const SolidFrame& own = solid.touching.frame;
+    return own.height(own.pose.rotation.transpose() * -n) + n.dot(solid.frame.center - own.pose.position);
+  };
+  const std::vector<int> near = triangles_round_frame(sink, solid, margin);
   if (near.empty()) {
     if (may_be_inside(mesh, sink.first()) || !has_neighbours(mesh, solid.frame, margin))
-      add_enclosed(sink, solid.frame.center, solid.reach_against);
+      add_enclosed(sink, solid.frame.center, reach_against);
     return;
   }
 
@@ -132,7 +136,7 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   }
   // on its way out it comes near the surface from inside
   if (may_be_inside(sink.second(), sink.first()) && !any_crosses(triangles) &&
-      add_enclosed(sink, solid.frame.center, solid.reach_against))
+      add_enclosed(sink, solid.frame.center, reach_against))
     return;
   std::sort(triangles.begin(), triangles.end());
   std::vector<Collision> found;

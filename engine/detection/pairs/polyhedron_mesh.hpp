@@ -5,19 +5,19 @@
 #include <functional>
 
 #include "engine/detection/pairs/contact_sink.hpp"
+#include "engine/detection/pairs/touched_triangles.hpp"
 #include "engine/geometry/oriented_box.hpp"
 
 namespace impinge {
 
 struct PolyhedronView {
   OrientedBox frame;             ///< a box round it, along its own axes
+  TouchingSolid touching;        ///< the polyhedron itself
   const SurfaceMesh* surface;    ///< its triangles
   std::function<int(int)> face;  ///< the face that a triangle is part of
   /// Moves a candidate's first point, found on a triangle of the face that its first feature names, to where it lies on
   /// the face as a whole. Returns whether its second point lies beside the face instead of over or under it.
   std::function<bool(Candidate&)> place_on_face;
-  /// How far the polyhedron reaches from its frame's centre against a unit direction, metres.
-  std::function<double(const Vec3&)> reach_against;
 };
 
 /// The sink's first shape is the polyhedron, the second the mesh.

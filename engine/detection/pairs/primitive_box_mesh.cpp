@@ -1,8 +1,23 @@
 // Box and convex hull against a mesh: polyhedra, which know their faces.
+#include <cmath>
+
 #include "engine/detection/pairs/polyhedron_mesh.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
 
 namespace impinge {
+namespace {
+
+/// The face of the hull over whose plane x is highest, and how far.
+std::pair<std::size_t, double> highest_face(const ConvexPolyhedron& hull, const Vec3& x) {
+  std::pair<std::size_t, double> highest{0, -INFINITY};
+  for (std::size_t f = 0; f < hull.faces().size(); ++f) {
+    const double height = hull.faces()[f].normal.dot(x) - hull.faces()[f].offset;
+    if (height > highest.second) highest = {f, height};
+  }
+  return highest;
+}
+
+}  // namespace
 
 void box_mesh(ContactSink& sink) {
   const OrientedBox box = world_box(sink.first());
@@ -22,12 +37,18 @@ void box_mesh(ContactSink& sink) {
     c.point_first = box.to_world(foot);
     return is_beside;
   };
-  solid.reach_against = [&](const Vec3& n) { return box.radius_along(n); };
+  solid.touching.frame = {sink.first().pose, &shape_of<Box>(sink.first()),
+                          [&](const Vec3& x) { return (x.cwiseAbs() - box.half).cwiseMax(0.0).norm(); }};
+  solid.touching.outward = [local = OrientedBox{Vec3::Zero(), Mat3::Identity(), box.half}](const Vec3& x) {
+    return nearest_on_box(local, x).normal;
+  };
+  solid.touching.corners = shape_of<Box>(sink.first()).polyhedron()->vertices();
   polyhedron_against_mesh(sink, solid);
 }
 
 void hull_mesh(ContactSink& sink) {
-  const ConvexPolyhedron& hull = *std::get<const ConvexSet*>(sink.first().shape->form())->polyhedron();
+  const ConvexSet& set = *std::get<const ConvexSet*>(sink.first().shape->form());
+  const ConvexPolyhedron& hull = *set.polyhedron();
   const Pose& pose = sink.first().pose;
   const Aabb bounds = sink.first().shape->bounds({});
   PolyhedronView solid;
@@ -42,10 +63,9 @@ void hull_mesh(ContactSink& sink) {
     c.point_first = pose.apply(foot);
     return false;
   };
-  solid.reach_against = [&](const Vec3& n) {
-    const Vec3 down = pose.rotation.transpose() * -n;
-    return down.dot(hull.vertices()[hull.support_vertex(down)] - bounds.center());
-  };
+  solid.touching.frame = {pose, &set, [&](const Vec3& x) { return highest_face(hull, x).second; }};
+  solid.touching.outward = [&](const Vec3& x) { return hull.faces()[highest_face(hull, x).first].normal; };
+  solid.touching.corners = hull.vertices();
   polyhedron_against_mesh(sink, solid);
 }
 

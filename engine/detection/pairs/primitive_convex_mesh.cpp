@@ -10,7 +10,7 @@
 #include "engine/detection/pairs/convex_manifold.hpp"
 #include "engine/detection/pairs/polyhedron_mesh.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
-#include "engine/detection/pairs/triangles_near.hpp"
+#include "engine/detection/pairs/touched_triangles.hpp"
 #include "engine/geometry/convex/convex_point.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
@@ -40,6 +40,18 @@ class Segment final : public ConvexSet {
   Vec3 p_, q_;
 };
 
+/// The direction in which a point's distance from the shape grows, near enough.
+Vec3 slope_of(const Shape& shape, const Vec3& x) {
+  const double step = 1e-6 * shape.size();
+  Vec3 slope;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 way = step * Vec3::Unit(k);
+    slope[k] = shape.signed_distance(x + way) - shape.signed_distance(x - way);
+  }
+  const double length = slope.norm();
+  return length > 0.0 ? Vec3(slope / length) : Vec3(Vec3::UnitY());
+}
+
 class CurvedTest {
  public:
   explicit CurvedTest(ContactSink& sink)
@@ -68,15 +80,19 @@ class CurvedTest {
  private:
   Vec3 center() const { return solid_.pose.position; }
 
-  /// Those that it may have contacts with: of the ones round it those in reach, unless it is inside the mesh and has to
-  /// find a way out of it.
+  /// Those that it may have contacts with: of the ones round it those in reach, of these the ones it may touch, unless it
+  /// is inside the mesh and has to find a way out of it.
   std::vector<int> triangles_in_reach() {
     if (mesh_.is_deforming() || way_out(sink_, mesh_, center())) return all_triangles();
     const Shape& shape = *sink_.first().shape;
-    const SolidFrame solid{
-        solid_.pose, [&](const Vec3& d) { return d.dot(solid_.set->support(d)) + solid_.set->rounding() * d.norm(); },
-        [&](const Vec3& x) { return shape.signed_distance(x); }};
-    return triangles_within(sink_.second(), around_, solid, sink_.reach() + touch_);
+    TouchingSolid solid;
+    solid.frame = {solid_.pose, solid_.set, [&](const Vec3& x) { return shape.signed_distance(x); }};
+    solid.outward = [&](const Vec3& x) { return slope_of(shape, x); };
+    const double reach = sink_.reach() + touch_;
+    TouchedTriangles touched =
+        touched_triangles(sink_.second(), around_, solid, touch_limits(sink_, reach), relative_motion(sink_));
+    is_shallow_ = !touched.is_all;
+    return touched.triangles;
   }
   std::vector<int> all_triangles() {
     is_near_all_ = true;
@@ -108,7 +124,7 @@ class CurvedTest {
     const auto height = [&](const Vec3& x) { return n.dot(x - corners[0]); };
     const Vec3 lowest = farthest(-n);
     if (height(lowest) > sink_.reach()) return;
-    is_deep_ = is_deep_ || height(lowest) < -sink_.reach();  // a foot of it may then be out of reach
+    is_deep_ = is_deep_ || (!is_shallow_ && height(lowest) < -sink_.reach());  // a foot of it may then be out of reach
     std::vector<Candidate> points;
     const auto try_point = [&](const Vec3& x, Feature kind, int index) {
       const double h = height(x);
@@ -269,7 +285,8 @@ class CurvedTest {
   double touch_;  ///< metres: closer is the same place
   Aabb around_;   ///< how far it may have contacts
   bool is_near_all_ = false, is_deep_ = false;
-  std::vector<int> near_;  ///< of the triangles in that box those in reach, or all
+  bool is_shallow_ = false;  ///< none of the surface is deeper in the solid than the activation distance
+  std::vector<int> near_;    ///< of the triangles in that box those in reach, or all
   std::vector<Candidate> found_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "engine/geometry/nearest_triangle.hpp"
@@ -35,9 +36,6 @@ std::vector<int> search(const Collider& mesh, Meets&& meets) {
   return found;
 }
 
-/// Whether to walk past what faces elsewhere.
-bool has_cones(const Collider& mesh) { return !deforms(mesh) && count_of(mesh) > kFewest; }
-
 /// How far to search round a point of the mesh's frame, `x` in the world: at least to the nearest triangle, if it is asked for.
 double reach_round(const Collider& mesh, const Vec3& x, const Vec3& local, double distance, bool and_nearest) {
   double reach = distance;
@@ -48,10 +46,16 @@ double reach_round(const Collider& mesh, const Vec3& x, const Vec3& local, doubl
     reach = std::max(reach, std::sqrt(nearest.at.squared_distance));
   }
   // the box's, whose corner is farther by rounding than the sphere's
-  return reach * (1.0 + 1e-9) + slack(mesh, {x, x});
+  return widened(mesh, {x, x}, reach);
 }
 
 }  // namespace
+
+bool has_cones(const Collider& mesh) { return !deforms(mesh) && count_of(mesh) > kFewest; }
+
+double widened(const Collider& mesh, const Aabb& box, double distance) {
+  return distance * (1.0 + 1e-9) + slack(mesh, box);
+}
 
 std::vector<int> triangles_near(const Collider& mesh, const Aabb& box) {
   std::vector<int> near;
@@ -112,28 +116,40 @@ std::vector<int> triangles_seen_from(const Collider& mesh, const Vec3& p, const 
   box.include(p), box.include(q);
   if (!has_cones(mesh)) return triangles_near(mesh, box.inflated(distance));
   const Vec3 from = mesh.pose.apply_inverse(p), to = mesh.pose.apply_inverse(q);
-  return seen_triangles(mesh.mesh(), distance * (1.0 + 1e-9) + slack(mesh, box), false,
+  return seen_triangles(mesh.mesh(), widened(mesh, box, distance), false,
                         [&](const Vec3& c) { return Vec3(closest_on_segment(c, from, to).point - c); });
 }
 
-std::vector<int> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid, double reach) {
+std::optional<std::vector<int>> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid,
+                                                 double reach, std::size_t most) {
   if (!has_cones(mesh)) return triangles_near(mesh, box);
   const Mat3 turn = solid.pose.rotation.transpose() * mesh.pose.rotation;
   const Vec3 shift = solid.pose.apply_inverse(mesh.pose.position);
   const Pose to_solid{turn, shift};
-  const double most = reach * (1.0 + 1e-9) + slack(mesh, box);
-  const auto meets = [&](const PlacedDisc& disc, int, int, int) {
+  const double wide = widened(mesh, box, reach);
+  const int last = mesh.mesh().discs().levels() - 1;
+  std::size_t count = 0;
+  const auto meets = [&](const PlacedDisc& disc, int level, int, int) {
+    if (count > most) return false;
     const Vec3 center = to_solid.apply(disc.center);
-    if (solid.distance(center) > most + disc.radius) return false;
-    if (disc.normal.isZero(0.0)) return true;
-    const Vec3 normal = product(turn, disc.normal);
-    const double level = normal.dot(center), thick = most + disc.thickness;
-    return level - solid.height(normal) <= thick && -solid.height(-normal) - level <= thick;
+    if (solid.distance(center) > wide + disc.radius) return false;
+    if (!disc.normal.isZero(0.0)) {
+      const Vec3 normal = product(turn, disc.normal);
+      const double at = normal.dot(center), thick = wide + disc.thickness;
+      if (at - solid.height(normal) > thick || -solid.height(-normal) - at > thick) return false;
+    }
+    count += level == last ? 1 : 0;
+    return true;
   };
   std::vector<int> found = search_discs(mesh.mesh().discs(), meets);
+  if (count > most) return std::nullopt;
   const SurfaceView view(mesh, 0);
   std::erase_if(found, [&](int t) { return !overlap(triangle_bounds(view, t), box); });
   return found;
+}
+
+std::vector<int> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid, double reach) {
+  return *triangles_within(mesh, box, solid, reach, std::numeric_limits<std::size_t>::max());
 }
 
 }  // namespace impinge

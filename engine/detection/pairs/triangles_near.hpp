@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/detection/contacts/surface_view.hpp"
 
@@ -32,12 +33,28 @@ std::vector<int> triangles_seen_from(const Collider& mesh, const Vec3& p, const 
 /// A convex solid in the world, in a frame of its own.
 struct SolidFrame {
   Pose pose;
-  std::function<double(const Vec3&)>
-      height;  ///< how far it goes along a direction from the frame's origin, times its length
+  const ConvexSet* set = nullptr;
   std::function<double(const Vec3&)> distance;  ///< of a point, not more than it is; any number <= 0 in it
+  /// A point of the solid farthest along a direction of any length but zero.
+  Vec3 support(const Vec3& d) const {
+    const double rounding = set->rounding();
+    return rounding > 0.0 ? Vec3(set->support(d) + rounding * d.normalized()) : set->support(d);
+  }
+  /// How far it goes along a direction from the frame's origin, times the direction's length.
+  double height(const Vec3& d) const { return d.dot(support(d)); }
 };
 
-/// Of those whose bounds overlap the box at least the ones within `reach` of the solid; ascending.
+/// Whether the mesh has discs and cones of normals to walk down: it is rigid, and not so small that looking at each
+/// triangle is as quick.
+bool has_cones(const Collider& mesh);
+
+/// `distance`, metres, and what coordinates in and round the box lose on the way into the frame of the mesh.
+double widened(const Collider& mesh, const Aabb& box, double distance);
+
+/// Of those whose bounds overlap the box at least the ones within `reach` of the solid; ascending. Where there may be more
+/// than `most`, nothing.
+std::optional<std::vector<int>> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid,
+                                                 double reach, std::size_t most);
 std::vector<int> triangles_within(const Collider& mesh, const Aabb& box, const SolidFrame& solid, double reach);
 
 }  // namespace impinge

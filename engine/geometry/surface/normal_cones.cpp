@@ -14,11 +14,14 @@ constexpr double kWidest = 0.75;  // radians: from an eighth of a turn on, what 
 // and what floats round
 constexpr double kOfFold = 0.27, kRounding = 2e-3;
 constexpr double kTolerance = 1e-6;  // of a cosine
+constexpr double kOfFloats = 2e-7;   // what a direction loses as three floats
+constexpr double kFlat = 1e-7;       // radians: what faces in one plane differ by, in double precision
 
 /// Half-angle negative: any direction.
 struct Cone {
   Vec3 axis = Vec3::Zero();
   double angle = -1.0;
+  double of_faces = 0.0;  ///< the half-angle that holds the faces' normals alone
   bool is_any() const { return angle < 0.0; }
 };
 
@@ -35,7 +38,11 @@ Cone round_all(const Cones& cones) {
   const double length = all.axis.norm();
   if (!(length > 1e-6)) return {};
   all.axis /= length;
-  for (const Cone& c : cones) all.angle = std::max(all.angle, angle_between(all.axis, c.axis) + c.angle);
+  for (const Cone& c : cones) {
+    const double between = angle_between(all.axis, c.axis);
+    all.angle = std::max(all.angle, between + c.angle);
+    all.of_faces = std::max(all.of_faces, between + c.of_faces);
+  }
   return all.angle <= kWidest ? all : Cone{};
 }
 
@@ -44,6 +51,14 @@ void for_each(std::size_t count, Work&& work) {
   parallel_for((count + kATask - 1) / kATask, 1, [&](std::size_t task) {
     for (std::size_t i = task * kATask; i < std::min(count, (task + 1) * kATask); ++i) work(i);
   });
+}
+
+float chord_of(const Cone& cone) { return static_cast<float>(2.0 * std::sin(0.5 * cone.of_faces) + kOfFloats); }
+
+/// With what else may be seen from there.
+Cone widened(Cone cone) {
+  if (!cone.is_any()) cone.angle += kOfFold * std::sin(std::min(2.0 * cone.angle, 0.5 * M_PI)) + kRounding;
+  return cone;
 }
 
 /// Of the faces round each vertex.
@@ -66,9 +81,7 @@ std::vector<Cone> cones_of_vertices(const SurfaceMesh& surface) {
       if (n.isZero(0.0)) return;
       faces.push_back({n, 0.0});
     }
-    Cone cone = round_all(faces);
-    if (!cone.is_any()) cone.angle += kOfFold * std::sin(std::min(2.0 * cone.angle, 0.5 * M_PI)) + kRounding;
-    cones[v] = cone;
+    cones[v] = round_all(faces);
   });
   // where the surface ends, or more than two faces meet, directions aren't bounded by faces
   const std::vector<int> uses = edge_uses(topology);
@@ -79,8 +92,18 @@ std::vector<Cone> cones_of_vertices(const SurfaceMesh& surface) {
 
 }  // namespace
 
+const float NormalCones::Node::kFlatSine = static_cast<float>(std::sin(kRounding + kFlat));
+
 NormalCones::NormalCones(const DiscTree& discs, const SurfaceMesh& surface) {
-  const std::vector<Cone> vertices = cones_of_vertices(surface);
+  std::vector<Cone> vertices = cones_of_vertices(surface);
+  vertices_.resize(vertices.size());
+  for_each(vertices.size(), [&](std::size_t v) {
+    const Cone& cone = vertices[v];
+    OfVertex& own = vertices_[v];
+    for (int axis = 0; axis < 3; ++axis) own.axis[axis] = static_cast<float>(cone.axis[axis]);
+    own.chord = cone.is_any() ? -1.0f : chord_of(cone);
+    vertices[v] = widened(cone);
+  });
   begin_ = {0};
   for (int level = 0; level < discs.levels(); ++level) begin_.push_back(begin_.back() + discs.node_count(level));
   nodes_.resize(static_cast<std::size_t>(begin_.back()));
@@ -104,6 +127,7 @@ NormalCones::NormalCones(const DiscTree& discs, const SurfaceMesh& surface) {
         }
         for (int axis = 0; axis < 3; ++axis) node.axis[k][axis] = static_cast<float>(cone.axis[axis]);
         node.cosine[k] = cone.is_any() ? -2.0f : static_cast<float>(std::cos(cone.angle));
+        node.chord[k] = chord_of(cone);
         node.sine[k] = static_cast<float>(std::sin(std::max(cone.angle, 0.0)));
       }
     });

@@ -17,10 +17,21 @@ class NormalCones {
   struct Node {
     float axis[4][3];          ///< unit; of the disc, in the mesh's own axes
     float cosine[4], sine[4];  ///< of the angle round it; cosine -2: any direction
+    float chord[4];            ///< largest difference of a face's normal from the axis
     bool is_any(int k) const { return cosine[k] < -1.5f; }
+    /// Whether all faces there lie in one plane, and all that share a vertex with them.
+    bool is_flat(int k) const { return !is_any(k) && sine[k] <= kFlatSine; }
+    static const float kFlatSine;
+  };
+
+  /// Round the normals of the faces at a vertex, and nothing more.
+  struct OfVertex {
+    float axis[3];
+    float chord;  ///< the largest difference of a normal from the axis; negative: any direction
   };
 
   NormalCones(const DiscTree& discs, const SurfaceMesh& surface);
+  const OfVertex& of_vertex(int v) const { return vertices_[static_cast<std::size_t>(v)]; }
   const Node& node(int level, int j) const { return nodes_[static_cast<std::size_t>(begin_[level] + j)]; }
 
   /// Whether the disc may hold a place that sees `away` (from its centre to the nearest point of a solid, metres) outside
@@ -28,6 +39,7 @@ class NormalCones {
   bool may_see(int level, int j, int k, const Vec3& away, double radius, bool or_inside) const;
 
  private:
+  std::vector<OfVertex> vertices_;
   std::vector<Node> nodes_;
   std::vector<int> begin_;  // by level
 };
