@@ -1,13 +1,19 @@
-// Triangle pairs of two meshes beside Embree's rtcCollide, in the same run: rigid ones, whose trees stay as they are, and
-// deforming ones, whose trees are fitted before they are asked. Far and near pose of two icospheres, and a dragon.
+// Triangle pairs of two meshes beside Embree's rtcCollide and FCL's collide over its OBB-RSS trees, in the same run: rigid
+// ones, whose trees stay as they are, and deforming ones, whose trees are fitted before they are asked. Far and near pose
+// of two icospheres, and a dragon.
 //
-// Processor time of one thread. Both are called in turn, 15 times and more; medians, and the median of the ratios of
-// neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list isn't sorted.
+// Processor time of one thread. All are called in turn, 15 times and more; medians, and the median of the ratios of
+// neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list isn't sorted, nor is
+// FCL's. FCL turns one body into the frame of the other, so that triangles that just touch may be told otherwise: the last
+// column counts pairs that only one of the two has.
 //   bench_triangle_peers [--finest K]    20·4^K triangles a body (4 to 8, default 7: 655,360 together)
 #include <fmt/format.h>
 
 #include <cmath>
 #include <ctime>
+#include <iterator>
+#include <limits>
+#include <memory>
 #include <string>
 
 #include "engine/core/parallel.hpp"
@@ -16,6 +22,9 @@
 
 #ifdef IMPINGE_HAS_EMBREE
 #include <embree3/rtcore.h>
+#endif
+#ifdef IMPINGE_HAS_FCL
+#include <fcl/fcl.h>
 #endif
 
 using namespace impinge;
@@ -53,17 +62,27 @@ struct Scene {
   }
 };
 
-class Ours {
+/// Whoever finds the pairs of a scene's triangles.
+class Finder {
+ public:
+  virtual ~Finder() = default;
+  virtual void place(const std::array<Places, 2>& at) = 0;
+  virtual void fit() {}
+  virtual void find() = 0;
+  virtual Pairs pairs() const = 0;  ///< sorted
+};
+
+class Ours final : public Finder {
  public:
   explicit Ours(const Scene& scene) {
     bodies_.add(scene.mesh);
     bodies_.add(scene.mesh, scene.pose);
   }
-  void place(const std::array<Places, 2>& at) {
+  void place(const std::array<Places, 2>& at) override {
     for (int i = 0; i < 2; ++i) bodies_.place(i, at[static_cast<std::size_t>(i)]);
   }
-  void find() { phase_->find(bodies_.all(), pair_, found_); }
-  Pairs pairs() const {
+  void find() override { phase_->find(bodies_.all(), pair_, found_); }
+  Pairs pairs() const override {
     Pairs all;
     for (const TrianglePair& p : found_) all.emplace_back(p.triangle_a.value(), p.triangle_b.value());
     return all;
@@ -99,7 +118,7 @@ bool plainly_meet(const TriangleCorners& a, const TriangleCorners& b) {
   return false;
 }
 
-class Embree {
+class Embree final : public Finder {
  public:
   Embree(const Scene& scene, const std::array<Places, 2>& at, bool is_deforming)
       : device_(rtcNewDevice("threads=1,set_affinity=0")) {
@@ -118,24 +137,24 @@ class Embree {
       rtcCommitScene(body.scene);
     }
   }
-  ~Embree() {
+  ~Embree() override {
     for (Body& body : bodies_) rtcReleaseGeometry(body.geometry), rtcReleaseScene(body.scene);
     rtcReleaseDevice(device_);
   }
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  void place(const std::array<Places, 2>& at) {
+  void place(const std::array<Places, 2>& at) override {
     for (std::size_t i = 0; i < 2; ++i) bodies_[i].places = &at[i];
   }
-  void fit() {
+  void fit() override {
     for (Body& body : bodies_) rtcCommitGeometry(body.geometry), rtcCommitScene(body.scene);
   }
-  void find() {
+  void find() override {
     found_.clear();
     rtcCollide(bodies_[0].scene, bodies_[1].scene, meet, this);
   }
-  Pairs pairs() const {
+  Pairs pairs() const override {
     Pairs sorted = found_;
     std::sort(sorted.begin(), sorted.end());
     return sorted;
@@ -174,47 +193,123 @@ class Embree {
   Pairs found_;
 };
 
-struct Row {
-  std::size_t triangles, pairs;
-  double ours, peer, ratio;
-  bool is_same;
+#endif
+
+#ifdef IMPINGE_HAS_FCL
+class Fcl final : public Finder {
+ public:
+  Fcl(const Scene& scene, const std::array<Places, 2>& at, bool is_deforming) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      Model& model = *models_[i];
+      model.beginModel(static_cast<int>(scene.mesh->mesh.triangles.size()), static_cast<int>(at[i].size()));
+      std::vector<fcl::Triangle> triangles;
+      for (const Triangle& t : scene.mesh->mesh.triangles)
+        triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                               static_cast<std::size_t>(t[2]));
+      model.addSubModel(is_deforming ? at[i] : scene.mesh->mesh.vertices, triangles);
+      model.endModel();
+    }
+    if (is_deforming) return;
+    pose_.linear() = scene.pose.rotation;
+    pose_.translation() = scene.pose.position;
+  }
+  void place(const std::array<Places, 2>& at) override { at_ = &at; }
+  void fit() override {
+    for (std::size_t i = 0; i < 2; ++i) {
+      models_[i]->beginReplaceModel();
+      models_[i]->replaceSubModel((*at_)[i]);
+      models_[i]->endReplaceModel(true);
+    }
+  }
+  void find() override {
+    result_.clear();
+    const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
+    fcl::collide(models_[0].get(), fcl::Transform3d::Identity(), models_[1].get(), pose_, request, result_);
+  }
+  Pairs pairs() const override {
+    Pairs sorted;
+    for (std::size_t i = 0; i < result_.numContacts(); ++i)
+      sorted.emplace_back(result_.getContact(i).b1, result_.getContact(i).b2);
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  }
+
+ private:
+  using Model = fcl::BVHModel<fcl::OBBRSSd>;
+  std::array<std::shared_ptr<Model>, 2> models_{std::make_shared<Model>(), std::make_shared<Model>()};
+  fcl::Transform3d pose_ = fcl::Transform3d::Identity();
+  const std::array<Places, 2>* at_ = nullptr;
+  fcl::CollisionResultd result_;
 };
+#endif
+
+/// Ours first, then the peers that were found.
+std::vector<std::pair<std::string, std::unique_ptr<Finder>>> finders(const Scene& scene,
+                                                                     const std::array<Places, 2>& at,
+                                                                     bool is_deforming) {
+  std::vector<std::pair<std::string, std::unique_ptr<Finder>>> all;
+  all.emplace_back("ours", std::make_unique<Ours>(scene));
+#ifdef IMPINGE_HAS_EMBREE
+  all.emplace_back("Embree", std::make_unique<Embree>(scene, at, is_deforming));
+#endif
+#ifdef IMPINGE_HAS_FCL
+  all.emplace_back("FCL", std::make_unique<Fcl>(scene, at, is_deforming));
+#endif
+  (void)at, (void)is_deforming;
+  return all;
+}
+
+struct Column {
+  std::string name;
+  std::vector<double> ms, ratios;  // of ours to it
+  std::size_t different = 0;       // pairs, at most
+};
+
+struct Row {
+  std::size_t triangles = 0, pairs = 0;
+  std::vector<Column> columns;
+};
+
+std::size_t count_different(const Pairs& l, const Pairs& r) {
+  Pairs apart;
+  std::set_symmetric_difference(l.begin(), l.end(), r.begin(), r.end(), std::back_inserter(apart));
+  return apart.size();
+}
 
 Row compare(const Scene& scene, bool is_deforming) {
   constexpr int kTimes = 15;
   std::array<Places, 2> at = scene.places(0, is_deforming);
-  Ours ours(scene);
-  Embree embree(scene, at, is_deforming);
-  std::vector<double> own, other, ratios;
-  Row row{2 * scene.mesh->mesh.triangles.size(), 0, 0.0, 0.0, 0.0, true};
+  const auto all = finders(scene, at, is_deforming);
+  Row row{2 * scene.mesh->mesh.triangles.size(), 0, {}};
+  for (const auto& [name, finder] : all) row.columns.push_back({name, {}, {}, 0});
   for (int k = 0; k <= kTimes; ++k) {
-    if (is_deforming) at = scene.places(k, true), ours.place(at), embree.place(at);
-    const auto run = [&](bool is_ours) {
+    if (is_deforming) at = scene.places(k, true);
+    std::vector<double> ms(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::size_t at_turn = k % 2 == 0 ? i : all.size() - 1 - i;
+      Finder& finder = *all[at_turn].second;
+      if (is_deforming) finder.place(at);
       const double start = process_ms();
-      if (is_ours) {
-        ours.find();
-      } else {
-        if (is_deforming) embree.fit();
-        embree.find();
-      }
-      return process_ms() - start;
-    };
-    double mine = 0.0, theirs = 0.0;
-    if (k % 2 == 0) mine = run(true), theirs = run(false);
-    if (k % 2 == 1) theirs = run(false), mine = run(true);
-    const Pairs found = ours.pairs();
-    row.pairs = found.size(), row.is_same = row.is_same && found == embree.pairs();
-    if (k == 0) continue;  // makes trees and allocates
-    own.push_back(mine), other.push_back(theirs), ratios.push_back(mine / theirs);
+      if (is_deforming) finder.fit();
+      finder.find();
+      ms[at_turn] = process_ms() - start;
+    }
+    const Pairs found = all[0].second->pairs();
+    row.pairs = found.size();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Column& column = row.columns[i];
+      column.different = std::max(column.different, count_different(found, all[i].second->pairs()));
+      if (k == 0) continue;  // makes trees and allocates
+      column.ms.push_back(ms[i]), column.ratios.push_back(ms[0] / ms[i]);
+    }
   }
-  row.ours = median(own), row.peer = median(other), row.ratio = median(ratios);
   return row;
 }
 
-double exponent(const std::vector<Row>& rows, double Row::*ms) {
+double exponent(const std::vector<Row>& rows, std::size_t column) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const Row& row : rows) {
-    const double x = std::log(static_cast<double>(row.triangles)), y = std::log(row.*ms);
+    const double x = std::log(static_cast<double>(row.triangles)), y = std::log(median(row.columns[column].ms));
     sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const double count = static_cast<double>(rows.size());
@@ -222,8 +317,12 @@ double exponent(const std::vector<Row>& rows, double Row::*ms) {
 }
 
 void print(const std::string& name, const Row& row) {
-  fmt::print("{:<22} {:>9} {:>7} {:>10.3f} {:>10.3f} {:>6.2f}{}\n", name, row.triangles, row.pairs, row.ours, row.peer,
-             row.ratio, row.is_same ? "" : "  DIFFERENT PAIRS");
+  fmt::print("{:<22} {:>9} {:>7} {:>10.3f}", name, row.triangles, row.pairs, median(row.columns[0].ms));
+  for (std::size_t i = 1; i < row.columns.size(); ++i) {
+    const Column& peer = row.columns[i];
+    fmt::print(" | {:>10.3f} {:>6.2f} {:>5}", median(peer.ms), median(peer.ratios), peer.different);
+  }
+  fmt::print("\n");
   std::fflush(stdout);
 }
 
@@ -240,7 +339,11 @@ void compare_all(int finest) {
   series[1].first = "dragon";
   if (const std::string file = shared_file("meshes/dragon/dragon_20k.off"); !file.empty())
     series[1].second.push_back(surface(scaled_to(read_off(file), 2.0)));
-  fmt::print("{:<22} {:>9} {:>7} {:>10} {:>10} {:>6}\n", "", "triangles", "pairs", "ours, ms", "Embree, ms", "ratio");
+  fmt::print("{:<22} {:>9} {:>7} {:>10}", "", "triangles", "pairs", "ours, ms");
+  const Scene least{surface(icosphere(1)), {}};
+  for (const auto& [name, finder] : finders(least, least.places(0, false), false))
+    if (name != "ours") fmt::print(" | {:>10} {:>6} {:>5}", name + ", ms", "ratio", "other");
+  fmt::print("\n");
   for (const auto& [name, meshes] : series)
     for (const bool is_deforming : {false, true})
       for (const bool is_far : {true, false}) {
@@ -249,11 +352,13 @@ void compare_all(int finest) {
         std::vector<Row> rows;
         for (const MeshPointer& mesh : meshes)
           rows.push_back(compare({mesh, pose_of(is_far)}, is_deforming)), print(text, rows.back());
-        if (rows.size() > 1)
-          fmt::print("  grows as n^{:.2f}, Embree n^{:.2f}\n", exponent(rows, &Row::ours), exponent(rows, &Row::peer));
+        if (rows.size() < 2) continue;
+        fmt::print("  grow as");
+        for (std::size_t i = 0; i < rows[0].columns.size(); ++i)
+          fmt::print(" {} n^{:.2f}", rows[0].columns[i].name, exponent(rows, i));
+        fmt::print("\n");
       }
 }
-#endif
 
 }  // namespace
 
@@ -261,9 +366,5 @@ int main(int argc, char** argv) {
   int finest = 7;
   if (argc == 3 && std::string(argv[1]) == "--finest") finest = std::clamp(std::atoi(argv[2]), 4, 8);
   set_thread_count(1);
-#ifdef IMPINGE_HAS_EMBREE
   compare_all(finest);
-#else
-  fmt::print("built without Embree (libembree-dev), finest {}\n", finest);
-#endif
 }
