@@ -76,7 +76,7 @@ class Assembly {
     if (!add(index, std::move(rows), {a, b})) return;
     const double free_velocity = system().contact_velocity(system().contacts.size() - 1, false).x();
     ContactRows& row = system().contacts.back();
-    row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
+    if (input_.rebounds) row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     row.bound = row_bound({row.gap, free_velocity, row.velocity_before, row.restitution, row.scale.speed},

@@ -16,6 +16,7 @@ struct AssemblyInput {
   const ContactSettings& settings;
   double time_step = 0.0;  ///< s
   double gravity = 0.0;    ///< that automatic thresholds go by, m/s²
+  bool rebounds = true;    ///< false: no contact gives anything back
 };
 
 /// A group's system, and what its parts are in the scene.

@@ -15,6 +15,7 @@ namespace {
 constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
 constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
 constexpr double kWorth = 0.1;        // of an impact's energy: what returns less may as well be braked
+constexpr double kRounding = 1e-9;    // of the work that impulses do
 constexpr double kRising = 1e-3;      // of the threshold of rebounds: what parts more slowly is rounding
 
 /// Velocities of a step and what impulses make of them.
@@ -74,6 +75,19 @@ class Motion {
 bool is_worth_a_cut(double restitution) { return restitution * restitution >= kWorth; }
 
 }  // namespace
+
+bool wins_energy(const Bodies& bodies, const SubStep& step) {
+  const Motion motion(bodies, step);
+  double won = 0.0, moved = 0.0;  // J
+  for (const GroupResult& result : step.results)
+    for (const SolvedContact& c : result.solved) {
+      if (c.collision.gap < 0.0) continue;  // what is pushed out may
+      const double before = motion.free(c.collision), after = motion.solved(c.collision);
+      won += 0.5 * c.lambda.x() * (before + after);
+      moved += 0.5 * c.lambda.x() * (std::abs(before) + std::abs(after));
+    }
+  return won > kRounding * moved;
+}
 
 bool has_rebounds(const Bodies& bodies, const ContactSettings& settings) {
   for (const Body& b : bodies)

@@ -20,4 +20,8 @@ bool has_rebounds(const Bodies& bodies, const ContactSettings& settings);
 std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep& step, const ContactSettings& settings,
                                             double gravity);
 
+/// Of a step that is solved: whether its normal impulses do more work than they take, as they may where one row rebounds
+/// while another, which its bodies' free motion leaves open, is braked: neither knows that the other came first.
+bool wins_energy(const Bodies& bodies, const SubStep& step);
+
 }  // namespace impinge

@@ -270,7 +270,7 @@ GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const C
 void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
              std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
              std::vector<GroupResult>& results, StageTimes& times) {
-  const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step, how.gravity};
+  const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step, how.gravity, how.rebounds};
   results.resize(groups.size());
   std::vector<std::size_t> wanted;
   for (std::size_t g = 0; g < groups.size(); ++g)

@@ -15,6 +15,7 @@ struct Solving {
   const ContactSettings& contact;
   const DeformableIntegrator& integrator;
   double gravity;        ///< that automatic thresholds go by, m/s²
+  bool rebounds = true;  ///< as SubStep has it
   bool freezes = false;  ///< the groups are wanted as they were handed to the response
   SolveWatcher* watcher = nullptr;
 };

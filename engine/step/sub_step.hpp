@@ -10,6 +10,7 @@ namespace impinge {
 
 struct SubStep {
   double time = 0.0, time_step = 0.0;  ///< s, at its start; Δt
+  bool rebounds = true;                ///< false: whatever closes is braked, restitution or not
 
   // 5, 6: detection at the free velocities
   std::vector<Collider> colliders;           ///< by body

@@ -138,6 +138,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     std::optional<PieceStart> start;
     if (is_kept || rebounds) start.emplace(bodies_, sleeping_);
     sub_step_->asked.clear();
+    sub_step_->rebounds = true;
     guard_.open(bodies_);
     double share = rest;
     for (int motion = 1;; ++motion) {
@@ -155,6 +156,13 @@ void World::substep(double h, int left, FrozenStep* frozen) {
           start->bring_back(bodies_, sleeping_);
           continue;
         }
+      }
+      // the impacts that are left when the sub-step has been cut as often as it may be are solved as one
+      if (impacts > 0 && impacts >= parameters.contact.successive_impacts && sub_step_->rebounds &&
+          motion < kMostMotions && wins_energy(bodies_, *sub_step_)) {
+        sub_step_->rebounds = false;
+        start->bring_back(bodies_, sleeping_);
+        continue;
       }
       hold_back();
       std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough);
