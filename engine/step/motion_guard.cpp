@@ -20,6 +20,8 @@ constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found
 constexpr double kSeen = 0.3;      // of that: what they see well
 constexpr double kRough = 5.0;     // of that, half the thickness: less than this leads nobody through
 constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
+constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up,
+constexpr double kCreep = 0.01;    // and of these depths, what rigid bodies may end deeper than they began
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
@@ -235,8 +237,12 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
       own.depth = pairs[i].safe;
     else if (depth == Depth::rough && !deforms(of_a) && !deforms(of_b))
       own.depth = std::max(own.depth, pairs[i].safe);
-    else if (pairs[i].a != pairs[i].b)
-      own.depth = std::max(own.depth, kShallow * pairs[i].safe);
+    else if (deforms(of_a) || deforms(of_b))
+      own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * pairs[i].safe) : own.depth;
+    else {
+      own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * pairs[i].safe);
+      own.creep = kCreep * own.depth;
+    }
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
                                                  : first_passages(paths[i].first, paths[i].second, own);
   });
@@ -256,11 +262,11 @@ void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, cons
 }
 
 std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassagesOf& settings,
-                                              bool is_rough) {
+                                              bool is_rough, bool is_cut) {
   std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which, is_rough);
   if (pairs.empty()) return std::nullopt;
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
-  search(bodies, pairs, settings, is_rough ? Depth::rough : Depth::shallow);
+  search(bodies, pairs, settings, is_rough ? Depth::rough : is_cut ? Depth::least : Depth::shallow);
   std::erase_if(pairs, [](const UnsafeMotion::Pair& pair) { return pair.passages.empty(); });
   if (pairs.empty()) return std::nullopt;
   return UnsafeMotion{std::move(pairs)};

@@ -49,8 +49,9 @@ class MotionGuard {
   void stayed(BodyIndex body) { turns_[body].clear(); }
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
   /// `is_rough`: rigid bodies may end in one another by a tenth of the thinner one's thickness, from where contacts still
-  /// know the way out.
-  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings, bool is_rough);
+  /// know the way out. `is_cut`: of a sub-step that is made in pieces, whose overlaps add up.
+  std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings, bool is_rough,
+                                   bool is_cut);
   /// What `look` holds against each other of two bodies after the motion.
   struct PairMotion {
     bool is_planar = false;  ///< a plane is among them: what is through it is still inside
@@ -63,7 +64,7 @@ class MotionGuard {
   void find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassagesOf& settings);
 
  private:
-  enum class Depth { shallow, rough, safe };  // from which on a passage counts
+  enum class Depth { least, shallow, rough, safe };  // from which on a passage counts
   struct Known;
   const PathSurface& surface_of(const Body& body);
   double thickness_of(const Body& body);

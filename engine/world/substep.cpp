@@ -165,7 +165,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         continue;
       }
       hold_back();
-      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough);
+      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
       if (!unsafe) break;
@@ -178,7 +178,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
           if (held.pairs.empty()) break;
           note_unsafe(held, substep, UnsafeBody::held_back);
           hold_back();
-          unsafe = guard_.look(bodies_, which, passages, is_rough);
+          unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1);
         }
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;

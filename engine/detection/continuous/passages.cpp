@@ -322,8 +322,9 @@ class Search {
     const double now = gap(time, unit), later = std::min(1.0, time + 1e-3 * span);
     if (later <= time) return;
     double approach = (now - gap(later, unit)) / (later - time);
-    // what creeps a little deeper than it is left alone may: the push-out brings it back
-    const double limit = std::min(0.0, now) - settings_.depth, most = std::max(t1_, later);
+    // what is deeper may creep a little: the push-out brings it back
+    const double creep = settings_.creep < 0.0 ? settings_.depth : settings_.creep;
+    const double limit = std::min(-settings_.depth, now - creep), most = std::max(t1_, later);
     const auto is_deep = [&](double t) {
       const Vec3 at = m.normal_at(t);
       const double size = at.norm();
