@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "viewer/bundle/scene.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/stats_table.hpp"
@@ -42,20 +43,20 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
       progress_(options.progress),
       session_(scene, overrides, script, options.session),
       ring_(options.most_bytes),
+      start_(values_of(session_.rows())),
       run_folder_(options.run_folder),
       conditions_(session_.condition_words()),
       expectations_(session_.script(), session_.is_judged(), false,
                     [this](const std::string& text) { say(ConsoleLine::problem, text); }),
       breaks_(session_.is_judged()) {
   for (const Script::Break& point : session_.script().breaks()) breaks_.add(point.condition, point.place);
-  model_.scene = session_.scene().path.filename().string();
-  if (!run_folder_.empty()) {
-    model_.scene = run_folder_.filename().string();
-    read_run_folder();
-  }
+  model_.scene = (run_folder_.empty() ? session_.scene().path : run_folder_).filename().string();
+  if (!options.name.empty()) model_.scene = options.name;
+  if (!run_folder_.empty()) read_run_folder();
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
   if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
   if (!advance()) return;
+  first_ = values_of(session_.rows());
   look_through(0);
   if (const std::optional<BreakHit> hit = breaks_.next(0, 0)) stop_at(0, *hit);
 }
@@ -411,10 +412,10 @@ void Debugger::record_camera() {
   add_recorded(target);
 }
 
-void Debugger::record_shot(const std::string& file, const Vec2& pointer) {
+void Debugger::record_picture(const std::string& line, const Vec2& pointer) {
   if (pointer.x() >= 0.0 && pointer.y() >= 0.0) add_recorded(pointer_line(pointer));
   if (playing_) add_recorded("play");  // the button shows it
-  add_recorded("shot " + file);
+  add_recorded(line);
   if (playing_) add_recorded("pause");
 }
 

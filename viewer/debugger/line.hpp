@@ -11,6 +11,7 @@
 //   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
 //   text WORDS | wait FRAMES
 //   shot FILE.png | plots FILE.csv      the window; what the timeline plots
+//   bundle FILE.tar                     the moment in one file (viewer/bundle/bundle.hpp)
 //   quit
 #pragma once
 
@@ -50,7 +51,7 @@ struct InputLine {
   double x = 0.0, y = 0.0;  ///< move; wheel: y; drag: value in x; wait: in x
 };
 struct FileLine {
-  enum What { shot, plots };
+  enum What { shot, plots, bundle };
   What what = shot;
   std::string file;
 };

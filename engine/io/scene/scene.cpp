@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/run_record.hpp"
 #include "engine/io/scene/scene_attachments.hpp"
@@ -135,6 +136,8 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
   scene.folder = path.parent_path();
   if (const TomlEntry* run = root.find("run")) {
     scene.run = read_run_record(run->value);
+    if (const fs::path folder = scene.run->folder; folder.is_relative())  // such a run can be carried elsewhere
+      scene.run->folder = absolute_path(path.parent_path() / folder).lexically_normal().string();
     scene.folder = scene.run->folder;
   }
   if (const TomlEntry* sweep = root.find("sweep"); sweep != nullptr && sweep->value.find("scene") != nullptr)

@@ -11,9 +11,9 @@ namespace impinge {
 
 /// What run.toml records beside the scene: enough to repeat the run.
 struct RunRecord {
-  std::string version;              ///< of the program
-  std::string scene;                ///< path of the scene file
-  std::string folder;               ///< the folder its surfaces are relative to
+  std::string version;  ///< of the program
+  std::string scene;    ///< path of the scene file
+  std::string folder;   ///< the folder its surfaces are relative to; in the file, where it isn't absolute, from there
   std::string script_file;          ///< path of the script, "" without one
   std::vector<std::string> script;  ///< its lines
   int frames = 0;                   ///< the last frame's number
