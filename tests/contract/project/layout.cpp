@@ -79,6 +79,7 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/debugger", 28},
                                                  {"viewer/study", 28},
                                                  {"viewer/sweep", 28},
+                                                 {"viewer/shrink", 28},
                                                  {"viewer/report", 29},
                                                  {"viewer/compare", 30},
                                                  {"viewer/app", 31}};
