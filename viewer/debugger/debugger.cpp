@@ -20,11 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kConsoleLines = 500;
 
-bool changes_model(const Command& command) {
-  const auto* set = std::get_if<SetCommand>(&command);
-  return set != nullptr && !set->path.starts_with("view.");
-}
-
 std::string pointer_line(const Vec2& pointer) {
   return fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y()));
 }
@@ -183,32 +178,6 @@ std::optional<int> Debugger::last_snapshot_before(int frame) const {
   return std::nullopt;
 }
 
-void Debugger::do_command(const Command& command) {
-  if (changes_model(command)) {
-    if (within_) {
-      reach(frame() - 1);
-      say(ConsoleLine::message,
-          fmt::format("back to the end of frame {}: the change counts from the next on", frame()));
-    }
-    const int next = session_.frame() + 1;
-    breaks_.cut(next);
-    if (stages_ && stages_->frame >= next) stages_.reset();
-    by_hand_.erase(by_hand_.upper_bound(next), by_hand_.end());
-    changed_frames_.erase(changed_frames_.upper_bound(next), changed_frames_.end());
-    ring_.cut(session_.frame());
-    history_.resize(static_cast<std::size_t>(next));
-    hashes_.resize(static_cast<std::size_t>(next));
-    tracks_.forget_after(session_.frame());
-    folder_last_ = std::min(folder_last_, session_.frame());  // its later frames are of another run now
-    std::vector<Command>& commands = by_hand_[next];
-    std::erase_if(commands,
-                  [&](const Command& c) { return std::get<SetCommand>(c).path == std::get<SetCommand>(command).path; });
-    commands.push_back(command);
-    changed_frames_.insert(next);
-  }
-  session_.change(command);
-}
-
 void Debugger::do_transport(const TransportLine& line) {
   switch (line.verb) {
     case TransportLine::play:
@@ -281,6 +250,7 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   }
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
   if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
+  if (const auto* undo = std::get_if<UndoLine>(&parsed)) take_back(*undo);
   // a line that was cut short is recorded as what it did
   const auto* transport = std::get_if<TransportLine>(&parsed);
   std::string done(line.text);
@@ -366,6 +336,7 @@ void Debugger::record(const std::string& line) {
   if (may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb &&
       word_of(recorded_.back(), 1) == word_of(line, 1)) {
     const std::string what = verb == "panel" ? word_of(line, 1) : "";
+    if (verb == "set") edits_.merge_last();
     if (verb == "set" || what == "filter" || what == "search" ||
         (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2)))
       return replace_recorded(line);

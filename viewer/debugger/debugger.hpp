@@ -18,6 +18,7 @@
 #include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/session.hpp"
+#include "viewer/debugger/edits.hpp"
 #include "viewer/debugger/line.hpp"
 #include "viewer/debugger/snapshot_ring.hpp"
 
@@ -32,6 +33,9 @@ struct DebuggerOptions {
   const std::atomic<bool>* interrupted = nullptr;     ///< asks to stop after the frame in work
   std::function<void(int frame, int last)> progress;  ///< of a line that makes many frames, after each
 };
+
+/// Whether it changes what the next frame becomes, not only how it is seen.
+bool changes_model(const Command& command);
 
 class Debugger {
  public:
@@ -83,6 +87,8 @@ class Debugger {
   void do_select(Selection selection);
   void do_panel(const PanelLine& line);
   void do_break(const BreakLine& line);
+  void take_back(const UndoLine& line);
+  void exchange(Future& future);
   void find(const FindLine& line);
   void why(const WhyLine& line);
   bool advance();
@@ -136,6 +142,7 @@ class Debugger {
   Tracks tracks_;
   std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first
   std::set<int> changed_frames_;
+  Edits edits_;
   DebugModel model_;
   ExpressionWords conditions_;
   Expectations expectations_;

@@ -111,6 +111,7 @@ void Debugger::open_at(const BundleHead& moment, const std::vector<std::string>&
   if (moment.stage >= 0 && frame() == moment.frame) stand_in(moment.frame, moment.stage);
   for (const std::string& line : lines) try_execute(line);
   opened_ = lines;
+  edits_.forget();
   playing_ = false;
   recorded_.clear();
   std::erase_if(model_.console, [](const ConsoleLine& line) { return line.kind == ConsoleLine::command; });

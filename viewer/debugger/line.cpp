@@ -137,8 +137,8 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> own = {"step", "back",  "seek", "play",  "pause", "select", "panel", "ui",
-                                        "shot", "plots", "quit", "break", "find",  "freeze", "why",   "bundle"};
+  const std::vector<std::string> own = {"step",  "back", "seek",  "play", "pause",  "select", "panel",  "ui",   "shot",
+                                        "plots", "quit", "break", "find", "freeze", "why",    "bundle", "undo", "redo"};
   std::vector<std::string> verbs = command_verbs();
   const std::size_t commands = verbs.size();
   verbs.insert(verbs.end(), own.begin(), own.end());
@@ -149,6 +149,7 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   if (verb == "select") return parse_select(words, names);
   if (verb == "panel") return parse_panel(line, words, names.rows, names.figures);
   if (verb == "ui") return parse_input(line, words);
+  if (verb == "undo" || verb == "redo") return want(words, 1, 1, verb.c_str()), UndoLine{verb == "redo"};
   if (verb == "quit") return want(words, 1, 1, "quit"), QuitLine{};
   if (verb == "break") return parse_break(line, words, names);
   if (verb == "find") {

@@ -6,6 +6,7 @@
 //   break when CONDITION | break off | find CONDITION
 //   why NAME NAME                       what each filter of detection made of two bodies
 //   freeze FILE                         the last sub-step of the frame, for impinge step
+//   undo | redo                         of set, layer, hide ...: the last that was done, or undone
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
 //   panel ...                           panel_line.hpp
 //   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
@@ -56,8 +57,11 @@ struct FileLine {
   std::string file;
 };
 struct QuitLine {};
+struct UndoLine {
+  bool again = false;  ///< redo
+};
 using DebugLine = std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, FileLine,
-                               QuitLine, BreakLine, FindLine, WhyLine, FreezeLine>;
+                               QuitLine, UndoLine, BreakLine, FindLine, WhyLine, FreezeLine>;
 
 /// What names a line may use.
 struct DebugNames {

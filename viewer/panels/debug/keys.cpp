@@ -51,6 +51,7 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("home")) lines.push_back("seek 0");
   if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
   if (ui.key_pressed("a")) lines.push_back("camera fit");
+  if (ui.key_pressed("z") && ImGui::GetIO().KeyCtrl) lines.push_back(ImGui::GetIO().KeyShift ? "redo" : "undo");
   if (ui.key_pressed("b")) lines.push_back("bundle " + bundle_name(model));
   bodies_to_lines(ui, model, lines);
   constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
@@ -69,6 +70,7 @@ void draw_help(const DebugModel& model, const UiArea& view) {
                                              {"a", "fit the view to all"},
                                              {"h, shift h", "hide the selected, all others"},
                                              {"ctrl h", "show all"},
+                                             {"ctrl z, ctrl shift z", "undo, redo a change"},
                                              {"b", "all of this into one file, to be opened elsewhere"},
                                              {"escape", "end the frame in work; deselect; close this"},
                                              {"left button", "orbit; a click picks"},
