@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
@@ -223,6 +224,23 @@ TEST_CASE("a bundle with a byte missing or wrong anywhere is refused, and never 
   for (int i = 0; i < 6000; ++i)
     if (const std::string bytes = damaged(whole, random); bytes != whole) refused += !try_bundle(bytes) ? 1 : 0;
   CHECK(refused > 5900);
+}
+
+TEST_CASE("a bundle whose head is wrong and says the right hash of itself is refused or read, never more") {
+  const std::string whole = bundle();
+  Random random(1607);
+  int refused = 0, taken = 0;
+  for (int i = 0; i < 6000; ++i) {
+    std::vector<TarPart> parts = parse_tar("a.tar", whole);
+    const std::string begin = "hash = \"", end = "\"\n";
+    std::string head(parts[0].bytes.substr(begin.size() + 16 + end.size()));
+    head = damaged(head, random);
+    head = begin + hex64(hash_bytes(head)) + end + head;
+    parts[0].bytes = head;
+    (try_bundle(format_tar(parts)) ? taken : refused)++;
+  }
+  CHECK(refused > 3000);
+  CHECK(taken > 20);
 }
 
 TEST_CASE("what would exhaust the TOML parser is stopped before it") {

@@ -85,7 +85,8 @@ std::vector<std::string> Debugger::opening_lines() const {
     for (const Command& command : commands)
       if (is_pending(frame)) lines.push_back(format_command(command));
   for (const Parameter& row : session_.rows().all())
-    if (row.path.starts_with("view.") && row.live && row.set && row.get() != first_.find(row.path)->get())
+    if (row.path.starts_with("view.") && row.path != "view.camera.distance" &&  // which follows from eye and target
+        row.live && row.set && row.get() != first_.find(row.path)->get())
       lines.push_back(format_command(SetCommand{row.path, row.get()}));
   for (const std::vector<std::string>* done : {&opened_, &recorded_})
     for (const std::string& line : *done) {

@@ -225,8 +225,7 @@ void DebugLoop::write_bundle(const std::string& file, const PlacedText& place) {
                  "a folder that may be written to is wanted", "change --out or the name");
   }
   debugger_.record_bundle(file, pointer());
-  debugger_.say(ConsoleLine::message,
-                fmt::format("all of it is in {}; impinge debug opens it anywhere", path.string()));
+  debugger_.say(ConsoleLine::message, fmt::format("all of it is in {}; impinge debug opens it anywhere", file));
 }
 
 void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
