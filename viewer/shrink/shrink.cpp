@@ -112,7 +112,7 @@ class Shrinking {
     for (int before = 1; before < end; before *= 2) {
       const std::optional<SmallScene> later = trials_.begun_at(from, end - before);
       if (!later) {
-        note("no frames are left out at the beginning: a scene can't say how bodies are deformed or attached by then");
+        note("no frames are left out at the beginning: a scene can't say how bodies are deformed, or half of a ramp");
         return;
       }
       if (adopt(*later, std::min(end - 1, 2 * before))) return;

@@ -61,6 +61,29 @@ TomlNode motion_from(const TomlNode& motion, double time, const Pose& pose) {
   return later;
 }
 
+/// What takes a body from one place to another, in world coordinates.
+Pose motion_between(const Pose& from, const Pose& to) {
+  Pose motion;
+  motion.rotation = to.rotation * from.rotation.transpose();
+  motion.position = to.position - motion.rotation * from.position;
+  return motion;
+}
+
+/// Its point goes with body_a, along what it slides with body_b; what the world holds stays.
+void move_attachment(TomlNode& attachment, const std::map<std::string, Pose>& moved) {
+  const auto vector_of = [](const TomlNode& node) {
+    return Vec3(node.items[0].as_number(), node.items[1].as_number(), node.items[2].as_number());
+  };
+  const Pose& a = moved.at(text_of(attachment, "body_a"));
+  TomlNode& point = attachment.find("point")->value;
+  point = toml_node(ParameterValue(Vec3(a.rotation * vector_of(point) + a.position)));
+  const auto b = moved.find(text_of(attachment, "body_b"));
+  if (b == moved.end()) return;
+  for (const char* key : {"direction", "normal"})
+    if (TomlEntry* along = attachment.find(key))
+      along->value = toml_node(ParameterValue(Vec3(b->second.rotation * vector_of(along->value))));
+}
+
 /// A line by frame, so many frames sooner; "" where a ramp is cut in two.
 std::string sooner(const std::string& line, int frames) {
   const std::vector<PlacedText> words = words_of(line);
@@ -142,13 +165,15 @@ SmallScene SmallScene::with_lines(const std::vector<std::string>& lines) const {
   return less;
 }
 
-std::optional<SmallScene> SmallScene::begun_at(int frame, const StepRecord& record) const {
-  if (!scene.attachments.empty()) return std::nullopt;
+std::optional<SmallScene> SmallScene::begun_at(int frame, const StepRecord& record,
+                                               const std::vector<Pose>& start) const {
   SmallScene later = *this;
+  std::map<std::string, Pose> moved;  // by body, from the start on
   for (std::size_t i = 0; i < record.bodies.size(); ++i) {
     const BodyRecord& body = record.bodies[i];
     TomlNode& table = later.scene.bodies[i];
     if (body.kind == BodyKind::deformable) return std::nullopt;
+    moved[std::string(body.name)] = motion_between(start[i], body.file_pose);
     if (body.kind == BodyKind::scripted) {
       TomlNode& motion = table.find("motion")->value;
       motion = motion_from(motion, record.stats.time, body.file_pose);
@@ -159,6 +184,7 @@ std::optional<SmallScene> SmallScene::begun_at(int frame, const StepRecord& reco
     set_key(table, "velocity", toml_node(ParameterValue(body.velocity)));
     set_key(table, "angular_velocity", toml_node(ParameterValue(body.angular_velocity)));
   }
+  for (TomlNode& attachment : later.scene.attachments) move_attachment(attachment, moved);
   for (std::string& line : later.run.script) {
     line = sooner(line, frame);
     if (line.empty()) return std::nullopt;

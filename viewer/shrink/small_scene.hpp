@@ -23,9 +23,9 @@ struct SmallScene {
   SmallScene with_bodies(const std::vector<std::string>& names) const;
   SmallScene with_attachments(const std::vector<std::size_t>& places) const;
   SmallScene with_lines(const std::vector<std::string>& lines) const;
-  /// Begins where `record` is, after so many frames. None where the scene can't say that: bodies that deform, and
-  /// attachments.
-  std::optional<SmallScene> begun_at(int frame, const StepRecord& record) const;
+  /// Begins where `record` is, after so many frames; `start`: where the bodies' files were before them. None where the
+  /// scene can't say that: bodies that deform, and a ramp that is cut in two.
+  std::optional<SmallScene> begun_at(int frame, const StepRecord& record, const std::vector<Pose>& start) const;
   /// With another file in place of a surface.
   SmallScene with_surface(const std::string& name, const std::string& other) const;
 };

@@ -112,8 +112,11 @@ Trial Trials::first(const fs::path& run_toml, int last_frame) {
 
 std::optional<SmallScene> Trials::begun_at(const SmallScene& scene, int frame) {
   const std::unique_ptr<Session> session = load(scene);
+  session->advance();
+  std::vector<Pose> start;
+  for (const BodyRecord& body : session->record().bodies) start.push_back(body.file_pose);
   while (session->frame() < frame) session->advance();
-  return scene.begun_at(frame, session->record());
+  return scene.begun_at(frame, session->record(), start);
 }
 
 void Trials::complete(Trial& trial) {
