@@ -15,6 +15,15 @@
 #include "viewer/debugger/debugger.hpp"
 
 namespace impinge {
+namespace {
+
+std::string as_text(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+}  // namespace
 
 std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const Vec2& pointer) {
   const int home = frame(), place = within_ ? within_->place : -1;
@@ -26,8 +35,8 @@ std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const
       if (!is_pending(frame)) by_hand.push_back(fmt::format("at {} {}", frame, format_command(command)));
   parts["run.toml"] = bundled_run(session_, files, start_, by_hand, home);
   parts["stats.csv"] = bundled_figures();
-  parts["recording.script"] = fmt::format("{}\n", fmt::join(recording(pointer), "\n"));
-  parts["opening.script"] = fmt::format("{}\n", fmt::join(opening_lines(), "\n"));
+  parts["recording.script"] = as_text(recording(pointer));
+  parts["opening.script"] = as_text(opening_lines());
   const auto add_state = [&] {
     parts[fmt::format("snapshots/{:06}.bin", session_.frame())] = format_snapshot(session_);
   };
@@ -110,7 +119,8 @@ void Debugger::open_at(const BundleHead& moment, const std::vector<std::string>&
   for (int k = 1; k <= frame(); ++k)
     if (!session_.script().commands_at(k).empty()) changed_frames_.insert(k);
   if (moment.stage >= 0 && frame() == moment.frame) stand_in(moment.frame, moment.stage);
-  for (const std::string& line : lines) try_execute(line);
+  for (const std::string& line : lines)
+    if (!line.empty()) try_execute(line);
   opened_ = lines;
   edits_.forget();
   playing_ = false;

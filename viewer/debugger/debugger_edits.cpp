@@ -52,6 +52,7 @@ void Debugger::exchange(Future& future) {
 }
 
 void Debugger::do_command(const Command& command) {
+  if (is_look(command)) return session_.change(command);
   Edit edit;
   if (changes_model(command)) {
     if (within_) {
@@ -81,7 +82,7 @@ void Debugger::do_command(const Command& command) {
     for (auto& [row, value] : before)
       if (row->get() != value) edit.view.emplace_back(row, std::move(value));
     // lines that set the same are merged, so each has its own
-    if (is_look(command) || (edit.view.empty() && !std::holds_alternative<SetCommand>(command))) return;
+    if (edit.view.empty() && !std::holds_alternative<SetCommand>(command)) return;
   }
   edits_.done(std::move(edit));
 }

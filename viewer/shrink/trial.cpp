@@ -47,7 +47,6 @@ std::unique_ptr<Session> Trials::load(const SmallScene& scene) {
 
 std::optional<Trial> Trials::run(Session& session, const SmallScene& scene, int last_frame) {
   ++tried_;
-  const BundleFiles files(session.scene().surfaces);
   const ParameterSet start = values_of(session.rows());
   const bool judged = session.is_judged();
   FrameJudge overlap(session.is_judged_by_substep() ? FrameJudge::each_substep : FrameJudge::each_frame);
@@ -68,6 +67,7 @@ std::optional<Trial> Trials::run(Session& session, const SmallScene& scene, int 
     breaks.end(frame, figures, session.record(), session.bodies());
     if (!breaks.next(frame, 0)) continue;
     session.watch(nullptr);
+    const BundleFiles files(session.scene().surfaces);
     Trial trial{scene, frame, triangles_of(session.scene()), {}, files.parts()};
     trial.scene.scene.surfaces = session.scene().surfaces;  // of bodies that are left
     trial.parts["run.toml"] = bundled_run(session, files, start, {}, frame);

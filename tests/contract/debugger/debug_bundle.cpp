@@ -194,6 +194,7 @@ TEST_CASE("a bundle whose states are others is told, with exit code 1") {
   folder.write("look.script", "shot x.png\n");
   const Outcome made_again = debug(folder, "older.tar", "look.script");
   CHECK(made_again.code == 0);
+  CHECK(made_again.err.empty());
   CHECK(end_of(made_again) == std::pair(12, hash));
 }
 
