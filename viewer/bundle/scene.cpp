@@ -95,18 +95,25 @@ Scene BundleFiles::renamed(Scene scene) const {
   return scene;
 }
 
-std::string bundled_run(const Session& session, const BundleFiles& files, const ParameterSet& start,
-                        const std::vector<std::string>& by_hand, int last_frame) {
+std::map<std::string, std::string> bundled_scene(const Session& session, const ParameterSet& start,
+                                                 const std::vector<std::string>& by_hand, int last_frame) {
+  const BundleFiles files(session.scene().surfaces);
+  std::map<std::string, std::string> parts = files.parts();
   RunRecord run = session.run_record();
   run.scene = fs::path(run.scene).filename().string();
   run.folder = ".";
+  if (!run.start.empty()) {
+    parts["start.bin"] = read_file(run.start, kLargestFile);
+    run.start = std::string("start.bin");
+  }
   run.frames = last_frame;
   run.script_file = fs::path(run.script_file).filename().string();
   for (std::string& line : run.script) line = without_picture(line);
   std::erase(run.script, "");
   run.script.insert(run.script.begin(), by_hand.begin(), by_hand.end());
   if (run.script_file.empty() && !run.script.empty()) run.script_file = "recording.script";
-  return format_run(files.renamed(session.scene()), start, run);
+  parts["run.toml"] = format_run(files.renamed(session.scene()), start, run);
+  return parts;
 }
 
 }  // namespace impinge

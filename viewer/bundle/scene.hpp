@@ -32,8 +32,9 @@ class BundleFiles {
 /// A row of stats.csv as a bundle has it: without times, so that the same moment gives the same bytes.
 std::vector<double> without_times(std::vector<double> figures, bool judged);
 
-/// run.toml of a bundle: `start`, the rows before frame 0; `by_hand`, lines that come before the script's of their frame.
-std::string bundled_run(const Session& session, const BundleFiles& files, const ParameterSet& start,
-                        const std::vector<std::string>& by_hand, int last_frame);
+/// Parts of a bundle: run.toml and all that it names. `start`: the rows before frame 0; `by_hand`: lines that come before
+/// the script's of their frame.
+std::map<std::string, std::string> bundled_scene(const Session& session, const ParameterSet& start,
+                                                 const std::vector<std::string>& by_hand, int last_frame);
 
 }  // namespace impinge

@@ -27,13 +27,11 @@ std::string as_text(const std::vector<std::string>& lines) {
 
 std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const Vec2& pointer) {
   const int home = frame(), place = within_ ? within_->place : -1;
-  const BundleFiles files(session_.scene().surfaces);
-  std::map<std::string, std::string> parts = files.parts();
   std::vector<std::string> by_hand;
   for (const auto& [frame, commands] : by_hand_)
     for (const Command& command : commands)
       if (!is_pending(frame)) by_hand.push_back(fmt::format("at {} {}", frame, format_command(command)));
-  parts["run.toml"] = bundled_run(session_, files, start_, by_hand, home);
+  std::map<std::string, std::string> parts = bundled_scene(session_, start_, by_hand, home);
   parts["stats.csv"] = bundled_figures();
   parts["recording.script"] = as_text(recording(pointer));
   parts["opening.script"] = as_text(opening_lines());

@@ -51,6 +51,7 @@ class Shrinking {
     }
     replace_surfaces();
     drop_bodies();
+    begin_with_state();
     trials_.complete(best_);
     write();
   }
@@ -111,11 +112,22 @@ class Shrinking {
     begin("frames", 12);
     for (int before = 1; before < end; before *= 2) {
       const std::optional<SmallScene> later = trials_.begun_at(from, end - before);
-      if (!later) {
-        note("no frames are left out at the beginning: a scene can't say how bodies are deformed, or half of a ramp");
-        return;
-      }
+      if (!later) return;
       if (adopt(*later, std::min(end - 1, 2 * before))) return;
+    }
+  }
+
+  /// Where a scene can't say how it is by then, a state does. It is one of these bodies, so nothing else can go after it.
+  void begin_with_state() {
+    const SmallScene from = best_.scene;
+    const int end = best_.frame;
+    if (end < 2) return;
+    begin("frames", 1);
+    for (int before = 1; before < end; before *= 2) {
+      const std::optional<SmallScene> later = trials_.begun_with(from, end - before);
+      if (!later) return note("no frames are left out at the beginning: a ramp of the script would be cut in two");
+      if (!adopt(*later, std::min(end - 1, 2 * before))) continue;
+      return note("it begins with a state, start.bin, which is read by this version only");
     }
   }
 

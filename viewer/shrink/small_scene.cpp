@@ -84,6 +84,12 @@ void move_attachment(TomlNode& attachment, const std::map<std::string, Pose>& mo
       along->value = toml_node(ParameterValue(Vec3(b->second.rotation * vector_of(along->value))));
 }
 
+/// In which it still has something to say.
+int last_frame_of(const std::string& line) {
+  const std::vector<PlacedText> words = words_of(line);
+  return std::stoi(std::string(words[words[0].text == "at" ? 1 : 3].text));
+}
+
 /// A line by frame, so many frames sooner; "" where a ramp is cut in two.
 std::string sooner(const std::string& line, int frames) {
   const std::vector<PlacedText> words = words_of(line);
@@ -188,6 +194,18 @@ std::optional<SmallScene> SmallScene::begun_at(int frame, const StepRecord& reco
   for (std::string& line : later.run.script) {
     line = sooner(line, frame);
     if (line.empty()) return std::nullopt;
+  }
+  return later;
+}
+
+std::optional<SmallScene> SmallScene::begun_with(int frame, const std::string& state) const {
+  SmallScene later = *this;
+  later.run.start = state;
+  later.run.script.clear();
+  for (const std::string& line : run.script) {
+    const std::string moved = sooner(line, frame);
+    if (moved.empty()) return std::nullopt;
+    if (last_frame_of(line) > frame) later.run.script.push_back(moved);  // else the state has it
   }
   return later;
 }

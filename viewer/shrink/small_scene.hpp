@@ -26,6 +26,8 @@ struct SmallScene {
   /// Begins where `record` is, after so many frames; `start`: where the bodies' files were before them. None where the
   /// scene can't say that: bodies that deform, and a ramp that is cut in two.
   std::optional<SmallScene> begun_at(int frame, const StepRecord& record, const std::vector<Pose>& start) const;
+  /// Begins with a state, that of its frame. None where a ramp is cut in two.
+  std::optional<SmallScene> begun_with(int frame, const std::string& state) const;
   /// With another file in place of a surface.
   SmallScene with_surface(const std::string& name, const std::string& other) const;
 };

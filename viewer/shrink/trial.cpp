@@ -67,10 +67,8 @@ std::optional<Trial> Trials::run(Session& session, const SmallScene& scene, int 
     breaks.end(frame, figures, session.record(), session.bodies());
     if (!breaks.next(frame, 0)) continue;
     session.watch(nullptr);
-    const BundleFiles files(session.scene().surfaces);
-    Trial trial{scene, frame, triangles_of(session.scene()), {}, files.parts()};
+    Trial trial{scene, frame, triangles_of(session.scene()), {}, bundled_scene(session, start, {}, frame)};
     trial.scene.scene.surfaces = session.scene().surfaces;  // of bodies that are left
-    trial.parts["run.toml"] = bundled_run(session, files, start, {}, frame);
     trial.parts["stats.csv"] = std::move(table);
     trial.parts[fmt::format("snapshots/{:06}.bin", frame)] = format_snapshot(session);
     std::string opening;
@@ -117,6 +115,14 @@ std::optional<SmallScene> Trials::begun_at(const SmallScene& scene, int frame) {
   for (const BodyRecord& body : session->record().bodies) start.push_back(body.file_pose);
   while (session->frame() < frame) session->advance();
   return scene.begun_at(frame, session->record(), start);
+}
+
+std::optional<SmallScene> Trials::begun_with(const SmallScene& scene, int frame) {
+  const std::unique_ptr<Session> session = load(scene);
+  while (session->frame() < frame) session->advance();
+  const fs::path state = folder_ / fmt::format("start_{}.bin", frame);
+  write_snapshot(state, *session);
+  return scene.begun_with(frame, state.string());
 }
 
 void Trials::complete(Trial& trial) {

@@ -32,6 +32,8 @@ class Trials {
   void complete(Trial& trial);
   /// The same scene from a later frame on; none where that can't be said in a scene.
   std::optional<SmallScene> begun_at(const SmallScene& scene, int frame);
+  /// The same with a file of the state, which is that of its bodies and no others; none where a ramp is cut in two.
+  std::optional<SmallScene> begun_with(const SmallScene& scene, int frame);
 
   int tried() const { return tried_; }
   std::filesystem::path folder() const { return folder_; }

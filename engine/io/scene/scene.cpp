@@ -136,8 +136,10 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
   scene.folder = path.parent_path();
   if (const TomlEntry* run = root.find("run")) {
     scene.run = read_run_record(run->value);
-    if (const fs::path folder = scene.run->folder; folder.is_relative())  // such a run can be carried elsewhere
-      scene.run->folder = absolute_path(path.parent_path() / folder).lexically_normal().string();
+    for (std::string* place :
+         {&scene.run->folder, &scene.run->start})  // a run that names neighbours can be carried about
+      if (!place->empty() && fs::path(*place).is_relative())
+        *place = absolute_path(path.parent_path() / *place).lexically_normal().string();
     scene.folder = scene.run->folder;
   }
   if (const TomlEntry* sweep = root.find("sweep"); sweep != nullptr && sweep->value.find("scene") != nullptr)

@@ -6,6 +6,7 @@
 
 #include "engine/io/scene/toml.hpp"
 #include "tests/support/program/debug_session.hpp"
+#include "tests/support/program/sweep_results.hpp"
 #include "viewer/bundle/bundle.hpp"
 
 using namespace impinge;
@@ -162,21 +163,40 @@ TEST_CASE("attached bodies begin later where their joints are by then") {
   }
 }
 
-TEST_CASE("of grippers that pull a bar apart both stay, and it begins later") {
+TEST_CASE("of grippers that pull a bar apart both stay; it begins with a state, since its error is one") {
   const TempFolder folder;
   make_bundle(folder, slurp(kFaults / "contradiction.toml") + bystanders(6), 20);
   const Small small = shrink(folder, "attachment_error_m > 1e-3");
   CHECK(small.sizes("attachments") == std::pair(2, 2));
   CHECK(small.sizes("bodies") == std::pair(9, 3));
-  CHECK(small.outcome.out.find("note:") == std::string::npos);
+  CHECK(small.sizes("frames") == std::pair(21, 2));
+  CHECK(small.outcome.out.find("note: it begins with a state") != std::string::npos);
 }
 
-TEST_CASE("of bodies that deform it is said that no frames go at the beginning") {
+TEST_CASE("bodies that deform begin later with a state, and go on as they did, bit for bit") {
   const TempFolder folder;
   make_bundle(folder, slurp(kFaults / "inverted_element.toml") + bystanders(6), 10);
   const Small small = shrink(folder, "elastic_J > 0.1");
-  CHECK(small.sizes("bodies").second < small.sizes("bodies").first - 5);
-  CHECK(small.outcome.out.find("note: no frames are left out at the beginning") != std::string::npos);
+  CHECK(small.sizes("bodies").second == small.sizes("bodies").first - 6);
+  CHECK(small.sizes("frames") == std::pair(11, 2));
+  CHECK(small.outcome.out.find("note: it begins with a state") != std::string::npos);
+  // the fault alone, from its beginning
+  REQUIRE(impinge_run(folder.path(), {"run", (kFaults / "inverted_element.toml").string(), "--no-images", "--frames",
+                                      "10", "--out", "o"})
+              .code == 0);
+  const std::string bytes = slurp(folder / "small.tar");
+  folder.write("small.csv", std::string(parse_bundle("small.tar", bytes).parts.at("stats.csv")));
+  const std::vector<double> whole = numbers(csv_rows(folder / "o/stats.csv"), "elastic_J"),
+                            part = numbers(csv_rows(folder / "small.csv"), "elastic_J");
+  const auto first = std::find_if(whole.begin(), whole.end(), [](double j) { return j > 0.1; });
+  REQUIRE(first != whole.end());
+  REQUIRE(part.size() == 2);
+  CHECK(part[0] == *(first - 1));
+  CHECK(part[1] == *first);
+  // unpacked it is a run like any other, and a bundle of it carries the state on
+  folder.write("more.script", "step 3\nbundle more.tar\n");
+  REQUIRE(debug(folder, "small.tar", "more.script").code == 0);
+  CHECK(impinge_run(folder.path(), {"replay", "more.tar"}).code == 0);
 }
 
 TEST_CASE("a shrink that is interrupted keeps the smallest bundle by then") {
