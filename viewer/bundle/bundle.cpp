@@ -62,6 +62,21 @@ TomlNode read_head(const std::string& file, std::string_view text) {
   return root;
 }
 
+/// The scene of a bundle reads what is in the bundle, whatever somebody wrote into its run.toml.
+void check_scene(const std::string& file, std::string_view text) {
+  const TomlNode root = parse_toml(file + " run.toml", std::string(text));
+  const auto said = [&](const char* table, const char* key) -> const TomlNode* {
+    const TomlEntry* outer = root.find(table);
+    const TomlEntry* inner = outer == nullptr ? nullptr : outer->value.find(key);
+    return inner == nullptr ? nullptr : &inner->value;
+  };
+  const TomlNode *folder = said("run", "folder"), *start = said("run", "start"),
+                 *outside = said("scene", "allow_outside_files");
+  if (folder == nullptr || folder->string != "." || (start != nullptr && start->string != "start.bin") ||
+      (outside != nullptr && outside->flag))
+    refuse_bundle(file, "its scene asks for files outside of it");
+}
+
 }  // namespace
 
 std::string format_bundle(const BundleHead& head, const std::map<std::string, std::string>& parts) {
@@ -126,6 +141,7 @@ bool is_bundle(const fs::path& path) {
 UnpackedBundle::UnpackedBundle(const fs::path& file) {
   const std::string bytes = read_file(file, kMostBytes);
   const Bundle bundle = parse_bundle(file.string(), bytes);
+  check_scene(file.string(), bundle.parts.at("run.toml"));
   head_ = bundle.head;
   std::error_code error;
   std::string name = (fs::temp_directory_path(error) / "impinge_bundle_XXXXXX").string();

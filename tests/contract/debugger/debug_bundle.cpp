@@ -234,6 +234,17 @@ TEST_CASE("what is no whole bundle is refused by one message, and nothing of it 
   std::map<std::string, std::string> parts(bundle.parts.begin(), bundle.parts.end());
   parts["run.toml"] += "\n[[body]]\nname = \"spy\"\nkind = \"static\"\nsurface = \"/etc/passwd\"\n";
   refused(format_bundle(bundle.head, parts), "leads out of the scene's folder");
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"folder = \".\"", "folder = \"/etc\""},
+           {"folder = \".\"", "folder = \"..\""},
+           {"folder = \".\"", "folder = \".\"\nstart = \"/etc/passwd\""},
+           {"\n[simulation]", "\n[scene]\nallow_outside_files = true\n[simulation]"}}) {
+    std::map<std::string, std::string> other(bundle.parts.begin(), bundle.parts.end());
+    std::string& scene = other["run.toml"];
+    REQUIRE(scene.find(from) != std::string::npos);
+    scene.replace(scene.find(from), from.size(), to);
+    refused(format_bundle(bundle.head, other), "its scene asks for files outside of it");
+  }
   // some other tar, and some other file
   folder.write("other/file", "x");
   REQUIRE(std::system(("cd " + folder.path().string() + " && tar cf x.tar other && tar cf y.tar other").c_str()) == 0);
