@@ -276,7 +276,7 @@ LinearSolverChoice linear_solver_of(Reader& in, std::size_t at, std::vector<RowT
 
 }  // namespace
 
-void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step) {
+std::string format_frozen_step(const FrozenStep& step) {
   LittleEndianWriter out, head;
   out.put_text(step.scene), out.put(std::int32_t{step.frame}), out.put(step.time), out.put(step.time_step),
       out.put(step.gravity);
@@ -289,7 +289,11 @@ void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step
   for (const FrozenGroup& group : step.groups) put_group(out, group);
   head.put(kVersion), head.put(std::uint32_t{0}), head.put(std::uint64_t{out.bytes().size()}),
       head.put(fnv1a(out.bytes()));
-  write_file(path, std::string(kMagic) + head.bytes() + out.bytes());
+  return std::string(kMagic) + head.bytes() + out.bytes();
+}
+
+void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step) {
+  write_file(path, format_frozen_step(step));
 }
 
 FrozenStep read_frozen_step(const std::filesystem::path& path) {

@@ -8,6 +8,8 @@
 
 namespace impinge {
 
+/// The bytes of the file.
+std::string format_frozen_step(const FrozenStep& step);
 /// Throws InputError where it can't be written.
 void write_frozen_step(const std::filesystem::path& path, const FrozenStep& step);
 

@@ -42,13 +42,19 @@ void World::add_attachment(const AttachmentDescription& description) {
 }
 
 void World::start() {
-  frame_ = 0;
   time_ = 0.0;
+  parameters_changed();
+  place(bodies_, time_);
+  find_at_start();
+}
+
+void World::start_restored() { find_at_start(); }
+
+void World::find_at_start() {
+  frame_ = 0;
   stats_ = {};
   unsafe_.clear();
-  parameters_changed();
   const double h = parameters.simulation.time_step();
-  place(bodies_, time_);
   for (Body& body : bodies_)
     if (!body.has_freedom()) body.drive(time_, h, 1.0);
   sub_step_->time = time_, sub_step_->time_step = h;

@@ -45,6 +45,8 @@ class World {
 
   /// Publishes frame 0: detection only, no solve. Throws DivergenceError as step() does.
   void start();
+  /// Frame 0 of what restore() brought: detection only. Bodies, what is remembered of contacts, and time go on from there.
+  void start_restored();
   /// One frame: [Haapaoja16 §2] in the order of engine/README.md. Throws DivergenceError with frame, group and body,
   /// or with frame, body and column where a figure is not finite; record() then has still the frame before. Throws
   /// Interrupted (core/interrupt.hpp), after which the world stands in the middle of the frame until restore().
@@ -75,6 +77,7 @@ class World {
  private:
   void advance(FrozenStep* frozen);
   void substep(double time_step, int left, FrozenStep* frozen);
+  void find_at_start();
   void drop_what_never_carries();
   void look_again(const Solving& how);
   void make_motion(double time_step, double share, bool freezes);

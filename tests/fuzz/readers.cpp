@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
@@ -11,6 +12,7 @@
 #include "engine/io/scene/toml_prescan.hpp"
 #include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/random.hpp"
+#include "viewer/bundle/bundle.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -83,6 +85,36 @@ camera = { eye = [3, 2, 4], target = [0, 0.5, 0] }
 [a.b]
 c.d = [ { e.f = 0x1F, 'gä' = "\u00E4" }, 1979-05-27T07:32:00Z ]
 )";
+
+std::string bundle() {
+  BundleHead head;
+  head.scene = "a scene.toml";
+  head.frame = 85;
+  head.stage = 7;
+  head.state_hash = 0x0123456789abcdef;
+  return format_bundle(head, {{"run.toml", kScene},
+                              {"stats.csv", "frame\n0\n"},
+                              {"snapshots/000085.bin", std::string(1500, '\xa5')},
+                              {"meshes/2/a.off", off_text(tetrahedron())}});
+}
+
+/// Whether it was taken.
+bool try_bundle(const std::string& bytes) {
+  try {
+    const Bundle bundle = parse_bundle("a.tar", bytes);
+    for (const auto& [name, part] : bundle.parts) {
+      REQUIRE(is_tar_name(name));
+      REQUIRE(part.size() <= bytes.size());
+    }
+    return true;
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    REQUIRE(message.rfind("a.tar", 0) == 0);
+    REQUIRE(message.find('\n') == std::string::npos);
+    REQUIRE(message.size() < 1000);
+    return false;
+  }
+}
 
 /// Levels of tables and arrays below a node.
 int depth(const TomlNode& node) {
@@ -174,6 +206,41 @@ TEST_CASE("a damaged scene text is refused or read, never more") {
   }
   CHECK(refused > 3000);
   CHECK(taken > 500);
+}
+
+TEST_CASE("a bundle with a byte missing or wrong anywhere is refused, and never more than that") {
+  const std::string whole = bundle();
+  REQUIRE(try_bundle(whole));
+  for (std::size_t n = 0; n < whole.size(); ++n) REQUIRE_FALSE(try_bundle(whole.substr(0, n)));
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (const int bit : {0, 5, 7}) {
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << bit));
+      CAPTURE(at, bit);
+      REQUIRE_FALSE(try_bundle(bytes));
+    }
+  Random random(1606);
+  int refused = 0;
+  for (int i = 0; i < 6000; ++i)
+    if (const std::string bytes = damaged(whole, random); bytes != whole) refused += !try_bundle(bytes) ? 1 : 0;
+  CHECK(refused > 5900);
+}
+
+TEST_CASE("a bundle whose head is wrong and says the right hash of itself is refused or read, never more") {
+  const std::string whole = bundle();
+  Random random(1607);
+  int refused = 0, taken = 0;
+  for (int i = 0; i < 6000; ++i) {
+    std::vector<TarPart> parts = parse_tar("a.tar", whole);
+    const std::string begin = "hash = \"", end = "\"\n";
+    std::string head(parts[0].bytes.substr(begin.size() + 16 + end.size()));
+    head = damaged(head, random);
+    head = begin + hex64(hash_bytes(head)) + end + head;
+    parts[0].bytes = head;
+    (try_bundle(format_tar(parts)) ? taken : refused)++;
+  }
+  CHECK(refused > 3000);
+  CHECK(taken > 20);
 }
 
 TEST_CASE("what would exhaust the TOML parser is stopped before it") {

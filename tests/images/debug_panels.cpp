@@ -9,6 +9,7 @@
 
 #include "engine/core/types.hpp"
 #include "tests/support/pictures/text_faults.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/debugger/loop.hpp"
 #include "viewer/draw/palette.hpp"
 #include "viewer/image/difference.hpp"
@@ -53,6 +54,11 @@ const std::vector<std::string> kLines = {"step 60",
                                          "select contact 1",
                                          "panel plot +max_penetration_m +potential_J",
                                          "back 5"};
+
+void key(PanelSession& session, UiEvent::Kind kind, const char* name) {
+  const auto it = std::find(key_names().begin(), key_names().end(), name);
+  session.window.ui().add({kind, 0, 0, static_cast<int>(it - key_names().begin())});
+}
 
 Image crop(const Image& whole, const UiArea& area) {
   const int x0 = static_cast<int>(area.x), y0 = static_cast<int>(area.y);
@@ -174,12 +180,35 @@ TEST_CASE("a frame that is gone back to looks as it did") {
   }
 }
 
+TEST_CASE("ctrl z undoes, with shift it does again, and b writes a bundle") {
+  const TempFolder folder;
+  PanelSession session(960, 600);
+  DebugLoop loop(session.debugger, session.window, folder.path());
+  const auto press = [&](const std::vector<const char*>& names) {
+    for (const char* name : names) key(session, UiEvent::key_down, name);
+    for (const char* name : names) key(session, UiEvent::key_up, name);
+    while (session.window.ui().has_events()) loop.tick();
+    loop.tick();
+  };
+  const Parameter& friction = *session.debugger.model().rows->find("contact.friction");
+  const ParameterValue before = friction.get();
+  session.run({"step 5", "set contact.friction 0.125"});
+  press({"z"});
+  CHECK(friction.get() == ParameterValue(0.125));
+  press({"ctrl", "z"});
+  CHECK(friction.get() == before);
+  press({"ctrl", "shift", "z"});
+  CHECK(friction.get() == ParameterValue(0.125));
+  CHECK(session.debugger.recording({-1, -1}) ==
+        std::vector<std::string>{"step 5", "set contact.friction 0.125", "undo", "redo"});
+  press({"b"});
+  const std::string line = session.debugger.recording({-1, -1}).back();
+  REQUIRE(line.starts_with("bundle crate_and_ball_000005_"));
+  CHECK(is_bundle(folder / line.substr(7)));
+}
+
 TEST_CASE("what is typed into one window and not entered shows in no other") {
   const Image fresh = PanelSession(960, 600).loop.picture();
-  const auto key = [](PanelSession& session, UiEvent::Kind kind, const char* name) {
-    const auto it = std::find(key_names().begin(), key_names().end(), name);
-    session.window.ui().add({kind, 0, 0, static_cast<int>(it - key_names().begin())});
-  };
   PanelSession console(960, 600), slider(960, 600);
   console.run({"ui click console/line", "ui text quit", "ui click transport/frame"});
   key(slider, UiEvent::key_down, "ctrl");  // and a click: a field for the value takes the slider's place

@@ -20,6 +20,7 @@ const Registry<SubCommand>& sub_commands() {
     IMPINGE_LIST(all, compare_command);
     IMPINGE_LIST(all, export_command);
     IMPINGE_LIST(all, debug_command);
+    IMPINGE_LIST(all, shrink_command);
     IMPINGE_LIST(all, sweep_command);
     IMPINGE_LIST(all, clean_command);
     return all;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <memory>
 
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
@@ -14,6 +15,7 @@
 #include "viewer/app/debug_doors.hpp"
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/shared_options.hpp"
+#include "viewer/bundle/bundle.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/debugger/window_loop.hpp"
 #include "viewer/present/window.hpp"
@@ -48,6 +50,8 @@ DebugScript read_script(const fs::path& path) {
 
 struct Source {
   fs::path scene, run_folder;
+  std::shared_ptr<const UnpackedBundle> bundle = nullptr;
+  std::string name = {};
 };
 
 /// What the command line says.
@@ -61,18 +65,26 @@ struct Given {
   DebugDoors doors;
 };
 
+void refuse_overrides(const Given& options, const char* with) {
+  if (!options.overrides.empty())
+    throw InputError(fmt::format(
+        "command line: --set with {}; its settings are in its run.toml; leave --set out, or debug the scene", with));
+}
+
 Source source_of(const Given& options) {
-  if (!is_folder(options.scene)) return {options.scene, {}};
+  if (!is_folder(options.scene)) {
+    if (!is_bundle(options.scene)) return {options.scene, {}};
+    refuse_overrides(options, "a bundle");
+    auto bundle = std::make_shared<const UnpackedBundle>(options.scene);
+    return {bundle->folder() / "run.toml", bundle->folder(), bundle, options.scene.filename().string()};
+  }
   for (const char* name : {"run.toml", "stats.csv"})
     if (!is_there(options.scene / name))
       throw InputError(
           fmt::format("{}: this folder is no run's, it has no {}; a scene file, or a folder that impinge run has "
                       "written is wanted; choose one",
                       options.scene.string(), name));
-  if (!options.overrides.empty())
-    throw InputError(
-        "command line: --set with a finished run; its settings are in its run.toml; leave --set out, or debug the "
-        "scene");
+  refuse_overrides(options, "a finished run");
   return {options.scene / "run.toml", options.scene};
 }
 
@@ -163,6 +175,7 @@ int debug(const Given& options) {
   if (script.has_timed) debugged.session.script_lines = script.timed;
   debugged.most_bytes = static_cast<std::size_t>(options.memory) << 20;
   debugged.run_folder = source.run_folder;
+  debugged.name = source.name;
   debugged.interrupted = &interrupted();
   explain_interrupt("going back to the last whole frame and ending, within 2 s");
   FrameProgress progress;
@@ -176,6 +189,7 @@ int debug(const Given& options) {
   // without: a finished run's own
   Debugger debugger(source.scene, options.overrides, script.has_timed ? options.script : "", debugged);
   DebugLoop loop(debugger, *window, options.out);
+  if (source.bundle) debugger.open_at(source.bundle->head(), source.bundle->lines("opening.script"));
 
   std::string saved;
   const auto save_recording = [&] {
@@ -194,7 +208,7 @@ int debug(const Given& options) {
   };
   for (std::size_t i = 0; i < script.lines.size(); ++i)
     if (!script.lines[i].empty()) debugger.check(line_at(i));
-  const std::string title = "impinge " + source.scene.filename().string();
+  const std::string title = "impinge " + (source.name.empty() ? source.scene.filename().string() : source.name);
   std::vector<std::unique_ptr<Screen>> screens;
   if (options.doors.any()) screens = options.doors.open(options.width, options.height, title);
   try {
@@ -225,8 +239,8 @@ class DebugCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("SCENE", given_.scene,
-                 "scene file (TOML), or the folder of a run, which is shown without being simulated again where it has "
-                 "kept the frame's state");
+                 "scene file (TOML); or the folder of a run, which is shown without being simulated again where it has "
+                 "kept the frame's state; or a bundle, at the moment that it holds");
     script_option(options, given_.script,
                   "script file: lines by frame as for run, and lines done one after another (viewer/README.md)");
     options.path("--record", given_.record, "file that gets what was done, as lines of a script that do it again");

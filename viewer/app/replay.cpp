@@ -5,6 +5,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/app/shared_options.hpp"
+#include "viewer/bundle/bundle.hpp"
 #include "viewer/controller/session.hpp"
 #include "viewer/controller/stats_table.hpp"
 
@@ -12,11 +13,12 @@ namespace impinge {
 
 namespace {
 
-/// Returns the exit code.
-int replay(const std::filesystem::path& folder) {
+/// Returns the exit code. `name` is what the run is called.
+int replay(const std::filesystem::path& folder, const std::string& name) {
   if (!is_file(folder / "run.toml"))
     throw InputError(folder.string() +
-                     ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");
+                     ": holds no run.toml; the folder of a run, or a bundle, is wanted; name the --out of an impinge "
+                     "run");
   const std::string table = read_file(folder / "stats.csv", std::uint64_t{64} << 30);
   Session session(folder / "run.toml", {}, {});
   if (!session.scene().run)
@@ -40,26 +42,30 @@ int replay(const std::filesystem::path& folder) {
     throw InputError((folder / "stats.csv").string() +
                      ": has no frames; a recorded run is wanted; run the scene first");
   if (different > 0) {
-    fmt::print("{}: {} of {} frames differ\n", folder.string(), different, frames);
+    fmt::print("{}: {} of {} frames differ\n", name, different, frames);
     if (session.scene().run->version != IMPINGE_VERSION)
       fmt::print("it was recorded by version {}, this is {}\n", session.scene().run->version, IMPINGE_VERSION);
     return 1;
   }
-  fmt::print("{}: {} frames repeated, every state hash is the recorded one\n", folder.string(), frames);
+  fmt::print("{}: {} frames repeated, every state hash is the recorded one\n", name, frames);
   return 0;
 }
 
 class ReplayCommand : public SubCommand {
  public:
   void declare(Options& options) override {
-    options.word("DIR", folder_, "folder of the run");
+    options.word("DIR", run_, "folder of the run, or a bundle of the debugger");
     memory_option(options);
     threads_option(options);
   }
-  int run() override { return replay(folder_); }
+  int run() override {
+    if (!is_bundle(run_)) return replay(run_, run_.string());
+    const UnpackedBundle bundle(run_);
+    return replay(bundle.folder(), run_.string());
+  }
 
  private:
-  std::filesystem::path folder_;
+  std::filesystem::path run_;
 };
 
 }  // namespace

@@ -6,7 +6,6 @@ namespace {
 
 // who builds one takes its line away
 constexpr std::string_view kCommands[] = {
-    "shrink",
     "show",
     "judge",
     "trace",

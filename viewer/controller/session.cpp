@@ -9,6 +9,7 @@
 #include "engine/frozen/frozen_step.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/world/figures.hpp"
+#include "viewer/controller/snapshot_file.hpp"
 #include "viewer/preflight/preflight.hpp"
 
 namespace impinge {
@@ -111,13 +112,30 @@ void Session::start() {
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene_.path.string(), error.what()));
   }
+  if (!begins_later()) return;
+  try {
+    restore_snapshot(scene_.run->start, *this);
+  } catch (const InputError& error) {
+    const std::string reason = error.what();
+    throw InputError(fmt::format(
+        "{}: begins with a state that can't be read ({}); one of its bodies and this version, {}, is wanted; "
+        "open it with version {}",
+        scene_.path.string(), reason.substr(0, reason.find(';')), IMPINGE_VERSION, scene_.run->version));
+  }
+  frame_ = -1;
+  world_.start_restored();
 }
 
 std::vector<Command> Session::advance(FrozenStep* frozen) {
   std::vector<Command> commands = script_.commands_at(frame_ + 1);
   for (const Command& command : commands) apply(command);
   if (frame_ < 0) {
-    if (!commands.empty()) start();  // the constructor started the world without them
+    if (!commands.empty()) start();             // the constructor started the world without them
+    if (!commands.empty() && begins_later()) {  // whose state has its own parameters
+      for (const Command& command : commands) apply(command);
+      world_.parameters_changed();
+      world_.start_restored();
+    }
   } else {
     if (!commands.empty() || changed_) world_.parameters_changed();
     changed_ = false;

@@ -71,6 +71,7 @@ class Session {
  private:
   void apply(const Command& command);
   void start();
+  bool begins_later() const { return scene_.run && !scene_.run->start.empty(); }
 
   World world_;
   FrameView view_;

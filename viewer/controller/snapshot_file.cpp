@@ -23,11 +23,15 @@ std::string_view body_of(std::string_view bytes) {
 
 }  // namespace
 
-std::size_t write_snapshot(const std::filesystem::path& path, const Session& session) {
+std::string format_snapshot(const Session& session) {
   ByteWriter state, checksum;
   session.save(state);
   checksum.put(hash_bytes(state.bytes()));
-  const std::string bytes = std::string(kHead) + state.bytes() + checksum.bytes();
+  return std::string(kHead) + state.bytes() + checksum.bytes();
+}
+
+std::size_t write_snapshot(const std::filesystem::path& path, const Session& session) {
+  const std::string bytes = format_snapshot(session);
   write_file(path, bytes);
   return bytes.size();
 }

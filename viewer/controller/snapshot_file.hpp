@@ -7,6 +7,8 @@
 
 namespace impinge {
 
+/// The bytes of the file.
+std::string format_snapshot(const Session& session);
 /// Returns its size in bytes.
 std::size_t write_snapshot(const std::filesystem::path& path, const Session& session);
 

@@ -73,17 +73,21 @@ std::string StatsColumns::header() const {
 }
 
 std::string StatsColumns::row(const FrameStats& stats) const {
+  return row(figure_values(stats, judged_), stats.state_hash);
+}
+
+std::string StatsColumns::row(std::span<const double> figures, std::uint64_t state_hash) const {
   std::string line;
   for (const auto& [figure, place] : columns_) {
     if (!line.empty()) line += ',';
     if (figure->is_hash())
-      line += hex64(stats.state_hash);
+      line += hex64(state_hash);
     else if (figure->is_word())
-      line += name_of(static_cast<SolveEnd>(figure->value(stats)));
+      line += name_of(static_cast<SolveEnd>(figures[place]));
     else if (figure->is_whole())
-      line += std::to_string(static_cast<std::int64_t>(figure->value(stats)));
+      line += std::to_string(static_cast<std::int64_t>(figures[place]));
     else
-      line += shortest(figure->value(stats));
+      line += shortest(figures[place]);
   }
   return line;
 }

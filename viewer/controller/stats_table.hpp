@@ -1,6 +1,7 @@
 // stats.csv: one row a frame, its columns those of the table of figures (engine/world/figures.hpp).
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,8 @@ class StatsColumns {
   std::string header() const;
   /// A frame's line, without line end; numbers in their shortest form that reads back exactly.
   std::string row(const FrameStats& stats) const;
+  /// The same of figures in the order of figure_names().
+  std::string row(std::span<const double> figures, std::uint64_t state_hash) const;
   /// Throws InputError (without a place) for a line of another shape.
   StatsLine parse(std::string_view line) const;
 

@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "viewer/bundle/scene.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/controller/stats_table.hpp"
@@ -18,11 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kConsoleLines = 500;
-
-bool changes_model(const Command& command) {
-  const auto* set = std::get_if<SetCommand>(&command);
-  return set != nullptr && !set->path.starts_with("view.");
-}
 
 std::string pointer_line(const Vec2& pointer) {
   return fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y()));
@@ -42,20 +38,20 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
       progress_(options.progress),
       session_(scene, overrides, script, options.session),
       ring_(options.most_bytes),
+      start_(values_of(session_.rows())),
       run_folder_(options.run_folder),
       conditions_(session_.condition_words()),
       expectations_(session_.script(), session_.is_judged(), false,
                     [this](const std::string& text) { say(ConsoleLine::problem, text); }),
       breaks_(session_.is_judged()) {
   for (const Script::Break& point : session_.script().breaks()) breaks_.add(point.condition, point.place);
-  model_.scene = session_.scene().path.filename().string();
-  if (!run_folder_.empty()) {
-    model_.scene = run_folder_.filename().string();
-    read_run_folder();
-  }
+  model_.scene = (run_folder_.empty() ? session_.scene().path : run_folder_).filename().string();
+  if (!options.name.empty()) model_.scene = options.name;
+  if (!run_folder_.empty()) read_run_folder();
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
   if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
   if (!advance()) return;
+  first_ = values_of(session_.rows());
   look_through(0);
   if (const std::optional<BreakHit> hit = breaks_.next(0, 0)) stop_at(0, *hit);
 }
@@ -182,32 +178,6 @@ std::optional<int> Debugger::last_snapshot_before(int frame) const {
   return std::nullopt;
 }
 
-void Debugger::do_command(const Command& command) {
-  if (changes_model(command)) {
-    if (within_) {
-      reach(frame() - 1);
-      say(ConsoleLine::message,
-          fmt::format("back to the end of frame {}: the change counts from the next on", frame()));
-    }
-    const int next = session_.frame() + 1;
-    breaks_.cut(next);
-    if (stages_ && stages_->frame >= next) stages_.reset();
-    by_hand_.erase(by_hand_.upper_bound(next), by_hand_.end());
-    changed_frames_.erase(changed_frames_.upper_bound(next), changed_frames_.end());
-    ring_.cut(session_.frame());
-    history_.resize(static_cast<std::size_t>(next));
-    hashes_.resize(static_cast<std::size_t>(next));
-    tracks_.forget_after(session_.frame());
-    folder_last_ = std::min(folder_last_, session_.frame());  // its later frames are of another run now
-    std::vector<Command>& commands = by_hand_[next];
-    std::erase_if(commands,
-                  [&](const Command& c) { return std::get<SetCommand>(c).path == std::get<SetCommand>(command).path; });
-    commands.push_back(command);
-    changed_frames_.insert(next);
-  }
-  session_.change(command);
-}
-
 void Debugger::do_transport(const TransportLine& line) {
   switch (line.verb) {
     case TransportLine::play:
@@ -280,6 +250,7 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   }
   if (const auto* select = std::get_if<SelectLine>(&parsed)) do_select(select->selection);
   if (const auto* panel = std::get_if<PanelLine>(&parsed)) do_panel(*panel);
+  if (const auto* undo = std::get_if<UndoLine>(&parsed)) take_back(*undo);
   // a line that was cut short is recorded as what it did
   const auto* transport = std::get_if<TransportLine>(&parsed);
   std::string done(line.text);
@@ -365,6 +336,7 @@ void Debugger::record(const std::string& line) {
   if (may_merge_ && !recorded_.empty() && word_of(recorded_.back(), 0) == verb &&
       word_of(recorded_.back(), 1) == word_of(line, 1)) {
     const std::string what = verb == "panel" ? word_of(line, 1) : "";
+    if (verb == "set") edits_.merge_last();
     if (verb == "set" || what == "filter" || what == "search" ||
         (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2)))
       return replace_recorded(line);
@@ -411,10 +383,10 @@ void Debugger::record_camera() {
   add_recorded(target);
 }
 
-void Debugger::record_shot(const std::string& file, const Vec2& pointer) {
+void Debugger::record_picture(const std::string& line, const Vec2& pointer) {
   if (pointer.x() >= 0.0 && pointer.y() >= 0.0) add_recorded(pointer_line(pointer));
   if (playing_) add_recorded("play");  // the button shows it
-  add_recorded("shot " + file);
+  add_recorded(line);
   if (playing_) add_recorded("pause");
 }
 

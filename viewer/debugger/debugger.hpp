@@ -14,9 +14,11 @@
 #include <functional>
 #include <optional>
 
+#include "viewer/bundle/bundle.hpp"
 #include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/session.hpp"
+#include "viewer/debugger/edits.hpp"
 #include "viewer/debugger/line.hpp"
 #include "viewer/debugger/snapshot_ring.hpp"
 
@@ -27,9 +29,13 @@ struct DebuggerOptions {
   std::size_t most_bytes = std::size_t{256} << 20;  ///< of states kept for going back
   /// a finished run's, "" for none: its snapshots and figures are used
   std::filesystem::path run_folder;
+  std::string name = {};                              ///< what the scene is called, where its file doesn't say
   const std::atomic<bool>* interrupted = nullptr;     ///< asks to stop after the frame in work
   std::function<void(int frame, int last)> progress;  ///< of a line that makes many frames, after each
 };
+
+/// Whether it changes what the next frame becomes, not only how it is seen.
+bool changes_model(const Command& command);
 
 class Debugger {
  public:
@@ -61,10 +67,16 @@ class Debugger {
   /// A file was written by that line.
   void record_file(const std::string& line) { add_recorded(line); }
   /// A picture was taken: with what was done, since it says where, and the pointer shows.
-  void record_shot(const std::string& file, const Vec2& pointer);
+  void record_shot(const std::string& file, const Vec2& pointer) { record_picture("shot " + file, pointer); }
+  void record_bundle(const std::string& file, const Vec2& pointer) { record_picture("bundle " + file, pointer); }
   /// Writes the last sub-step of the frame as it was handed to the response. Throws InputError where it can't.
   void freeze(const std::filesystem::path& file);
   void record_freeze(const std::string& file) { add_recorded("freeze " + file), trace_ = other; }
+  /// The moment, for format_bundle; what was seen is for others to add. Throws InputError where a file that the scene reads
+  /// can't be read any more.
+  std::pair<BundleHead, std::map<std::string, std::string>> bundle(const Vec2& pointer);
+  /// To a moment that a bundle has, of which the folder is its run's; nothing of it is recorded.
+  void open_at(const BundleHead& moment, const std::vector<std::string>& lines);
   /// What was done so far, as lines that do it again. `pointer`: where it is now, so that what it hovers over looks the
   /// same.
   std::vector<std::string> recording(const Vec2& pointer) const;
@@ -75,6 +87,8 @@ class Debugger {
   void do_select(Selection selection);
   void do_panel(const PanelLine& line);
   void do_break(const BreakLine& line);
+  void take_back(const UndoLine& line);
+  void exchange(Future& future);
   void find(const FindLine& line);
   void why(const WhyLine& line);
   bool advance();
@@ -107,6 +121,10 @@ class Debugger {
   void record(const std::string& line);
   void record_transport(const std::string& line);
   void record_camera();
+  void record_picture(const std::string& line, const Vec2& pointer);
+  std::vector<std::string> opening_lines() const;
+  bool is_pending(int by_hand) const;
+  std::string bundled_figures() const;
   void add_recorded(const std::string& line);
   void replace_recorded(const std::string& line);
   void follow_selection();
@@ -115,6 +133,8 @@ class Debugger {
   std::function<void(int, int)> progress_;
   Session session_;
   SnapshotRing ring_;
+  ParameterSet start_;  // values before frame 0
+  ParameterSet first_;  // and of it
   std::filesystem::path run_folder_;
   int folder_last_ = -1;                      // last frame up to which the folder's snapshots are of this run
   std::vector<std::vector<double>> history_;  // figures by frame
@@ -122,6 +142,7 @@ class Debugger {
   Tracks tracks_;
   std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first
   std::set<int> changed_frames_;
+  Edits edits_;
   DebugModel model_;
   ExpressionWords conditions_;
   Expectations expectations_;
@@ -133,8 +154,9 @@ class Debugger {
   bool stopped_ = false;    // the line being done was cut short by a `break`,
   bool was_ended_ = false;  // or by whoever did not want to wait
   std::vector<std::string> recorded_;
-  bool may_merge_ = false;  // whether the next line may become one with the last: nothing was said in between
-  int known_before_ = 0;    // of the line being done: how many frames were known,
+  std::vector<std::string> opened_;  // lines of the bundle that is looked at
+  bool may_merge_ = false;           // whether the next line may become one with the last: nothing was said in between
+  int known_before_ = 0;             // of the line being done: how many frames were known,
   std::size_t puts_ = 0, puts_before_ = 0;                // and how many states had been kept
   enum Trace { none, new_frames, other } trace_ = other;  // that the last line about frames left
   bool told_of_hash_ = false, told_of_missing_ = false;

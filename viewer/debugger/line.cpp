@@ -137,8 +137,8 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> own = {"step", "back",  "seek", "play",  "pause", "select", "panel", "ui",
-                                        "shot", "plots", "quit", "break", "find",  "freeze", "why"};
+  const std::vector<std::string> own = {"step",  "back", "seek",  "play", "pause",  "select", "panel",  "ui",   "shot",
+                                        "plots", "quit", "break", "find", "freeze", "why",    "bundle", "undo", "redo"};
   std::vector<std::string> verbs = command_verbs();
   const std::size_t commands = verbs.size();
   verbs.insert(verbs.end(), own.begin(), own.end());
@@ -149,6 +149,7 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   if (verb == "select") return parse_select(words, names);
   if (verb == "panel") return parse_panel(line, words, names.rows, names.figures);
   if (verb == "ui") return parse_input(line, words);
+  if (verb == "undo" || verb == "redo") return want(words, 1, 1, verb.c_str()), UndoLine{verb == "redo"};
   if (verb == "quit") return want(words, 1, 1, "quit"), QuitLine{};
   if (verb == "break") return parse_break(line, words, names);
   if (verb == "find") {
@@ -160,14 +161,14 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
     const std::vector<std::string> bodies = body_names(names);
     return WhyLine{static_cast<int>(find(words[1], "body", bodies)), static_cast<int>(find(words[2], "body", bodies))};
   }
-  const std::string ending = verb == "shot" ? ".png" : verb == "plots" ? ".csv" : ".step";
+  const std::string ending = verb == "shot" ? ".png" : verb == "plots" ? ".csv" : verb == "bundle" ? ".tar" : ".step";
   want(words, 2, 2, (verb + " FILE").c_str());
   if (!words[1].text.ends_with(ending))
     words[1].refuse(fmt::format("'{}'", words[1].text), fmt::format("a file name that ends in {} is wanted", ending),
                     "add " + ending);
   const std::string file(words[1].text);
   if (verb == "freeze") return FreezeLine{file};
-  return FileLine{verb == "shot" ? FileLine::shot : FileLine::plots, file};
+  return FileLine{verb == "shot" ? FileLine::shot : verb == "plots" ? FileLine::plots : FileLine::bundle, file};
 }
 
 }  // namespace impinge

@@ -6,11 +6,13 @@
 //   break when CONDITION | break off | find CONDITION
 //   why NAME NAME                       what each filter of detection made of two bodies
 //   freeze FILE                         the last sub-step of the frame, for impinge step
+//   undo | redo                         of set, layer, hide ...: the last that was done, or undone
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
 //   panel ...                           panel_line.hpp
 //   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
 //   text WORDS | wait FRAMES
 //   shot FILE.png | plots FILE.csv      the window; what the timeline plots
+//   bundle FILE.tar                     the moment in one file (viewer/bundle/bundle.hpp)
 //   quit
 #pragma once
 
@@ -50,13 +52,16 @@ struct InputLine {
   double x = 0.0, y = 0.0;  ///< move; wheel: y; drag: value in x; wait: in x
 };
 struct FileLine {
-  enum What { shot, plots };
+  enum What { shot, plots, bundle };
   What what = shot;
   std::string file;
 };
 struct QuitLine {};
+struct UndoLine {
+  bool again = false;  ///< redo
+};
 using DebugLine = std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, FileLine,
-                               QuitLine, BreakLine, FindLine, WhyLine, FreezeLine>;
+                               QuitLine, UndoLine, BreakLine, FindLine, WhyLine, FreezeLine>;
 
 /// What names a line may use.
 struct DebugNames {

@@ -89,10 +89,16 @@ void DebugLoop::run_line(const PlacedText& line) {
 void DebugLoop::take(const DebugLine& line, const PlacedText& place) {
   if (const auto* i = std::get_if<InputLine>(&line)) input(*i, place);
   if (const auto* file = std::get_if<FileLine>(&line)) {
-    if (file->what == FileLine::shot)
-      shoot(file->file, place);
-    else
-      write_plots(file->file, place);
+    switch (file->what) {
+      case FileLine::shot:
+        shoot(file->file, place);
+        break;
+      case FileLine::plots:
+        write_plots(file->file, place);
+        break;
+      case FileLine::bundle:
+        write_bundle(file->file, place);
+    }
   }
   if (const auto* frozen = std::get_if<FreezeLine>(&line)) freeze(frozen->file, place);
   if (std::holds_alternative<QuitLine>(line)) quit_ = true;
@@ -196,18 +202,38 @@ void DebugLoop::write_plots(const std::string& file, const PlacedText& place) {
   debugger_.record_file("plots " + file);
 }
 
-void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
-  const std::filesystem::path path = out_ / file;
-  const Image image = picture();
+PngText DebugLoop::picture_text() const {
   const DebugModel& model = debugger_.model();
   PngText text = {{"impinge:scene", model.scene},
                   {"impinge:frame", std::to_string(model.frame)},
                   {"impinge:state_hash", hex64(debugger_.state_hash())},
                   {"impinge:renderer", window_.renderer_name()}};
   if (model.stages != nullptr) text.emplace_back("impinge:stage", model.stages->words(model.place));
+  return text;
+}
+
+void DebugLoop::write_bundle(const std::string& file, const PlacedText& place) {
+  const std::filesystem::path path = out_ / file;
+  const std::string picture = encode_png(this->picture(), picture_text());
+  auto [head, parts] = debugger_.bundle(pointer());
+  parts["picture.png"] = picture;
   try {
     if (path.has_parent_path()) make_folder(path.parent_path());
-    write_png(path, image, text);
+    write_file(path, format_bundle(head, parts));
+  } catch (const OutputError& error) {
+    place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
+                 "a folder that may be written to is wanted", "change --out or the name");
+  }
+  debugger_.record_bundle(file, pointer());
+  debugger_.say(ConsoleLine::message, fmt::format("all of it is in {}; impinge debug opens it anywhere", file));
+}
+
+void DebugLoop::shoot(const std::string& file, const PlacedText& place) {
+  const std::filesystem::path path = out_ / file;
+  const Image image = picture();
+  try {
+    if (path.has_parent_path()) make_folder(path.parent_path());
+    write_png(path, image, picture_text());
   } catch (const OutputError& error) {
     place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
                  "a folder that may be written to is wanted", "change --out or the name");

@@ -42,7 +42,9 @@ class DebugLoop {
   void obey(const std::string& line);
   void settle();
   void write_plots(const std::string& file, const PlacedText& place);
+  PngText picture_text() const;
   void shoot(const std::string& file, const PlacedText& place);
+  void write_bundle(const std::string& file, const PlacedText& place);
   void freeze(const std::string& file, const PlacedText& place);
 
   Debugger& debugger_;

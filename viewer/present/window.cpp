@@ -32,6 +32,7 @@ int key_code(SDL_Keycode key) {
                                                               {SDLK_KP_ENTER, "enter"},
                                                               {SDLK_ESCAPE, "escape"},
                                                               {SDLK_a, "a"},
+                                                              {SDLK_b, "b"},
                                                               {SDLK_h, "h"},
                                                               {SDLK_c, "c"},
                                                               {SDLK_v, "v"},

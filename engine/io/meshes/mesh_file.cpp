@@ -51,9 +51,9 @@ TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
 TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard, MeshOrigin* origin) {
   const std::string bytes = read_file(path, kMostBytes);
   if (has_own_reader(ending(path.string()))) return parse_mesh(path.string(), bytes);
-  std::string unit;
-  TriangleMesh mesh = read_with_assimp(path, guard, unit);
-  if (origin != nullptr) origin->unit = unit;
+  MeshOrigin own;
+  TriangleMesh mesh = read_with_assimp(path, guard, own);
+  if (origin != nullptr) *origin = std::move(own);
   check_faces(path.string(), mesh);
   return mesh;
 }

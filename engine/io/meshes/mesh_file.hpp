@@ -20,6 +20,7 @@ struct MeshOrigin {
   /// What its numbers are in, in words, where the format says so and they were converted: "0.01 m"; "" where it doesn't
   /// and they were taken as metres.
   std::string unit;
+  std::vector<std::filesystem::path> others;  ///< files that it names in turn and that were read
 };
 
 /// The mesh in a file, by its ending: vertices in source order, polygons as triangles (polygon.hpp). Indices are in

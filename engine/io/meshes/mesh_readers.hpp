@@ -1,10 +1,7 @@
 // One function a format; mesh_file.cpp chooses. See mesh_file.hpp for what they promise.
 #pragma once
 
-#include <filesystem>
-
-#include "engine/geometry/triangle_mesh.hpp"
-#include "engine/io/file_guard.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 
 namespace impinge {
 
@@ -12,9 +9,9 @@ TriangleMesh read_ply(const std::string& name, std::string_view bytes);
 TriangleMesh read_off(const std::string& name, std::string_view bytes);
 TriangleMesh read_obj(const std::string& name, std::string_view bytes);
 TriangleMesh read_stl(const std::string& name, std::string_view bytes);
-/// Any format that assimp knows, read in a child process; in metres where the format has a unit, which `unit` then
+/// Any format that assimp knows, read in a child process; in metres where the format has a unit, which `origin` then
 /// names.
-TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard, std::string& unit);
+TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard, MeshOrigin& origin);
 
 /// ".ply" of "a/B.PLY".
 std::string ending(const std::string& name);

@@ -10,6 +10,7 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <csignal>
@@ -63,11 +64,15 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
     if (const auto target = guard_.refused(file))
       return refuse(fmt::format("names '{}', which leads out of the scene's folder ({})", file, target->string()));
     // the file itself is one
-    if (++opened_ > kMostIncludes + 1) return refuse(fmt::format("names more than {} files", kMostIncludes));
-    return DefaultIOSystem::Open(file, mode);
+    if (std::ssize(opened_) > kMostIncludes) return refuse(fmt::format("names more than {} files", kMostIncludes));
+    Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
+    if (stream != nullptr) opened_.emplace_back(file);
+    return stream;
   }
   /// The first refusal, worded to follow the file's name; "" where there was none.
   const std::string& problem() const { return problem_; }
+  /// In the order in which they were opened, the mesh file among them; some more than once.
+  const std::vector<std::string>& opened() const { return opened_; }
 
  private:
   Assimp::IOStream* refuse(const std::string& problem) {
@@ -76,7 +81,7 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
   }
 
   const FileGuard& guard_;
-  int opened_ = 0;
+  std::vector<std::string> opened_;
   std::string problem_;
 };
 
@@ -117,6 +122,10 @@ std::string import_in_child(const std::string& path, const FileGuard& guard) {
     for (const Vec3& x : mesh.vertices) out.put(x);
     for (const Triangle& t : mesh.triangles)
       for (const int v : t) out.put(v);
+    for (const std::string& file : files->opened()) {
+      out.put<std::uint64_t>(file.size());
+      out.put_bytes(file.data(), file.size());
+    }
     return out.bytes();
   } catch (const std::exception& error) {
     return std::string("E") + error.what();
@@ -153,7 +162,7 @@ void limit_resources() {
 
 }  // namespace
 
-TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard, std::string& unit) {
+TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard, MeshOrigin& origin) {
   const std::string name = path.string();
   {
     const Assimp::Importer importer;
@@ -192,17 +201,23 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard
   const auto metres = in.get<double>();
   const std::string format = ending(name);
   if (metres > 0.0)
-    unit = fmt::format("{:.6g} m, as it says", metres);
+    origin.unit = fmt::format("{:.6g} m, as it says", metres);
   else if (format == ".dae")
-    unit = "as its <unit> says";  // which assimp has converted
+    origin.unit = "as its <unit> says";  // which assimp has converted
   else if (format == ".gltf" || format == ".glb")
-    unit = "metres, as the format has it";
+    origin.unit = "metres, as the format has it";
   TriangleMesh mesh;
   const auto vertices = in.get<std::uint64_t>(), triangles = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < vertices; ++i) mesh.vertices.push_back(in.get_vec3());
   for (std::uint64_t i = 0; i < triangles; ++i) {
     const int a = in.get<int>(), b = in.get<int>(), c = in.get<int>();
     mesh.triangles.push_back({a, b, c});
+  }
+  while (!in.at_end()) {
+    std::string file(in.get<std::uint64_t>(), '\0');
+    for (char& c : file) c = in.get<char>();
+    if (file != name && std::find(origin.others.begin(), origin.others.end(), file) == origin.others.end())
+      origin.others.emplace_back(file);
   }
   return mesh;
 }

@@ -11,9 +11,9 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kKeys = {"version", "scene",  "folder",   "script_file",   "script",
-                                        "frames",  "images", "ids",      "contacts",      "judge",
-                                        "export",  "size",   "surfaces", "judge_substeps"};
+const std::vector<std::string> kKeys = {"version", "scene",  "folder",   "script_file",    "script",
+                                        "frames",  "images", "ids",      "contacts",       "judge",
+                                        "export",  "size",   "surfaces", "judge_substeps", "start"};
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
@@ -48,6 +48,7 @@ RunRecord read_run_record(const TomlNode& table) {
   run.folder = scene_text(need("folder"), "run.folder");
   run.script_file = scene_text(need("script_file"), "run.script_file");
   for (const TomlNode& line : need("script").items) run.script.push_back(scene_text(line, "run.script"));
+  if (const TomlEntry* start = table.find("start")) run.start = scene_text(start->value, "run.start");
   run.frames = static_cast<int>(scene_real(need("frames"), "run.frames", {0, 1e9}));
   run.images = scene_flag(need("images"), "run.images");
   if (const TomlEntry* ids = table.find("ids")) run.ids = scene_flag(ids->value, "run.ids");
@@ -82,6 +83,7 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
   std::string out = "# the resolved scene of a run: `impinge run` and `impinge replay` take it\n\n[run]\n";
   out += fmt::format("version = {}\nscene = {}\nfolder = {}\nscript_file = {}\n", toml_string(run.version),
                      toml_string(run.scene), toml_string(run.folder), toml_string(run.script_file));
+  if (!run.start.empty()) out += fmt::format("start = {}\n", toml_string(run.start));
   out += "script = [\n";
   for (const std::string& line : run.script) out += fmt::format("  {},\n", toml_string(line));
   out += fmt::format(

@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "engine/io/paths.hpp"
 #include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/run_record.hpp"
 #include "engine/io/scene/scene_attachments.hpp"
@@ -135,6 +136,10 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
   scene.folder = path.parent_path();
   if (const TomlEntry* run = root.find("run")) {
     scene.run = read_run_record(run->value);
+    for (std::string* place :
+         {&scene.run->folder, &scene.run->start})  // a run that names neighbours can be carried about
+      if (!place->empty() && fs::path(*place).is_relative())
+        *place = absolute_path(path.parent_path() / *place).lexically_normal().string();
     scene.folder = scene.run->folder;
   }
   if (const TomlEntry* sweep = root.find("sweep"); sweep != nullptr && sweep->value.find("scene") != nullptr)

@@ -11,12 +11,14 @@ namespace impinge {
 
 /// What run.toml records beside the scene: enough to repeat the run.
 struct RunRecord {
-  std::string version;              ///< of the program
-  std::string scene;                ///< path of the scene file
-  std::string folder;               ///< the folder its surfaces are relative to
+  std::string version;  ///< of the program
+  std::string scene;    ///< path of the scene file
+  std::string folder;   ///< the folder its surfaces are relative to; in the file, where it isn't absolute, from there
   std::string script_file;          ///< path of the script, "" without one
   std::vector<std::string> script;  ///< its lines
-  int frames = 0;                   ///< the last frame's number
+  /// A state that it begins with, as snapshots/ has them, "" for the scene's own; in the file as `folder`.
+  std::string start = {};
+  int frames = 0;  ///< the last frame's number
   bool images = true, ids = false, contacts = false, export_ply = false, judge = false, judge_substeps = false;
   int width = 1280, height = 720;  ///< pixels
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/memory.hpp"
@@ -27,6 +29,14 @@ constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
 [[noreturn]] void refuse_mesh(const TomlNode& node, const std::string& problem) {
   throw InputError(fmt::format("{}: surface {} {}; mend = true drops and mends what can be", node.place,
                                toml_string(node.string), problem));
+}
+
+/// The file and those that it names, each once.
+std::vector<fs::path> with_others(const fs::path& path, const std::vector<fs::path>& others) {
+  std::vector<fs::path> all = {path};
+  for (const fs::path& other : others)
+    if (std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
+  return all;
 }
 
 }  // namespace
@@ -82,6 +92,7 @@ TriangleMesh SurfaceFiles::read_file_of(const fs::path& path, const TomlNode& no
   file.hash = hash;
   file.vertices = mesh.vertices.size();
   file.triangles = mesh.triangles.size();
+  file.paths = with_others(path, origin.others);
   return mesh;
 }
 
@@ -125,6 +136,7 @@ std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, c
       file.hash = hash_bytes(read_file(fs::path(path).replace_extension(other), kLargestFile), file.hash);
   file.vertices = volume->mesh.vertices.size();
   file.tets = volume->mesh.tets.size();
+  file.paths = with_others(path, {volume->files.begin(), volume->files.end()});
   file.notes = volume->notes;
   files_.push_back(std::move(file));
   return volume;
@@ -137,7 +149,9 @@ std::vector<Vec3> SurfaceFiles::load_points(const TomlNode& node, const std::str
     SurfaceFile file;
     file.name = node.string;
     file.hash = hash_bytes(read_file(path, kLargestFile));
-    const TriangleMesh mesh = read_mesh(path);
+    MeshOrigin origin;
+    const TriangleMesh mesh = read_mesh(path, guard_, &origin);
+    file.paths = with_others(path, origin.others);
     for (const Vec3& x : mesh.vertices)
       if (!x.allFinite())
         throw InputError(fmt::format("{}: surface {} has a vertex that is not a finite number; mend the file",

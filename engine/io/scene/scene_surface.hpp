@@ -23,6 +23,8 @@ struct SurfaceFile {
   std::size_t welded = 0;          ///< vertices that coincided with an earlier one and were made one with it
   std::size_t tets = 0;            ///< of a volume mesh, which has no triangles here
   std::vector<std::string> notes;  ///< of a volume mesh's reader, one sentence each
+  /// Where it lies, and then those that were read because it names or needs them.
+  std::vector<std::filesystem::path> paths = {};
 };
 
 class SurfaceFiles {

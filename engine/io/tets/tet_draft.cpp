@@ -101,6 +101,7 @@ TetFile finish_tets(TetDraft draft, bool drop_unused) {
   handle_unused(draft, drop_unused);
   const int parts = component_count(draft.result.mesh);
   if (parts > 1) draft.result.notes.push_back(fmt::format("the mesh has {} parts that share no vertex", parts));
+  draft.result.files = draft.files;
   return std::move(draft.result);
 }
 

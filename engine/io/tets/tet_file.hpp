@@ -28,6 +28,7 @@ struct TetFile {
   std::vector<TetFileMaterial> materials;  ///< empty where the format has none
   std::vector<int> element_material;       ///< of each tetrahedron; empty where there are no materials
   std::vector<std::string> notes;          ///< what was dropped or assumed, one sentence each
+  std::vector<std::string> files;          ///< all that were read, the one that was named first among them
 };
 
 /// The mesh in a file, by its ending: .veg, .msh, or .node or .ele (whose partner is looked for beside it). What it

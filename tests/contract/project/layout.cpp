@@ -75,12 +75,14 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/web", 26},
                                                  {"viewer/vnc", 26},
                                                  {"viewer/controller", 26},
-                                                 {"viewer/debugger", 27},
-                                                 {"viewer/study", 27},
-                                                 {"viewer/sweep", 27},
-                                                 {"viewer/report", 28},
-                                                 {"viewer/compare", 29},
-                                                 {"viewer/app", 30}};
+                                                 {"viewer/bundle", 27},
+                                                 {"viewer/debugger", 28},
+                                                 {"viewer/study", 28},
+                                                 {"viewer/sweep", 28},
+                                                 {"viewer/shrink", 28},
+                                                 {"viewer/report", 29},
+                                                 {"viewer/compare", 30},
+                                                 {"viewer/app", 31}};
   return map;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "viewer/panels/debug/outliner.hpp"
 
@@ -20,6 +21,14 @@ void bodies_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines)
     lines.push_back("show all");
   else if (!names.empty())
     lines.push_back((ImGui::GetIO().KeyShift ? "isolate" : "hide") + names);
+}
+
+/// One word, and another for each state.
+std::string bundle_name(const DebugModel& model) {
+  std::string stem = model.scene.substr(0, model.scene.rfind('.'));
+  for (char& c : stem)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  return fmt::format("{}_{:06}_{:08x}.tar", stem, model.frame, model.record->stats.state_hash >> 32);
 }
 
 }  // namespace
@@ -42,6 +51,8 @@ void keys_to_lines(const Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ui.key_pressed("home")) lines.push_back("seek 0");
   if (ui.key_pressed("end")) lines.push_back(fmt::format("seek {}", model.known_last));
   if (ui.key_pressed("a")) lines.push_back("camera fit");
+  if (ui.key_pressed("z") && ImGui::GetIO().KeyCtrl) lines.push_back(ImGui::GetIO().KeyShift ? "redo" : "undo");
+  if (ui.key_pressed("b")) lines.push_back("bundle " + bundle_name(model));
   bodies_to_lines(ui, model, lines);
   constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
   if (ui.key_pressed("escape") && !ImGui::IsPopupOpen("", kAnyPopup))
@@ -59,6 +70,8 @@ void draw_help(const DebugModel& model, const UiArea& view) {
                                              {"a", "fit the view to all"},
                                              {"h, shift h", "hide the selected, all others"},
                                              {"ctrl h", "show all"},
+                                             {"ctrl z, ctrl shift z", "undo, redo a change"},
+                                             {"b", "all of this into one file, to be opened elsewhere"},
                                              {"escape", "end the frame in work; deselect; close this"},
                                              {"left button", "orbit; a click picks"},
                                              {"right, middle", "pan"},

@@ -40,7 +40,8 @@ constexpr KeyRow kKeys[] = {{"tab", ImGuiKey_Tab},
                             {"page_down", ImGuiKey_PageDown},
                             {"h", -1},
                             {"ctrl", -1},
-                            {"shift", -1}};
+                            {"shift", -1},
+                            {"b", -1}};
 constexpr int kCtrl = 24, kShift = 25;
 
 ImVec4 color(std::uint32_t rgb, float alpha = 1.0f) {
