@@ -5,6 +5,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/geometry/mass_properties.hpp"
 #include "engine/geometry/mend/decimate.hpp"
 #include "engine/geometry/mend/mend.hpp"
 #include "engine/geometry/mend/remesh.hpp"
@@ -261,7 +262,10 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& wh
   solid->topology = make_topology(solid->mesh);
   if (surface->full != nullptr) solid->full = load_thin(table, what_body, keys.full(), how, is_asked);
   check_extent(node, what, solid->mesh.vertices, scale);
-  if (const auto problem = check_mesh(solid->mesh, solid->topology))
+  // the sheets of a file lie in and across one another as they like: each has its own two sides
+  auto problem = check_closed(solid->mesh, solid->topology);
+  if (!problem && !(signed_volume(solid->mesh) > 0.0)) problem = "encloses no volume: it is flat";
+  if (problem)
     refuse(node.place,
            fmt::format("surface {}, open and thickened by {:.3g} m, {}", toml_string(node.string),
                        how.thickness_of(scaled), *problem),
