@@ -50,6 +50,10 @@ struct SurfaceMesh {
   Lazily<DiscTree> lazy_discs = {};
   Lazily<double> lazy_size = {};  ///< size_of (shapes/shape_size.hpp)
   LazilyAnew<DistanceField> lazy_field = {};
+  /// The surface that this one stands for in contact, with fewer triangles (mend/decimate.hpp): it is drawn, exported
+  /// and weighed. Null: itself.
+  std::shared_ptr<const SurfaceMesh> full = nullptr;
+  const SurfaceMesh& shown() const { return full == nullptr ? *this : *full; }
   /// Boxes over the triangles where `mesh` has them, made when they are asked for first.
   const BoxTree& tree() const;
   /// Flat discs over them, likewise.

@@ -24,14 +24,14 @@ class MeshShape final : public Shape {
     for (const Vec3& v : surface_->mesh.vertices) reach = std::max(reach, v.norm());
     return reach;
   }
-  MassProperties mass(double density) const override { return mesh_mass(surface_->mesh, density); }
+  MassProperties mass(double density) const override { return mesh_mass(surface_->shown().mesh, density); }
   SharedShape recentered(const Vec3& center) const override {
     // all bodies of one mesh share the moved one too
     const std::lock_guard lock(centered_->mutex);
     if (!centered_->shape || centered_->center != center) {
-      auto moved = std::make_shared<SurfaceMesh>(*surface_);
-      for (Vec3& v : moved->mesh.vertices) v -= center;
-      centered_->shape = MeshPointer(std::move(moved));
+      const auto moved = std::make_shared<SurfaceMesh>(shifted(*surface_, center));
+      if (surface_->full != nullptr) moved->full = std::make_shared<SurfaceMesh>(shifted(*surface_->full, center));
+      centered_->shape = MeshPointer(moved);
       centered_->center = center;
     }
     return centered_->shape;
@@ -41,9 +41,14 @@ class MeshShape final : public Shape {
     return winding_number(x, surface_->mesh.vertices, surface_->mesh.triangles) > 0.5 ? -distance : distance;
   }
   TriangleMesh surface(double) const override { return surface_->mesh; }
-  TriangleMesh drawn() const override { return surface_->mesh; }
+  TriangleMesh drawn() const override { return surface_->shown().mesh; }
 
  private:
+  static SurfaceMesh shifted(SurfaceMesh surface, const Vec3& center) {
+    for (Vec3& v : surface.mesh.vertices) v -= center;
+    return surface;
+  }
+
   struct Centered {
     std::mutex mutex;
     Vec3 center = Vec3::Zero();

@@ -124,8 +124,15 @@ TEST_CASE("FBX, glTF and Collada with damaged bytes are refused or read, and wha
   CHECK(fates.refused > 150 / 4);
 }
 
+// 102,000 in all
 TEST_CASE("the same, many times", "[long]") {
   const Fates fates = damage_all(15000, 6);
   CHECK(fates.taken > 15000 / 4);
   CHECK(fates.refused > 15000 / 4);
+}
+
+TEST_CASE("the same, many times, damaged in other places", "[long]") {
+  const Fates fates = damage_all(19000, 7);
+  CHECK(fates.taken > 19000 / 4);
+  CHECK(fates.refused > 19000 / 4);
 }

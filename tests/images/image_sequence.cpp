@@ -210,3 +210,32 @@ TEST_CASE("A film for a message begins again and keeps its duration; a GIF its c
   CHECK(shown == kFrames);
   CHECK(milliseconds == Approx(1000.0 * kFrames / 60.0).margin(20.0));
 }
+
+TEST_CASE("A film of transparent pictures is laid over grey; a WebP stays transparent") {
+  const TempFolder folder;
+  const auto frames = folder.path() / "frames", back = folder.path() / "back";
+  std::filesystem::create_directory(frames);
+  std::filesystem::create_directory(back);
+  Image image = plain(64, 48, {255, 200, 40});
+  image.alpha.assign(64u * 48u, 255);
+  // nothing, then half of it, then all
+  for (std::size_t i = 0; i < image.alpha.size(); ++i)
+    image.alpha[i] = static_cast<std::uint8_t>(i % 64 < 16 ? 0 : i % 64 < 32 ? 128 : 255);
+  for (int k = 0; k < 3; ++k) write_png(frames / PngSequence::file_name(k), image);
+  const auto film = folder.path() / "film.mp4", webp = folder.path() / "film.webp";
+  if (!make_video(frames, film, 25)) {
+    WARN("ffmpeg isn't installed: films are not tested");
+    return;
+  }
+  REQUIRE(std::system(("ffmpeg -nostdin -loglevel error -i '" + film.string() + "' '" + back.string() + "/%06d.png'")
+                          .c_str()) == 0);
+  const Image shown = read_png(back / "000002.png");
+  for (int c = 0; c < 3; ++c) {
+    CHECK(std::abs(shown.pixel(8, 24)[c] - kBehind[c]) < 8);  // films have coarser colours
+    CHECK(std::abs(shown.pixel(56, 24)[c] - image.pixel(56, 24)[c]) < 8);
+  }
+  REQUIRE(make_video(frames, webp, 25));
+  const std::string riff = slurp(webp);
+  REQUIRE(riff.substr(12, 4) == "VP8X");
+  CHECK((riff[20] & 0x10) != 0);  // pictures with alpha
+}

@@ -6,6 +6,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 #include "engine/geometry/mend/remesh.hpp"
+#include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/meshes/mesh_memory.hpp"
 #include "engine/io/meshes/mesh_unit.hpp"
@@ -23,7 +24,7 @@ class MeshCommand : public SubCommand {
   void declare(Options& options) override {
     options.words("FILE", files_, "surface files; several make a table");
     options.flag("--mend", mends_, "make the boundary of a solid of it, and say what was done");
-    options.path("--out", out_, "with --mend or --unit: the PLY file to write, in metres");
+    options.path("--out", out_, "with --mend, --decimate or --unit: the PLY file to write, in metres");
     options.path("--picture", picture_, "the PNG file to draw it to, faults marked; mended if --mend is given");
     options.flag("--json", json_, "for programs: lengths in metres");
     options.text("--unit", unit_,
@@ -32,6 +33,8 @@ class MeshCommand : public SubCommand {
     real_option(options, "--thickness", mend_.thickness, 1e-9, "with --mend: of parts that stay open, metres");
     options.whole("--remesh", mend_.remesh, 8, 400,
                   "with --mend: then a new skin of so many cells along the longest side, without crossings");
+    options.whole("--decimate", decimate_, 4, 100'000'000,
+                  "make so many triangles of it at most, mended first if --mend is given; the volume stays");
     size_option(options, width_, height_, "WIDTHxHEIGHT of the picture (default: 1280x720)");
     memory_option(options);
     threads_option(options);
@@ -57,12 +60,14 @@ class MeshCommand : public SubCommand {
 
   void check() const;
   MeshReport look_at(const std::string& file);
+  void decimate_it(const std::string& file, TriangleMesh& mesh, MeshReport& report) const;
 
   std::vector<std::string> files_;
   std::filesystem::path out_, picture_;
   std::string unit_;
   bool mends_ = false, json_ = false;
   MendSettings mend_;
+  std::optional<int> decimate_;
   int width_ = 1280, height_ = 720;
 };
 
@@ -73,13 +78,29 @@ void MeshCommand::check() const {
   const bool has_settings = mend_.weld || mend_.thickness || mend_.remesh > 0;
   if (!mends_ && has_settings)
     refuse_option("--weld, --thickness or --remesh without --mend", "they say how to mend", "add --mend");
-  if (!out_.empty() && !mends_ && unit_.empty())
-    refuse_option("--out without --mend", "what is mended, or in another unit, is written", "add --mend");
+  if (!out_.empty() && !mends_ && !decimate_ && unit_.empty())
+    refuse_option("--out without --mend", "what is mended, decimated or in another unit is written", "add --mend");
   if (!out_.empty() && out_.extension() != ".ply")
     refuse_option(fmt::format("--out is '{}'", out_.string()), "a PLY file is written", "end its name with .ply");
   if (!picture_.empty() && picture_.extension() != ".png")
     refuse_option(fmt::format("--picture is '{}'", picture_.string()), "a PNG file is written",
                   "end its name with .png");
+}
+
+void MeshCommand::decimate_it(const std::string& file, TriangleMesh& mesh, MeshReport& report) const {
+  const std::string what = fmt::format("{} with --decimate {}", file, *decimate_);
+  if (!make_topology(mesh).is_closed()) mesh = weld(mesh).mesh;
+  if (const auto problem = check_indices(mesh))
+    throw InputError(fmt::format("{}: {}; or add --mend, which drops such triangles", what, *problem));
+  check_memory("", what, decimate_memory(mesh), "simplify it");
+  DecimatedMesh few = decimate(mesh, *decimate_);
+  report.decimated = few.report;
+  if (few.report.triangles_after > *decimate_)
+    throw InputError(
+        fmt::format("{}: it goes down to {} triangles: then it would cross itself, or lose a part, a hole "
+                    "or a handle; use {} or more",
+                    what, few.report.triangles_after, few.report.triangles_after));
+  mesh = std::move(few.mesh);
 }
 
 MeshReport MeshCommand::look_at(const std::string& file) {
@@ -103,7 +124,7 @@ MeshReport MeshCommand::look_at(const std::string& file) {
   report.file_vertices = mesh.vertices.size();
   MeshMarks marks;
   MeshMarks* wanted = picture_.empty() ? nullptr : &marks;
-  report.facts = measure(mesh, mends_ ? nullptr : wanted);
+  report.facts = measure(mesh, mends_ || decimate_ ? nullptr : wanted);
   if (mends_) {
     if (mend_.remesh > 0)
       check_memory("", fmt::format("{} with --remesh {}", file, mend_.remesh), remesh_memory(mesh, mend_.remesh),
@@ -112,8 +133,9 @@ MeshReport MeshCommand::look_at(const std::string& file) {
     mesh = std::move(mended.mesh);
     report.mended = mended.report;
     report.problem_left = mended.problem;
-    report.after = measure(mesh, wanted);
   }
+  if (decimate_) decimate_it(file, mesh, report);
+  if (mends_ || decimate_) report.after = measure(mesh, wanted);
   if (!out_.empty() && report.problem_left)
     throw InputError(fmt::format("{}: {}, even mended; nothing is written; a solid is wanted; try --remesh 100", file,
                                  *report.problem_left));
@@ -122,9 +144,10 @@ MeshReport MeshCommand::look_at(const std::string& file) {
     report.written = out_.string();
   }
   if (!picture_.empty())
-    write_png(picture_,
-              mesh_picture(marks, std::filesystem::path(file).filename().string() + (mends_ ? ", mended" : ""),
-                           fault_lines(mends_ ? *report.after : report.facts), width_, height_));
+    write_png(picture_, mesh_picture(marks,
+                                     std::filesystem::path(file).filename().string() + (mends_ ? ", mended" : "") +
+                                         (decimate_ ? fmt::format(", {} triangles", mesh.triangles.size()) : ""),
+                                     fault_lines(report.after ? *report.after : report.facts), width_, height_));
   return report;
 }
 

@@ -9,7 +9,7 @@ void export_surfaces(const std::filesystem::path& folder, const StepRecord& reco
   for (const BodyRecord& body : record.bodies) {
     if (body.shape->as<Plane>() != nullptr) continue;  // without end
     const std::filesystem::path path = folder / (std::string(body.name) + ".ply");
-    if (const SurfaceMesh* mesh = body.shape->mesh()) {
+    if (const SurfaceMesh* mesh = body.shape->mesh(); mesh != nullptr && mesh->full == nullptr) {
       write_ply(path, body.vertices, mesh->mesh.triangles);
     } else {
       TriangleMesh surface = body.shape->drawn();

@@ -7,9 +7,15 @@ constexpr double kCreaseDeg = 50.0;  // scans look smooth, machine parts keep th
 
 }  // namespace
 
-ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) {
+ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) { return kept(shape, false); }
+
+ShadedSurfacePointer SurfaceCache::touched_surface_of(const Shape& shape) {
+  return kept(shape, shape.mesh() != nullptr && shape.mesh()->full != nullptr);
+}
+
+ShadedSurfacePointer SurfaceCache::kept(const Shape& shape, bool is_touched) {
   // shapes with equal numbers share their triangles; one that has none is itself
-  Key key{shape.type(), nullptr, shape.dimensions()};
+  Key key{shape.type(), nullptr, shape.dimensions(), is_touched};
   if (std::get<2>(key).empty()) std::get<1>(key) = &shape;
   const auto [place, is_new] = kept_.try_emplace(key);
   Kept& kept = place->second;
@@ -17,6 +23,7 @@ ShadedSurfacePointer SurfaceCache::surface_of(const Shape& shape) {
   if (is_new) {
     kept.source = shape.shared_from_this();
     if (const SurfaceMesh* source = shape.mesh()) {
+      if (!is_touched) source = &source->shown();
       kept.surface = std::make_shared<ShadedSurface>(make_shaded_surface(source->mesh, source->topology, kCreaseDeg));
     } else {
       const TriangleMesh mesh = shape.drawn();

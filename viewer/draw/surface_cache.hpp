@@ -14,6 +14,8 @@ class SurfaceCache {
  public:
   /// The surface of a shape that has bounds, in the body's frame. What it returns depends on the shape alone.
   ShadedSurfacePointer surface_of(const Shape& shape);
+  /// The same of the triangles that take part in contact, where those are others (SurfaceMesh::full).
+  ShadedSurfacePointer touched_surface_of(const Shape& shape);
   /// Where a deformable body's surface is now, made once between two calls of forget_unused; null for other bodies.
   MovedSurfacePointer moved_of(const BodyRecord& body);
   /// The edges of a body's tetrahedra.
@@ -32,7 +34,9 @@ class SurfaceCache {
     TetEdges edges;
     bool used = true;
   };
-  using Key = std::tuple<int, const Shape*, std::vector<double>>;  // type, the shape itself or null, dimensions
+  using Key = std::tuple<int, const Shape*, std::vector<double>, bool>;  // type, itself or null, dimensions, touched
+
+  ShadedSurfacePointer kept(const Shape& shape, bool is_touched);
 
   std::map<Key, Kept> kept_;
   std::map<const BlockPattern*, KeptEdges> edges_;

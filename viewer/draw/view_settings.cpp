@@ -106,8 +106,12 @@ void ViewSettings::bind(ParameterSet& set) {
   rows.add("line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
   rows.add("antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
   rows.add("backdrop", backdrop,
-           {{BackdropStyle::dark, "dark"}, {BackdropStyle::light, "light"}, {BackdropStyle::flat, "flat"}},
-           "What stands behind the scene; flat is one colour, for pictures that are compared.");
+           {{BackdropStyle::dark, "dark"},
+            {BackdropStyle::light, "light"},
+            {BackdropStyle::flat, "flat"},
+            {BackdropStyle::transparent, "transparent"}},
+           "What stands behind the scene; flat is one colour, for pictures that are compared; transparent nothing, for "
+           "pictures that are laid over others.");
   rows.add("clip.enabled", clip.enabled,
            "Cut surfaces and tetrahedra by a plane, to see into bodies; marks are never cut.");
   rows.add("clip.normal", clip.normal, {-1e9, 1e9}, "",

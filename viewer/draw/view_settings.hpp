@@ -17,7 +17,7 @@ struct LayerSwitch {
 };
 
 /// What stands behind the scene.
-enum class BackdropStyle { dark, light, flat };
+enum class BackdropStyle { dark, light, flat, transparent };
 
 /// How much of the legend is seen: of the automatic one only its heading where it would cover too much.
 enum class LegendForm { automatic, whole, folded };

@@ -19,11 +19,15 @@ Aabb box_round(std::span<const Vec3> points) {
 }
 
 /// Vertices in the frame of the body's centre of mass.
-TriangleMesh surface_of(const Shape& shape) { return shape.mesh() != nullptr ? shape.mesh()->mesh : shape.drawn(); }
+TriangleMesh surface_of(const Shape& shape) {
+  return shape.mesh() != nullptr ? shape.mesh()->shown().mesh : shape.drawn();
+}
 
 Vec3 center_in_file(const BodyRecord& body) { return body.file_pose.apply_inverse(body.pose.position); }
 
 }  // namespace
+
+bool is_shown_apart(const Shape& shape) { return shape.mesh() != nullptr && shape.mesh()->full != nullptr; }
 
 std::vector<ExportBody> export_bodies(const StepRecord& start) {
   std::map<const Shape*, std::shared_ptr<const TriangleMesh>> of_shapes;
@@ -59,7 +63,7 @@ std::vector<ExportBody> export_bodies(const StepRecord& start) {
 
 std::vector<Vec3> world_surface(const ExportBody& body, const StepRecord& record) {
   const BodyRecord& now = record.bodies[static_cast<std::size_t>(body.body.value())];
-  if (!now.vertices.empty()) return {now.vertices.begin(), now.vertices.end()};
+  if (!now.vertices.empty() && !is_shown_apart(*now.shape)) return {now.vertices.begin(), now.vertices.end()};
   std::vector<Vec3> vertices = body.surface->vertices;
   for (Vec3& x : vertices) x = now.file_pose.apply(x);
   return vertices;

@@ -25,6 +25,9 @@ struct ExportBody {
   bool is_deformable() const { return kind == BodyKind::deformable; }
 };
 
+/// Whether what is drawn and exported has other triangles than what takes part in contact (SurfaceMesh::full).
+bool is_shown_apart(const Shape& shape);
+
 /// In the scene's order.
 std::vector<ExportBody> export_bodies(const StepRecord& start);
 

@@ -33,9 +33,9 @@ std::vector<ContactField> ContactFields::find(const std::vector<ExportBody>& bod
     const int at = place[static_cast<std::size_t>(of.value())];
     if (at < 0) return;
     const auto i = static_cast<std::size_t>(at);
-    const int triangle = named.is_none()
-                             ? triangle_at(bodies[i], record.bodies[static_cast<std::size_t>(of.value())], point)
-                             : named.value();
+    const BodyRecord& now = record.bodies[static_cast<std::size_t>(of.value())];
+    const bool is_own = !named.is_none() && !is_shown_apart(*now.shape);
+    const int triangle = is_own ? named.value() : triangle_at(bodies[i], now, point);
     if (triangle < 0) return;
     const Triangle& corners = bodies[i].surface->triangles[static_cast<std::size_t>(triangle)];
     const auto corner = [&](std::size_t k) { return vertices[i][static_cast<std::size_t>(corners[k])]; };

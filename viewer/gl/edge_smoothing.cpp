@@ -12,9 +12,9 @@ namespace {
 constexpr int kLeastContrast = 10;  // of 255; below it steps are not seen
 constexpr int kReach = 16;          // pixels that an edge is followed to either side
 
-/// Brightness, 0..255.
+/// Brightness, 0..255; below 0 where nothing or little is, so that any surface stands out from that.
 struct Luma {
-  std::vector<std::uint8_t> values;
+  std::vector<std::int16_t> values;
   int width, height;
 
   int operator()(int x, int y) const {
@@ -71,17 +71,17 @@ float share_of_neighbour(const Luma& luma, int x, int y, int& px, int& py) {
 }  // namespace
 
 void smooth_edges(const std::vector<std::uint8_t>& in, std::vector<std::uint8_t>& out, int width, int height) {
-  Luma luma{std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height), width, height};
+  Luma luma{std::vector<std::int16_t>(static_cast<std::size_t>(width) * height), width, height};
   out.resize(in.size());
   parallel_for(static_cast<std::size_t>(height), 64, [&](std::size_t row) {
     const std::uint8_t* p = in.data() + row * width * 4;
-    std::uint8_t* to = luma.values.data() + row * width;
+    std::int16_t* to = luma.values.data() + row * width;
     for (int x = 0; x < width; ++x, p += 4)
-      to[x] = static_cast<std::uint8_t>((77 * p[0] + 150 * p[1] + 29 * p[2]) >> 8);
+      to[x] = static_cast<std::int16_t>(((77 * p[0] + 150 * p[1] + 29 * p[2]) >> 8) + p[3] - 255);
   });
   parallel_for(static_cast<std::size_t>(height), 64, [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    const std::uint8_t* l = luma.values.data() + row * width;
+    const std::int16_t* l = luma.values.data() + row * width;
     const int up = y > 0 ? -width : 0, down = y + 1 < height ? width : 0;
     std::copy_n(in.data() + row * width * 4, width * 4, out.data() + row * width * 4);
     for (int x = 0; x < width; ++x) {
@@ -96,7 +96,7 @@ void smooth_edges(const std::vector<std::uint8_t>& in, std::vector<std::uint8_t>
       const std::uint8_t* own = in.data() + (row * width + x) * 4;
       const std::uint8_t* other = in.data() + (static_cast<std::size_t>(v) * width + u) * 4;
       std::uint8_t* to = out.data() + (row * width + x) * 4;
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < 4; ++c)
         to[c] = static_cast<std::uint8_t>(
             std::lround(static_cast<float>(own[c]) + share * static_cast<float>(other[c] - own[c])));
     }

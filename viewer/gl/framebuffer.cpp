@@ -1,5 +1,7 @@
 #include "viewer/gl/framebuffer.hpp"
 
+#include <algorithm>
+
 #include "viewer/gl/edge_smoothing.hpp"
 #include "viewer/gl/gl.hpp"
 
@@ -71,14 +73,24 @@ void Framebuffer::copy_to(Framebuffer& target, int x, int y) const {
   glBlitFramebuffer(0, 0, width_, height_, x, bottom, x + width_, bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void Framebuffer::read(Image& out) {
+void Framebuffer::read(Image& out, bool with_alpha) {
   read_rows();
   if (out.width != width_ || out.height != height_) out = Image(width_, height_);
+  out.alpha.resize(with_alpha ? static_cast<std::size_t>(width_) * height_ : 0);
   for (int y = 0; y < height_; ++y) {
     const std::uint8_t* from = rows_.data() + static_cast<std::size_t>(height_ - 1 - y) * width_ * 4;
     std::uint8_t* to = out.pixel(0, y);
     for (int x = 0; x < width_; ++x, from += 4, to += 3) to[0] = from[0], to[1] = from[1], to[2] = from[2];
   }
+  if (!with_alpha) return;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const int a = rows_[(static_cast<std::size_t>(height_ - 1 - y) * width_ + x) * 4 + 3];
+      out.alpha[static_cast<std::size_t>(y) * width_ + x] = static_cast<std::uint8_t>(a);
+      if (a == 0 || a == 255) continue;
+      for (std::uint8_t *c = out.pixel(x, y), *end = c + 3; c != end; ++c)
+        *c = static_cast<std::uint8_t>(std::min(255, (*c * 255 + a / 2) / a));
+    }
 }
 
 }  // namespace impinge

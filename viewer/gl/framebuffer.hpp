@@ -25,8 +25,8 @@ class Framebuffer {
   void smooth_edges();
   /// Copies itself into `target`, its upper left corner at (x, y) from there.
   void copy_to(Framebuffer& target, int x, int y) const;
-  /// Top row first.
-  void read(Image& out);
+  /// Top row first. `with_alpha`: colours are taken as times their alpha, and come out without that factor.
+  void read(Image& out, bool with_alpha = false);
 
  private:
   void read_rows();

@@ -160,7 +160,12 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyl
   glDepthMask(GL_TRUE);
   glClearDepth(1.0);
   glClear(GL_DEPTH_BUFFER_BIT);
-  draw_backdrop(style.backdrop);
+  if (style.backdrop.is_transparent) {
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+  } else {
+    draw_backdrop(style.backdrop);
+  }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view, style.pixel_scale);

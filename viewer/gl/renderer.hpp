@@ -14,6 +14,7 @@ namespace impinge {
 /// What is behind everything: two colours, one above the other.
 struct Backdrop {
   Color top, bottom;
+  bool is_transparent = false;  ///< nothing instead: pixels have an alpha, and their colours are times that
 };
 
 struct RenderStyle {

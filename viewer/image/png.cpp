@@ -96,6 +96,15 @@ void check_unpacked(const std::vector<Chunk>& chunks, const std::string& name) {
     refuse(name, fmt::format("the PNG file unpacks to more than the {} bytes of its pixels", most));
 }
 
+Image opaque(Image image) {
+  for (std::size_t i = 0; i < image.rgb.size() && !image.alpha.empty(); ++i) {
+    const int a = image.alpha[i / 3];
+    image.rgb[i] = static_cast<std::uint8_t>((a * image.rgb[i] + (255 - a) * kBehind[i % 3] + 127) / 255);
+  }
+  image.alpha.clear();
+  return image;
+}
+
 }  // namespace
 
 std::string encode_png(const Image& image, const PngText& text) {
@@ -118,7 +127,7 @@ Image decode_png(std::string_view bytes, const std::string& name) {
   Image image;
   std::string reason;
   if (!decode_png_pixels(bytes, image, reason)) refuse(name, "the PNG file is damaged (" + reason + ")");
-  return image;
+  return opaque(std::move(image));
 }
 
 void write_png(const std::filesystem::path& path, const Image& image, const PngText& text) {

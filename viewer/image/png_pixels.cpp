@@ -2,6 +2,7 @@
 
 #include <libdeflate.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -47,12 +48,21 @@ namespace impinge {
 std::string encode_png_pixels(const Image& image) {
   IMPINGE_ASSERT(image.width > 0 && image.height > 0);
   IMPINGE_ASSERT(image.rgb.size() == std::size_t{3} * image.width * image.height);
+  IMPINGE_ASSERT(image.alpha.empty() || 3 * image.alpha.size() == image.rgb.size());
   // every pixel minus the one left of it: a fifth smaller than the one above it on floors and gradients, as small as what is
   // chosen row by row, and stb need not try five filters
   [[maybe_unused]] static const int filter = (stbi_write_force_png_filter = 1);
+  const int channels = image.alpha.empty() ? 3 : 4;
+  std::vector<std::uint8_t> rgba;
+  if (channels == 4) rgba.resize(4 * image.alpha.size());
+  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+    std::copy_n(image.rgb.data() + 3 * i, 3, rgba.data() + 4 * i);
+    rgba[4 * i + 3] = image.alpha[i];
+  }
+  const std::uint8_t* pixels = channels == 4 ? rgba.data() : image.rgb.data();
   int size = 0;
   const std::unique_ptr<unsigned char, void (*)(void*)> file(
-      stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size), std::free);
+      stbi_write_png_to_mem(pixels, channels * image.width, image.width, image.height, channels, &size), std::free);
   IMPINGE_ASSERT(file != nullptr);
   return {reinterpret_cast<const char*>(file.get()), static_cast<std::size_t>(size)};
 }
@@ -61,14 +71,19 @@ bool decode_png_pixels(std::string_view file, Image& image, std::string& reason)
   int width = 0, height = 0, channels = 0;
   const std::unique_ptr<unsigned char, void (*)(void*)> pixels(
       stbi_load_from_memory(reinterpret_cast<const unsigned char*>(file.data()), static_cast<int>(file.size()), &width,
-                            &height, &channels, 3),
+                            &height, &channels, 4),
       stbi_image_free);
   if (!pixels) {
     reason = stbi_failure_reason();
     return false;
   }
   Image decoded(width, height);
-  decoded.rgb.assign(pixels.get(), pixels.get() + decoded.rgb.size());
+  const std::size_t count = decoded.rgb.size() / 3;
+  for (std::size_t i = 0; i < count; ++i) std::copy_n(pixels.get() + 4 * i, 3, decoded.rgb.data() + 3 * i);
+  if (channels == 2 || channels == 4) {
+    decoded.alpha.resize(count);
+    for (std::size_t i = 0; i < count; ++i) decoded.alpha[i] = pixels.get()[4 * i + 3];
+  }
   image = std::move(decoded);
   return true;
 }

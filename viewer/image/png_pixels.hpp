@@ -9,10 +9,10 @@
 
 namespace impinge {
 
-/// A PNG file of 8-bit RGB without any text. Throws InternalError on an empty image.
+/// A PNG file of 8-bit RGB, or RGBA if the image has alpha, without any text. Throws InternalError on an empty image.
 std::string encode_png_pixels(const Image& image);
 
-/// The pixels of a whole PNG file as 8-bit RGB: grey and palettes are expanded, transparency is dropped. False, with
+/// The pixels of a whole PNG file as 8-bit RGB: grey and palettes are expanded; alpha where the file has it. False, with
 /// `reason` set, where stb can't decode it. The checksums are not looked at.
 bool decode_png_pixels(std::string_view file, Image& image, std::string& reason);
 

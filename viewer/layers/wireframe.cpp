@@ -1,4 +1,4 @@
-// Every edge of every surface: dark over drawn surfaces, in the bodies' colours where surfaces are not shown.
+// Every edge of every surface that takes part in contact: dark over drawn surfaces, in the bodies' colours where surfaces are not shown.
 #include "engine/shapes/primitives.hpp"
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
@@ -13,7 +13,7 @@ void draw(const LayerContext& context, DrawList& list) {
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.shape->as<Plane>() != nullptr) continue;
-    const ShadedSurfacePointer surface = context.surfaces.surface_of(*body.shape);
+    const ShadedSurfacePointer surface = context.surfaces.touched_surface_of(*body.shape);
     std::vector<Vec3> world;
     world.reserve(surface->positions.size());
     if (body.deformable != nullptr)
@@ -28,6 +28,8 @@ void draw(const LayerContext& context, DrawList& list) {
 
 }  // namespace
 
-Layer wireframe_layer() { return {"wireframe", "The edges of all triangles.", false, draw, {}}; }
+Layer wireframe_layer() {
+  return {"wireframe", "The edges of all triangles that take part in contact.", false, draw, {}};
+}
 
 }  // namespace impinge

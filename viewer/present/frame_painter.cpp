@@ -26,7 +26,7 @@ std::string FramePainter::renderer_name() const { return parts_->context->render
 void FramePainter::paint(const StepRecord& record, const ViewSettings& settings, Image& out) {
   parts_->context->make_current();
   parts_->scene.paint(record, settings);
-  parts_->scene.target().read(out);
+  parts_->scene.target().read(out, settings.backdrop == BackdropStyle::transparent);
 }
 
 void FramePainter::paint(const StepRecord& record, const ViewSettings& settings, Image& out, IdImage& ids) {

@@ -11,6 +11,7 @@ namespace {
 
 Backdrop backdrop_of(const ViewSettings& settings) {
   if (settings.backdrop == BackdropStyle::light) return {hex(0xf7f8fa), hex(0xdfe3e8)};
+  if (settings.backdrop == BackdropStyle::transparent) return {{}, {}, true};
   if (settings.backdrop == BackdropStyle::flat) return {hex(0x3f4650), hex(0x3f4650)};
   return {hex(0x5a6472), hex(0x23272e)};
 }

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "engine/io/child_process.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
+#include "viewer/image/png.hpp"
 
 namespace impinge {
 
@@ -66,6 +68,19 @@ bool is_frame(const fs::path& path) {
          std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+/// Whether a picture has alpha, by its header.
+bool has_alpha(const fs::path& picture) {
+  std::string head(26, '\0');
+  std::ifstream(picture, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head[25] == 4 || head[25] == 6;
+}
+
+bool any_has_alpha(const fs::path& folder) {
+  const std::vector<std::string> names = names_in(folder);
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return is_frame(name) && has_alpha(folder / name); });
+}
+
 void require_frames(const fs::path& folder) {
   for (const std::string& name : names_in(folder))
     if (is_frame(name)) return;
@@ -83,7 +98,7 @@ std::string first_line(const std::string& text) {
 using Words = std::vector<std::string>;
 
 /// What ffmpeg is told of the output, one set of words after another until one succeeds.
-std::vector<Words> ways_to_write(const std::string& ending, double frames_per_second) {
+std::vector<Words> ways_to_write(const std::string& ending, double frames_per_second, bool is_transparent) {
   if (ending == ".gif") {
     constexpr double kFastest = 50.0;  // many viewers take a shorter delay than two hundredths for ten
     const double rate = frames_per_second / std::ceil(frames_per_second / kFastest);
@@ -92,10 +107,20 @@ std::vector<Words> ways_to_write(const std::string& ending, double frames_per_se
              fmt::format("fps={},split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer", rate),
              "-loop", "0"}};
   }
-  if (ending == ".webp") return {{"-c:v", "libwebp_anim", "-quality", "85", "-loop", "0"}};
+  if (ending == ".webp") {
+    Words words = {"-c:v", "libwebp_anim", "-quality", "85", "-loop", "0"};
+    if (is_transparent) words.insert(words.end(), {"-pix_fmt", "yuva420p"});
+    return {words};
+  }
+  // laid over the grey that stands for nothing elsewhere too
+  const std::string opaque =
+      is_transparent
+          ? fmt::format("format=rgba,split[a][b];[a]lutrgb=r={}:g={}:b={}:a=255[c];[c][b]overlay=format=rgb,",
+                        kBehind[0], kBehind[1], kBehind[2])
+          : "";
   std::vector<Words> ways;
   for (const Words& codec : {Words{"libx264", "-preset", "medium", "-crf", "18"}, Words{"mpeg4", "-q:v", "2"}}) {
-    Words words = {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-c:v"};
+    Words words = {"-vf", opaque + "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-c:v"};
     words.insert(words.end(), codec.begin(), codec.end());
     for (const char* word :
          {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"})
@@ -128,7 +153,7 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
     }
   } removed{temporary};
   std::string complaint;
-  for (const Words& way : ways_to_write(output.extension().string(), frames_per_second)) {
+  for (const Words& way : ways_to_write(output.extension().string(), frames_per_second, any_has_alpha(frames))) {
     Words words = {"ffmpeg",
                    "-nostdin",
                    "-loglevel",

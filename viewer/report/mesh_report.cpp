@@ -90,7 +90,29 @@ std::string report_json(const MeshReport& r) {
         steps, number(r.mended->volume_before), number(r.mended->volume_after), number(r.mended->largest_move),
         r.problem_left ? json_text(*r.problem_left) : "null", r.after ? facts_json(*r.after) : "null");
   }
+  if (r.decimated)
+    out += fmt::format(
+        ", \"decimate\": {{\"triangles_before\": {}, \"triangles_after\": {}, \"volume_before\": {}, "
+        "\"volume_after\": {}, \"farthest\": {}, \"surface\": {}}}",
+        r.decimated->triangles_before, r.decimated->triangles_after, number(r.decimated->volume_before),
+        number(r.decimated->volume_after), number(r.decimated->farthest), r.after ? facts_json(*r.after) : "null");
   return out + "}";
+}
+
+std::string mended_rows(const MeshReport& r) {
+  std::string out;
+  const std::vector<std::string> steps = r.mended->steps();
+  if (steps.empty()) out += row("mended:", "nothing to do");
+  for (std::size_t i = 0; i < steps.size(); ++i) out += row(i == 0 ? "mended:" : "", steps[i]);
+  out += row("volume:", change_text(r.mended->volume_before, r.mended->volume_after));
+  out += row("moved:", r.mended->largest_move > 0.0 ? fmt::format("a vertex {:.3g} m at most", r.mended->largest_move)
+                                                    : "no vertex");
+  if (r.problem_left) out += row("left:", "it " + *r.problem_left);
+  if (r.after && r.after->crossings > 0)
+    out += row("left:", fmt::format("{}{} that cross or touch: overlaps count twice; --remesh 100 makes one skin",
+                                    r.after->more_crossings ? "at least " : "",
+                                    counted(r.after->crossings, "pair of triangles", "pairs of triangles")));
+  return out;
 }
 
 /// The end of a long name says more than its begin.
@@ -143,18 +165,8 @@ std::string mesh_page(const MeshReport& r) {
   for (std::size_t i = 0; i < faults.size(); ++i) out += row(i == 0 ? "faults:" : "", faults[i]);
   if (faults.empty()) out += row("faults:", "none");
   out += row("as a body:", as_a_body(r));
-  if (!r.mended) return out;
-  const std::vector<std::string> steps = r.mended->steps();
-  if (steps.empty()) out += row("mended:", "nothing to do");
-  for (std::size_t i = 0; i < steps.size(); ++i) out += row(i == 0 ? "mended:" : "", steps[i]);
-  out += row("volume:", change_text(r.mended->volume_before, r.mended->volume_after));
-  out += row("moved:", r.mended->largest_move > 0.0 ? fmt::format("a vertex {:.3g} m at most", r.mended->largest_move)
-                                                    : "no vertex");
-  if (r.problem_left) out += row("left:", "it " + *r.problem_left);
-  if (r.after && r.after->crossings > 0)
-    out += row("left:", fmt::format("{}{} that cross or touch: overlaps count twice; --remesh 100 makes one skin",
-                                    r.after->more_crossings ? "at least " : "",
-                                    counted(r.after->crossings, "pair of triangles", "pairs of triangles")));
+  if (r.mended) out += mended_rows(r);
+  if (r.decimated) out += row("decimated:", r.decimated->text());
   if (!r.written.empty()) out += row("written:", r.written);
   return out;
 }
@@ -177,7 +189,8 @@ std::string mesh_table(const std::vector<MeshReport>& reports) {
                                      : r.mended->is_changed() ? "mended"
                                                               : "yes")
                                   : (f.problem ? (f.is_closed ? "no" : "open") : "yes");
-    out += fmt::format("{:<28} {:>9} {:>8.4g} {:>10} {:>5} {:>6} {:>6} {:>7} {}\n", file, f.triangles,
+    out += fmt::format("{:<28} {:>9} {:>8.4g} {:>10} {:>5} {:>6} {:>6} {:>7} {}\n", file,
+                       r.decimated ? r.decimated->triangles_after : static_cast<int>(f.triangles),
                        f.box.is_empty() ? 0.0 : f.box.extent().maxCoeff(),
                        has_volume ? fmt::format("{:.4g}", volume) : "-", f.components, f.border_edges,
                        f.nonmanifold_edges, f.crossings, state);

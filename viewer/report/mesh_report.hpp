@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/mend/decimate.hpp"
 #include "engine/geometry/mend/mend.hpp"
 #include "engine/geometry/mend/mesh_facts.hpp"
 
@@ -19,8 +20,9 @@ struct MeshReport {
   MeshFacts facts;
   std::optional<MendReport> mended;
   std::optional<std::string> problem_left;  ///< of the mended surface
-  std::optional<MeshFacts> after;           ///< of the mended surface
-  std::string written;                      ///< where to
+  std::optional<DecimateReport> decimated;
+  std::optional<MeshFacts> after;  ///< of the mended or decimated surface
+  std::string written;             ///< where to
 };
 
 std::string mesh_page(const MeshReport& report);

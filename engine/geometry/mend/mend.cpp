@@ -90,6 +90,7 @@ class Mender {
     cut_and_close();
     if (settings_.orient && !mesh_.triangles.empty() && make_topology(mesh_).is_closed()) face_outwards();
     add_sheets();
+    if (report_.sheets > 0 && settings_.orient) face_outwards();  // sheets lie in others' thickness
     if (settings_.remesh > 0 && !mesh_.triangles.empty()) {
       mesh_ = remesh(mesh_, settings_.remesh, &report_.largest_move);
       report_.remeshed = true;

@@ -1,5 +1,9 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "engine/core/units.hpp"
+#include "engine/geometry/mend/decimate.hpp"
 #include "engine/geometry/mend/mend.hpp"
 
 namespace impinge {
@@ -42,6 +46,12 @@ std::vector<std::string> MendReport::steps() const {
   step(sheets, [&] { return fmt::format("gave {} a thickness", counted(sheets, "open part")); });
   step(remeshed ? 1 : 0, [&] { return std::string("made a new skin round it"); });
   return lines;
+}
+
+std::string DecimateReport::text() const {
+  const double change = volume_before != 0.0 ? 100.0 * (volume_after - volume_before) / volume_before : 0.0;
+  return fmt::format("{} of {} triangles, up to {} apart, volume {}", triangles_after, triangles_before,
+                     length_text(farthest), std::abs(change) < 1e-6 ? "kept" : fmt::format("{:+.2g} %", change));
 }
 
 }  // namespace impinge

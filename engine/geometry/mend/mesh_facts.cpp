@@ -80,18 +80,7 @@ void count_fans(const TriangleMesh& mesh, const MeshTopology& topology, MeshFact
       continue;
     }
     ++used;
-    // triangles round the vertex are joined where they have another vertex in common
-    std::vector<std::pair<int, int>> rays;  // other vertex, place
-    for (int i = begin; i < end; ++i)
-      for (const int w : mesh.triangles[topology.vertex_triangles[i]])
-        if (w != static_cast<int>(v)) rays.emplace_back(w, i - begin);
-    std::sort(rays.begin(), rays.end());
-    DisjointSets fans(static_cast<std::size_t>(end - begin));
-    for (std::size_t i = 1; i < rays.size(); ++i)
-      if (rays[i].first == rays[i - 1].first) fans.join(rays[i].second, rays[i - 1].second);
-    int count = 0;
-    for (int i = 0; i < end - begin; ++i) count += fans.root(i) == i ? 1 : 0;
-    facts.nonmanifold_vertices += count > 1 ? 1 : 0;
+    facts.nonmanifold_vertices += fans_round(static_cast<int>(v), mesh, topology) > 1 ? 1 : 0;
   }
   if (facts.nonmanifold_edges > 0 || facts.nonmanifold_vertices > 0 || facts.misoriented_edges > 0) return;
   // vertices - edges + triangles = 2 parts - 2 handles - holes
@@ -156,6 +145,22 @@ std::vector<double> find_thickness(const TriangleMesh& mesh, const BoxTree& tree
 }
 
 }  // namespace
+
+int fans_round(int vertex, const TriangleMesh& mesh, const MeshTopology& topology) {
+  const int begin = topology.vertex_triangle_begin[vertex], end = topology.vertex_triangle_begin[vertex + 1];
+  // triangles round the vertex are joined where they have another vertex in common
+  std::vector<std::pair<int, int>> rays;  // other vertex, place
+  for (int i = begin; i < end; ++i)
+    for (const int w : mesh.triangles[topology.vertex_triangles[i]])
+      if (w != vertex) rays.emplace_back(w, i - begin);
+  std::sort(rays.begin(), rays.end());
+  DisjointSets fans(static_cast<std::size_t>(end - begin));
+  for (std::size_t i = 1; i < rays.size(); ++i)
+    if (rays[i].first == rays[i - 1].first) fans.join(rays[i].second, rays[i - 1].second);
+  int count = 0;
+  for (int i = 0; i < end - begin; ++i) count += fans.root(i) == i ? 1 : 0;
+  return count;
+}
 
 std::vector<std::pair<int, int>> find_crossings(const TriangleMesh& mesh, bool& more) {
   const BoxTree tree(triangle_boxes(mesh.triangles, mesh.vertices));

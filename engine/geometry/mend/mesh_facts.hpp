@@ -45,6 +45,9 @@ struct MeshMarks {
 /// Indices must be in range and coordinates finite; all else may be wrong. Throws Interrupted.
 MeshFacts measure(const TriangleMesh& mesh, MeshMarks* marks = nullptr);
 
+/// Round the vertex, how many sets of triangles that are connected by edges: 1 on a surface, more where sheets touch.
+int fans_round(int vertex, const TriangleMesh& mesh, const MeshTopology& topology);
+
 /// Pairs of triangles that share no vertex and cross or touch, the lower index first, in order; of each triangle no
 /// more than a few, and `more` says whether some were left out.
 std::vector<std::pair<int, int>> find_crossings(const TriangleMesh& mesh, bool& more);

@@ -53,7 +53,7 @@ std::optional<std::string> check_indices(const TriangleMesh& mesh) {
   return std::nullopt;
 }
 
-std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopology& topology) {
+std::optional<std::string> check_closed(const TriangleMesh& mesh, const MeshTopology& topology) {
   if (auto problem = check_indices(mesh)) return problem;
   if (topology.nonmanifold_edges > 0)
     if (const MeshTopology::Edge* edge = first_nonmanifold(topology))
@@ -78,6 +78,11 @@ std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopolo
             "at vertices {} and {}; make the normals consistent",
             counted(topology.misoriented_edges, "edge"), edge.triangle0, edge.triangle1, edge.v0, edge.v1);
     }
+  return std::nullopt;
+}
+
+std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopology& topology) {
+  if (auto problem = check_closed(mesh, topology)) return problem;
   if (auto problem = check_shells(mesh, topology)) return problem;
   if (!(signed_volume(mesh) > 0.0)) return "encloses no volume: it is flat; give it a thickness";
   return std::nullopt;

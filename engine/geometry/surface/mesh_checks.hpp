@@ -12,9 +12,12 @@ namespace impinge {
 /// none.
 std::optional<std::string> check_indices(const TriangleMesh& mesh);
 
-/// The first problem that keeps the mesh from bounding a solid, in this order: those of check_indices, edges with three
-/// or more triangles, border edges, neighbours of opposite orientation, a shell that faces the wrong way (see
-/// check_shells), no volume. Worded to follow the mesh's name ("is not closed: 3 border edges, first between vertices 0
+/// The first problem of its triangles and edges, in this order: those of check_indices, edges with three or more
+/// triangles, border edges, neighbours of opposite orientation. What has none has two sides, whichever is the inner one.
+std::optional<std::string> check_closed(const TriangleMesh& mesh, const MeshTopology& topology);
+
+/// The first problem that keeps the mesh from bounding a solid: those of check_closed, a shell that faces the wrong way
+/// (see check_shells), no volume. Worded to follow the mesh's name ("is not closed: 3 border edges, first between vertices 0
 /// and 7; ..."), with a remedy.
 std::optional<std::string> check_mesh(const TriangleMesh& mesh, const MeshTopology& topology);
 

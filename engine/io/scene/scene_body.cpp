@@ -46,6 +46,7 @@ const std::vector<std::string> kKeys = {"name",
                                         "up",
                                         "component",
                                         "convex",
+                                        "decimate",
                                         "copies"};
 
 BodyKind read_kind(const TomlNode& table, const std::string& what) {
@@ -109,6 +110,13 @@ void check_surface_keys(const TomlNode& table, const std::string& what, BodyKind
   if (const TomlEntry* convex = table.find("convex"); convex != nullptr && kind == BodyKind::deformable)
     refuse(convex->place, what + ".convex belongs to bodies that keep their form, and this one is deformable",
            "a shape convex_hull can be deformable", "use shape = { convex_hull = { surface = \"file\" } }");
+  const TomlEntry* decimate = table.find("decimate");
+  if (decimate != nullptr && kind == BodyKind::deformable)
+    refuse(decimate->place, what + ".decimate belongs to bodies that keep their form, and this one is deformable",
+           "a deformable body is drawn by the surface that it collides with",
+           "use the file that impinge mesh FILE --decimate N --out NEW.ply writes");
+  if (decimate != nullptr && read_surface_keys(table, what).convex)
+    refuse(decimate->place, what + " has a hull and decimate", "one of them is wanted", "remove one");
 }
 
 // what has no meaning for the body's kind is refused: taken and ignored it would mislead

@@ -7,6 +7,8 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/geometry/mass_properties.hpp"
+#include "engine/geometry/mend/decimate.hpp"
 #include "engine/geometry/mend/mend.hpp"
 #include "engine/geometry/mend/remesh.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
@@ -169,6 +171,7 @@ MeshPointer SurfaceFiles::prepared(const TomlNode& table, const std::string& wha
   const fs::path path = find(node, what + ".surface");
   MeshPointer& result = prepared_[node.string + '\n' + keys.text()];
   if (result != nullptr) return result;
+  if (keys.decimate) return result = decimated(table, what, keys);
   TriangleMesh mesh = placed(read_file_of(path, node, keys), keys, table, what);
   if (keys.mend) {
     if (keys.mend->remesh > 0)
@@ -195,6 +198,29 @@ MeshPointer SurfaceFiles::prepared(const TomlNode& table, const std::string& wha
   return result = std::move(surface);
 }
 
+MeshPointer SurfaceFiles::decimated(const TomlNode& table, const std::string& what, const SurfaceKeys& keys) {
+  const TomlNode &node = table.find("surface")->value, &key = table.find("decimate")->value;
+  MeshPointer full = prepared(table, what, keys.full());
+  const int most = *keys.decimate, given = static_cast<int>(full->mesh.triangles.size());
+  if (given <= most) return full;
+  check_memory(key.place, fmt::format("{}.decimate = {}", what, most), decimate_memory(full->mesh),
+               "simplify the file");
+  DecimatedMesh few = decimate(full->mesh, most);
+  if (few.report.triangles_after > most)
+    refuse(
+        key.place, fmt::format("{}.decimate is {}", what, most),
+        fmt::format("surface {} of {} triangles goes down to {}: then it would cross itself, or lose a part, a hole or "
+                    "a handle",
+                    toml_string(node.string), given, few.report.triangles_after),
+        fmt::format("use {} or more", few.report.triangles_after));
+  file_named(node.string).notes.push_back("for contact: " + few.report.text());
+  auto surface = std::make_shared<SurfaceMesh>();
+  surface->mesh = std::move(few.mesh);
+  surface->topology = make_topology(surface->mesh);
+  surface->full = std::move(full);
+  return surface;
+}
+
 void SurfaceFiles::check_solid(const TomlNode& node, const std::string& key, const SurfaceMesh& surface) {
   if (!solid_.insert(key).second) return;
   const auto problem = check_mesh(surface.mesh, surface.topology);
@@ -206,9 +232,13 @@ void SurfaceFiles::check_solid(const TomlNode& node, const std::string& key, con
                   surface.topology.is_closed() ? "" : "; a static or scripted body takes it as it is"));
 }
 
-MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& what_body, const ThinSurface& how,
+MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& what, const ThinSurface& how,
                                     bool is_asked) {
-  const SurfaceKeys keys = read_surface_keys(table, what_body);
+  return load_thin(table, what, read_surface_keys(table, what), how, is_asked);
+}
+
+MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& what_body, const SurfaceKeys& keys,
+                                    const ThinSurface& how, bool is_asked) {
   const TomlNode& node = table.find("surface")->value;
   const std::string what = what_body + ".surface";
   const fs::path path = find(node, what);
@@ -226,7 +256,7 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& wh
     if (is_asked)
       refuse(node.place, fmt::format("surface {} is closed", toml_string(node.string)),
              "sides and thickness belong to open surfaces", "remove them");
-    return load(table, what_body);
+    return load(table, what_body, keys);
   }
   if (how.sides == SurfaceSides::front && surface->topology.misoriented_edges > 0)
     refuse(node.place,
@@ -241,15 +271,21 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& wh
                2.0 * surface_bytes(static_cast<double>(surface->mesh.triangles.size())), "simplify it");
   TriangleMesh scaled = surface->mesh;
   for (Vec3& x : scaled.vertices) x *= scale;
-  auto solid = make_surface(thickened(scaled, how));
+  auto solid = std::make_shared<SurfaceMesh>();
+  solid->mesh = thickened(scaled, how);
+  solid->topology = make_topology(solid->mesh);
+  if (surface->full != nullptr) solid->full = load_thin(table, what_body, keys.full(), how, is_asked);
   check_extent(node, what, solid->mesh.vertices, scale);
-  if (const auto problem = check_mesh(solid->mesh, solid->topology))
+  // the sheets of a file lie in and across one another as they like: each has its own two sides
+  auto problem = check_closed(solid->mesh, solid->topology);
+  if (!problem && !(signed_volume(solid->mesh) > 0.0)) problem = "encloses no volume: it is flat";
+  if (problem)
     refuse(node.place,
            fmt::format("surface {}, open and thickened by {:.3g} m, {}", toml_string(node.string),
                        how.thickness_of(scaled), *problem),
            "a thin solid is wanted", "set another thickness");
   for (SurfaceFile& file : files_)
-    if (file.name == node.string)
+    if (file.name == node.string && surface->full == nullptr)
       file.notes.push_back(fmt::format(
           "the surface is open ({} border edges{}): a solid {:.3g} m thick, {}", surface->topology.border_edges,
           surface->topology.nonmanifold_edges > 0 ? ", and cut where sheets meet" : "", how.thickness_of(scaled),
@@ -257,9 +293,15 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& wh
   return result = std::move(solid);
 }
 
-MeshPointer SurfaceFiles::load(const TomlNode& table, const std::string& what_body) {
-  const SurfaceKeys keys = read_surface_keys(table, what_body);
+MeshPointer SurfaceFiles::load(const TomlNode& table, const std::string& what) {
+  return load(table, what, read_surface_keys(table, what));
+}
+
+MeshPointer SurfaceFiles::load(const TomlNode& table, const std::string& what_body, const SurfaceKeys& keys) {
   const TomlNode& node = table.find("surface")->value;
+  // what is wrong with the file is said of the file
+  if (keys.decimate)
+    check_solid(node, node.string + '\n' + keys.full().text(), *prepared(table, what_body, keys.full()));
   if (!keys.is_plain()) {
     MeshPointer surface = prepared(table, what_body, keys);
     check_solid(node, node.string + '\n' + keys.text(), *surface);

@@ -67,6 +67,11 @@ class SurfaceFiles {
   TriangleMesh read_file_of(const std::filesystem::path& path, const TomlNode& node, const SurfaceKeys& keys);
   /// As the keys want it: mended, or perhaps open.
   MeshPointer prepared(const TomlNode& table, const std::string& what, const SurfaceKeys& keys);
+  /// With fewer triangles, beside the surface that it stands for.
+  MeshPointer decimated(const TomlNode& table, const std::string& what, const SurfaceKeys& keys);
+  MeshPointer load(const TomlNode& table, const std::string& what, const SurfaceKeys& keys);
+  MeshPointer load_thin(const TomlNode& table, const std::string& what, const SurfaceKeys& keys, const ThinSurface& how,
+                        bool is_asked);
   void check_solid(const TomlNode& node, const std::string& key, const SurfaceMesh& surface);
   SurfaceFile& file_named(const std::string& name);
 

@@ -64,7 +64,7 @@ std::optional<MendSettings> read_mend(const TomlNode& node, const std::string& w
 }  // namespace
 
 bool SurfaceKeys::is_plain() const {
-  return !is_unit_given && !z_up && !component && !mend && !convex && scale == Vec3::Constant(scale.x());
+  return !is_unit_given && !z_up && !component && !mend && !convex && !decimate && scale == Vec3::Constant(scale.x());
 }
 
 std::string SurfaceKeys::text() const {
@@ -74,11 +74,18 @@ std::string SurfaceKeys::text() const {
     text += fmt::format(" mend {} {} {} {} {} {} {} {}", mend->weld ? shortest(*mend->weld) : "auto",
                         mend->drop_degenerate, mend->orient, mend->fill_holes, shortest(mend->largest_hole),
                         mend->thickness ? shortest(*mend->thickness) : "auto", mend->drop_inner, mend->remesh);
+  if (decimate) text += fmt::format(" decimate {}", *decimate);
   return text;
 }
 
+SurfaceKeys SurfaceKeys::full() const {
+  SurfaceKeys keys = *this;
+  keys.decimate.reset();
+  return keys;
+}
+
 const std::vector<std::string>& surface_keys() {
-  static const std::vector<std::string> keys = {"mend", "unit", "up", "component", "convex"};
+  static const std::vector<std::string> keys = {"mend", "unit", "up", "component", "convex", "decimate"};
   return keys;
 }
 
@@ -106,6 +113,8 @@ SurfaceKeys read_surface_keys(const TomlNode& table, const std::string& what) {
   with("component",
        [&](const TomlNode& node, const std::string& name) { keys.component = whole(node, name, 1, 100'000'000); });
   with("convex", [&](const TomlNode& node, const std::string& name) { keys.convex = scene_flag(node, name); });
+  with("decimate",
+       [&](const TomlNode& node, const std::string& name) { keys.decimate = whole(node, name, 4, 100'000'000); });
   with("mend", [&](const TomlNode& node, const std::string& name) { keys.mend = read_mend(node, name); });
   return keys;
 }

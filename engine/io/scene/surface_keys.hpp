@@ -15,7 +15,11 @@ struct SurfaceKeys {
   Vec3 scale = Vec3::Ones();
   std::optional<int> component;  ///< this connected part alone, from 1
   std::optional<MendSettings> mend;
-  bool convex = false;  ///< its hull is the shape
+  bool convex = false;          ///< its hull is the shape
+  std::optional<int> decimate;  ///< what takes part in contact has so many triangles at most
+
+  /// Of the surface that a decimated one stands for.
+  SurfaceKeys full() const;
 
   /// One scale and nothing else.
   bool is_plain() const;

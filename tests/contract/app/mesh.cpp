@@ -67,6 +67,36 @@ TEST_CASE("mesh --mend says what it did, and what it writes is a solid") {
   CHECK(says(impinge_run(folder.path(), {"mesh", "new.ply", "--mend"}), "nothing to do"));
 }
 
+TEST_CASE("mesh --decimate writes as many triangles as are asked for, of the same volume") {
+  const TempFolder folder;
+  const TriangleMesh ring = bumpy_torus(48, 24);
+  folder.write("ring.off", off_text(ring));
+  const Outcome page = impinge_run(folder.path(), {"mesh", "ring.off", "--decimate", "400", "--out", "few.ply"});
+  CHECK(page.code == 0);
+  CHECK(says(page, "decimated:   400 of 2304 triangles, up to "));
+  CHECK(says(page, "volume kept"));
+  CHECK(says(page, "written:     few.ply"));
+  const TriangleMesh few = read_mesh(folder / "few.ply");
+  CHECK(few.triangles.size() == 400);
+  CHECK(signed_volume(few) == Approx(signed_volume(ring)).epsilon(1e-9));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "few.ply"}), "1 part, genus 1"));
+  const Outcome json = impinge_run(folder.path(), {"mesh", "ring.off", "--decimate", "400", "--json"});
+  CHECK(says(json, "\"decimate\": {\"triangles_before\": 2304, \"triangles_after\": 400, "));
+  CHECK(impinge_run(folder.path(), {"mesh", "ring.off", "ring.off", "--decimate", "400"}).code == 0);
+
+  folder.write("open.off", off_text(open_cube()));
+  CHECK(impinge_run(folder.path(), {"mesh", "open.off", "--decimate", "100", "--out", "o.ply"}).code == 0);
+  CHECK(read_mesh(folder / "o.ply").triangles.size() <= 100);
+  const Outcome both = impinge_run(folder.path(), {"mesh", "open.off", "--mend", "--decimate", "12", "--out", "m.ply"});
+  CHECK(both.code == 0);
+  CHECK(signed_volume(read_mesh(folder / "m.ply")) == Approx(1.0));
+  CHECK(read_mesh(folder / "m.ply").triangles.size() == 12);
+
+  check_refused(folder, {"mesh", "ring.off", "--decimate", "4", "--out", "x.ply"},
+                "ring.off with --decimate 4: ", "or more");
+  check_refused(folder, {"mesh", "ring.off", "--decimate", "3"}, "command line: ", "--decimate");
+}
+
 TEST_CASE("several files are a table, and one that can't be read a row and exit code 2") {
   const TempFolder folder;
   folder.write("a.off", off_text(open_cube()));

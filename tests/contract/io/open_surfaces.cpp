@@ -56,6 +56,29 @@ TEST_CASE("balls and crates come to rest on an open sheet, from above and, to bo
   CHECK(session.record().bodies[1].pose.position.y() < -0.05);
 }
 
+TEST_CASE("parts of an open surface may face inwards, pierce and hold one another: each is met from both sides") {
+  TriangleMesh mesh = sheet(1.0, 8);
+  const auto add = [&](const TriangleMesh& part, const Vec3& shift, bool inwards) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    for (const Vec3& v : part.vertices) mesh.vertices.push_back(v + shift);
+    for (Triangle t : part.triangles) {
+      if (inwards) std::swap(t[1], t[2]);
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+  };
+  // a block that stands in the ground and faces inwards, and one within it
+  add(box(Vec3::Constant(0.2), {4, 4, 4}), {0.3, 0.1, 0.0}, true);
+  add(box(Vec3::Constant(0.1), {2, 2, 2}), {0.3, 0.1, 0.0}, false);
+  add(box(Vec3::Constant(0.2), {4, 4, 4}), {-0.4, 0.1, 0.0}, false);
+  const TempFolder folder;
+  write_files(folder, ground("thickness = 0.004\n") + ball("inwards", 0.33, 0.36) + ball("outwards", -0.43, 0.36));
+  folder.write("ground.off", off_text(mesh));
+  Session session(folder / "s.toml", {}, {});
+  for (int i = 0; i <= 120; ++i) session.advance();
+  for (const int body : {1, 2})
+    CHECK(session.record().bodies[static_cast<std::size_t>(body)].pose.position.y() == Approx(0.352).margin(1e-5));
+}
+
 TEST_CASE("info says that a surface is open and how thick it is taken") {
   const TempFolder folder;
   write_files(folder, ground("thickness = 0.01\n") + ball("ball", 0.3, 0.2));

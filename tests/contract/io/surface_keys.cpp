@@ -7,6 +7,7 @@
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/program/refusal.hpp"
 #include "viewer/controller/session.hpp"
+#include "viewer/image/png.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -200,4 +201,87 @@ TEST_CASE("a cage by winding numbers takes an open surface and weighs what the c
   check_refused(folder, kRun, "s.toml:4:11: ", "is not closed");
   folder.write("s.toml", replaced(body_text(deformable("cells = 10, inside = \"guess\"")), "dynamic", "deformable"));
   check_refused(folder, kRun, "s.toml:5:42: ", "\"rays\" or \"winding\"");
+}
+
+TEST_CASE("a decimated body collides with few triangles, weighs and shows all of them") {
+  const TriangleMesh fine = bumpy_torus(48, 24);
+  const Loaded loaded(fine, "decimate = 300\nscale = 0.5\n");
+  const SurfaceMesh& few = *loaded.body(0).shape->mesh();
+  CHECK(few.mesh.triangles.size() <= 300);
+  CHECK(few.mesh.triangles.size() > 290);
+  CHECK(few.topology.is_closed());
+  CHECK(few.shown().mesh.triangles == fine.triangles);
+  const Loaded full(fine, "scale = 0.5\n");
+  CHECK(loaded.body(0).mass == Approx(full.body(0).mass).epsilon(1e-12));
+  CHECK(loaded.body(0).center.isApprox(full.body(0).center, 1e-12));
+  // what is shown stands where the whole surface stands
+  const std::vector<Vec3>& all = full.body(0).shape->mesh()->mesh.vertices;
+  for (std::size_t v = 0; v < all.size(); ++v) CHECK((few.shown().mesh.vertices[v] - all[v]).norm() < 1e-12);
+  const Outcome info = impinge_run(loaded.folder.path(), {"info", "s.toml"});
+  CHECK(info.out.find("for contact: ") != std::string::npos);
+  CHECK(info.out.find("of 2304 triangles, up to ") != std::string::npos);
+  // as many as there are, or more: the surface itself
+  const Loaded same(fine, "decimate = 2304\n");
+  CHECK(same.body(0).shape->mesh()->full == nullptr);
+  CHECK(same.body(0).shape->mesh()->mesh.triangles == fine.triangles);
+
+  refused(fine, "decimate = 3\n", "5:12", "decimate");
+  refused(fine, "decimate = 30.5\n", "5:12", "a whole number");
+  refused(fine, "decimate = 4\n", "5:12", "or a handle; use ");
+  refused(fine, "decimate = 100\nconvex = true\n", "5:1", "one of them is wanted");
+  refused(fine, "decimat = 100\n", "5:1", "did you mean 'decimate'?");
+  TriangleMesh open = fine;
+  open.triangles.pop_back();
+  refused(open, "decimate = 300\n", "4:11", "3 border edges");
+  CHECK(mass(open, "decimate = 300\nmend = true\n") == Approx(8.0 * full.body(0).mass).epsilon(1e-3));
+  const TempFolder folder;
+  folder.write("b.off", off_text(fine));
+  folder.write("s.toml",
+               "[[body]]\nname = \"b\"\nkind = \"deformable\"\nsurface = \"b.off\"\ndecimate = 100\n"
+               "volume = { cage = { cells = 4 } }\n");
+  check_refused(folder, kRun, "s.toml:5:1: ", "impinge mesh FILE --decimate N");
+}
+
+TEST_CASE("a decimated sheet of a static body is thin and shown whole") {
+  TriangleMesh hills = sheet(2.0, 40);
+  for (Vec3& x : hills.vertices) x.y() = 0.2 * std::sin(2.0 * x.x()) * std::cos(1.5 * x.z());
+  const TempFolder folder;
+  folder.write("b.off", off_text(hills));
+  const std::string text = "[[body]]\nname = \"b\"\nkind = \"static\"\nsurface = \"b.off\"\nthickness = 0.01\n";
+  const auto mesh_of = [&](const std::string& keys) {
+    Session session(folder.write("s.toml", text + keys), {}, std::filesystem::path());
+    return session.world().bodies()[BodyIndex(0)].shape;
+  };
+  const SharedShape whole = mesh_of(""), few = mesh_of("decimate = 200\n");
+  CHECK(few->mesh()->topology.is_closed());
+  CHECK(few->mesh()->mesh.triangles.size() < 600);  // both sides of 200, and the rim
+  CHECK(few->mesh()->shown().mesh.triangles == whole->mesh()->mesh.triangles);
+}
+
+TEST_CASE("decimated bodies fall, rest and repeat themselves; pictures and files show the whole surface") {
+  const TempFolder folder;
+  folder.write("b.off", off_text(bumpy_sphere(4)));
+  const auto scene = [&](const std::string& name, const std::string& keys) {
+    folder.write(name,
+                 "[view]\nlayers = [\"meshes\"]\npanel.figures = false\npanel.legend = false\n"
+                 "camera.eye = [3, 2, 6]\ncamera.target = [0, 0, 0]\n"
+                 "[[body]]\nname = \"floor\"\nkind = \"static\"\nshape = { plane = { normal = [0, 1, 0], "
+                 "offset = -1.3 } }\n" +
+                     body_text(keys));
+    return impinge_run(folder.path(), {"run", name, "--frames", "40", "--size", "320x240", "--out", name + ".out",
+                                       "--export", "vtu", "--judge"});
+  };
+  const Outcome few = scene("few.toml", "decimate = 250\n"), all = scene("all.toml", "");
+  INFO(few.err << few.out);
+  REQUIRE(few.code == 0);
+  REQUIRE(all.code == 0);
+  CHECK((read_png(folder / "few.toml.out/frames/000000.png") == read_png(folder / "all.toml.out/frames/000000.png")));
+  CHECK(impinge_run(folder.path(), {"replay", "few.toml.out"}).code == 0);
+  // it lies on the floor where the whole one does, but for the surfaces' distance
+  Session coarse(folder / "few.toml", {}, std::filesystem::path()),
+      fine(folder / "all.toml", {}, std::filesystem::path());
+  for (int frame = 0; frame < 40; ++frame) coarse.advance(), fine.advance();
+  const Body &l = coarse.world().bodies()[BodyIndex(1)], &r = fine.world().bodies()[BodyIndex(1)];
+  CHECK((l.pose.position - r.pose.position).norm() < 0.1);
+  CHECK(coarse.record().stats.contacts > 0);
 }

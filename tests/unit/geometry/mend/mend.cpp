@@ -105,6 +105,19 @@ TEST_CASE("triangles without area, and those twice there, go; flat ones are flip
   }
 }
 
+TEST_CASE("a sheet within the thickness of another goes, one beside it stays") {
+  for (const double height : {1e-3, 0.5}) {
+    CAPTURE(height);
+    TriangleMesh mesh = sheet(1.0, 4);
+    append(mesh, sheet(0.1, 2), {0.2, height, 0.2});
+    const MendedMesh result = mended(mesh);
+    const bool is_inside = height < 0.01;
+    CHECK(result.report.inner_parts == (is_inside ? 1 : 0));
+    // a hundredth of their sides thick
+    CHECK(result.report.volume_after == Approx(4.0 * 0.02 + (is_inside ? 0.0 : 0.04 * 0.002)).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("neighbours are turned alike, parts outwards, whatever the file had") {
   Random random(7);
   for (int i = 0; i < 20; ++i) {
