@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <algorithm>
@@ -106,7 +107,10 @@ std::string import_in_child(const std::string& path, const FileGuard& guard) {
   Assimp::Importer importer;
   importer.SetIOHandler(files);
   try {
-    const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure);
+    // two cameras or lights of one name make a file unsound to the importer, and are nothing to a surface
+    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_CAMERAS | aiComponent_LIGHTS);
+    const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent);
+    if (scene != nullptr) scene = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure);
     if (!files->problem().empty()) return "R" + files->problem();
     if (scene == nullptr || scene->mRootNode == nullptr) return std::string("E") + importer.GetErrorString();
     TriangleMesh mesh;

@@ -213,6 +213,24 @@ TEST_CASE("formats that know their unit arrive in metres") {
   check_edge("inch.dae", dae_text("<unit name=\"inch\" meter=\"0.0254\"/>"), 2.54);
 }
 
+TEST_CASE("cameras and lights of one name, as exporters leave them, are nothing to a surface") {
+  std::string text = dae_text("");
+  const auto insert = [&](const std::string& before, const std::string& part) { text.insert(text.find(before), part); };
+  insert("<library_geometries>",
+         "<library_cameras><camera id=\"c\"><optics><technique_common><perspective><xfov>49</xfov><znear>0.1</znear>"
+         "<zfar>100</zfar></perspective></technique_common></optics></camera></library_cameras><library_lights><light "
+         "id=\"l\"><technique_common><point><color>1 1 1</color></point></technique_common></light></library_lights>");
+  for (int k = 0; k < 2; ++k)
+    insert("<node id=\"n\">",
+           "<node id=\"eye\" name=\"eye\"><instance_camera url=\"#c\"/></node><node id=\"lamp\" "
+           "name=\"lamp\"><instance_light url=\"#l\"/></node>");
+  const TempFolder folder;
+  const TriangleMesh mesh = read_mesh(folder.write("twice.dae", text)),
+                     plain = read_mesh(folder.write("plain.dae", dae_text("")));
+  CHECK(mesh.triangles == plain.triangles);
+  CHECK(mesh.vertices == plain.vertices);
+}
+
 TEST_CASE("what was said before another process reads a mesh is said once") {
   const TempFolder folder;
   const auto mesh = folder.write("a.fbx", fbx_text(""));
