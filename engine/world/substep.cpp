@@ -27,6 +27,14 @@ constexpr double kReach = 0.1;        // of the activation distance: paths are s
 /// Of a pair, metres.
 using PairLength = std::function<double(const UnsafeMotion::Pair&)>;
 
+/// Of the activation distance of two bodies, metres, what counts as a passage; `is_kept`: of motions that are undone.
+PassagesOf passages_within(std::function<double(const Body&, const Body&)> activation, bool is_kept) {
+  return [activation = std::move(activation), is_kept](const Body& a, const Body& b) {
+    const double size = activation(a, b);
+    return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
+  };
+}
+
 /// The share of a motion after which the points of the earliest meeting are kStandOff apart; none: they are no
 /// farther from one another to begin with.
 std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& activation) {
@@ -124,10 +132,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
   const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
-  const PassagesOf passages = [&](const Body& a, const Body& b) {
-    const double size = activation(a, b);
-    return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
-  };
+  const PassagesOf passages = passages_within(activation, is_kept);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
@@ -142,25 +147,20 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     guard_.open(bodies_);
     double share = rest;
     for (int motion = 1;; ++motion) {
-      const bool is_last = share == rest;
-      make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && is_last);
+      make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && share == rest);
       const auto hold_back = [&] {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
       };
-      if (rebounds && impacts < parameters.contact.successive_impacts && motion < kMostMotions) {
-        const std::optional<double> before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity);
-        if (before) {
-          ++impacts;
+      const bool may_rebound = rebounds && motion < kMostMotions;
+      if (may_rebound && impacts < parameters.contact.successive_impacts) {
+        if (const auto before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity)) {
+          ++impacts, share *= *before;
           if (watcher_ != nullptr) watcher_->struck(bodies_, *sub_step_, *before);
-          share *= *before;
           start->bring_back(bodies_, sleeping_);
           continue;
         }
-      }
-      // the impacts that are left when the sub-step has been cut as often as it may be are solved as one
-      if (impacts > 0 && impacts >= parameters.contact.successive_impacts && sub_step_->rebounds &&
-          motion < kMostMotions && wins_energy(bodies_, *sub_step_)) {
-        sub_step_->rebounds = false;
+      } else if (may_rebound && impacts > 0 && sub_step_->rebounds && wins_energy(bodies_, *sub_step_)) {
+        sub_step_->rebounds = false;  // the impacts that are left are solved as one
         start->bring_back(bodies_, sleeping_);
         continue;
       }
@@ -194,12 +194,11 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   }
   if (watcher_ == nullptr) return;
   watcher_->finished(bodies_, substep);
-  const int substeps = parameters.simulation.substeps;
-  if (!watcher_->wants_record(substep, substeps)) return;
+  if (!watcher_->wants_record(substep, parameters.simulation.substeps)) return;
   FrameStats so_far = stats_;
   StepRecord record;
   describe(solved_contacts(), so_far, record);
-  watcher_->recorded(bodies_, record, substep, substeps);
+  watcher_->recorded(bodies_, record, substep, parameters.simulation.substeps);
 }
 
 }  // namespace impinge

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/geometry/mend/collapsing_surface.hpp"
 
 namespace impinge {
 namespace {
@@ -138,6 +139,30 @@ int drop_duplicates(TriangleMesh& mesh) {
   const int dropped = static_cast<int>(mesh.triangles.size() - left.size());
   mesh.triangles = std::move(left);
   return dropped;
+}
+
+int join_coincident(TriangleMesh& mesh) {
+  const auto has_no_length = [&](const Triangle& t, int k) {
+    return mesh.vertices[t[k]] == mesh.vertices[t[(k + 1) % 3]];
+  };
+  const auto is_needle = [&](const Triangle& t) {
+    return has_no_length(t, 0) || has_no_length(t, 1) || has_no_length(t, 2);
+  };
+  if (std::none_of(mesh.triangles.begin(), mesh.triangles.end(), is_needle)) return 0;
+  CollapsingSurface surface(mesh);
+  int joined = 0;
+  for (int a = 0; a < surface.vertex_count(); ++a) {
+    const auto same = [&](int b) { return surface.vertices()[a] == surface.vertices()[b] && surface.may_join(a, b); };
+    for (;;) {
+      const std::vector<int> near = surface.neighbours(a);
+      const auto b = std::find_if(near.begin(), near.end(), same);
+      if (b == near.end()) break;
+      surface.join(a, *b, surface.vertices()[a], surface.ring(a, *b));
+      ++joined;
+    }
+  }
+  if (joined > 0) mesh = surface.mesh();
+  return joined;
 }
 
 int flip_flat(TriangleMesh& mesh) {

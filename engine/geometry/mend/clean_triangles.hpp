@@ -20,6 +20,10 @@ int drop_collapsed(TriangleMesh& mesh);
 /// copies face opposite ways between two solids, as a wall inside of their union. How many went.
 int drop_duplicates(TriangleMesh& mesh);
 
+/// Of edges without length one end stays, where the surface without the edge is one of the same kind: the two triangles
+/// beside it, which have no area, go. How many edges.
+int join_coincident(TriangleMesh& mesh);
+
 /// Triangles whose corners lie on a line: the one in the middle is joined to the far corner of the neighbour across the
 /// long side, so that no vertex moves and no hole is left. How many.
 int flip_flat(TriangleMesh& mesh);

@@ -123,6 +123,7 @@ class Mender {
     }
     if (!settings_.drop_degenerate) return;
     report_.duplicates = drop_duplicates(mesh_);
+    report_.joined = join_coincident(mesh_);
     report_.flipped_flat = flip_flat(mesh_);
   }
 

@@ -22,7 +22,7 @@ struct MendSettings {
 };
 
 struct MendReport {
-  int welded = 0, collapsed = 0, duplicates = 0, flipped_flat = 0;
+  int welded = 0, collapsed = 0, duplicates = 0, joined = 0, flipped_flat = 0;
   int turned = 0, cut_edges = 0, added_vertices = 0;
   int holes = 0, hole_triangles = 0;
   int sheets = 0;                       ///< parts that got a thickness

@@ -27,6 +27,7 @@ std::vector<std::string> MendReport::steps() const {
   });
   step(collapsed, [&] { return fmt::format("dropped {} without area", counted(collapsed, "triangle")); });
   step(duplicates, [&] { return fmt::format("dropped {} that lay on others", counted(duplicates, "triangle")); });
+  step(joined, [&] { return fmt::format("drew {} without length together", counted(joined, "edge")); });
   step(flipped_flat,
        [&] { return fmt::format("flipped {} whose corners lie on a line", counted(flipped_flat, "triangle")); });
   step(turned, [&] { return fmt::format("turned {} to face as their neighbours", counted(turned, "triangle")); });

@@ -46,19 +46,19 @@ Cone round_all(const Cones& cones) {
   return all.angle <= kWidest ? all : Cone{};
 }
 
-template <class Work>
-void for_each(std::size_t count, Work&& work) {
-  parallel_for((count + kATask - 1) / kATask, 1, [&](std::size_t task) {
-    for (std::size_t i = task * kATask; i < std::min(count, (task + 1) * kATask); ++i) work(i);
-  });
-}
-
 float chord_of(const Cone& cone) { return static_cast<float>(2.0 * std::sin(0.5 * cone.of_faces) + kOfFloats); }
 
 /// With what else may be seen from there.
 Cone widened(Cone cone) {
   if (!cone.is_any()) cone.angle += kOfFold * std::sin(std::min(2.0 * cone.angle, 0.5 * M_PI)) + kRounding;
   return cone;
+}
+
+template <class Work>
+void for_each(std::size_t count, Work&& work) {
+  parallel_for((count + kATask - 1) / kATask, 1, [&](std::size_t task) {
+    for (std::size_t i = task * kATask; i < std::min(count, (task + 1) * kATask); ++i) work(i);
+  });
 }
 
 /// Of the faces round each vertex.

@@ -105,6 +105,31 @@ TEST_CASE("triangles without area, and those twice there, go; flat ones are flip
   }
 }
 
+TEST_CASE("edges without length are drawn together, and the triangles beside them go") {
+  TriangleMesh mesh = cube();
+  const std::size_t triangles = mesh.triangles.size();
+  // vertex 0 becomes two in one place: from one of its edges to another, its triangles have the copy
+  const MeshTopology topology = make_topology(mesh);
+  const int copy = static_cast<int>(mesh.vertices.size()), first = topology.vertex_triangles[0];
+  mesh.vertices.push_back(mesh.vertices[0]);
+  Triangle& own = mesh.triangles[static_cast<std::size_t>(first)];
+  const int k = static_cast<int>(std::find(own.begin(), own.end(), 0) - own.begin());
+  const int next = own[(k + 1) % 3], last = own[(k + 2) % 3];
+  own[k] = copy;
+  mesh.triangles.push_back({0, next, copy});
+  mesh.triangles.push_back({0, copy, last});
+  REQUIRE(make_topology(mesh).is_closed());
+  const MendedMesh result = mended(mesh);
+  CHECK(result.report.joined == 1);
+  CHECK(result.report.volume_after == Approx(1.0));
+  CHECK(make_topology(result.mesh).is_closed());
+  REQUIRE(result.mesh.triangles.size() == triangles);
+  for (const Triangle& s : result.mesh.triangles) {
+    const Vec3& a = result.mesh.vertices[s[0]];
+    CHECK((result.mesh.vertices[s[1]] - a).cross(result.mesh.vertices[s[2]] - a).norm() > 0.1);
+  }
+}
+
 TEST_CASE("a sheet within the thickness of another goes, one beside it stays") {
   for (const double height : {1e-3, 0.5}) {
     CAPTURE(height);
