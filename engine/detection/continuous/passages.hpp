@@ -19,8 +19,8 @@ struct Passage {
 
 struct PassageSettings {
   double depth = 1e-7;  ///< overlap along the normal that is not a passage yet, metres, > 0
-  double creep = -1.0;  ///< how much deeper what begins deeper may end, metres; negative: as much again
   double reach = 1e-4;  ///< how far from straight a vertex's path may be taken to be, metres, > 0
+  double creep = -1.0;  ///< how much deeper what begins deeper may end, metres; negative: as much again
 };
 
 /// The passages of the earliest moment there is one, sorted by feature; empty: none.
