@@ -29,7 +29,7 @@ class Walk {
         to_solid_{solid.frame.pose.rotation.transpose() * mesh.pose.rotation,
                   solid.frame.pose.apply_inverse(mesh.pose.position)},
         reach_(limits.reach),
-        depth_(limits.depth),
+        depth_(limits.activation),
         limits_(limits),
         motion_(motion),
         turn_(motion.turn.norm()) {}
@@ -195,7 +195,7 @@ class Walk {
   const DiscTree& discs_;
   const NormalCones& cones_;
   const Pose to_solid_;
-  const double reach_, depth_;
+  const double reach_, depth_;  // depth: how deep what touches may be
   const TouchLimits& limits_;
   const RelativeMotion& motion_;
   const double turn_;
@@ -216,8 +216,7 @@ RelativeMotion relative_motion(const ContactSink& sink) {
 
 TouchLimits touch_limits(const ContactSink& sink, double reach) {
   const ContactQuery& query = sink.query();
-  return {reach, query.proximity ? query.activation : 0.0, query.either_may_stop,
-          query.proximity ? query.activation : 0.0};
+  return {reach, query.proximity ? query.activation : 0.0, query.either_may_stop};
 }
 
 TouchedTriangles touched_triangles(const Collider& mesh, const Aabb& box, const TouchingSolid& solid,
@@ -225,7 +224,7 @@ TouchedTriangles touched_triangles(const Collider& mesh, const Aabb& box, const 
   if (auto few = triangles_within(mesh, box, solid.frame, limits.reach, has_cones(mesh) ? kFew : kAny))
     return {std::move(*few), true};
   TouchLimits wide = limits;
-  for (double* distance : {&wide.reach, &wide.activation, &wide.depth}) *distance = widened(mesh, box, *distance);
+  for (double* distance : {&wide.reach, &wide.activation}) *distance = widened(mesh, box, *distance);
   Walk walk(mesh, solid, wide, motion);
   std::vector<int> found = walk.run();
   if (walk.is_deep()) return {triangles_within(mesh, box, solid.frame, limits.reach), true};

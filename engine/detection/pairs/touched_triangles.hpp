@@ -31,9 +31,8 @@ struct TouchedTriangles {
 /// How far apart what touches may be, metres.
 struct TouchLimits {
   double reach = 0.0;          ///< at most
-  double activation = 0.0;     ///< beyond this only what the motion closes
+  double activation = 0.0;     ///< beyond this only what the motion closes; and how deep the solid may be in the mesh
   bool is_either_way = false;  ///< whatever the motion: all within reach
-  double depth = 0.0;          ///< how deep the solid may be in the mesh anywhere
 };
 
 /// The motion of the sink's first shape against its second in the time step of the query, and what the sink would keep.
@@ -42,7 +41,7 @@ TouchLimits touch_limits(const ContactSink& sink, double reach);
 
 /// Of those whose bounds overlap the box at least the ones that hold a corner, an edge or a face against which the solid
 /// can rest, as it is or turned by the motion. All within reach where they are few, where some may be deeper in the solid
-/// than the limit, and of a mesh that deforms.
+/// than the activation distance, and of a mesh that deforms.
 TouchedTriangles touched_triangles(const Collider& mesh, const Aabb& box, const TouchingSolid& solid,
                                    const TouchLimits& limits, const RelativeMotion& motion);
 

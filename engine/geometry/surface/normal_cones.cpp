@@ -15,7 +15,6 @@ constexpr double kWidest = 0.75;  // radians: from an eighth of a turn on, what 
 constexpr double kOfFold = 0.27, kRounding = 2e-3;
 constexpr double kTolerance = 1e-6;  // of a cosine
 constexpr double kOfFloats = 2e-7;   // what a direction loses as three floats
-constexpr double kFlat = 1e-7;       // radians: what faces in one plane differ by, in double precision
 
 /// Half-angle negative: any direction.
 struct Cone {
@@ -91,8 +90,6 @@ std::vector<Cone> cones_of_vertices(const SurfaceMesh& surface) {
 }
 
 }  // namespace
-
-const float NormalCones::Node::kFlatSine = static_cast<float>(std::sin(kRounding + kFlat));
 
 NormalCones::NormalCones(const DiscTree& discs, const SurfaceMesh& surface) {
   std::vector<Cone> vertices = cones_of_vertices(surface);

@@ -17,14 +17,7 @@ namespace {
 TriangleMesh brick() { return box({0.5, 1.0, 1.5}, {1, 1, 1}); }
 
 TriangleMesh with(TriangleMesh mesh, const TriangleMesh& other, const Vec3& shift) {
-  const int first = static_cast<int>(mesh.vertices.size());
-  for (const Vec3& v : other.vertices) mesh.vertices.push_back(v + shift);
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  return mesh;
-}
-
-TriangleMesh inside_out(TriangleMesh mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  append(mesh, other, shift);
   return mesh;
 }
 

@@ -217,8 +217,7 @@ TEST_CASE("every place where a solid rests on a mesh, and the nearest of all, is
       };
       if (set_of.polyhedron() != nullptr) solid.corners = set_of.polyhedron()->vertices();
       const Aabb around = shape->bounds(pose).inflated(reach);
-      const TouchedTriangles touched =
-          touched_triangles(set[0], around, solid, {reach, activation, i % 4 == 1, activation}, {});
+      const TouchedTriangles touched = touched_triangles(set[0], around, solid, {reach, activation, i % 4 == 1}, {});
       REQUIRE(std::is_sorted(touched.triangles.begin(), touched.triangles.end()));
       const std::vector<int> within = triangles_within(set[0], around, solid.frame, reach);
       if (touched.is_all) CHECK(touched.triangles == within);

@@ -110,6 +110,17 @@ TriangleMesh box(const Vec3& half, const Eigen::Vector3i& cells) {
   return m;
 }
 
+void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  for (const Vec3& v : other.vertices) mesh.vertices.push_back(v + shift);
+  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+TriangleMesh inside_out(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
 TriangleMesh sheet(double half, int cells) {
   TriangleMesh m;
   for (int i = 0; i <= cells; ++i)

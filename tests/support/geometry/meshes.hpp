@@ -23,6 +23,11 @@ TriangleMesh box(const Vec3& half, const Eigen::Vector3i& cells = Eigen::Vector3
 /// A flat open sheet in the plane y = 0, facing up, [-half, half] in x and z.
 TriangleMesh sheet(double half, int cells);
 
+/// Appends the other, moved by `shift`, as a part of its own.
+void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift = Vec3::Zero());
+/// Every triangle the other way round.
+TriangleMesh inside_out(TriangleMesh mesh);
+
 TriangleMesh read_off(const std::string& path);  ///< throws std::runtime_error
 /// The shared data folder (IMPINGE_SHARED_DATA, or ../shared/data beside the sources) with that file, or "" if it is
 /// absent.

@@ -19,10 +19,6 @@ TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v += by;
   return mesh;
 }
-TriangleMesh flipped(TriangleMesh mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
-}
 TriangleMesh cube(double half) { return box(Vec3::Constant(half)); }
 /// Corners on the axes, at distance r.
 TriangleMesh octahedron(double r) {
@@ -63,33 +59,35 @@ TEST_CASE("the octahedron of these tests faces outwards") {
 }
 
 TEST_CASE("a component that faces the wrong way is named, whatever the whole volume is") {
-  const TriangleMesh good = moved(icosphere(2), {5, 0, 0}), bad = flipped(cube(0.5));
+  const TriangleMesh good = moved(icosphere(2), {5, 0, 0}), bad = inside_out(cube(0.5));
   CHECK(problem(together({good, cube(0.5)})) == "none");
   REQUIRE(signed_volume(together({good, bad})) > 0.0);  // all that was looked at once
   check_wrong(together({good, bad}), "has component 2 of 2 inside out (triangles from 320 on, volume -1 m³)",
               "flip the order of their corners");
-  check_wrong(together({good, cube(0.5), flipped(moved(cube(0.5), {0, 3, 0}))}), "has component 3 of 3 inside out", "");
-  check_wrong(flipped(icosphere(1)), "is inside out: its triangles face inwards (volume -", "flip the order");
-  check_wrong(together({flipped(icosphere(1)), bad}), "has component 1 of 2 inside out", "face inwards");
+  check_wrong(together({good, cube(0.5), inside_out(moved(cube(0.5), {0, 3, 0}))}), "has component 3 of 3 inside out",
+              "");
+  check_wrong(inside_out(icosphere(1)), "is inside out: its triangles face inwards (volume -", "flip the order");
+  check_wrong(together({inside_out(icosphere(1)), bad}), "has component 1 of 2 inside out", "face inwards");
 }
 
 TEST_CASE("the walls of cavities face inwards, of what stands in them outwards") {
-  const TriangleMesh outer = icosphere(3, 2.0), wall = flipped(icosphere(3, 1.5)), core = cube(0.5);
-  const TriangleMesh hole = flipped(icosphere(1, 0.3));
+  const TriangleMesh outer = icosphere(3, 2.0), wall = inside_out(icosphere(3, 1.5)), core = cube(0.5);
+  const TriangleMesh hole = inside_out(icosphere(1, 0.3));
   CHECK(problem(together({outer, wall})) == "none");
   CHECK(problem(together({wall, outer})) == "none");
   CHECK(problem(together({outer, wall, core})) == "none");
   CHECK(problem(together({hole, outer, core, wall})) == "none");
   check_wrong(together({outer, icosphere(3, 1.5)}), "has component 2 of 2 inside out",
               "inside component 1, where it is the wall of a cavity");
-  check_wrong(together({outer, wall, flipped(core)}), "has component 3 of 3 inside out",
+  check_wrong(together({outer, wall, inside_out(core)}), "has component 3 of 3 inside out",
               "in the cavity of component 2");
-  check_wrong(together({flipped(hole), outer, core, wall}), "has component 1 of 4 inside out", "inside component 3,");
-  check_wrong(together({core, outer, flipped(wall)}), "has component 3 of 3 inside out", "inside component 2,");
+  check_wrong(together({inside_out(hole), outer, core, wall}), "has component 1 of 4 inside out",
+              "inside component 3,");
+  check_wrong(together({core, outer, inside_out(wall)}), "has component 3 of 3 inside out", "inside component 2,");
   // far from the world's origin, large and small
   const Vec3 far(1e5, -3e4, 2e5);
   CHECK(problem(together({moved(outer, far), moved(wall, far)})) == "none");
-  check_wrong(together({moved(outer, far), moved(flipped(wall), far)}), "has component 2 of 2 inside out", "cavity");
+  check_wrong(together({moved(outer, far), moved(inside_out(wall), far)}), "has component 2 of 2 inside out", "cavity");
 }
 
 TEST_CASE("parts that pierce or touch from outside are walls of their own") {
@@ -112,7 +110,7 @@ TEST_CASE("parts that pierce or touch from outside are walls of their own") {
 
 TEST_CASE("a cavity may touch the wall round it") {
   const auto check_cavity = [](const TriangleMesh& outer, const TriangleMesh& inner) {
-    CHECK(problem(together({outer, flipped(inner)})) == "none");
+    CHECK(problem(together({outer, inside_out(inner)})) == "none");
     check_wrong(together({outer, inner}), "has component 2 of 2 inside out", "cavity");
     check_wrong(together({inner, outer}), "has component 1 of 2 inside out", "inside component 2");
   };
@@ -167,7 +165,7 @@ TEST_CASE("random nests of shells: the one that was turned is found, in any orde
       TriangleMesh part = icosphere(2, balls[i].radius);
       const Mat3 turn = random.rotation();
       for (Vec3& v : part.vertices) v = turn * v + balls[i].center;
-      if ((depth % 2 == 1) != (static_cast<int>(i) == wrong)) part = flipped(part);
+      if ((depth % 2 == 1) != (static_cast<int>(i) == wrong)) part = inside_out(part);
       all = together({all, part});
       ball_of.insert(ball_of.end(), part.triangles.size(), static_cast<int>(i));
     }
@@ -198,7 +196,7 @@ TEST_CASE("random nests of shells: the one that was turned is found, in any orde
 TEST_CASE("the side of a surface is the winding number, and nothing on the surface itself") {
   Random random(8);
   TriangleMesh meshes[] = {bumpy_sphere(3), bumpy_torus(40, 20), cube(1.0),
-                           together({icosphere(2), moved(icosphere(2), {0.5, 0, 0})}), flipped(octahedron(1.0))};
+                           together({icosphere(2), moved(icosphere(2), {0.5, 0, 0})}), inside_out(octahedron(1.0))};
   for (const TriangleMesh& mesh : meshes) {
     const SurfaceSide side(mesh.vertices, mesh.triangles);
     int inside = 0;

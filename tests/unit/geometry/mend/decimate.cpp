@@ -18,17 +18,6 @@ using namespace impinge::test;
 
 namespace {
 
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift = Vec3::Zero()) {
-  const int first = static_cast<int>(mesh.vertices.size());
-  for (const Vec3& v : other.vertices) mesh.vertices.push_back(v + shift);
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
-TriangleMesh inside_out(TriangleMesh mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
-}
-
 /// Every side of a triangle is run along once, and once the other way.
 bool is_closed(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> runs;

@@ -16,19 +16,8 @@ using namespace impinge::test;
 
 namespace {
 
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift = Vec3::Zero()) {
-  const int first = static_cast<int>(mesh.vertices.size());
-  for (const Vec3& v : other.vertices) mesh.vertices.push_back(v + shift);
-  for (const Triangle& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
 TriangleMesh cube(double half = 0.5, int cells = 1) {
   return box(Vec3::Constant(half), Eigen::Vector3i::Constant(cells));
-}
-
-TriangleMesh inside_out(TriangleMesh mesh) {
-  for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-  return mesh;
 }
 
 /// Three vertices a triangle, each moved by up to `noise` on each axis.
