@@ -14,6 +14,7 @@
 #include <string>
 
 #include "engine/core/parallel.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/geometry/sample_shapes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
@@ -308,7 +309,7 @@ struct Wanted {
 
 std::vector<Ground> grounds(const Wanted& wanted, const std::string& name) {
   std::vector<Ground> all;
-  if (name.ends_with(".off")) return {{name.substr(name.rfind('/') + 1), surface(scaled_to(read_off(name), 2.0))}};
+  if (name.ends_with(".off")) return {{name.substr(name.rfind('/') + 1), surface(scaled_to(read_mesh(name), 2.0))}};
   for (int k = 0; k <= wanted.finest; ++k)
     all.push_back({name, surface(name == "terrain" ? terrain(23 << k) : icosphere(3 + k))});
   return all;

@@ -18,6 +18,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/distance.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
 #ifdef IMPINGE_HAS_EMBREE
@@ -338,7 +339,7 @@ void compare_all(int finest) {
   for (int k = 4; k <= finest; ++k) series[0].second.push_back(surface(icosphere(k)));
   series[1].first = "dragon";
   if (const std::string file = shared_file("meshes/dragon/dragon_20k.off"); !file.empty())
-    series[1].second.push_back(surface(scaled_to(read_off(file), 2.0)));
+    series[1].second.push_back(surface(scaled_to(read_mesh(file), 2.0)));
   fmt::print("{:<22} {:>9} {:>7} {:>10}", "", "triangles", "pairs", "ours, ms");
   const Scene least{surface(icosphere(1)), {}};
   for (const auto& [name, finder] : finders(least, least.places(0, false), false))

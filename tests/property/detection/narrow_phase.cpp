@@ -8,6 +8,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/core/rows.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/indices.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
@@ -117,7 +118,7 @@ TEST_CASE("narrow phases equal the reference on random poses of scans", "[narrow
     return;
   }
   Phases phases;
-  check_poses(phases, surface(scaled_to(read_off(dragon), 2.0)), surface(scaled_to(read_off(human), 2.0)), 12, 3004);
+  check_poses(phases, surface(scaled_to(read_mesh(dragon), 2.0)), surface(scaled_to(read_mesh(human), 2.0)), 12, 3004);
 }
 
 TEST_CASE("narrow phases find the published pair counts of two icospheres", "[narrow_phase]") {

@@ -2,9 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <stdexcept>
 
 namespace impinge::test {
 namespace {
@@ -131,24 +129,6 @@ TriangleMesh sheet(double half, int cells) {
     for (int j = 0; j < cells; ++j)
       m.triangles.insert(m.triangles.end(),
                          {{at(i, j), at(i, j + 1), at(i + 1, j)}, {at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)}});
-  return m;
-}
-
-TriangleMesh read_off(const std::string& path) {
-  std::ifstream in(path);
-  std::string word;
-  std::size_t vertices = 0, triangles = 0, edges = 0;
-  in >> word >> vertices >> triangles >> edges;
-  if (!in || word != "OFF") throw std::runtime_error(path + ": not an OFF file");
-  TriangleMesh m;
-  m.vertices.resize(vertices);
-  m.triangles.resize(triangles);
-  for (Vec3& v : m.vertices) in >> v.x() >> v.y() >> v.z();
-  for (Triangle& t : m.triangles) {
-    int corners = 0;
-    in >> corners >> t[0] >> t[1] >> t[2];
-    if (!in || corners != 3) throw std::runtime_error(path + ": not a triangle mesh");
-  }
   return m;
 }
 

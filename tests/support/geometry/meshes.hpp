@@ -28,7 +28,6 @@ void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift = V
 /// Every triangle the other way round.
 TriangleMesh inside_out(TriangleMesh mesh);
 
-TriangleMesh read_off(const std::string& path);  ///< throws std::runtime_error
 /// The shared data folder (IMPINGE_SHARED_DATA, or ../shared/data beside the sources) with that file, or "" if it is
 /// absent.
 std::string shared_file(const std::string& name);

@@ -1,4 +1,5 @@
 #include "tests/support/mechanics/bullets.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 
 #include <algorithm>
 
@@ -35,7 +36,7 @@ SharedShape mover_shape(const std::string& name) {
   if (name == "box") return Box{Vec3::Constant(0.5 * kSize)};
   if (name == "cube") return mesh_shape(box(Vec3::Constant(0.5 * kSize)));
   if (name == "icosphere") return mesh_shape(icosphere(3, 0.5 * kSize));
-  if (name == "bunny") return mesh_shape(read_off(bunny_file()));
+  if (name == "bunny") return mesh_shape(read_mesh(bunny_file()));
   if (name == "hull") return made_hull(hull_points());
   if (name == "rod_box") return Box{Vec3(0.5, 0.5 * kRod, 0.5 * kRod)};
   if (name == "rod_mesh") return mesh_shape(box(Vec3(0.5, 0.5 * kRod, 0.5 * kRod), {50, 1, 1}));

@@ -6,6 +6,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/ray_columns.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
+#include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/meshes.hpp"
 
 using namespace impinge;
@@ -171,7 +172,7 @@ TEST_CASE("the caged dragon: all of its vertices, no loose parts") {
     WARN("no dragon at hand: skipped");
     return;
   }
-  const TriangleMesh dragon = weld(test::read_off(file)).mesh;
+  const TriangleMesh dragon = weld(read_mesh(file)).mesh;
   const TetCage cage = make_tet_cage(dragon, {.cells = 20});
   check_cage(cage, dragon);
   CHECK(component_count(cage.mesh) == 1);
