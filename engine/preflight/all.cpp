@@ -11,11 +11,13 @@ const Registry<Warning>& warnings() {
     IMPINGE_LIST(all, self_crossing_warning);
     IMPINGE_LIST(all, mass_ratio_warning);
     IMPINGE_LIST(all, size_ratio_warning);
+    IMPINGE_LIST(all, odd_length_warning);
     IMPINGE_LIST(all, coarse_threshold_warning);
     IMPINGE_LIST(all, fast_body_warning);
     IMPINGE_LIST(all, unstable_step_warning);
     IMPINGE_LIST(all, own_weight_warning);
     IMPINGE_LIST(all, triangle_sizes_warning);
+    IMPINGE_LIST(all, thin_tetrahedra_warning);
     IMPINGE_LIST(all, default_density_warning);
     IMPINGE_LIST(all, slow_frame_warning);
     IMPINGE_LIST(all, much_memory_warning);

@@ -17,6 +17,7 @@ class CheckCommand : public SubCommand {
     script_option(options, script_, "script file");
     options.flag("--strict", strict_, "exit code 2 if there is a warning (see impinge list warnings)");
     options.flag("--trial", trial_, "make a sub-step and tell what time and memory a frame takes");
+    threads_option(options);
   }
 
   int run() override {

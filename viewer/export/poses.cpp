@@ -58,7 +58,10 @@ class PosesExporter : public Exporter {
     file_->append(tail());
     file_->keep();
   }
-  std::string result() const override { return file_ == nullptr ? "" : path_.string(); }
+  std::string result() const override {
+    if (file_ == nullptr) return "";
+    return path_.string() + (rotations_.empty() ? " (of no body: planes and deformable ones have no pose)" : "");
+  }
 
  protected:
   explicit PosesExporter(const char* name) : name_(name) {}

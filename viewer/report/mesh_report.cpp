@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "engine/core/parameter.hpp"
+#include "engine/io/meshes/mesh_unit.hpp"
 #include "viewer/report/parts.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr double kWater = 1000.0;                      // kg/m³
-constexpr double kOddLength = 50.0, kOddShort = 5e-3;  // metres: beyond these a file without a unit is asked about
+constexpr double kWater = 1000.0;  // kg/m³
 
 std::string counted(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
@@ -25,19 +25,15 @@ std::string size_text(const Aabb& box) {
   return fmt::format("{:.4g} x {:.4g} x {:.4g} m", e.x(), e.y(), e.z());
 }
 
-/// What a length that no asset has suggests where the file doesn't say its unit.
-std::string unit_question(const MeshReport& report) {
+std::string question_of(const MeshReport& report) {
   if (report.says_unit || report.facts.box.is_empty()) return "";
-  const double longest = report.facts.box.extent().maxCoeff();
-  if (longest > kOddLength)
-    return fmt::format("{:.4g} m long: is it in millimetres or centimetres? unit = \"mm\" or \"cm\" then", longest);
-  if (longest < kOddShort && longest > 0.0)
-    return fmt::format("{:.3g} m long: is it in kilometres or inches? unit = \"km\" or \"inch\" then", longest);
-  return "";
+  return unit_question(report.facts.box.extent().maxCoeff());
 }
 
 std::string as_a_body(const MeshReport& report) {
-  if (!report.facts.problem) return "any kind, as it is";
+  if (!report.facts.problem)
+    return report.facts.degenerate > 0 && !report.mended ? "any kind, as it is; mend = true takes out what has no area"
+                                                         : "any kind, as it is";
   const std::string mends =
       report.mended ? "" : fmt::format("; mend = true, or impinge mesh {} --mend --out NEW.ply", report.file);
   return fmt::format("{}: it {}{}",
@@ -149,10 +145,13 @@ std::string mesh_page(const MeshReport& r) {
   std::string out = r.file + "\n";
   if (f.box.is_empty()) return out + row("problem:", f.problem.value_or("has no triangles"));
   out += row("size:", fmt::format("{}, {}", size_text(f.box), r.unit));
-  if (const std::string question = unit_question(r); !question.empty()) out += row("", question);
+  out += row("from, to:", fmt::format("({:.4g}, {:.4g}, {:.4g}), ({:.4g}, {:.4g}, {:.4g}) m", f.box.min.x(),
+                                      f.box.min.y(), f.box.min.z(), f.box.max.x(), f.box.max.y(), f.box.max.z()));
+  if (const std::string question = question_of(r); !question.empty()) out += row("", question);
   out += row("solid:", f.is_closed ? fmt::format("volume {:.6g} m³, mass {:.6g} kg at {} kg/m³, area {:.6g} m²",
                                                  f.volume, kWater * f.volume, kWater, f.area)
-                                   : fmt::format("none, it is open; area {:.6g} m²", f.area));
+                                   : fmt::format("none, it is {}; area {:.6g} m²",
+                                                 f.border_edges > 0 ? "open" : "not manifold", f.area));
   out += row("surface:",
              fmt::format("{} vertices{}{}, {} triangles, {}{}", r.file_vertices,
                          f.coinciding > 0 ? fmt::format(" ({} twice there)", f.coinciding) : "",

@@ -11,6 +11,7 @@
 #include "engine/geometry/mend/fill_holes.hpp"
 #include "engine/geometry/mend/remesh.hpp"
 #include "engine/geometry/mend/sheets.hpp"
+#include "engine/geometry/mend/split_borders.hpp"
 #include "engine/geometry/mend/winding_tree.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/geometry/surface/mesh_shells.hpp"
@@ -20,6 +21,7 @@ namespace impinge {
 namespace {
 
 constexpr double kWeldOfDiagonal = 1e-6, kThicknessOfSide = 1e-2;
+constexpr int kMostRounds = 100;
 constexpr double kFlat = 1e-9;  // of the area to the power of 3/2: a closed part of less volume is a sheet laid double
 
 Aabb box_of(const TriangleMesh& mesh) {
@@ -119,12 +121,23 @@ class Mender {
       const BorderWeld near = weld_borders(mesh_, tolerance);
       report_.welded += near.welded;
       report_.collapsed += near.collapsed;
-      report_.largest_move = near.largest_move;
+      const SplitBorders split = split_borders(mesh_, tolerance);
+      report_.split_edges = split.edges;
+      report_.largest_move = std::max(near.largest_move, split.largest_move);
     }
     if (!settings_.drop_degenerate) return;
     report_.duplicates = drop_duplicates(mesh_);
-    report_.joined = join_coincident(mesh_);
-    report_.flipped_flat = flip_flat(mesh_);
+    take_out_flat(mesh_);
+  }
+
+  /// A triangle that is a line between others that are lines too is reached from the one at their end.
+  void take_out_flat(TriangleMesh& mesh) {
+    report_.joined += join_coincident(mesh);
+    for (int round = 0; round < kMostRounds; ++round) {
+      const int flips = flip_flat(mesh);
+      if (flips == 0) return;
+      report_.flipped_flat += flips;
+    }
   }
 
   /// Leaves the closed parts in mesh_ and the open ones, which are to be sheets, in sheets_.
@@ -164,6 +177,7 @@ class Mender {
     for (const Hole& hole : holes) open += hole.area, triangles += static_cast<int>(hole.filling.size());
     if (open > settings_.largest_hole * area_of(part)) return false;
     fill(closed, holes);
+    if (settings_.drop_degenerate) take_out_flat(closed);  // a slit is filled with what has no area
     if (make_topology(closed).border_edges > 0 || is_flat(closed)) return false;
     report_.holes += static_cast<int>(holes.size());
     report_.hole_triangles += triangles;

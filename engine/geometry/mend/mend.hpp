@@ -11,7 +11,8 @@
 namespace impinge {
 
 struct MendSettings {
-  std::optional<double> weld;       ///< metres between border vertices that are one; none: a millionth of the diagonal
+  std::optional<double>
+      weld;  ///< metres between border vertices that are one, or on an edge; none: a millionth of the diagonal
   bool drop_degenerate = true;      ///< triangles without area or twice there
   bool orient = true;               ///< neighbours alike, closed parts outwards
   bool fill_holes = true;           ///< false: what is open is a sheet
@@ -22,7 +23,7 @@ struct MendSettings {
 };
 
 struct MendReport {
-  int welded = 0, collapsed = 0, duplicates = 0, joined = 0, flipped_flat = 0;
+  int welded = 0, split_edges = 0, collapsed = 0, duplicates = 0, joined = 0, flipped_flat = 0;
   int turned = 0, cut_edges = 0, added_vertices = 0;
   int holes = 0, hole_triangles = 0;
   int sheets = 0;                       ///< parts that got a thickness

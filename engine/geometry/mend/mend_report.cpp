@@ -25,6 +25,8 @@ std::vector<std::string> MendReport::steps() const {
   step(welded, [&] {
     return fmt::format("welded {} to others", welded == 1 ? "1 vertex" : fmt::format("{} vertices", welded));
   });
+  step(split_edges,
+       [&] { return fmt::format("split {} at vertices of others that run along it", counted(split_edges, "edge")); });
   step(collapsed, [&] { return fmt::format("dropped {} without area", counted(collapsed, "triangle")); });
   step(duplicates, [&] { return fmt::format("dropped {} that lay on others", counted(duplicates, "triangle")); });
   step(joined, [&] { return fmt::format("drew {} without length together", counted(joined, "edge")); });

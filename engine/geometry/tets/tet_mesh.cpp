@@ -181,17 +181,21 @@ TetMesh make_alternating_box(const Vec3& size, int nx, int ny, int nz) {
   return mesh;
 }
 
-double smallest_dihedral_angle(const TetMesh& mesh) {
+double smallest_dihedral_angle(const TetMesh& mesh, const Tet& tet) {
   double largest_cosine = -1.0;
-  for (const Tet& tet : mesh.tets) {
-    std::array<Vec3, 4> normal;  // outward, of the face opposite corner k
-    for (int k = 0; k < 4; ++k) {
-      const Vec3& p = mesh.vertices[tet[kTetFaces[k][0]]];
-      normal[k] = (mesh.vertices[tet[kTetFaces[k][1]]] - p).cross(mesh.vertices[tet[kTetFaces[k][2]]] - p).normalized();
-    }
-    for (const auto& [a, b] : kTetEdges) largest_cosine = std::max(largest_cosine, -normal[a].dot(normal[b]));
+  std::array<Vec3, 4> normal;  // outward, of the face opposite corner k
+  for (int k = 0; k < 4; ++k) {
+    const Vec3& p = mesh.vertices[tet[kTetFaces[k][0]]];
+    normal[k] = (mesh.vertices[tet[kTetFaces[k][1]]] - p).cross(mesh.vertices[tet[kTetFaces[k][2]]] - p).normalized();
   }
+  for (const auto& [a, b] : kTetEdges) largest_cosine = std::max(largest_cosine, -normal[a].dot(normal[b]));
   return std::acos(std::min(1.0, largest_cosine)) * 180.0 / std::numbers::pi;
+}
+
+double smallest_dihedral_angle(const TetMesh& mesh) {
+  double smallest = 180.0;
+  for (const Tet& tet : mesh.tets) smallest = std::min(smallest, smallest_dihedral_angle(mesh, tet));
+  return smallest;
 }
 
 }  // namespace impinge

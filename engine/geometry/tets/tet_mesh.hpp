@@ -47,7 +47,9 @@ TetMesh make_tet_box(const Vec3& size, int nx, int ny, int nz);
 /// at its faces. No direction is favoured as by the diagonals of make_tet_box.
 TetMesh make_alternating_box(const Vec3& size, int nx, int ny, int nz);
 
-/// The smallest angle between two faces of one tetrahedron, degrees; the measure of a mesh's worst sliver.
+/// The smallest angle between two faces of a tetrahedron, degrees.
+double smallest_dihedral_angle(const TetMesh& mesh, const Tet& tet);
+/// Of all: the measure of a mesh's worst sliver.
 double smallest_dihedral_angle(const TetMesh& mesh);
 
 }  // namespace impinge

@@ -25,7 +25,7 @@ struct MeshOrigin {
 
 /// The mesh in a file, by its ending: vertices in source order, polygons as triangles (polygon.hpp). Indices are in
 /// range and coordinates finite; whether the surface is closed is for others to check. Coordinates are metres: those of
-/// formats that say their unit (FBX, Collada) are converted, others are taken as they stand. What the file names in turn
+/// formats that say their unit (FBX, Collada, 3MF) are converted, others are taken as they stand. What the file names in turn
 /// is read where the guard allows it.
 TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard = {}, MeshOrigin* origin = nullptr);
 

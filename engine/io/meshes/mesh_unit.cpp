@@ -1,5 +1,7 @@
 #include "engine/io/meshes/mesh_unit.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace impinge {
@@ -9,6 +11,8 @@ constexpr std::pair<std::string_view, double> kUnits[] = {
     {"m", 1.0},   {"mm", 1e-3},     {"cm", 1e-2},     {"dm", 0.1},      {"km", 1e3},
     {"um", 1e-6}, {"inch", 0.0254}, {"foot", 0.3048}, {"yard", 0.9144}, {"mile", 1609.344},
 };
+
+constexpr double kOddLength = 50.0, kOddShort = 5e-3;  // metres
 
 }  // namespace
 
@@ -22,6 +26,14 @@ std::string unit_names() {
   std::string names;
   for (const auto& [name, metres] : kUnits) names += (names.empty() ? "" : ", ") + std::string(name);
   return names;
+}
+
+std::string unit_question(double longest) {
+  if (longest > kOddLength)
+    return fmt::format("{:.4g} m long: is it in millimetres or centimetres? unit = \"mm\" or \"cm\" then", longest);
+  if (longest < kOddShort && longest > 0.0)
+    return fmt::format("{:.3g} m long: is it in kilometres or inches? unit = \"km\" or \"inch\" then", longest);
+  return "";
 }
 
 }  // namespace impinge

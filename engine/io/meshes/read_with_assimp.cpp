@@ -87,7 +87,7 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
 };
 
 /// Metres of a unit of the file. assimp converts Collada's <unit> by itself and hands FBX's over: centimetres, times a
-/// factor. Other formats have none, or none that assimp reads.
+/// factor. Other formats have none, or none that assimp reads (3MF: unit_of_3mf.cpp).
 std::optional<double> unit_of(const aiScene& scene) {
   constexpr const char* kFactor = "UnitScaleFactor";
   float single = 0.0f;
@@ -115,7 +115,7 @@ std::string import_in_child(const std::string& path, const FileGuard& guard) {
     if (scene == nullptr || scene->mRootNode == nullptr) return std::string("E") + importer.GetErrorString();
     TriangleMesh mesh;
     append_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, 0);
-    const std::optional<double> unit = unit_of(*scene);
+    const std::optional<double> unit = ending(path) == ".3mf" ? metres_of_3mf(path) : unit_of(*scene);
     if (unit)
       for (Vec3& x : mesh.vertices) x *= *unit;
     ByteWriter out;
@@ -170,6 +170,11 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard
   const std::string name = path.string();
   {
     const Assimp::Importer importer;
+    if (const std::string kind = ending(name); kind == ".msh" || kind == ".veg")
+      throw InputError(
+          fmt::format("{}: tetrahedra, and not a surface; ply, off, obj, stl and what assimp reads are "
+                      "surfaces; it is the volume of a deformable body: volume = \"{}\"",
+                      name, path.filename().string()));
     if (!importer.IsExtensionSupported(path.extension().string()))
       throw InputError(
           fmt::format("{}: the ending '{}' is no known mesh format; ply, off, obj, stl and what assimp reads are; "

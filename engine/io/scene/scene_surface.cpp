@@ -94,6 +94,7 @@ TriangleMesh SurfaceFiles::read_file_of(const fs::path& path, const TomlNode& no
   file.hash = hash;
   file.vertices = mesh.vertices.size();
   file.triangles = mesh.triangles.size();
+  file.says_unit = !origin.unit.empty();
   file.paths = with_others(path, origin.others);
   return mesh;
 }

@@ -21,6 +21,7 @@ struct SurfaceFile {
   std::uint64_t hash = 0;  ///< of the file's bytes
   std::size_t vertices = 0, triangles = 0;
   std::size_t welded = 0;          ///< vertices that coincided with an earlier one and were made one with it
+  bool says_unit = false;          ///< what its numbers are in
   std::size_t tets = 0;            ///< of a volume mesh, which has no triangles here
   std::vector<std::string> notes;  ///< of a volume mesh's reader, one sentence each
   /// Where it lies, and then those that were read because it names or needs them.

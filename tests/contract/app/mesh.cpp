@@ -49,6 +49,7 @@ TEST_CASE("mesh asks about the unit where a length is odd") {
   const Outcome told = impinge_run(folder.path(), {"mesh", "big.off", "--unit", "mm"});
   CHECK_FALSE(says(told, "is it in"));
   CHECK(says(told, "0.18 x 0.02 x 0.02 m, unit: mm"));
+  CHECK(says(told, "(-0.09, -0.01, -0.01), (0.09, 0.01, 0.01) m"));
 }
 
 TEST_CASE("mesh --mend says what it did, and what it writes is a solid") {

@@ -260,7 +260,7 @@ TEST_CASE("preflight: surfaces with odd triangles, and those that cross themselv
   folder.write("comet.off", off_text(comet));
   check_trap(folder, {"a vertex that flew off",
                       "triangle-sizes",
-                      body("comet", "surface = \"comet.off\"\nmaterial = { density = 1 }"),
+                      body("comet", "surface = \"comet.off\"\nscale = 1\nmaterial = { density = 1 }"),
                       {"'comet'", fmt::format("{} of {} triangles", tail, comet.triangles.size()), "larger"},
                       "times: ",
                       999.0,
@@ -280,6 +280,54 @@ TEST_CASE("preflight: surfaces with odd triangles, and those that cross themselv
                            "material = { young = 1e6, density = 1000 }",
                            "deformable"),
                       {"28 pairs"}});
+}
+
+TEST_CASE("preflight: lengths that nobody's assets have, where the file doesn't say its unit") {
+  const TempFolder folder;
+  folder.write("dog.off", off_text(box({150.0, 100.0, 50.0})));
+  folder.write("mite.off", off_text(box({1e-4, 1e-4, 2e-4})));
+  const auto one = [](const std::string& file, const std::string& keys, const char* kind = "dynamic") {
+    return body("it", fmt::format("surface = \"{}\"\nmass = 1\n{}", file, keys), kind);
+  };
+  check_trap(folder, {"millimetres taken for metres",
+                      "odd-length",
+                      one("dog.off", ""),
+                      {"dog.off", "unit = \"mm\" or \"cm\""},
+                      "'it' is ",
+                      300.0});
+  check_trap(folder, {"kilometres taken for metres",
+                      "odd-length",
+                      one("mite.off", ""),
+                      {"mite.off", "unit = \"km\" or \"inch\""},
+                      "'it' is ",
+                      4e-4});
+  const std::string ground = body("it", "surface = \"dog.off\"", "static");
+  for (const std::string& scene : {one("dog.off", "unit = \"mm\""), one("dog.off", "scale = 1"), ground}) {
+    folder.write("fine.toml", scene);
+    CHECK(warnings_in(impinge_run(folder.path(), {"check", "fine.toml"}).out).empty());
+  }
+}
+
+TEST_CASE("preflight: tetrahedra that are almost flat") {
+  const TempFolder folder;
+  // a cube in five tetrahedra whose one corner lies a thousandth of an edge beside the face of those round it: the
+  // corner's own tetrahedron has angles of atan(h sqrt(3/2) ...) round it, by the formula below
+  const double h = 1e-3;
+  const std::string text = fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 {0} {0} {0}\n$EndNodes\n"
+      "$Elements\n2\n1 4 2 0 1 1 2 3 4\n2 4 2 0 1 2 3 4 5\n$EndElements\n",
+      1.0 / 3.0 + h);
+  folder.write("flat.msh", text);
+  // apex above the middle of an equilateral triangle of side sqrt(2): its faces stand at atan(height / inner radius)
+  const double angle = std::atan(h * std::sqrt(3.0) / (std::sqrt(2.0) / (2.0 * std::sqrt(3.0)))) * 180.0 / M_PI;
+  check_trap(folder, {"an apex on its base",
+                      "thin-tetrahedra",
+                      body("it", "volume = \"flat.msh\"\nmaterial = { young = 1e6, density = 1000 }", "deformable"),
+                      {"1 of 2 tetrahedra of 'it'"},
+                      "number 1 one of ",
+                      angle,
+                      {},
+                      0.05});
 }
 
 TEST_CASE("preflight: a code that is none is refused where it stands, and list has them all") {

@@ -119,6 +119,73 @@ TEST_CASE("edges without length are drawn together, and the triangles beside the
   }
 }
 
+TEST_CASE("a finely cut side on a coarse solid shares its vertices with it, and nothing moves") {
+  for (const double noise : {0.0, 1e-7})
+    for (const int cells : {2, 4, 9}) {
+      // of the coarse cube all but the side at y = 0.5, of the fine one that side alone
+      TriangleMesh mesh = cube(), fine = cube(0.5, cells);
+      const auto is_top = [](const TriangleMesh& m) {
+        return [&m](const Triangle& t) {
+          return std::all_of(t.begin(), t.end(), [&](int v) { return m.vertices[v].y() == 0.5; });
+        };
+      };
+      std::erase_if(mesh.triangles, is_top(mesh));
+      std::erase_if(fine.triangles, std::not_fn(is_top(fine)));
+      Random random(static_cast<std::uint64_t>(cells));
+      for (Vec3& x : fine.vertices) x += noise * random.vector();
+      append(mesh, fine);
+      CAPTURE(cells, noise);
+      const MendedMesh result = mended(mesh);
+      CHECK(result.report.split_edges >= 4);  // two triangles beside it have one such side, one has two
+      CHECK(result.report.holes == 0);
+      CHECK(result.report.sheets == 0);
+      CHECK(result.report.largest_move <= 2.0 * std::sqrt(3.0) * noise);
+      CHECK(result.report.volume_after == Approx(1.0).epsilon(1e-12 + 4.0 * noise));
+      // four sides of two triangles, of which each has so many more as its border has vertices more, the floor, the top
+      CHECK(result.mesh.triangles.size() == static_cast<std::size_t>(2 * cells * cells + 4 * (2 + cells - 1) + 2));
+      double area = 0.0;
+      for (const Triangle& t : result.mesh.triangles) {
+        const Vec3& a = result.mesh.vertices[t[0]];
+        const double own = 0.5 * (result.mesh.vertices[t[1]] - a).cross(result.mesh.vertices[t[2]] - a).norm();
+        CHECK(own > 0.1 / (cells * cells));
+        area += own;
+      }
+      CHECK(area == Approx(6.0).epsilon(1e-12 + 8.0 * noise));
+    }
+}
+
+TEST_CASE("a slit whose borders are not near enough to be one is filled without triangles that have no area") {
+  // a plate of three by one whose long side is cut at other places above and below, so far apart that nothing is welded
+  MendSettings settings;
+  settings.weld = 0.0;
+  TriangleMesh mesh = cube(), fine = cube(0.5, 4);
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](int v) { return mesh.vertices[v].y() == 0.5; });
+  });
+  // the fine side's own vertices, but for the corners, which it has in common: four slits in one border
+  std::vector<int> index(fine.vertices.size(), -1);
+  for (std::size_t v = 0; v < index.size(); ++v) {
+    for (int w = 0; w < 8; ++w)
+      if (mesh.vertices[w] == fine.vertices[v]) index[v] = w;
+    if (index[v] >= 0 || fine.vertices[v].y() != 0.5) continue;
+    index[v] = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.push_back(fine.vertices[v]);
+  }
+  // one corner is a vertex of its own: one border in all
+  const auto corner = std::find(fine.vertices.begin(), fine.vertices.end(), Vec3(0.5, 0.5, 0.5));
+  index[static_cast<std::size_t>(corner - fine.vertices.begin())] = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.push_back(*corner);
+  for (const Triangle& t : fine.triangles)
+    if (std::all_of(t.begin(), t.end(), [&](int v) { return fine.vertices[v].y() == 0.5; }))
+      mesh.triangles.push_back({index[t[0]], index[t[1]], index[t[2]]});
+  const MendedMesh result = mended(mesh, settings);
+  CHECK(result.report.volume_after == Approx(1.0).epsilon(0.011));  // where it was taken apart a sheet is left
+  for (const Triangle& t : result.mesh.triangles) {
+    const Vec3 &a = result.mesh.vertices[t[0]], &b = result.mesh.vertices[t[1]], &c = result.mesh.vertices[t[2]];
+    CHECK((b - a).cross(c - a).norm() > 1e-9 * std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()}));
+  }
+}
+
 TEST_CASE("a sheet within the thickness of another goes, one beside it stays") {
   for (const double height : {1e-3, 0.5}) {
     CAPTURE(height);
