@@ -26,10 +26,11 @@ class ThinTetrahedra : public Warning {
         if (angle < smallest) smallest = angle, worst = i;
       }
       if (count == 0) continue;
-      found.push_back({fmt::format("{} of {} tetrahedra of '{}' have an angle below {:g} degrees, number {} one of {:.2g}",
-                                   count, mesh.tets.size(), body.name, kLeastAngle, worst, smallest),
-                       "volume = { cage = { cells = ... } } fills its surface with good ones; with these, "
-                       "simulation.linear_solver = \"simplicial_llt\" may take less than iterations"});
+      found.push_back(
+          {fmt::format("{} of {} tetrahedra of '{}' have an angle below {:g} degrees, number {} one of {:.2g}", count,
+                       mesh.tets.size(), body.name, kLeastAngle, worst, smallest),
+           "volume = { cage = { cells = ... } } fills its surface with good ones; with these, "
+           "simulation.linear_solver = \"simplicial_llt\" may take less than iterations"});
     }
     return found;
   }

@@ -110,6 +110,18 @@ const std::vector<Baseline>& baselines() {
          settings.show_legend = true;
          return painted(soft_record(), settings);
        }},
+      {"heat_of_speed",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "heat"});
+         settings.show_legend = true;
+         return painted(sample_record(), settings);
+       }},
+      {"heat_of_impulses",
+       [] {
+         ViewSettings settings = settings_with({"meshes", "heat"});
+         set(settings, "view.heat.of", "impulse");
+         return painted(soft_record(), settings);
+       }},
       {"strain_of_tetrahedra",
        [] {
          ViewSettings settings = settings_with({"meshes", "tetrahedra", "strain"});

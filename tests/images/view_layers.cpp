@@ -41,9 +41,10 @@ TEST_CASE("layers have distinct names and each says what it draws", "[methods]")
     CHECK(names.insert(layer.name).second);
     CHECK_FALSE(layer.doc.empty());
   }
-  for (const char* name : {"meshes", "wireframe", "aabbs", "contacts", "normals", "contact_forces", "gaps", "stress",
-                           "strain", "tetrahedra", "fixed_nodes", "embedding", "attachments", "velocities",
-                           "mass_centers", "broad_pairs", "triangle_pairs", "groups", "labels"})
+  for (const char* name : {"meshes",         "wireframe",      "aabbs",       "contacts",   "normals",
+                           "contact_forces", "gaps",           "stress",      "strain",     "tetrahedra",
+                           "fixed_nodes",    "embedding",      "attachments", "velocities", "mass_centers",
+                           "broad_pairs",    "triangle_pairs", "groups",      "labels",     "heat"})
     CHECK(names.count(name) == 1);
 }
 

@@ -11,6 +11,7 @@ const std::vector<Layer>& layers() {
     IMPINGE_LIST(all, groups_layer);
     IMPINGE_LIST(all, stress_layer);
     IMPINGE_LIST(all, strain_layer);
+    IMPINGE_LIST(all, heat_layer);
     IMPINGE_LIST(all, tetrahedra_layer);
     IMPINGE_LIST(all, wireframe_layer);
     IMPINGE_LIST(all, embedding_layer);

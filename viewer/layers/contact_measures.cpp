@@ -1,6 +1,10 @@
 #include "viewer/layers/contact_measures.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "viewer/draw/number_text.hpp"
 
 namespace impinge {
 namespace {
@@ -38,6 +42,39 @@ double slip_speed(const StepRecord& record, const ContactRecord& contact) {
   const Vec3 v = velocity_at(body(contact.body_a), contact.triangle_a, contact.point_a) -
                  velocity_at(body(contact.body_b), contact.triangle_b, contact.point_b);
   return (v - contact.normal * contact.normal.dot(v)).norm();
+}
+
+double measure_of(const StepRecord& record, const ContactRecord& contact, ContactMeasure what) {
+  switch (what) {
+    case ContactMeasure::overlap:
+      return std::max(0.0, -contact.gap);
+    case ContactMeasure::impulse:
+      return contact.lambda.x();
+    default:
+      return slip_speed(record, contact);
+  }
+}
+
+ColorBar bar_of(ContactMeasure what, double high, bool exceeded) {
+  struct Words {
+    const char *title, *unit;
+  };
+  constexpr Words kWords[] = {{"overlap", "m"}, {"normal impulse", "N s"}, {"slip", "m/s"}};
+  const Words& words = kWords[static_cast<std::size_t>(what)];
+  const NumberText end = number_text(high, words.unit);
+  return {words.title, end.unit, std::stod(end.digits), exceeded};
+}
+
+double bar_end(double setting, double most) {
+  constexpr double kLeast = 1e-12;  // so that rounding is no picture
+  return setting > 0.0 ? setting : rounded_up(std::max(most, kLeast));
+}
+
+double rounded_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0, 10.0})
+    if (value <= step * power * (1.0 + 1e-12)) return step * power;
+  return 10.0 * power;
 }
 
 }  // namespace impinge

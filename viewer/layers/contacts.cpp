@@ -3,9 +3,7 @@
 #include <cmath>
 
 #include "viewer/draw/color_map.hpp"
-#include "viewer/draw/number_text.hpp"
 #include "viewer/layers/contact_measures.hpp"
-#include "viewer/layers/heat_map.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
@@ -47,17 +45,9 @@ Color color_of(ContactState state) {
   }
 }
 
-double quantity_of(const StepRecord& record, const ContactRecord& c, Shown what) {
-  switch (what) {
-    case Shown::gap:
-      return std::max(0.0, -c.gap);
-    case Shown::impulse:
-      return c.lambda.x();
-    case Shown::slip:
-      return slip_speed(record, c);
-    default:
-      return 0.0;
-  }
+ContactMeasure measure_of(Shown what) {
+  if (what == Shown::gap) return ContactMeasure::overlap;
+  return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
 }
 
 /// Which are drawn, those that carry something last: they lie over the many that are merely near.
@@ -82,37 +72,21 @@ std::vector<std::size_t> drawn(const LayerContext& context, const Settings& own)
   return order;
 }
 
-struct BarRow {
-  const char *title, *unit;
-  double least;  // so that rounding is no picture
-};
-BarRow bar_row(Shown what) {
-  if (what == Shown::gap) return {"overlap", "m", 1e-12};
-  if (what == Shown::impulse) return {"normal impulse", "N s", 1e-12};
-  return {"slip", "m/s", 1e-12};
-}
-
-/// The bar's numbers in the prefix that its end has few figures in.
-ColorBar bar_of(Shown what, double high, bool exceeded) {
-  const BarRow row = bar_row(what);
-  const NumberText end = number_text(high, row.unit);
-  return {row.title, end.unit, std::stod(end.digits), exceeded};
-}
-
 void draw(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const Settings& own = context.own<Settings>();
   const std::vector<std::size_t> order = drawn(context, own);
   const bool by_state = own.color == Shown::state;
+  const ContactMeasure measure = measure_of(own.color);
   double sum = 0.0, most = 0.0;
   int carrying = 0;
   for (const std::size_t i : order) {
     const double force = std::max(0.0, record.contacts[i].lambda.x());
     sum += force, carrying += force > 0.0;
-    if (!by_state) most = std::max(most, quantity_of(record, record.contacts[i], own.color));
+    if (!by_state) most = std::max(most, measure_of(record, record.contacts[i], measure));
   }
   const double mean = carrying > 0 ? sum / carrying : 0.0;
-  const double high = by_state ? 0.0 : own.max > 0.0 ? own.max : rounded_up(std::max(most, bar_row(own.color).least));
+  const double high = by_state ? 0.0 : bar_end(own.max, most);
   const auto size_of = [&](const ContactRecord& c) {
     if (own.size == Size::same) return c.state == ContactState::open ? 0.65f : 1.0f;
     if (!(mean > 0.0)) return kLeastSize;
@@ -120,12 +94,12 @@ void draw(const LayerContext& context, DrawList& list) {
   };
   for (const std::size_t i : order) {
     const ContactRecord& c = record.contacts[i];
-    const Color color = by_state ? color_of(c.state) : heat_color(quantity_of(record, c, own.color) / high);
+    const Color color = by_state ? color_of(c.state) : heat_color(measure_of(record, c, measure) / high);
     list.points.push_back({0.5 * (c.point_a + c.point_b), color,
                            size_of(c) * static_cast<float>(context.settings.point_size), Depth::on_top,
                            contact_pick(i)});
   }
-  if (!by_state && !order.empty()) list.color_bars.push_back(bar_of(own.color, high, most > high));
+  if (!by_state && !order.empty()) list.color_bars.push_back(bar_of(measure, high, most > high));
 }
 
 bool shows_states(const ViewSettings& settings) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/bodies/element_stress.hpp"
+#include "viewer/layers/contact_measures.hpp"
 
 namespace impinge {
 
@@ -21,13 +22,6 @@ std::optional<HeatQuantity> heat_shown(const ViewSettings& settings) {
 
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity) {
   return quantity == HeatQuantity::stress ? element_von_mises(body) : element_equivalent_strain(body);
-}
-
-double rounded_up(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 5.0, 10.0})
-    if (value <= step * power * (1.0 + 1e-12)) return step * power;
-  return 10.0 * power;
 }
 
 double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity) {

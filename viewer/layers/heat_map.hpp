@@ -31,9 +31,6 @@ double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQua
 std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh,
                                      const std::vector<double>& of_nodes);
 
-/// The least of 1, 2 and 5 times a power of ten that is not below a positive value.
-double rounded_up(double value);
-
 /// Title, and the unit in which `high` has few digits.
 ColorBar make_color_bar(HeatQuantity quantity, double high);
 

@@ -25,8 +25,8 @@ std::string zip(const std::map<std::string, std::string>& files) {
   for (const auto& [name, text] : files) {
     const auto size = static_cast<std::uint32_t>(text.size());
     std::string head;
-    little_endian(head, 20, 2);                                           // version
-    for (int i = 0; i < 4; ++i) little_endian(head, 0, 2);                // flags, method, time, date
+    little_endian(head, 20, 2);                             // version
+    for (int i = 0; i < 4; ++i) little_endian(head, 0, 2);  // flags, method, time, date
     little_endian(head, libdeflate_crc32(0, text.data(), text.size()), 4);
     little_endian(head, size, 4);
     little_endian(head, size, 4);
@@ -58,9 +58,12 @@ std::string file_3mf(const std::string& attributes) {
   const std::string model = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- <model unit='foot'> is a remark -->\n"
       "<model {} xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
-      "<resources><object id=\"1\" type=\"model\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"2\" y=\"0\" "
-      "z=\"0\"/><vertex x=\"0\" y=\"3\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"4\"/></vertices><triangles><triangle v1=\"0\" "
-      "v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" v3=\"2\"/><triangle v1=\"1\" v2=\"2\" "
+      "<resources><object id=\"1\" type=\"model\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"2\" "
+      "y=\"0\" "
+      "z=\"0\"/><vertex x=\"0\" y=\"3\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"4\"/></vertices><triangles><triangle "
+      "v1=\"0\" "
+      "v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" v3=\"2\"/><triangle "
+      "v1=\"1\" v2=\"2\" "
       "v3=\"3\"/></triangles></mesh></object></resources><build><item objectid=\"1\"/></build></model>\n",
       attributes);
   return zip({{"[Content_Types].xml",
@@ -70,7 +73,8 @@ std::string file_3mf(const std::string& attributes) {
                "</Types>"},
               {"_rels/.rels",
                "<?xml version=\"1.0\"?><Relationships "
-               "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship Target=\"/3D/3dmodel.model\" "
+               "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship "
+               "Target=\"/3D/3dmodel.model\" "
                "Id=\"rel0\" Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>"},
               {"3D/3dmodel.model", model}});
 }
@@ -79,10 +83,15 @@ std::string file_3mf(const std::string& attributes) {
 
 TEST_CASE("a 3MF file comes out in metres, whatever unit it says") {
   const TempFolder folder;
-  const std::map<std::string, double> units = {
-      {"unit=\"micron\"", 1e-6},   {"unit=\"millimeter\"", 1e-3},        {"unit=\"centimeter\"", 1e-2},
-      {"unit=\"inch\"", 0.0254},   {"unit = 'foot'", 0.3048},            {"unit=\"meter\"", 1.0},
-      {"requiredunit=\"m\"", 1e-3}, {"unit=\"inch\" other=\"x\"", 0.0254}, {"", 1e-3}};
+  const std::map<std::string, double> units = {{"unit=\"micron\"", 1e-6},
+                                               {"unit=\"millimeter\"", 1e-3},
+                                               {"unit=\"centimeter\"", 1e-2},
+                                               {"unit=\"inch\"", 0.0254},
+                                               {"unit = 'foot'", 0.3048},
+                                               {"unit=\"meter\"", 1.0},
+                                               {"requiredunit=\"m\"", 1e-3},
+                                               {"unit=\"inch\" other=\"x\"", 0.0254},
+                                               {"", 1e-3}};
   for (const auto& [attributes, metres] : units) {
     CAPTURE(attributes);
     folder.write("a.3mf", file_3mf(attributes));

@@ -1,0 +1,144 @@
+// Surfaces coloured by how fast they are, or by what their contacts do: of each contact the colour is its own at the
+// nearest vertex and fades round it.
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/draw/number_text.hpp"
+#include "viewer/layers/contact_measures.hpp"
+#include "viewer/layers/heat_map.hpp"
+#include "viewer/layers/layer.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kReach = 0.1;  // of the smaller body of a contact, to where its colour fades
+
+enum class Shown { speed, overlap, impulse, slip };
+
+struct Settings {
+  Shown of = Shown::speed;
+  double max = 0.0;  // of the colour bar
+
+  void declare(const Rows& rows) {
+    rows.add("of", of,
+             {{Shown::speed, "speed"}, {Shown::overlap, "overlap"}, {Shown::impulse, "impulse"}, {Shown::slip, "slip"}},
+             "What colours mean: the speed of the material (m/s); at contacts how deep the bodies overlap (m), the "
+             "normal impulse (N s), the speed at which the two points slide along each other (m/s).");
+    rows.add("max", max, {0.0, 1e15, true}, "",
+             "Upper end of the colour bar, in the unit of what it shows; 0 chooses by the frame.");
+  }
+};
+
+/// Where the positions of a drawn surface are in the world.
+std::vector<Vec3> world_positions(const DrawSurface& item) {
+  const Pose placement = item.placement();
+  std::vector<Vec3> all;
+  for (const Eigen::Vector3f& x : item.moved ? item.moved->positions : item.surface->positions)
+    all.push_back(placement.apply(x.cast<double>()));
+  return all;
+}
+
+std::vector<double> speeds(const DrawSurface& item, const BodyRecord& body) {
+  std::vector<double> values;
+  if (body.deformable == nullptr) {
+    for (const Vec3& x : world_positions(item))
+      values.push_back((body.velocity + body.angular_velocity.cross(x - body.pose.position)).norm());
+    return values;
+  }
+  const Embedding& embedding = body.deformable->embedding;
+  const TetMesh& rest = body.deformable->fem.rest();
+  for (const std::uint32_t v : item.surface->source) {
+    const Tet& tet = rest.tets[static_cast<std::size_t>(embedding.tet[v])];
+    Vec3 velocity = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) velocity += embedding.weight[v][k] * body.deformable->velocity.segment<3>(3 * tet[k]);
+    values.push_back(velocity.norm());
+  }
+  return values;
+}
+
+double reach_of(const StepRecord& record, const ContactRecord& c) {
+  double least = INFINITY;
+  for (const BodyIndex b : {c.body_a, c.body_b}) {
+    const BodyRecord& body = record.bodies[static_cast<std::size_t>(b.value())];
+    const Aabb box = body.shape->bounds({});
+    if (box.extent().allFinite() && !box.is_empty()) least = std::min(least, kReach * box.extent().norm());
+  }
+  return least;
+}
+
+std::vector<double> by_contacts(const DrawSurface& item, std::size_t own, const StepRecord& record,
+                                ContactMeasure what) {
+  const std::vector<Vec3> at = world_positions(item);
+  std::vector<double> values(at.size(), 0.0);
+  for (const ContactRecord& c : record.contacts) {
+    const bool is_a = static_cast<std::size_t>(c.body_a.value()) == own;
+    if (!is_a && static_cast<std::size_t>(c.body_b.value()) != own) continue;
+    const double value = measure_of(record, c, what), reach = reach_of(record, c);
+    if (!(value > 0.0)) continue;
+    const Vec3& point = is_a ? c.point_a : c.point_b;
+    double nearest_sq = INFINITY;
+    for (const Vec3& x : at) nearest_sq = std::min(nearest_sq, (x - point).squaredNorm());
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      // from the nearest vertex on, which has it whole, however coarse the surface is
+      const double d = (std::sqrt((at[i] - point).squaredNorm()) - std::sqrt(nearest_sq)) / reach;
+      if (!(d < 1.0)) continue;
+      const double left = (1.0 - d * d) * (1.0 - d * d);
+      values[i] = std::max(values[i], left * value);
+    }
+  }
+  return values;
+}
+
+ColorBar bar(Shown what, double high, bool exceeded) {
+  if (what != Shown::speed) return bar_of(static_cast<ContactMeasure>(static_cast<int>(what) - 1), high, exceeded);
+  const NumberText end = number_text(high, "m/s");
+  return {"speed", end.unit, std::stod(end.digits), exceeded};
+}
+
+void draw(const LayerContext& context, DrawList& list) {
+  const StepRecord& record = context.record;
+  const Settings& own = context.own<Settings>();
+  std::vector<std::vector<double>> values(list.surfaces.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const DrawSurface& item = list.surfaces[i];
+    if (item.pick == 0 || item.pick > record.bodies.size()) continue;
+    const BodyRecord& body = record.bodies[item.pick - 1];
+    if (body.kind == BodyKind::fixed && own.of == Shown::speed) continue;
+    values[i] = own.of == Shown::speed ? speeds(item, body)
+                                       : by_contacts(item, item.pick - 1, record,
+                                                     static_cast<ContactMeasure>(static_cast<int>(own.of) - 1));
+    const double highest = values[i].empty() ? 0.0 : *std::max_element(values[i].begin(), values[i].end());
+    if (own.of != Shown::speed && highest == 0.0) values[i].clear();  // what nothing touches stays as it is
+    most = std::max(most, highest);
+  }
+  const double high = bar_end(own.max, most);
+  bool any = false;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i].empty()) continue;
+    any = true;
+    auto heat = std::make_shared<std::vector<float>>();
+    for (const double v : values[i]) heat->push_back(static_cast<float>(v / high));
+    list.surfaces[i].heat = std::move(heat);
+  }
+  if (!any) return;
+  const ColorBar shown = bar(own.of, high, most > high);
+  if (list.color_bars.empty())
+    list.color_bars.push_back(shown);
+  else
+    list.color_bars.front() = shown;  // of the surfaces there is one: instead of stress's or strain's
+}
+
+}  // namespace
+
+Layer heat_layer() {
+  return {"heat",
+          "Surfaces coloured by speed, or by overlap, impulse or slip of their contacts (view.heat.of); the colour bar "
+          "gives its range.",
+          false,
+          draw,
+          {},
+          Settings{}};
+}
+
+}  // namespace impinge
