@@ -57,6 +57,7 @@ struct Source {
 /// What the command line says.
 struct Given {
   fs::path scene, script, out, record;
+  std::string against;
   std::vector<std::string> overrides;
   bool window = false, headless = false, quiet = false;
   int width = 1280, height = 720;  // pixels
@@ -88,11 +89,25 @@ Source source_of(const Given& options) {
   return {options.scene / "run.toml", options.scene};
 }
 
+/// PATH=VALUE is the same scene with that setting; else it is another scene, or a run's folder.
+AgainstSource against_of(const Given& options, const Source& source) {
+  if (options.against.empty()) return {};
+  AgainstSource b{source.scene, options.overrides, options.script, options.against};
+  if (options.against.find('=') != std::string::npos && !is_there(options.against)) {
+    b.overrides.push_back(options.against);
+    return b;
+  }
+  b = {options.against, {}, {}, options.against};
+  if (is_folder(b.scene)) b.scene /= "run.toml";
+  return b;
+}
+
 /// What a recording is to be played with.
 std::string command_of(const Given& options) {
   std::string text = fmt::format("# impinge debug {}", options.scene.string());
   for (const std::string& set : options.overrides) text += fmt::format(" --set '{}'", set);
   text += fmt::format(" --size {}x{}", options.width, options.height);
+  if (!options.against.empty()) text += fmt::format(" --against '{}'", options.against);
   if (options.scale > 0) text += fmt::format(" --scale {}", options.scale);
   if (options.memory != Given().memory) text += fmt::format(" --memory {}", options.memory);
   return text + fmt::format(" --script {}\n", options.record.string());
@@ -154,6 +169,21 @@ std::unique_ptr<DebugWindow> make_window(const Given& options, int scale) {
   }
 }
 
+/// Where it stands, what B came to, and what went wrong on the way.
+void say_end(Debugger& debugger, bool is_quiet) {
+  if (!is_quiet) {
+    const DebugModel& model = debugger.model();
+    fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
+               model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
+    if (model.against != nullptr)
+      fmt::print("{}\n", !model.against->parted.empty()
+                             ? model.against->parted
+                             : fmt::format("A and B ({}) are the same", model.against->label));
+  }
+  for (const ConsoleLine& line : debugger.model().console)
+    if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+}
+
 int debug(const Given& options) {
   const bool windowed = options.window || (!options.headless && !options.doors.any() && has_screen());
   const int scale = options.scale > 0 ? options.scale : debug_scale(options.height);
@@ -176,6 +206,8 @@ int debug(const Given& options) {
   debugged.most_bytes = static_cast<std::size_t>(options.memory) << 20;
   debugged.run_folder = source.run_folder;
   debugged.name = source.name;
+  debugged.against = against_of(options, source);
+  if (!script.has_timed) debugged.against.script.clear();
   debugged.interrupted = &interrupted();
   explain_interrupt("going back to the last whole frame and ending, within 2 s");
   FrameProgress progress;
@@ -224,13 +256,7 @@ int debug(const Given& options) {
     throw;
   }
   save_recording();
-  if (!options.quiet) {
-    const DebugModel& model = debugger.model();
-    fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
-               model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
-  }
-  for (const ConsoleLine& line : debugger.model().console)
-    if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+  say_end(debugger, options.quiet);
   if (interrupted()) return 130;
   return debugger.failures() > 0 ? 1 : 0;
 }
@@ -248,6 +274,9 @@ class DebugCommand : public SubCommand {
                  "show a window, after the script if there is one (default where there is a screen)");
     options.flag("--headless", given_.headless, "no window: the script drives it");
     given_.doors.declare(options);
+    options.text("--against", given_.against,
+                 "PATH=VALUE: the same scene with that setting, or another scene or run's folder, made beside "
+                 "this one; where they part is told, and its rigid bodies are seen through");
     options.path("--out", given_.out, "folder that `shot FILE` lines write into (default: here)");
     size_option(options, given_.width, given_.height, "WIDTHxHEIGHT of the window in pixels (default: 1280x720)");
     options.whole("--scale", given_.scale, 1, 8, "size of text, in whole steps (default: by the height)");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "viewer/controller/recorded_run.hpp"
+#include "viewer/controller/state_differences.hpp"
 
 namespace impinge {
 
@@ -17,17 +18,8 @@ namespace impinge {
 struct SettingDifference {
   std::string path, a, b;  ///< values as TOML; "" where there is none
 };
-/// How far a body's state differs in one field.
-struct FieldDifference {
-  std::string body, field, unit;
-  double largest = 0.0;  ///< in `unit`
-  std::string where;     ///< "node 17", or ""
-};
-
 /// Former paths of parameters count as the present ones.
 std::vector<SettingDifference> setting_differences(const RecordedRun& a, const RecordedRun& b);
-/// Bodies that both have, by name, in the order of A; fields of which no bit differs are left out.
-std::vector<FieldDifference> field_differences(const StepRecord& a, const StepRecord& b);
 /// Names that only one of them has.
 std::vector<std::string> bodies_of_one(const StepRecord& a, const StepRecord& b);
 

@@ -48,6 +48,7 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
   model_.scene = (run_folder_.empty() ? session_.scene().path : run_folder_).filename().string();
   if (!options.name.empty()) model_.scene = options.name;
   if (!run_folder_.empty()) read_run_folder();
+  if (!options.against.scene.empty()) against_.emplace(options.against, options.session);
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
   if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
   if (!advance()) return;
@@ -135,6 +136,10 @@ void Debugger::note_frame() {
   const StepRecord& record = session_.record();
   const auto frame = static_cast<std::size_t>(session_.frame());
   tracks_.note(record);
+  if (against_) try {
+      against_->reach(record, session_.frame());
+    } catch (const Interrupted&) {  // B goes on from where it is when A goes on
+    }
   std::vector<double> figures = figure_values(record.stats, session_.is_judged());
   if (frame < hashes_.size()) {
     check_hash(session_.frame());
@@ -262,6 +267,7 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
            ((was_ended_ || is_interrupted()) && (transport != nullptr || std::holds_alternative<FindLine>(parsed))))
     done = fmt::format("seek {}", frame());
   record(done);
+  tell_of_against();
   return std::nullopt;
 }
 
@@ -305,6 +311,7 @@ bool Debugger::play_on() {
   const int before = frame();
   go_on(before + 1);
   if (frame() > before || stopped_) record("step");
+  tell_of_against();
   return true;
 }
 
@@ -409,6 +416,7 @@ const DebugModel& Debugger::model() {
   model_.figure_names = &figure_names(session_.is_judged());
   model_.history = &history_;
   model_.tracks = &tracks_;
+  model_.against = against_ ? &against_->model() : nullptr;
   model_.changed_frames = &changed_frames_;
   model_.snapshots = ring_.count();
   model_.snapshot_bytes = ring_.bytes();

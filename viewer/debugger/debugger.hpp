@@ -18,6 +18,7 @@
 #include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/session.hpp"
+#include "viewer/debugger/against.hpp"
 #include "viewer/debugger/edits.hpp"
 #include "viewer/debugger/line.hpp"
 #include "viewer/debugger/snapshot_ring.hpp"
@@ -30,6 +31,7 @@ struct DebuggerOptions {
   /// a finished run's, "" for none: its snapshots and figures are used
   std::filesystem::path run_folder;
   std::string name = {};                              ///< what the scene is called, where its file doesn't say
+  AgainstSource against = {};                         ///< what is made beside it, to be held against
   const std::atomic<bool>* interrupted = nullptr;     ///< asks to stop after the frame in work
   std::function<void(int frame, int last)> progress;  ///< of a line that makes many frames, after each
 };
@@ -128,6 +130,7 @@ class Debugger {
   void add_recorded(const std::string& line);
   void replace_recorded(const std::string& line);
   void follow_selection();
+  void tell_of_against();
 
   const std::atomic<bool>* interrupted_;
   std::function<void(int, int)> progress_;
@@ -148,6 +151,7 @@ class Debugger {
   Expectations expectations_;
   Breakpoints breaks_;
   ConditionReader reader_;
+  std::optional<Against> against_;
   std::optional<FrameStages> stages_;  // of the frame looked into last
   std::optional<Within> within_;       // its making; none: at the end of a frame
   bool playing_ = false;

@@ -44,6 +44,7 @@ void Debugger::exchange(Future& future) {
   if (stages_ && stages_->frame > frame) stages_.reset();
   ring_.cut(frame);
   tracks_.forget_after(frame);
+  if (against_) against_->forget_after(frame);
   exchange_after(frame, by_hand_, future.by_hand);
   exchange_after(frame, changed_frames_, future.changed_frames);
   exchange_after(frame, history_, future.history);

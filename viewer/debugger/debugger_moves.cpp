@@ -276,6 +276,24 @@ void Debugger::why(const WhyLine& line) {
   if (place != kEnd) stand_in(home, place);
 }
 
+/// What was found on the way of how B differs. The frame is made once more, so that its stages can be told apart.
+void Debugger::tell_of_against() {
+  const std::optional<int> first = against_ ? against_->take_news() : std::nullopt;
+  if (!first) return;
+  const int home = frame();
+  const int place = within_ ? within_->place : kEnd;
+  const FrameStages* stages = nullptr;
+  try {
+    if (*first > 0) stages = &stages_of(*first);
+    say(ConsoleLine::message, against_->tell(*first, stages));
+  } catch (const Interrupted&) {
+    const InterruptScope finish(nullptr);
+    restore_before(*first);
+  }
+  reach(home);
+  if (place != kEnd) stand_in(home, place);
+}
+
 void Debugger::freeze(const std::filesystem::path& file) {
   const int home = frame();
   const int place = within_ ? within_->place : kEnd;

@@ -97,7 +97,7 @@ void Renderer::draw_surface(Program& program, const DrawSurface& item, const Vie
   program.use();
   program.set("model_view", view.model_view(item.placement()));
   program.set("color", Eigen::Vector4f(item.color.r, item.color.g, item.color.b, item.color.a));
-  program.set("outline_only", item.see_through ? 1.0f : 0.0f);
+  program.set("outline_only", item.see_through ? item.faintness : 0.0f);
   program.set("heated", item.heat ? 1.0f : 0.0f);
   float bands = 0.0f;
   if (item.striped) bands = 9.0f / std::max(item.bounds().sizes().sum(), 1e-12f);

@@ -10,6 +10,7 @@ namespace impinge {
 namespace {
 
 constexpr Color kSelected = hex(0xfff2a8);
+constexpr Color kAgainst = hex(0xff4fd8);  // bodies of what is made beside the scene
 constexpr float kTrailWidth = 1.6f;
 
 std::vector<BodyIndex> trailed(const DebugModel& model) {
@@ -78,19 +79,29 @@ void draw_trails(const DebugModel& model, DrawList& list) {
 }
 
 void draw_ghost(const DebugModel& model, DrawList& list) {
-  if (model.state.ghost < 0) return;
   const std::size_t surfaces = list.surfaces.size();
-  for (std::size_t i = 0; i < surfaces; ++i) {
+  const auto add = [&](std::size_t i, const std::optional<Pose>& pose, Color color) {
+    if (!pose) return;
     DrawSurface ghost = list.surfaces[i];
-    if (ghost.pick == 0 || ghost.pick > model.record->bodies.size() || ghost.moved != nullptr) continue;
-    const BodyIndex body(ghost.pick - 1);
-    if (model.record->bodies[ghost.pick - 1].kind == BodyKind::fixed) continue;
-    const std::optional<Pose> pose = model.tracks->pose(model.state.ghost, body);
-    if (!pose) continue;
     ghost.pose = *pose;
     ghost.see_through = true;
+    ghost.faintness = 0.75f;
+    ghost.color = color;
+    ghost.heat = nullptr;
     ghost.pick = 0;
     list.surfaces.push_back(std::move(ghost));
+  };
+  for (std::size_t i = 0; i < surfaces; ++i) {
+    const DrawSurface& item = list.surfaces[i];
+    if (item.pick == 0 || item.pick > model.record->bodies.size() || item.moved != nullptr) continue;
+    const BodyIndex body(item.pick - 1);
+    const BodyRecord& now = model.record->bodies[item.pick - 1];
+    if (now.kind == BodyKind::fixed) continue;
+    if (model.state.ghost >= 0) add(i, model.tracks->pose(model.state.ghost, body), item.color);
+    if (model.against == nullptr) continue;
+    const std::optional<Pose> there = model.against->pose(model.frame, body);
+    if (there && (there->position != now.pose.position || there->rotation != now.pose.rotation))
+      add(i, there, kAgainst);
   }
 }
 

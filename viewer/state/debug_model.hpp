@@ -13,6 +13,7 @@
 #include "engine/core/parameter.hpp"
 #include "engine/world/stage_place.hpp"
 #include "viewer/draw/view_settings.hpp"
+#include "viewer/state/against_model.hpp"
 #include "viewer/state/tracks.hpp"
 
 namespace impinge {
@@ -73,6 +74,7 @@ struct DebugModel {
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
   const Tracks* tracks = nullptr;
+  const AgainstModel* against = nullptr;          ///< what is made beside it; null: nothing
   const std::set<int>* changed_frames = nullptr;  ///< with commands by hand
   std::size_t snapshots = 0, snapshot_bytes = 0, most_snapshot_bytes = 0;
   Selection selection;

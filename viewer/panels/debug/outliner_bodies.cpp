@@ -33,6 +33,14 @@ std::vector<Touched> touched(const StepRecord& record) {
   return all;
 }
 
+/// How far from where it is in what is made beside it.
+double apart(const DebugModel& model, BodyIndex body) {
+  if (model.against == nullptr) return kNone;
+  const std::optional<Pose> there = model.against->pose(model.frame, body);
+  const BodyRecord& now = model.record->bodies[static_cast<std::size_t>(body.value())];
+  return there && now.kind != BodyKind::fixed ? (there->position - now.pose.position).norm() : kNone;
+}
+
 /// Each body's place by the alphabet.
 std::vector<double> ranks(const StepRecord& record) {
   std::vector<std::size_t> order(record.bodies.size());
@@ -63,7 +71,8 @@ std::vector<double> numbers_of(const DebugModel& model) {
                           is_plane ? kNone : b.bounds.extent().maxCoeff(),
                           moves && b.deformable == nullptr ? b.angular_velocity.norm() : kNone,
                           step > 0.0 && t.contacts > 0 ? t.impulse / step : kNone,
-                          b.group.is_none() ? kNone : static_cast<double>(b.group.value())};
+                          b.group.is_none() ? kNone : static_cast<double>(b.group.value()),
+                          apart(model, BodyIndex(i))};
     numbers.insert(numbers.end(), std::begin(row), std::end(row));
   }
   return numbers;
@@ -140,7 +149,8 @@ const Table& bodies_table() {
        {"size", "size", "m", C::number, 0, false, "longest edge of the box around it"},
        {"spin", "spin", "rad/s", C::number, 0, false, "how fast it turns"},
        {"force", "force", "N", C::number, 0, false, "sum of its contacts' normal forces, last sub-step"},
-       {"group", "group", "", C::whole, 4, false, "its collision group"}}};
+       {"group", "group", "", C::whole, 4, false, "its collision group"},
+       {"apart", "apart", "m", C::number, 0, false, "with --against: its centre from where it is in B"}}};
   return table;
 }
 

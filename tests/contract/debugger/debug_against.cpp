@@ -1,0 +1,126 @@
+// Two sessions side by side: where they part is what their runs' tables say, and neither feels the other.
+#include <fmt/format.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/support/program/debug_session.hpp"
+#include "viewer/image/png.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+std::vector<std::vector<std::string>> table(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    rows.emplace_back(1);
+    for (const char c : line)
+      if (c == ',')
+        rows.back().emplace_back();
+      else
+        rows.back().back() += c;
+  }
+  return rows;
+}
+
+/// The first frame in which two runs' hashes differ, and -1.
+int parted(const std::string& a, const std::string& b) {
+  const auto in_a = table(a), in_b = table(b);
+  const auto hash = static_cast<std::size_t>(std::find(in_a[0].begin(), in_a[0].end(), "state_hash") - in_a[0].begin());
+  REQUIRE(hash < in_a[0].size());
+  for (std::size_t i = 1; i < std::min(in_a.size(), in_b.size()); ++i)
+    if (in_a[i][hash] != in_b[i][hash]) return static_cast<int>(i) - 1;
+  return -1;
+}
+
+}  // namespace
+
+TEST_CASE("A and B part in the frame in which their runs do, and A is as it is alone") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "step 60\nback 20\nstep 5\nset contact.restitution 0.3\nstep 30\n");
+  const auto run = [&](const std::string& out, const std::string& set) {
+    std::vector<std::string> words = {"run", "s.toml", "--out", out, "--frames", "60", "--no-images", "--force"};
+    if (!set.empty()) words.insert(words.end(), {"--set", set});
+    REQUIRE(impinge_run(folder.path(), words).code == 0);
+    return slurp(folder / (out + "/stats.csv"));
+  };
+  const std::string plain = run("plain", "");
+  const Outcome alone = debug(folder, "s.toml", "a.script", {});
+  REQUIRE(alone.code == 0);
+  int differ = 0;
+  for (const std::string& set :
+       {std::string("contact.friction=0.11"), std::string("simulation.substeps=3"), std::string("simulation.substeps=4"),
+        std::string("body.ball.mass=7"), std::string("view.point_size=9")}) {
+    CAPTURE(set);
+    const int wanted = parted(plain, run("b", set));
+    const Outcome both = debug(folder, "s.toml", "a.script", {"--against", set, "--record", "r.script"});
+    CAPTURE(both.out, both.err);
+    REQUIRE(both.code == 0);
+    CHECK(both.out.starts_with(alone.out));
+    if (wanted < 0) {
+      // until it is changed by hand, which B is not
+      folder.write("unchanged.script", "step 60\n");
+      const Outcome same = debug(folder, "s.toml", "unchanged.script", {"--against", set});
+      CHECK(same.out.find(fmt::format("A and B ({}) are the same", set)) != std::string::npos);
+    } else {
+      CHECK(both.out.find(fmt::format("A and B ({}) differ from frame {} on: ", set, wanted)) != std::string::npos);
+      CHECK(both.out.find("; first in sub-step ") != std::string::npos);
+      ++differ;
+    }
+    CHECK(slurp(folder / "r.script").find(fmt::format("--against '{}'", set)) != std::string::npos);
+    // another run's folder in place of the setting
+    const Outcome with_run = debug(folder, "s.toml", "a.script", {"--against", "b"});
+    CAPTURE(with_run.out);
+    if (wanted >= 0) CHECK(with_run.out.find(fmt::format("A and B (b) differ from frame {} on", wanted)) != std::string::npos);
+  }
+  CHECK(differ >= 3);
+}
+
+TEST_CASE("what A is changed to by hand parts it from B in the next frame, and undone it doesn't") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "step 30\nset simulation.gravity 0 -5 0\nstep 3\n");
+  const Outcome changed = debug(folder, "s.toml", "a.script", {"--against", "view.point_size=9"});
+  CAPTURE(changed.out);
+  CHECK(changed.out.find("differ from frame 31 on: ") != std::string::npos);
+  CHECK(changed.out.find("position by ") != std::string::npos);
+  folder.write("a.script", "step 30\nset simulation.gravity 0 -5 0\nstep 3\nundo\nstep 3\n");
+  const Outcome undone = debug(folder, "s.toml", "a.script", {"--against", "view.point_size=9"});
+  CAPTURE(undone.out);
+  CHECK(undone.out.find("are the same") != std::string::npos);
+}
+
+TEST_CASE("B is seen through where it is elsewhere, in every frame that is gone to") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "step 4\nshot early.png\nstep 56\nshot late.png\nback 56\nshot again.png\nseek 60\nshot end.png\n");
+  REQUIRE(debug(folder, "s.toml", "a.script", {"--out", "one"}).code == 0);
+  REQUIRE(debug(folder, "s.toml", "a.script", {"--out", "two", "--against", "contact.restitution=0.7"}).code == 0);
+  const auto view = [&](const char* name) {  // without the panels
+    const Image whole = read_png(folder.path() / name);
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; y < 400; ++y)
+      pixels.insert(pixels.end(), whole.pixel(240, y), whole.pixel(240, y) + 3 * (whole.width - 520));
+    return pixels;
+  };
+  CHECK((view("one/early.png") == view("two/early.png")));  // nothing has touched anything
+  CHECK((view("one/late.png") != view("two/late.png")));
+  CHECK((view("two/again.png") == view("two/early.png")));
+  CHECK((view("two/end.png") == view("two/late.png")));
+}
+
+TEST_CASE("what B can't be is refused with its place") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "step 2\n");
+  for (const char* wrong : {"nothing.toml", "contact.frictio=0.1", "contact.friction=much"}) {
+    const Outcome outcome = debug(folder, "s.toml", "a.script", {"--against", wrong});
+    CAPTURE(wrong, outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.error_lines() == 1);
+  }
+}

@@ -1,0 +1,117 @@
+#include "viewer/debugger/against.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/archive.hpp"
+#include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
+#include "viewer/controller/state_differences.hpp"
+#include "viewer/debugger/session_scopes.hpp"
+#include "viewer/draw/number_text.hpp"
+
+namespace impinge {
+namespace {
+
+/// The farthest position, or else the first field.
+std::string words_of(const std::vector<FieldDifference>& fields) {
+  if (fields.empty()) return "in what is kept between frames, no position or velocity yet";
+  const auto nearer = [](const FieldDifference& l, const FieldDifference& r) {
+    return std::pair(l.unit == "m", l.unit == "m" ? l.largest : 0.0) <
+           std::pair(r.unit == "m", r.unit == "m" ? r.largest : 0.0);
+  };
+  const FieldDifference& most = *std::max_element(fields.begin(), fields.end(), nearer);
+  std::string text = fmt::format("{}'s {}", most.body, most.field);
+  if (!most.unit.empty()) text += fmt::format(" by {}", number_text(most.largest, most.unit).whole());
+  if (!most.where.empty()) text += fmt::format(" ({})", most.where);
+  return text;
+}
+
+/// The first stage of which not the same is told.
+std::string words_of(const FrameStages& a, const FrameStages& b) {
+  const std::size_t both = std::min(a.entries.size(), b.entries.size());
+  for (std::size_t i = 0; i < both; ++i) {
+    const StageEntry &of_a = a.entries[i], &of_b = b.entries[i];
+    if (of_a.kind == of_b.kind && of_a.substep == of_b.substep && of_a.words == of_b.words && of_a.count == of_b.count)
+      continue;
+    const std::string at =
+        a.substeps == b.substeps
+            ? fmt::format("sub-step {} of {}, ", of_a.substep, a.substeps)
+            : fmt::format("sub-step {} of {} in A and {} in B, ", of_a.substep, a.substeps, b.substeps);
+    if (of_a.kind != of_b.kind) return at + fmt::format("{} in A, {} in B", name_of(of_a.kind), name_of(of_b.kind));
+    if (of_a.words == of_b.words)
+      return at + fmt::format("{}: {} steps in A, {} in B", name_of(of_a.kind), of_a.count, of_b.count);
+    return at + fmt::format("{}: {} in A, {} in B", name_of(of_a.kind), of_a.words, of_b.words);
+  }
+  if (a.entries.size() != b.entries.size())
+    return fmt::format("{} stages in A, {} in B", a.entries.size(), b.entries.size());
+  return "the same work in all stages";
+}
+
+}  // namespace
+
+Against::Against(const AgainstSource& source, const SessionOptions& options)
+    : session_(source.scene, source.overrides, source.script, options) {
+  model_.label = source.label;
+}
+
+bool Against::advance() {
+  ByteWriter before;
+  const bool is_begun = session_.frame() >= 0;
+  if (is_begun) session_.save(before);
+  const auto take_back = [&] {
+    const InterruptScope finish(nullptr);
+    ByteReader state(before.bytes());
+    if (is_begun) session_.restore(state);
+  };
+  StageList list(session_.world());
+  const WatchScope watch(session_, is_begun && first_ < 0 ? &list : nullptr);
+  try {
+    session_.advance();
+  } catch (const DivergenceError& error) {
+    ended_ = error.what();
+    take_back();
+    return false;
+  } catch (const Interrupted&) {
+    take_back();
+    throw;
+  }
+  if (is_begun && first_ < 0) stages_ = list.take();
+  hashes_.push_back(session_.record().stats.state_hash);
+  model_.tracks.note(session_.record());
+  return true;
+}
+
+void Against::reach(const StepRecord& a, int frame) {
+  if (model_.bodies.empty())
+    for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.bodies().find(std::string(body.name)));
+  while (ended_.empty() && session_.frame() < frame && advance()) {
+  }
+  if (first_ >= 0 || frame >= static_cast<int>(hashes_.size()) ||
+      hashes_[static_cast<std::size_t>(frame)] == a.stats.state_hash)
+    return;
+  first_ = frame;
+  is_news_ = true;
+  fields_ = session_.frame() == frame ? words_of(field_differences(a, session_.record())) : "";
+}
+
+void Against::forget_after(int frame) {
+  if (first_ > frame) first_ = -1, is_news_ = false, model_.parted.clear();
+}
+
+std::optional<int> Against::take_news() {
+  if (!is_news_) return std::nullopt;
+  is_news_ = false;
+  return first_;
+}
+
+const std::string& Against::tell(int frame, const FrameStages* stages) {
+  std::string& text = model_.parted;
+  text = fmt::format("A and B ({}) differ from frame {} on", model_.label, frame);
+  if (!fields_.empty()) text += ": " + fields_;
+  if (stages != nullptr && stages_.frame == frame) text += "; first in " + words_of(*stages, stages_);
+  return text;
+}
+
+}  // namespace impinge

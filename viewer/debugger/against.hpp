@@ -1,0 +1,48 @@
+// A second session beside the debugger's, frame by frame: A is what is looked at and changed, B what it is held against.
+#pragma once
+
+#include <filesystem>
+
+#include "engine/world/stage_watch.hpp"
+#include "viewer/controller/session.hpp"
+#include "viewer/state/against_model.hpp"
+
+namespace impinge {
+
+/// What B is.
+struct AgainstSource {
+  std::filesystem::path scene;  ///< "": nothing is compared
+  std::vector<std::string> overrides;
+  std::filesystem::path script;
+  std::string label;
+};
+
+class Against {
+ public:
+  /// Throws InputError.
+  Against(const AgainstSource& source, const SessionOptions& options);
+
+  /// Makes B's frames up to A's, which was just made or come back to. Throws Interrupted, B then as before.
+  void reach(const StepRecord& a, int frame);
+  /// A's frames after it are no longer what they were.
+  void forget_after(int frame);
+  /// The first frame in which they differ, where it was found since the last call.
+  std::optional<int> take_news();
+  /// In what, in words. `stages` are A's of that frame.
+  const std::string& tell(int frame, const FrameStages* stages);
+  const AgainstModel& model() const { return model_; }
+
+ private:
+  bool advance();
+
+  Session session_;
+  AgainstModel model_;
+  std::vector<std::uint64_t> hashes_;  // by frame
+  FrameStages stages_;                 // of the last frame, as long as no difference is known
+  std::string ended_;                  // why it goes no farther; "": it does
+  int first_ = -1;                     // frame in which they differ
+  bool is_news_ = false;
+  std::string fields_;  // in what, in that frame
+};
+
+}  // namespace impinge
