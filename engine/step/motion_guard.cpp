@@ -8,6 +8,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/detection/continuous/round_path.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "engine/step/find_pairs.hpp"
@@ -81,6 +82,16 @@ double safe_for(const Body& a, double share_a, const Body& b, double share_b) {
   if (has_shape && !deforms(a) && !deforms(b)) return share;
   const auto edge = [](const Body& body) { return body.world_vertices.empty() ? INFINITY : body.mean_edge; };
   return std::min({share, edge(a), edge(b)});
+}
+
+/// Of a ball or capsule and another, or a rigid mesh, as far as distances tell it: they touch all along their way as a rule.
+bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const SurfacePath& of_b, double depth) {
+  if (deforms(a) || deforms(b)) return false;
+  const std::optional<RoundCore> core_a = round_core(*a.shape), core_b = round_core(*b.shape);
+  if (core_a && core_b) return stays_out(*core_a, of_a, *core_b, of_b, depth);
+  if (core_a && b.shape->mesh() != nullptr) return stays_out(*core_a, of_a, of_b, depth);
+  if (core_b && a.shape->mesh() != nullptr) return stays_out(*core_b, of_b, of_a, depth);
+  return false;
 }
 
 double way_of(const Sweep& s) { return s.shift.norm() + s.turn; }
@@ -243,6 +254,7 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
       own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * pairs[i].safe);
       own.creep = kCreep * own.depth;
     }
+    if (is_known_clear(of_a, of_b, paths[i].first, paths[i].second, own.depth)) return;
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
                                                  : first_passages(paths[i].first, paths[i].second, own);
   });

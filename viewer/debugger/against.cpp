@@ -35,10 +35,9 @@ std::string words_of(const FrameStages& a, const FrameStages& b) {
     const StageEntry &of_a = a.entries[i], &of_b = b.entries[i];
     if (of_a.kind == of_b.kind && of_a.substep == of_b.substep && of_a.words == of_b.words && of_a.count == of_b.count)
       continue;
-    const std::string at =
-        a.substeps == b.substeps
-            ? fmt::format("sub-step {} of {}, ", of_a.substep, a.substeps)
-            : fmt::format("sub-step {} of {} in A and {} in B, ", of_a.substep, a.substeps, b.substeps);
+    const std::string at = a.substeps == b.substeps ? fmt::format("sub-step {} of {}, ", of_a.substep, a.substeps)
+                                                    : fmt::format("sub-step {} of {} in A and {} in B, ", of_a.substep,
+                                                                  a.substeps, b.substeps);
     if (of_a.kind != of_b.kind) return at + fmt::format("{} in A, {} in B", name_of(of_a.kind), name_of(of_b.kind));
     if (of_a.words == of_b.words)
       return at + fmt::format("{}: {} steps in A, {} in B", name_of(of_a.kind), of_a.count, of_b.count);

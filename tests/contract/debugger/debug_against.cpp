@@ -53,8 +53,8 @@ TEST_CASE("A and B part in the frame in which their runs do, and A is as it is a
   REQUIRE(alone.code == 0);
   int differ = 0;
   for (const std::string& set :
-       {std::string("contact.friction=0.11"), std::string("simulation.substeps=3"), std::string("simulation.substeps=4"),
-        std::string("body.ball.mass=7"), std::string("view.point_size=9")}) {
+       {std::string("contact.friction=0.11"), std::string("simulation.substeps=3"),
+        std::string("simulation.substeps=4"), std::string("body.ball.mass=7"), std::string("view.point_size=9")}) {
     CAPTURE(set);
     const int wanted = parted(plain, run("b", set));
     const Outcome both = debug(folder, "s.toml", "a.script", {"--against", set, "--record", "r.script"});
@@ -75,7 +75,8 @@ TEST_CASE("A and B part in the frame in which their runs do, and A is as it is a
     // another run's folder in place of the setting
     const Outcome with_run = debug(folder, "s.toml", "a.script", {"--against", "b"});
     CAPTURE(with_run.out);
-    if (wanted >= 0) CHECK(with_run.out.find(fmt::format("A and B (b) differ from frame {} on", wanted)) != std::string::npos);
+    if (wanted >= 0)
+      CHECK(with_run.out.find(fmt::format("A and B (b) differ from frame {} on", wanted)) != std::string::npos);
   }
   CHECK(differ >= 3);
 }
@@ -97,7 +98,8 @@ TEST_CASE("what A is changed to by hand parts it from B in the next frame, and u
 TEST_CASE("B is seen through where it is elsewhere, in every frame that is gone to") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);
-  folder.write("a.script", "step 4\nshot early.png\nstep 56\nshot late.png\nback 56\nshot again.png\nseek 60\nshot end.png\n");
+  folder.write("a.script",
+               "step 4\nshot early.png\nstep 56\nshot late.png\nback 56\nshot again.png\nseek 60\nshot end.png\n");
   REQUIRE(debug(folder, "s.toml", "a.script", {"--out", "one"}).code == 0);
   REQUIRE(debug(folder, "s.toml", "a.script", {"--out", "two", "--against", "contact.restitution=0.7"}).code == 0);
   const auto view = [&](const char* name) {  // without the panels
