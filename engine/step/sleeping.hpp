@@ -29,6 +29,8 @@ class Sleeping {
   /// nothing never sleeps, nor does one that is being pushed out of another: `pushed`, by body, is how fast, m/s.
   void update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
               std::span<const double> pushed, const RestThresholds& rest, double time_step);
+  /// Wakes the body, with its island if it sleeps.
+  void wake(Bodies& bodies, BodyIndex body);
   /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
   bool wake_touched(Bodies& bodies, std::span<const BodyEnds> touching);
   bool wake_moved_supports(Bodies& bodies);

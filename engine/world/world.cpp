@@ -56,7 +56,7 @@ void World::find_at_start() {
   unsafe_.clear();
   const double h = parameters.simulation.time_step();
   for (Body& body : bodies_)
-    if (!body.has_freedom()) body.drive(time_, h, 1.0);
+    if (!body.has_freedom() && !body.deleted) body.drive(time_, h, 1.0);
   sub_step_->time = time_, sub_step_->time_step = h;
   detect(bodies_, attachments_, detecting(parameters), time_integration(parameters), sleeping_, *sub_step_,
          stats_.times);
@@ -186,7 +186,7 @@ void World::look_again(const Solving& how) {
   // Newton schemes have taken A and b of their bodies where the first answer led
   if (how.integrator.newton() != nullptr)
     for (const Body& body : bodies_)
-      if (body.kind() == BodyKind::deformable) return;
+      if (body.kind() == BodyKind::deformable && !body.deleted) return;
   SubStep& s = *sub_step_;
   if (s.groups.empty()) return;
   const Detecting by = detecting(parameters);

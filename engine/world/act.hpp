@@ -1,0 +1,28 @@
+// What somebody does to a body between two frames.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/core/types.hpp"
+
+namespace impinge {
+
+struct Act {
+  enum Verb {
+    pull,     ///< by a damped spring, from now on (bodies/pull.hpp)
+    release,  ///< no longer
+    push,     ///< gives it an impulse
+    move,     ///< puts it elsewhere; its velocities stay
+    remove    ///< it takes no part from now on
+  };
+  Verb verb = pull;
+  std::string body;
+  Vec3 vector = Vec3::Zero();      ///< of pull: where to, world, metres; of push: N·s; of move: by, metres
+  std::optional<Vec3> point = {};  ///< of pull: on the body, its own coordinates; of push: world, none: centre of mass
+  double stiffness = 0.0;          ///< of pull, N/m; 0: by the body's mass
+  Vec3 axis = Vec3::Zero();        ///< of move: what it is turned about, of any length
+  double degrees = 0.0;            ///< and by how much
+};
+
+}  // namespace impinge
