@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/core/parameter.hpp"
+#include "engine/world/act.hpp"
 #include "engine/world/stage_place.hpp"
 #include "viewer/draw/view_settings.hpp"
 #include "viewer/state/tracks.hpp"
@@ -75,6 +76,7 @@ struct DebugModel {
   const Tracks* tracks = nullptr;
   const std::set<int>* changed_frames = nullptr;  ///< with commands by hand
   std::size_t snapshots = 0, snapshot_bytes = 0, most_snapshot_bytes = 0;
+  std::vector<Act> asked;  ///< of bodies by hand, for the next frame
   Selection selection;
   PanelState state;
   std::vector<ConsoleLine> console;
