@@ -60,7 +60,7 @@ class Body {
   double rest_time = 0.0;  ///< seconds in a row below the sleeping speed
   BodyIndex island;        ///< of a sleeping body: the group it fell asleep with, named by its lowest body
 
-  // what somebody did to it (world/act.hpp)
+  // what somebody did to it (step/act.hpp)
   std::optional<Pull> pull;  ///< a force on it until it is let go
   bool deleted = false;      ///< it takes no part any more: a name without a body
 

@@ -29,7 +29,7 @@ BodyRecord record_of(const Body& body) {
   r.file_pose = body.file_pose();
   r.vertices = body.world_vertices;
   r.bounds = body.bounds();
-  const Twist twist = body.twist();
+  const Twist twist = body.deleted ? Twist() : body.twist();
   r.velocity = twist.linear;
   r.angular_velocity = twist.angular;
   r.mass = body.mass;

@@ -7,6 +7,7 @@
 #include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/step/act.hpp"
 #include "engine/step/drive.hpp"
 #include "engine/step/free_velocities.hpp"
 #include "engine/step/integrate.hpp"
@@ -223,6 +224,11 @@ void World::take_results(FrozenStep* frozen) {
   if (!p.sleeping) return;
   sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), push_out_speeds(bodies_, s.groups, s.results),
                    {p.sleep_speed, p.sleep_time, scale_gravity(p.gravity)}, s.time_step);
+}
+
+void World::act(const Act& act) {
+  was_still_ = false;
+  act_on(bodies_, act, parameters.simulation.frame_time, sleeping_, cache_);
 }
 
 void World::parameters_changed() {

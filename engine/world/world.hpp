@@ -54,8 +54,7 @@ class World {
   void step();
   /// The same, and hands out the group systems of the frame's last sub-step, the one that its record shows.
   FrozenStep step_and_freeze();
-  /// Does something to a body that is there, between frames; all but remove want one that has freedom (or had, and is
-  /// deleted: nothing comes of it).
+  /// Does something to a body between frames (step/act.hpp).
   void act(const Act& act);
   /// To be called after parameters were changed between frames: sleeping bodies must feel the change.
   void parameters_changed();
@@ -91,7 +90,6 @@ class World {
   void repeat_still_frame();
   void save_state(ByteWriter& out) const;
   void reached(StepStage stage);
-  void leave_contacts(BodyIndex body);
   std::vector<SolvedContact> solved_contacts() const;
   void publish_solved();
   void publish_found();

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "engine/core/parameter.hpp"
-#include "engine/world/act.hpp"
+#include "engine/step/act.hpp"
 #include "viewer/controller/text_place.hpp"
 
 namespace impinge {

@@ -17,7 +17,7 @@
 #include <variant>
 
 #include "engine/core/parameter.hpp"
-#include "engine/world/act.hpp"
+#include "engine/step/act.hpp"
 #include "viewer/controller/text_place.hpp"
 
 namespace impinge {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/core/parameter.hpp"
-#include "engine/world/act.hpp"
+#include "engine/step/act.hpp"
 #include "engine/world/stage_place.hpp"
 #include "viewer/draw/view_settings.hpp"
 #include "viewer/state/tracks.hpp"

@@ -201,6 +201,34 @@ TEST_CASE("a drag with the mouse pulls the point under it, and its recording doe
   }
 }
 
+TEST_CASE("a drag while it plays is one line for each frame in which the mouse moved, and one change") {
+  const TempFolder folder;
+  folder.write("s.toml", std::string(kRigid) + kSoft + "[view.camera]\neye = [0, 0.6, 6]\ntarget = [0, 0.6, 0]\n");
+  std::string drag = "step 5\nui move 365 195\nui key ctrl down\nui press left\nplay\n";
+  for (int k = 1; k <= 8; ++k) drag += fmt::format("ui move {} {}\nui wait 2\n", 365 + 10 * k, 195 - 8 * k);
+  drag += "ui release left\nui key ctrl up\npause\n";
+  folder.write("a.script", drag);
+  const Outcome outcome = debug(folder, "s.toml", "a.script", {"--record", "made.script"});
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const std::string made = slurp(folder / "made.script");
+  CAPTURE(made);
+  std::istringstream lines(made);
+  int pulls = 0;
+  std::string before;
+  for (std::string line; std::getline(lines, line); before = line) {
+    const bool is_pull = line.starts_with("pull jelly ");
+    pulls += is_pull;
+    CHECK_FALSE((is_pull && before.starts_with("pull ")));
+  }
+  CHECK(pulls == 8);
+  CHECK(made.find("release jelly") != std::string::npos);
+  folder.write("b.script", made);
+  CHECK(debug(folder, "s.toml", "b.script").out == outcome.out);
+  folder.write("a.script", drag + "undo\nseek 40\n");
+  CHECK(end_of(debug(folder, "s.toml", "a.script")) == end_of_run(folder, "", 40));
+}
+
 TEST_CASE("a deleted body is neither seen nor picked, and why, outliner and figures say so") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);

@@ -1,6 +1,6 @@
 // What somebody does to bodies between frames, held against closed forms: the damped oscillator, impulse and momentum, and
 // worlds in which it never was.
-#include "engine/world/act.hpp"
+#include "engine/step/act.hpp"
 
 #include <catch2/catch.hpp>
 

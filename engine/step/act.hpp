@@ -1,4 +1,4 @@
-// What somebody does to a body between two frames.
+// Stage 1 of a frame: what somebody does to a body between two frames.
 #pragma once
 
 #include <optional>
@@ -24,5 +24,13 @@ struct Act {
   Vec3 axis = Vec3::Zero();        ///< of move: what it is turned about, of any length
   double degrees = 0.0;            ///< and by how much
 };
+
+class Bodies;
+class ContactCache;
+class Sleeping;
+
+/// Does it to the body of that name, which is there; all but remove want one that has freedom (or had, and is deleted:
+/// nothing comes of it). Who sleeps and is touched by it wakes.
+void act_on(Bodies& bodies, const Act& act, double frame_time, Sleeping& sleeping, ContactCache& cache);
 
 }  // namespace impinge
