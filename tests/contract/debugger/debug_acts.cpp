@@ -240,7 +240,12 @@ TEST_CASE("a deleted body is neither seen nor picked, and why, outliner and figu
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(changed_pixels(read_png(folder / "a.png"), read_png(folder / "b.png")) > 3000);
-  end_of_run(folder, "at 5 delete crate\n", 8);
+  end_of_run(folder, "at 5 delete crate\n", 8, {"--export", "obj,vtu"});
+  const auto is_there = [&](const std::string& file) { return std::filesystem::exists(folder / ("o/export/" + file)); };
+  CHECK(is_there("crate.000004.obj"));
+  CHECK_FALSE(is_there("crate.000005.obj"));
+  CHECK(is_there("ball.000008.obj"));
+  CHECK(slurp(folder / "o/export/rigid.000004.vtu").size() > slurp(folder / "o/export/rigid.000005.vtu").size());
   std::istringstream stats(slurp(folder / "o/stats.csv"));
   std::string header, line;
   std::getline(stats, header);
