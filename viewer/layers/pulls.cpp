@@ -6,11 +6,14 @@
 
 namespace impinge {
 
-void mark_pull(const Vec3& point, const Vec3& target, double size, double width, PickId pick, DrawList& list) {
+void mark_pull(const Vec3& point, const Vec3& target, const ViewSettings& settings, double scale, PickId pick,
+               DrawList& list) {
+  const auto size = static_cast<float>(scale * settings.point_size),
+             width = static_cast<float>(2.2 * scale * settings.line_width);
   if ((target - point).norm() > 0.0)
-    list.arrows.push_back({point, target - point, role::kPull, 0.0f, static_cast<float>(width), Depth::on_top, pick});
-  list.points.push_back({point, role::kPull, static_cast<float>(size), Depth::on_top, pick});
-  list.points.push_back({point, role::kOutline, static_cast<float>(0.4 * size), Depth::on_top, pick});
+    list.arrows.push_back({point, target - point, role::kPull, 0.0f, width, Depth::on_top, pick});
+  list.points.push_back({point, role::kPull, size, Depth::on_top, pick});
+  list.points.push_back({point, role::kOutline, 0.4f * size, Depth::on_top, pick});
 }
 
 namespace {
@@ -23,8 +26,7 @@ bool has_pulls(const StepRecord& record) {
 void draw(const LayerContext& context, DrawList& list) {
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i)
     if (const auto& pull = context.record.bodies[i].pull)
-      mark_pull(pull->point, pull->target, context.settings.point_size, 2.2 * context.settings.line_width, body_pick(i),
-                list);
+      mark_pull(pull->point, pull->target, context.settings, 1.0, body_pick(i), list);
 }
 
 }  // namespace

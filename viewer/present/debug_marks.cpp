@@ -11,7 +11,8 @@ namespace impinge {
 namespace {
 
 constexpr Color kSelected = hex(0xfff2a8);
-constexpr float kTrailWidth = 1.6f, kAskedSize = 7.0f, kAskedWidth = 1.5f;
+constexpr float kTrailWidth = 1.6f;
+constexpr double kAsked = 0.6;  // of the size of a pull that acts
 
 std::vector<BodyIndex> trailed(const DebugModel& model) {
   std::vector<BodyIndex> bodies = selected_bodies(model);
@@ -67,7 +68,11 @@ void mark_selection(const DebugModel& model, DrawList& list) {
        Depth::on_top});
 }
 
-void mark_asked(const DebugModel& model, DrawList& list) {
+void mark_pulls(const DebugModel& model, DrawList& list) {
+  if (!model.view->is_on("pulls"))  // a hand must see what it does, whatever layers the scene wants
+    for (std::size_t i = 0; i < model.record->bodies.size(); ++i)
+      if (const auto& pull = model.record->bodies[i].pull)
+        mark_pull(pull->point, pull->target, *model.view, 1.0, body_pick(i), list);
   for (const Act& act : model.asked) {
     if (act.verb != Act::pull) continue;
     for (std::size_t i = 0; i < model.record->bodies.size(); ++i) {
@@ -76,7 +81,7 @@ void mark_asked(const DebugModel& model, DrawList& list) {
       const Vec3 point = body.deformable != nullptr
                              ? body.deformable->position_of(body.deformable->own_point(*act.point))
                              : body.file_pose.apply(*act.point);
-      mark_pull(point, act.vector, kAskedSize, kAskedWidth, body_pick(i), list);
+      mark_pull(point, act.vector, *model.view, kAsked, body_pick(i), list);
     }
   }
 }

@@ -61,7 +61,7 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
     scene_.paint(*model.record, settings, [&](DrawList& list) {
       draw_ghost(model, list);
       draw_trails(model, list);
-      mark_asked(model, list);
+      mark_pulls(model, list);
       mark_selection(model, list);
     });
     painted_ = std::move(key);

@@ -62,7 +62,12 @@ std::string words(Random& random) {
                                                   "ghost"};
   if (random.below(3) > 0) return one_of(random, kLines);
   std::string noise;
-  for (int k = 1 + random.below(30); k > 0; --k) noise += static_cast<char>(' ' + random.below(95));
+  for (int k = 1 + random.below(30); k > 0; --k) {
+    const char c = static_cast<char>(' ' + random.below(95));
+    // what a word begins with a script wants closed; typed into the console it may stand anywhere else
+    const bool opens = (noise.empty() || noise.back() == ' ') && (c == '"' || c == '\'' || c == '[');
+    noise += opens ? 'x' : c;
+  }
   return "x" + noise + "x";  // blanks at the ends of a line are nobody's
 }
 
