@@ -4,6 +4,8 @@
 
 namespace impinge {
 
+constexpr std::uint8_t kAsleep = 1, kPulled = 2, kDeleted = 4;  // in a saved state
+
 Aabb Body::bounds() const { return shape->mesh() == nullptr ? shape->bounds(pose) : vertex_bounds_; }
 
 void Body::find_vertex_bounds() {
@@ -55,14 +57,20 @@ void Body::save_frame(ByteWriter& out, const Vec3& velocity, const Vec3& angular
                       const Vec3& angular_velocity) const {
   out.put(pose.position), out.put(pose.rotation);
   out.put(velocity), out.put(angular_momentum), out.put(angular_velocity);
-  out.put(asleep), out.put(rest_time), out.put(island.value());
+  out.put<std::uint8_t>((asleep ? kAsleep : 0) | (pull ? kPulled : 0) | (deleted ? kDeleted : 0));
+  out.put(rest_time), out.put(island.value());
+  if (pull) pull->save(out);
 }
 
 Body::Frame Body::restore_frame(ByteReader& in) {
   pose.position = in.get_vec3(), pose.rotation = in.get_mat3();
   Frame frame;
   frame.velocity = in.get_vec3(), frame.angular_momentum = in.get_vec3(), frame.angular_velocity = in.get_vec3();
-  asleep = in.get<bool>(), rest_time = in.get<double>(), island = BodyIndex(in.get<int>());
+  const auto marks = in.get<std::uint8_t>();
+  asleep = (marks & kAsleep) != 0, deleted = (marks & kDeleted) != 0;
+  rest_time = in.get<double>(), island = BodyIndex(in.get<int>());
+  pull.reset();
+  if ((marks & kPulled) != 0) pull = Pull::restore(in);
   return frame;
 }
 

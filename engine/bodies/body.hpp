@@ -10,7 +10,7 @@
 
 #include "engine/bodies/balance.hpp"
 #include "engine/bodies/body_kind.hpp"
-#include "engine/bodies/material_point.hpp"
+#include "engine/bodies/pull.hpp"
 #include "engine/bodies/system_block.hpp"
 #include "engine/core/index.hpp"
 #include "engine/shapes/shape.hpp"
@@ -59,6 +59,10 @@ class Body {
   bool asleep = false;
   double rest_time = 0.0;  ///< seconds in a row below the sleeping speed
   BodyIndex island;        ///< of a sleeping body: the group it fell asleep with, named by its lowest body
+
+  // what somebody did to it (step/act.hpp)
+  std::optional<Pull> pull;  ///< a force on it until it is let go
+  bool deleted = false;      ///< it takes no part any more: a name without a body
 
   // where it is
   Pose pose;                         ///< of the centre of mass; of a deformable body: the world's frame
@@ -125,6 +129,18 @@ class Body {
   /// The point in or close to it. Throws InputError (without a place) where what moves node by node is too far away.
   virtual MaterialPoint inner_point(const Vec3& world) const;
   virtual Vec3 position_of(const MaterialPoint& point) const { return pose.apply(point.local); }
+
+  /// The point at these coordinates of its own: of a rigid body in the file's axes, from its origin; of what moves node by
+  /// node in its shape at rest, where the nearest point of it is taken.
+  virtual MaterialPoint own_point(const Vec3& own) const { return surface_point({}, file_pose().apply(own)); }
+  virtual Vec3 own_coordinates(const Vec3& world) const { return file_pose().apply_inverse(world); }
+
+  // what somebody does to it between frames; of bodies with freedom
+  /// An impulse, N·s, at the world point (of what moves node by node: the nearest point of it), none: at its centre of
+  /// mass.
+  virtual void push(const Vec3& /*impulse*/, const std::optional<Vec3>& /*at*/) {}
+  /// Puts it elsewhere as it is, and as fast as it is: turned about its centre of mass, then moved by `by`, metres.
+  virtual void shift(const Vec3& /*by*/, const Mat3& /*turn*/) {}
 
   // lines and planes that it carries: as the material round a point moves them
   /// What the normal of a plane through the point is to the material there, of any length; and, later, the unit normal.

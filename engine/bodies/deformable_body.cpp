@@ -120,6 +120,38 @@ void DeformableBody::come_to_rest() {
   center_velocity_.setZero();
 }
 
+void DeformableBody::push(const Vec3& impulse, const std::optional<Vec3>& at) {
+  VecX change = VecX::Zero(dofs());
+  if (at) {
+    for (const auto& [node, weight] : nodes_of(nearest_point(*at, position)))
+      if (!is_held(node)) change.segment<3>(3 * free_index_[node]) += weight * impulse;
+    BlockMatrix m(free_pattern_);
+    for (std::size_t i = 0; i < free_source_.size(); ++i)
+      m.values[i].diagonal().setConstant(fem.block_mass()[free_source_[i]]);
+    const std::unique_ptr<LinearSolver> solver = make_linear_solver("conjugate_gradient");
+    solver->tolerance = 1e-14;
+    solver->analyze(*free_pattern_);
+    const VecX momentum = change;
+    change.setZero();
+    if (solver->factorize(m) == SolveStatus::ok) solver->solve(momentum, change);
+  } else {
+    for (int i = 0; i < free_nodes(); ++i) change.segment<3>(3 * i) = impulse / mass;
+  }
+  VecX all = VecX::Zero(velocity.size());
+  scatter_free(change, all);
+  velocity += all;
+  acceleration_known = false;
+  center_velocity_ = momentum() / mass;
+  interpolate(embedding, fem.rest(), velocity, surface_velocity_);
+}
+
+void DeformableBody::shift(const Vec3& by, const Mat3& turn) {
+  IMPINGE_ASSERT(turn.isIdentity(0.0));
+  for (int i = 0; i < nodes(); ++i) position.segment<3>(3 * i) += by;
+  for (HeldRegion& region : held) region.displacement += by, region.wanted += by;  // what is held is held elsewhere
+  update_world_vertices();
+}
+
 void DeformableBody::save(ByteWriter& out) const {
   save_frame(out, center_velocity_, Vec3::Zero(), Vec3::Zero());
   out.put(acceleration_known);

@@ -74,9 +74,9 @@ class DeformableBody final : public Body {
 
   // as a body
   BodyKind kind() const override { return BodyKind::deformable; }
-  bool has_freedom() const override { return true; }
-  bool is_moving() const override { return !asleep; }
-  bool can_touch_itself() const override { return self_collision; }
+  bool has_freedom() const override { return !deleted; }
+  bool is_moving() const override { return !asleep && !deleted; }
+  bool can_touch_itself() const override { return self_collision && !deleted; }
   Twist twist() const override { return {center_velocity_, Vec3::Zero()}; }
   std::span<const Vec3> vertex_velocities() const override { return surface_velocity_; }
   double fastest_point() const override;
@@ -110,6 +110,15 @@ class DeformableBody final : public Body {
   Vec3 world_normal(const MaterialPoint& point, const Vec3& material) const override;
   MaterialPoint point_beside(const MaterialPoint& point, const Vec3& world) const override;
 
+  MaterialPoint own_point(const Vec3& own) const override;
+  Vec3 own_coordinates(const Vec3& world) const override;
+  /// Nodes and weights of a point within a tetrahedron.
+  std::array<NodeWeight, 4> nodes_of(const MaterialPoint& point) const;
+
+  void push(const Vec3& impulse, const std::optional<Vec3>& at) override;
+  /// The nodes keep their velocities, so it can't be turned.
+  void shift(const Vec3& by, const Mat3& turn) override;
+
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
 
@@ -128,6 +137,7 @@ class DeformableBody final : public Body {
   void choose_solvers(const LinearSolverChoice& wanted);
   void check_solved() const;
   void find_displacement_velocity();
+  MaterialPoint nearest_point(const Vec3& world, const VecX& nodes) const;
   std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
   Mat3 edges_of(int tet) const;
 

@@ -93,8 +93,8 @@ void DeformableBody::change_velocity(const BodyVector& change) {
 void DeformableBody::advance(const TimeIntegration& how, double /*end*/) {
   how.integrator.advance(*this, step_, step_.v_star);
   // Newmark's accelerations are those of the elastic forces alone: contact acts at the end of the step [Kane99], or a
-  // body that lands would bounce back with the speed it came with
-  if (touched_) acceleration_known = false;
+  // body that lands would bounce back with the speed it came with; and so does a pull
+  if (touched_ || pull) acceleration_known = false;
   center_velocity_ = momentum() / mass;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/bodies/rigid_motion.hpp"
 #include "engine/bodies/time_integration.hpp"
 #include "engine/core/error.hpp"
+#include "engine/geometry/rotation.hpp"
 
 namespace impinge {
 
@@ -14,7 +15,10 @@ void RigidBody::set_inertia(const Mat3& about_center) {
   inertia_inverse = principal.inverse();
 }
 
-void RigidBody::find_free_velocity(const TimeIntegration& how) { apply_gravity(*this, how.gravity, how.time_step); }
+void RigidBody::find_free_velocity(const TimeIntegration& how) {
+  apply_gravity(*this, how.gravity, how.time_step);
+  if (pull) apply_pull(*this, *pull, how.time_step);
+}
 
 SystemBlock RigidBody::system_block() const {
   return RigidBlock{1.0 / mass, world_inertia_inverse(), velocity, angular_velocity()};
@@ -64,6 +68,18 @@ void RigidBody::check_finite() const {
 void RigidBody::come_to_rest() {
   velocity.setZero();
   angular_momentum.setZero();
+}
+
+void RigidBody::push(const Vec3& impulse, const std::optional<Vec3>& at) {
+  velocity += impulse / mass;
+  if (at) angular_momentum += (*at - pose.position).cross(impulse);
+}
+
+void RigidBody::shift(const Vec3& by, const Mat3& turn) {
+  const Vec3 w = angular_velocity();
+  pose.position += by;
+  pose.rotation = orthonormalized(turn * pose.rotation);
+  angular_momentum = world_inertia() * w;
 }
 
 Balance RigidBody::balance(const Vec3& gravity) {

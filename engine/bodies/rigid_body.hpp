@@ -23,8 +23,8 @@ class RigidBody final : public Body {
   Vec3 angular_velocity() const { return world_inertia_inverse() * angular_momentum; }
 
   BodyKind kind() const override { return BodyKind::dynamic; }
-  bool has_freedom() const override { return true; }
-  bool is_moving() const override { return !asleep; }
+  bool has_freedom() const override { return !deleted; }
+  bool is_moving() const override { return !asleep && !deleted; }
   int dofs() const override { return 6; }
   Twist twist() const override { return {velocity, angular_velocity()}; }
   double fastest_point() const override { return velocity.norm() + angular_velocity().norm() * radius; }
@@ -38,6 +38,9 @@ class RigidBody final : public Body {
   void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;
+
+  void push(const Vec3& impulse, const std::optional<Vec3>& at) override;
+  void shift(const Vec3& by, const Mat3& turn) override;
 
   Balance balance(const Vec3& gravity) override;
   void save(ByteWriter& out) const override { save_frame(out, velocity, angular_momentum, Vec3::Zero()); }

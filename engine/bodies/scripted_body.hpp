@@ -11,7 +11,7 @@ class ScriptedBody final : public Body {
   Motion motion;
 
   BodyKind kind() const override { return BodyKind::scripted; }
-  bool is_moving() const override { return !driven_.is_zero(); }
+  bool is_moving() const override { return !deleted && !driven_.is_zero(); }
   Twist twist() const override { return driven_; }
   void place(double time) override;
   /// From pose(t) to pose(t + h): the velocity that does so exactly.

@@ -39,7 +39,12 @@ std::vector<CollisionGroup> find_groups(const Bodies& bodies, const ContactList&
   std::vector<std::pair<BodyIndex, BodyIndex>> ends;
   for (const Collision& c : contacts.collisions) ends.emplace_back(c.body_a, c.body_b);
   const auto awake = [&](BodyIndex b) { return !b.is_none() && bodies[b].has_freedom() && !bodies[b].asleep; };
+  const auto is_deleted = [&](BodyIndex b) { return !b.is_none() && bodies[b].deleted; };
   for (const Attachment& a : contacts.attachments) {
+    if (is_deleted(a.a.body) || is_deleted(a.b.body)) {
+      ends.emplace_back();
+      continue;
+    }
     const BodyIndex first = awake(a.a.body) ? a.a.body : a.b.body;
     if (awake(first))
       ends.emplace_back(first, first == a.a.body && !a.b.body.is_none() ? a.b.body : first);

@@ -2,6 +2,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
 
@@ -76,8 +77,10 @@ void OneStepScheme::linearize(DeformableBody& body, const VecX& v, DeformableSte
   body.fem.stiffness(step.position(all), Tangent::projected, force, step.tangent);
   body.fem.multiply_mass(all - step.v_hat, g);
   g += step.tau * (damping_force(body, step, all) - force - applied_force(body, step.gravity));
+  add_pull(body, step, all, -1.0, g);
   const RayleighDamping& d = body.damping;
   fill_system(body, 1.0 + step.tau * d.alpha, step.tau * d.beta, step.tau * step.s, &step.tangent, step);
+  add_pull_to_system(body, step);
   step.b = step.a * v - body.gather_free(g);
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
+#include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
 namespace {
@@ -24,7 +25,7 @@ class IncrementalPotential {
     body_.fem.multiply_mass(difference, inertia);
     return 0.5 * dot(difference, inertia) +
            step_.tau * (0.5 * dot(v, damping_force(body_, step_, v)) - dot(applied_, v)) +
-           step_.tau / step_.s * elastic;
+           step_.tau / step_.s * elastic + pull_potential(body_, step_, v);
   }
   double value(const VecX& v) const { return value(v, body_.fem.energy(step_.position(v))); }
 
@@ -34,9 +35,11 @@ class IncrementalPotential {
     body_.fem.multiply_mass(v - step_.v_hat, inertia);
     body_.fem.multiply_mass(step_.v_hat, momentum);
     const VecX damping = damping_force(body_, step_, v);
+    VecX g = inertia + step_.tau * (damping - elastic_force - applied_);
+    const Vec3 pulled = add_pull(body_, step_, v, -1.0, g);
     size = std::max({momentum.norm(), inertia.norm(), step_.tau * damping.norm(), step_.tau * elastic_force.norm(),
-                     step_.tau * applied_.norm()});
-    return inertia + step_.tau * (damping - elastic_force - applied_);
+                     step_.tau * applied_.norm(), pulled.norm()});
+    return g;
   }
 
  private:
@@ -65,6 +68,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
 
     const RayleighDamping& d = body.damping;
     fill_system(body, 1.0 + step.tau * d.alpha, step.tau * d.beta, step.tau * step.s, &k, step);
+    add_pull_to_system(body, step);
     const VecX v_free = body.gather_free(v);
     step.b = step.a * v_free - g;
     // forces are sums of products of stiffness and position, so they can't be told from zero below their rounding

@@ -2,6 +2,7 @@
 //   A v = b,  A = M − Δt ∂f/∂v − Δt² ∂f/∂q,  b = Δt f(q₀, v₀) + (M − Δt ∂f/∂v) v₀.
 // With Rayleigh damping ∂f/∂v = −D and f(q₀, v₀) = f(q₀) − D v₀, so D v₀ cancels: b = M v₀ + Δt (f(q₀) + f_ext).
 #include "engine/integrators/deformable_integrator.hpp"
+#include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
 namespace {
@@ -22,9 +23,11 @@ class LinearlyImplicitEuler : public OneStepScheme {
     const RayleighDamping& d = body.damping;
     const double mass = 1.0 + h * d.alpha, stiffness = h * (d.beta + h);
     fill_system(body, mass, stiffness, 0.0, nullptr, step);
+    add_pull_to_system(body, step);
     VecX b;
     body.fem.multiply_mass(step.v_hat, b);
     b += h * (step.force + applied_force(body, step.gravity));
+    add_pull(body, step, body.held_velocity(), 1.0, b);
     if (!body.held_velocity().isZero(0.0)) {
       // columns of the held nodes, whose velocity is known
       VecX part;

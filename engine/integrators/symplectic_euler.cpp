@@ -1,6 +1,7 @@
 // Symplectic Euler, the explicit baseline: M v = M v₀ + h (f(x₀) + f_ext − D v₀), x = x₀ + h v. A = M, so contact is
 // cheap; stable only for h < 2/ω_max, ω_max the highest frequency of the mesh (its smallest, stiffest tetrahedron).
 #include "engine/integrators/deformable_integrator.hpp"
+#include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
 namespace {
@@ -20,6 +21,7 @@ class SymplecticEuler : public OneStepScheme {
     VecX b;
     body.fem.multiply_mass(step.v_hat - body.held_velocity(), b);
     b += step.time_step * (step.force + applied_force(body, step.gravity) - damping_force(body, step, step.v_hat));
+    add_limited_pull(body, step, b);
     step.b = body.gather_free(b);
   }
 

@@ -11,6 +11,7 @@ namespace impinge {
 
 /// Whether the pair can give a contact that anything responds to.
 inline bool may_respond(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  if (bodies[a].deleted || bodies[b].deleted) return false;
   return (bodies[a].has_freedom() || bodies[b].has_freedom()) && (bodies[a].is_moving() || bodies[b].is_moving()) &&
          !bodies.never_touch(a, b);
 }

@@ -91,7 +91,7 @@ bool wins_energy(const Bodies& bodies, const SubStep& step) {
 
 bool has_rebounds(const Bodies& bodies, const ContactSettings& settings) {
   for (const Body& b : bodies)
-    if (is_worth_a_cut(b.restitution.value_or(settings.restitution))) return true;
+    if (!b.deleted && is_worth_a_cut(b.restitution.value_or(settings.restitution))) return true;
   return false;
 }
 

@@ -57,7 +57,7 @@ void change_velocities(Bodies& bodies, const SubStep& step) {
 void integrate(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {
   const double end = step.time + step.time_step;
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
-    if (!body.asleep) naming_group(step, b, [&] { body.advance(how, end); });
+    if (!body.asleep && !body.deleted) naming_group(step, b, [&] { body.advance(how, end); });
   });
   displace(bodies, step);
   for_each_body(bodies, [&](BodyIndex b, Body& body) {

@@ -202,7 +202,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   for (BodyIndex b(0); b < bodies.size(); ++b) {
     sweeps.push_back(sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]));
     far.push_back(way_of(sweeps.back()));
-    if (!is_plane(bodies[b])) least = std::min(least, safe_approach(bodies[b]));
+    if (!is_plane(bodies[b]) && !bodies[b].deleted) least = std::min(least, safe_approach(bodies[b]));
   }
   // a pair approaches by no more than the two that move farthest: most scenes are done here
   const auto two = far.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(far.size()));
@@ -212,7 +212,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   add_self(bodies, which, pairs);
   const bool all = which == Continuous::on;
   bool all_rigid = true;
-  for (const Body& body : bodies) all_rigid = all_rigid && !deforms(body);
+  for (const Body& body : bodies) all_rigid = all_rigid && (!deforms(body) || body.deleted);
   const double seen = which == Continuous::off ? 1.0 : is_rough && all_rigid ? kRough : kSeen;
   if (most == 0.0 || (!all && most <= seen * least)) return pairs;
 

@@ -95,7 +95,7 @@ void SecondLook::find_dropped() {
 bool SecondLook::is_anyone_driven() const {
   double first = 0.0, second = 0.0, least = INFINITY;
   for (BodyIndex b(0); b < bodies_.size(); ++b) {
-    if (!is_rigid(bodies_[b]) || bodies_[b].asleep) continue;
+    if (!is_rigid(bodies_[b]) || bodies_[b].asleep || bodies_[b].deleted) continue;
     const double way = step_.time_step * (changes_[b].linear.norm() + changes_[b].angular.norm() * bodies_[b].radius);
     second = std::max(second, std::min(first, way));
     first = std::max(first, way);

@@ -14,7 +14,7 @@ void Sleeping::update(Bodies& bodies, std::span<const CollisionGroup> groups, st
     if (!body.has_freedom() || body.asleep) continue;
     const double slow = rest.speed.at(speed_scale(rest.gravity, body.size));
     const double fastest = std::max(body.fastest_point(), pushed[static_cast<std::size_t>(b.value())]);
-    body.rest_time = fastest <= slow ? body.rest_time + time_step : 0.0;
+    body.rest_time = fastest <= slow && !body.pull ? body.rest_time + time_step : 0.0;
   }
   for (const CollisionGroup& group : groups) {
     if (group.contacts.empty()) continue;
@@ -43,6 +43,11 @@ bool Sleeping::wake_island(Bodies& bodies, BodyIndex island) {
     woke = true;
   }
   return woke;
+}
+
+void Sleeping::wake(Bodies& bodies, BodyIndex body) {
+  bodies[body].rest_time = 0.0;
+  wake_touched(bodies, std::array{BodyEnds(body, body)});
 }
 
 bool Sleeping::wake_touched(Bodies& bodies, std::span<const BodyEnds> touching) {

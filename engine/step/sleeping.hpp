@@ -26,9 +26,11 @@ class Sleeping {
  public:
   /// Counts resting time and puts groups to sleep in which every body has rested long enough. `supports` are the
   /// (dynamic body, scripted body) contacts of this sub-step: who moves wakes what rests on it. A body that touches
-  /// nothing never sleeps, nor does one that is being pushed out of another: `pushed`, by body, is how fast, m/s.
+  /// nothing never sleeps, nor does one that is pulled, or being pushed out of another: `pushed`, by body, is how fast, m/s.
   void update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
               std::span<const double> pushed, const RestThresholds& rest, double time_step);
+  /// Wakes the body, with its island if it sleeps.
+  void wake(Bodies& bodies, BodyIndex body);
   /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
   bool wake_touched(Bodies& bodies, std::span<const BodyEnds> touching);
   bool wake_moved_supports(Bodies& bodies);

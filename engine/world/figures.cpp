@@ -16,7 +16,7 @@ constexpr Figure kFigures[] = {
     {"frame", "", state, &S::frame, "Number of the frame; 0 is the state as loaded."},
     {"time_s", "s", state, &S::time, "Time at the end of the frame."},
     {"substeps", "", state, &S::substeps, "Sub-steps of the frame."},
-    {"bodies", "", state, &S::bodies, "Bodies of the scene."},
+    {"bodies", "", state, &S::bodies, "Bodies of the scene that are not deleted."},
     {"dofs", "", state, &S::dofs, "Degrees of freedom without constraints, sleeping bodies included."},
     {"broad_pairs", "", state, &S::broad_pairs, "Pairs of bodies that the broad phase let through, last sub-step."},
     {"triangle_pairs", "", state, &S::triangle_pairs, "Pairs of triangles that meet or are near, last sub-step."},

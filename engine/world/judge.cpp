@@ -163,6 +163,7 @@ OverlapVerdict judge_overlap(const Bodies& bodies) {
   OverlapVerdict verdict;
   for (BodyIndex i(0); i < bodies.size(); ++i)
     for (BodyIndex j(i + 1); j < bodies.size(); ++j) {
+      if (bodies[i].deleted || bodies[j].deleted) continue;
       if ((!bodies[i].has_freedom() && !bodies[j].has_freedom()) || bodies.never_touch(i, j)) continue;
       for (const Solid& a : solids[i])
         for (const Solid& b : solids[j]) {

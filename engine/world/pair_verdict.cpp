@@ -93,6 +93,8 @@ class Report {
   std::string kinds(const Body& body) const { return fmt::format("'{}' is {}", body.name, kind_name(body.kind())); }
 
   void kind() {
+    for (const Body* body : {&a_, &b_})
+      if (body->deleted) return add("kind", false, fmt::format("'{}' is deleted", body->name));
     if (is_self_) {
       const bool is_soft = a_.kind() == BodyKind::deformable;
       return add("kind", is_soft, kinds(a_) + (is_soft ? "" : ": what doesn't deform can't meet itself"));

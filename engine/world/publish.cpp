@@ -136,7 +136,10 @@ void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats,
   for (const GroupResult& result : s.results)
     for (std::size_t i = 0; i < result.contacts.size(); ++i)
       if (list.collision(result.contacts[i]) == nullptr)
-        record.attachments[list.attachment(result.contacts[i]).number].impulse += result.impulses[i].impulse;
+        std::lower_bound(record.attachments.begin(), record.attachments.end(),
+                         list.attachment(result.contacts[i]).number,
+                         [](const AttachmentRecord& a, int number) { return a.number < number; })
+            ->impulse += result.impulses[i].impulse;
   record.gravity = parameters.simulation.gravity;
   record.frame_time = parameters.simulation.frame_time;
 
@@ -146,10 +149,11 @@ void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats,
   stats.frame = frame_;
   stats.time = time_;
   stats.substeps = parameters.simulation.substeps;
-  stats.bodies = bodies_.size();
-  stats.dofs = stats.asleep = 0;
+  stats.bodies = stats.dofs = stats.asleep = 0;
   Balance balance;
   for (Body& body : bodies_) {
+    if (body.deleted) continue;
+    ++stats.bodies;
     stats.dofs += body.dofs();
     stats.asleep += body.asleep ? 1 : 0;
     balance += body.balance(parameters.simulation.gravity);

@@ -29,22 +29,26 @@ BodyRecord record_of(const Body& body) {
   r.file_pose = body.file_pose();
   r.vertices = body.world_vertices;
   r.bounds = body.bounds();
-  const Twist twist = body.twist();
+  const Twist twist = body.deleted ? Twist() : body.twist();
   r.velocity = twist.linear;
   r.angular_velocity = twist.angular;
   r.mass = body.mass;
   r.deformable = body.as<DeformableBody>();
   r.asleep = body.asleep;
+  r.deleted = body.deleted;
+  if (body.pull) r.pull = {body.position_of(body.pull->point), body.pull->target};
   return r;
 }
 
 void show_attachments(std::span<const Attachment> attachments, const Bodies& bodies, StepRecord& record) {
   record.attachments.clear();
+  const auto is_deleted = [&](BodyIndex b) { return !b.is_none() && bodies[b].deleted; };
   for (const Attachment& a : attachments) {
-    if (a.number < static_cast<int>(record.attachments.size())) continue;  // the other normal of a line
+    if (!record.attachments.empty() && a.number == record.attachments.back().number) continue;  // a line's other normal
+    if (is_deleted(a.a.body) || is_deleted(a.b.body)) continue;
     const AttachmentHold hold = hold_of(a, bodies);
     record.attachments.push_back(
-        {a.name, a.a.body, a.b.body, hold.point_a, hold.point_b, Vec3::Zero(), a.kind, hold.axis});
+        {a.name, a.a.body, a.b.body, hold.point_a, hold.point_b, Vec3::Zero(), a.kind, hold.axis, a.number});
   }
 }
 

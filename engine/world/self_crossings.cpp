@@ -126,7 +126,7 @@ class SelfSearch {
 std::int64_t count_self_crossings(const Bodies& bodies, CrossingsOf which) {
   std::int64_t count = 0;
   for (const Body& body : bodies) {
-    if (body.kind() != BodyKind::deformable || body.shape->mesh() == nullptr) continue;
+    if (body.deleted || body.kind() != BodyKind::deformable || body.shape->mesh() == nullptr) continue;
     if (which == CrossingsOf::self_colliding && !body.can_touch_itself()) continue;
     check_interrupt();
     count += SelfSearch(*body.shape->mesh(), body.world_vertices, body.exempt_pairs.get()).count();

@@ -120,8 +120,8 @@ class Writer {
     s.frame = world_.frame();
     s.time = step_.time;
     s.substeps = world_.parameters.simulation.substeps;
-    s.bodies = bodies_.size();
-    for (const Body& body : bodies_) s.dofs += body.dofs(), s.asleep += body.asleep ? 1 : 0;
+    for (const Body& body : bodies_)
+      if (!body.deleted) ++s.bodies, s.dofs += body.dofs(), s.asleep += body.asleep ? 1 : 0;
     s.broad_pairs = std::ssize(r_.broad_pairs);
     s.triangle_pairs = std::ssize(r_.triangle_pairs);
     s.contacts = std::ssize(r_.contacts);

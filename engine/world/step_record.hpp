@@ -26,7 +26,12 @@ struct BodyRecord {
   Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
   double mass = 0.0;  ///< kg; 0 for static and scripted
   bool asleep = false;
-  GroupIndex group;  ///< of the last sub-step; none: nothing touches it
+  bool deleted = false;  ///< takes no part, and is not drawn
+  struct Pulled {
+    Vec3 point, target;  ///< metres
+  };
+  std::optional<Pulled> pull;  ///< by a hand
+  GroupIndex group;            ///< of the last sub-step; none: nothing touches it
   /// of a deformable body: its tetrahedra, nodes, held nodes, embedding; its pose is its centre's
   const DeformableBody* deformable = nullptr;
 };
@@ -52,6 +57,7 @@ struct AttachmentRecord {
   Vec3 impulse = Vec3::Zero();  ///< on A, in the last sub-step, N·s
   AttachmentKind kind = AttachmentKind::point;
   Vec3 axis = Vec3::Zero();  ///< of a slide: unit, along the line, or the normal of the plane or surface at point_b
+  int number = 0;            ///< in the scene's order
   /// How far A's point is from where it is held, metres.
   double error() const { return (point_a - point_b).norm(); }
 };

@@ -14,6 +14,7 @@ namespace {
 
 /// Whether the body is driven in the coming frame, or may be.
 bool is_driven(const Body& body, double time) {
+  if (body.deleted) return false;
   switch (body.kind()) {
     case BodyKind::scripted: {
       const Motion& motion = body.as<ScriptedBody>()->motion;

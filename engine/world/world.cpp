@@ -7,6 +7,7 @@
 #include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/step/act.hpp"
 #include "engine/step/drive.hpp"
 #include "engine/step/free_velocities.hpp"
 #include "engine/step/integrate.hpp"
@@ -56,7 +57,7 @@ void World::find_at_start() {
   unsafe_.clear();
   const double h = parameters.simulation.time_step();
   for (Body& body : bodies_)
-    if (!body.has_freedom()) body.drive(time_, h, 1.0);
+    if (!body.has_freedom() && !body.deleted) body.drive(time_, h, 1.0);
   sub_step_->time = time_, sub_step_->time_step = h;
   detect(bodies_, attachments_, detecting(parameters), time_integration(parameters), sleeping_, *sub_step_,
          stats_.times);
@@ -186,7 +187,7 @@ void World::look_again(const Solving& how) {
   // Newton schemes have taken A and b of their bodies where the first answer led
   if (how.integrator.newton() != nullptr)
     for (const Body& body : bodies_)
-      if (body.kind() == BodyKind::deformable) return;
+      if (body.kind() == BodyKind::deformable && !body.deleted) return;
   SubStep& s = *sub_step_;
   if (s.groups.empty()) return;
   const Detecting by = detecting(parameters);
@@ -223,6 +224,11 @@ void World::take_results(FrozenStep* frozen) {
   if (!p.sleeping) return;
   sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), push_out_speeds(bodies_, s.groups, s.results),
                    {p.sleep_speed, p.sleep_time, scale_gravity(p.gravity)}, s.time_step);
+}
+
+void World::act(const Act& act) {
+  was_still_ = false;
+  act_on(bodies_, act, parameters.simulation.frame_time, sleeping_, cache_);
 }
 
 void World::parameters_changed() {

@@ -20,6 +20,7 @@ class ByteWriter;
 struct FrozenStep;
 class StepWatcher;
 
+struct Act;
 struct Solving;
 enum class StepStage : std::uint8_t;
 
@@ -53,6 +54,8 @@ class World {
   void step();
   /// The same, and hands out the group systems of the frame's last sub-step, the one that its record shows.
   FrozenStep step_and_freeze();
+  /// Does something to a body between frames (step/act.hpp).
+  void act(const Act& act);
   /// To be called after parameters were changed between frames: sleeping bodies must feel the change.
   void parameters_changed();
 

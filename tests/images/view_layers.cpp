@@ -41,17 +41,20 @@ TEST_CASE("layers have distinct names and each says what it draws", "[methods]")
     CHECK(names.insert(layer.name).second);
     CHECK_FALSE(layer.doc.empty());
   }
-  for (const char* name : {"meshes",         "wireframe",      "aabbs",       "contacts",   "normals",
-                           "contact_forces", "gaps",           "stress",      "strain",     "tetrahedra",
-                           "fixed_nodes",    "embedding",      "attachments", "velocities", "mass_centers",
-                           "broad_pairs",    "triangle_pairs", "groups",      "labels",     "heat"})
+  for (const char* name :
+       {"meshes",       "wireframe",   "aabbs",          "contacts",    "normals",   "contact_forces", "gaps",
+        "stress",       "strain",      "tetrahedra",     "fixed_nodes", "embedding", "attachments",    "velocities",
+        "mass_centers", "broad_pairs", "triangle_pairs", "groups",      "labels",    "heat",           "pulls"})
     CHECK(names.count(name) == 1);
 }
 
 TEST_CASE("every layer changes the picture, and no two in the same way", "[methods]") {
-  // of rigid bodies beside one of deformable ones
-  const auto both = [](const std::vector<std::string>& names) {
-    Image image = painted(sample_record(), settings_with(names)), soft = painted(soft_record(), settings_with(names));
+  // of rigid bodies, of which one is pulled, beside one of deformable ones
+  StepRecord rigid = sample_record();
+  BodyRecord& last = rigid.bodies.back();
+  last.pull = {last.pose.position, last.pose.position + Vec3(0.3, 0.5, 0)};
+  const auto both = [&](const std::vector<std::string>& names) {
+    Image image = painted(rigid, settings_with(names)), soft = painted(soft_record(), settings_with(names));
     image.rgb.insert(image.rgb.end(), soft.rgb.begin(), soft.rgb.end());
     image.height *= 2;
     return image;

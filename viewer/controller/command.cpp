@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "engine/core/error.hpp"
+#include "viewer/controller/act_command.hpp"
 
 namespace impinge {
 
@@ -36,12 +37,6 @@ bool names_bodies(const std::string& path) {
 
 std::string remedy(const std::string& near, const char* otherwise) {
   return near.empty() ? otherwise : fmt::format("did you mean '{}'?", near);
-}
-
-void check_body(const PlacedText& word, std::string_view name, const std::vector<std::string>& bodies) {
-  if (std::find(bodies.begin(), bodies.end(), name) != bodies.end()) return;
-  word.refuse(fmt::format("unknown body '{}'", name), fmt::format("bodies: {}", some_of(bodies)),
-              remedy(nearest_word(name, bodies), "use one of them"));
 }
 
 void check_bodies(const PlacedText& word, const ParameterValue& value, const ParameterSet& rows) {
@@ -175,14 +170,22 @@ struct Formatter {
       return fmt::format("{} {}", kBodyVerbs[c.verb], c.verb == BodiesCommand::follow ? "none" : "all");
     return fmt::format("{} {}", kBodyVerbs[c.verb], fmt::join(c.names, " "));
   }
+  std::string operator()(const Act& act) const { return format_act(act); }
 };
 
 }  // namespace
+
+void check_body(const PlacedText& word, std::string_view name, const std::vector<std::string>& bodies) {
+  if (std::find(bodies.begin(), bodies.end(), name) != bodies.end()) return;
+  word.refuse(fmt::format("unknown body '{}'", name), fmt::format("bodies: {}", some_of(bodies)),
+              remedy(nearest_word(name, bodies), "use one of them"));
+}
 
 const std::vector<std::string>& command_verbs() {
   static const std::vector<std::string> verbs = [] {
     std::vector<std::string> all = {"set", "layer", "camera"};
     all.insert(all.end(), std::begin(kBodyVerbs), std::end(kBodyVerbs));
+    all.insert(all.end(), act_verbs().begin(), act_verbs().end());
     return all;
   }();
   return verbs;
@@ -225,6 +228,8 @@ std::vector<Command> parse_command(std::span<const PlacedText> words, const Para
   if (verb.text == "camera") return {parse_camera(words)};
   if (std::find(std::begin(kBodyVerbs), std::end(kBodyVerbs), verb.text) != std::end(kBodyVerbs))
     return {parse_bodies(words, rows)};
+  if (std::find(act_verbs().begin(), act_verbs().end(), verb.text) != act_verbs().end())
+    return {parse_act(words, rows)};
   verb.refuse(fmt::format("unknown command '{}'", verb.text),
               fmt::format("allowed: {}", fmt::join(command_verbs(), ", ")),
               remedy(nearest_word(verb.text, command_verbs()), "use one of them"));

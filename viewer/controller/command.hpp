@@ -7,12 +7,17 @@
 //   lock NAME... | unlock NAME...|all                       bodies that a click goes through
 //   frame NAME...                                           the camera looks at them, near enough to fill the view
 //   follow NAME|none                                        the camera goes along with a body
+//   pull BODY X Y Z to X Y Z [stiffness K] | release BODY   a spring from a point of it to a place
+//   push BODY JX JY JZ [at X Y Z]                           an impulse
+//   move BODY DX DY DZ [turn AX AY AZ DEGREES]              puts it elsewhere
+//   delete BODY                                             it takes no part any more
 #pragma once
 
 #include <span>
 #include <variant>
 
 #include "engine/core/parameter.hpp"
+#include "engine/step/act.hpp"
 #include "viewer/controller/text_place.hpp"
 
 namespace impinge {
@@ -34,12 +39,15 @@ struct BodiesCommand {
   Verb verb = hide;
   std::vector<std::string> names;  ///< none: all; of follow: no body
 };
-using Command = std::variant<SetCommand, LayerCommand, CameraCommand, BodiesCommand>;
+using Command = std::variant<SetCommand, LayerCommand, CameraCommand, BodiesCommand, Act>;
 
 /// The words that commands begin with.
 const std::vector<std::string>& command_verbs();
 /// The bodies' names: those that have rows.
 std::vector<std::string> body_names(const ParameterSet& rows);
+
+/// Refuses at the word a name that no body has.
+void check_body(const PlacedText& word, std::string_view name, const std::vector<std::string>& bodies);
 
 /// Reads a command from the words of a line and checks every name and value against the rows: one, but for a former path
 /// that stands for several parameters. Throws InputError at the word that is wrong. `first_frame`: the command takes

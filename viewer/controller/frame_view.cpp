@@ -31,7 +31,8 @@ Aabb bounds_of(const StepRecord& record, const BodySet& hidden) {
 Aabb bounds_of(const StepRecord& record, const std::vector<std::string>& names) {
   Aabb box;
   for (const BodyRecord& body : record.bodies)
-    if (body.shape->as<Plane>() == nullptr && std::find(names.begin(), names.end(), body.name) != names.end())
+    if (!body.deleted && body.shape->as<Plane>() == nullptr &&
+        std::find(names.begin(), names.end(), body.name) != names.end())
       box.include(body.bounds);
   return box;
 }
@@ -88,7 +89,7 @@ void FrameView::move_camera(const CameraCommand& command, const StepRecord& reco
       camera.fov_deg = command.value.x();
       break;
     case CameraCommand::fit:
-      fit(bounds_of(record, BodySet(record, settings_.hidden)), record);
+      fit(bounds_of(record, not_drawn(record, settings_)), record);
       break;
   }
   settings_.camera_given = true;

@@ -168,6 +168,8 @@ void Session::apply(const Command& command) {
     row.set(names);
   } else if (const auto* camera = std::get_if<CameraCommand>(&command)) {
     view_.move_camera(*camera, world_.record());
+  } else if (const auto* act = std::get_if<Act>(&command)) {
+    world_.act(*act);
   } else {
     view_.show(std::get<BodiesCommand>(command), world_.record());
   }

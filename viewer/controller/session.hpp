@@ -36,7 +36,8 @@ class Session {
   /// `frozen`, if given, gets the frame's last sub-step; frame 0 has none. Throws DivergenceError.
   std::vector<Command> advance(FrozenStep* frozen = nullptr);
 
-  /// Applies a command between frames, as if the script had it for the next one. Frame 0 must have been made.
+  /// Applies a command between frames, as if the script had it for the next one. Frame 0 must have been made. The record
+  /// stays that of the frame; what was done to a body shows in the next.
   void change(const Command& command);
 
   /// The last frame to make when nobody says otherwise: a run.toml's, or the larger of 240 and the script's last.

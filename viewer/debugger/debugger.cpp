@@ -105,11 +105,9 @@ bool Debugger::advance() {
     note_frame();
     return true;
   }
+  if (!do_by_hand(next)) return false;
   if (looks) breaks_.forget_begun();
   const WatchScope watch(session_, looks ? &breaks_ : nullptr);
-  // again where they were applied already: a value set twice is the same value
-  if (const auto it = by_hand_.find(next); it != by_hand_.end())
-    for (const Command& command : it->second) session_.change(command);
   try {
     if (!session_.advance().empty()) changed_frames_.insert(next);
   } catch (const Interrupted&) {
@@ -344,7 +342,7 @@ void Debugger::record(const std::string& line) {
       word_of(recorded_.back(), 1) == word_of(line, 1)) {
     const std::string what = verb == "panel" ? word_of(line, 1) : "";
     if (verb == "set") edits_.merge_last();
-    if (verb == "set" || what == "filter" || what == "search" ||
+    if (verb == "set" || verb == "pull" || what == "filter" || what == "search" ||
         (what == "scroll" && word_of(recorded_.back(), 2) == word_of(line, 2)))
       return replace_recorded(line);
   }
@@ -414,6 +412,10 @@ const DebugModel& Debugger::model() {
   model_.known_last = static_cast<int>(hashes_.size()) - 1;
   model_.playing = playing_;
   model_.figure_names = &figure_names(session_.is_judged());
+  model_.asked.clear();
+  if (const auto it = by_hand_.find(session_.frame() + 1); it != by_hand_.end() && !within_)
+    for (const Command& command : it->second)
+      if (const auto* act = std::get_if<Act>(&command)) model_.asked.push_back(*act);
   model_.history = &history_;
   model_.tracks = &tracks_;
   model_.against = against_ ? &against_->model() : nullptr;

@@ -93,6 +93,8 @@ class Debugger {
   void exchange(Future& future);
   void find(const FindLine& line);
   void why(const WhyLine& line);
+  bool do_by_hand(int frame);
+  void show_by_hand();
   bool advance();
   void jump(int frame);
   void seek(int frame);

@@ -30,11 +30,56 @@ bool is_look(const Command& command) {
   return std::holds_alternative<CameraCommand>(command) || (bodies != nullptr && bodies->verb == BodiesCommand::frame);
 }
 
+bool is_act(const Command& command) { return std::holds_alternative<Act>(command); }
+
+/// Takes out what the new one makes idle: what says the same thing of the same row or body, and nothing was done in between
+/// that it may count for.
+void leave_out_idle(const Command& now, std::vector<Command>& commands) {
+  if (const auto* act = std::get_if<Act>(&now)) {
+    if (act->verb == Act::pull)
+      std::erase_if(commands, [&](const Command& c) {
+        const auto* before = std::get_if<Act>(&c);
+        return before != nullptr && before->verb == Act::pull && before->body == act->body;
+      });
+    return;
+  }
+  const std::string& path = std::get<SetCommand>(now).path;
+  const auto last_act = std::find_if(commands.rbegin(), commands.rend(), is_act).base();
+  commands.erase(
+      std::remove_if(last_act, commands.end(), [&](const Command& c) { return std::get<SetCommand>(c).path == path; }),
+      commands.end());
+}
+
 }  // namespace
 
 bool changes_model(const Command& command) {
   const auto* set = std::get_if<SetCommand>(&command);
-  return set != nullptr && !set->path.starts_with("view.");
+  return is_act(command) || (set != nullptr && !set->path.starts_with("view."));
+}
+
+/// What was asked for by hand for the frame that is made next. Values are set as soon as they are asked for, and set
+/// again here: a value set twice is the same value. What is done to a body is done here only; where a frame has both,
+/// they count in their order, from the state before the first. False: that can't be had.
+bool Debugger::do_by_hand(int frame) {
+  const auto it = by_hand_.find(frame);
+  if (it == by_hand_.end()) return true;
+  const std::vector<Command> commands = it->second;  // the frames before may have to be made
+  const auto acts = std::count_if(commands.begin(), commands.end(), is_act);
+  if (acts > 0 && acts < std::ssize(commands)) {
+    restore_before(frame - 1);
+    while (session_.frame() < frame - 1 && advance()) {
+    }
+    if (session_.frame() < frame - 1) return false;
+  }
+  for (const Command& command : commands) session_.change(command);
+  return true;
+}
+
+/// Values that were set by hand for the next frame are seen at once.
+void Debugger::show_by_hand() {
+  if (const auto it = by_hand_.find(session_.frame() + 1); it != by_hand_.end())
+    for (const Command& command : it->second)
+      if (!is_act(command)) session_.change(command);
 }
 
 /// The frames after it become others: what is known of them, and what they were to do, changes places with `future`.
@@ -54,7 +99,12 @@ void Debugger::exchange(Future& future) {
 
 void Debugger::do_command(const Command& command) {
   if (is_look(command)) return session_.change(command);
+  if (const auto* act = std::get_if<Act>(&command))
+    for (const BodyRecord& body : shown().bodies)
+      if (body.name == act->body && body.deleted)
+        return say(ConsoleLine::message, fmt::format("'{}' is deleted: nothing comes of it", body.name));
   Edit edit;
+  bool is_in_past = false, is_last_of_drag = false;
   if (changes_model(command)) {
     if (within_) {
       reach(frame() - 1);
@@ -62,18 +112,23 @@ void Debugger::do_command(const Command& command) {
           fmt::format("back to the end of frame {}: the change counts from the next on", frame()));
     }
     const int next = session_.frame() + 1;
+    is_in_past = next < static_cast<int>(hashes_.size());
     edit.future.emplace();
     edit.future->frame = session_.frame();
     edit.future->folder_last = std::min(folder_last_, session_.frame());  // its later frames are of another run now
     std::vector<Command> commands;
     if (const auto it = by_hand_.find(next); it != by_hand_.end()) commands = it->second;
     exchange(*edit.future);
-    std::erase_if(commands,
-                  [&](const Command& c) { return std::get<SetCommand>(c).path == std::get<SetCommand>(command).path; });
+    leave_out_idle(command, commands);
     commands.push_back(command);
     by_hand_[next] = std::move(commands);
     changed_frames_.insert(next);
-    session_.change(command);
+    if (const auto* act = std::get_if<Act>(&command)) {
+      if (act->verb == Act::pull || act->verb == Act::release) edit.dragged = act->body;
+      is_last_of_drag = act->verb == Act::release;
+    } else {
+      session_.change(command);
+    }
   } else {
     const std::vector<Parameter>& rows = session_.rows().all();
     std::vector<std::pair<const Parameter*, ParameterValue>> before;
@@ -85,7 +140,11 @@ void Debugger::do_command(const Command& command) {
     // lines that set the same are merged, so each has its own
     if (edit.view.empty() && !std::holds_alternative<SetCommand>(command)) return;
   }
+  // a drag is one change, however many frames it takes
+  const bool goes_on = !is_in_past && !edit.dragged.empty() && edits_.dragged() == edit.dragged;
   edits_.done(std::move(edit));
+  if (goes_on) edits_.merge_last();
+  if (is_last_of_drag) edits_.end_drag();
 }
 
 void Debugger::take_back(const UndoLine& line) {
@@ -102,8 +161,7 @@ void Debugger::take_back(const UndoLine& line) {
       reach(future.frame);
     }
     exchange(future);
-    if (const auto it = by_hand_.find(future.frame + 1); it != by_hand_.end() && session_.frame() == future.frame)
-      for (const Command& command : it->second) session_.change(command);
+    if (session_.frame() == future.frame) show_by_hand();
     if (was_later)
       say(ConsoleLine::message, fmt::format("back to frame {}, after which that was changed", session_.frame()));
   }

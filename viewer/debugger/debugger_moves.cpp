@@ -117,8 +117,7 @@ void Debugger::remake(int frame, StepWatcher* watcher, FrozenStep* frozen) {
   const KeptView view(session_);
   reach(frame - 1);
   if (session_.frame() != frame - 1) throw Interrupted{};
-  if (const auto it = by_hand_.find(frame); it != by_hand_.end())
-    for (const Command& command : it->second) session_.change(command);
+  if (!do_by_hand(frame)) throw Interrupted{};
   const WatchScope watch(session_, watcher);
   session_.advance(frozen);
   check_hash(frame);

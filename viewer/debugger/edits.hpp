@@ -24,6 +24,7 @@ struct Future {
 struct Edit {
   std::optional<Future> future;                                   ///< of a change of the model
   std::vector<std::pair<const Parameter*, ParameterValue>> view;  ///< rows that it changed, as they were
+  std::string dragged = {};                                       ///< the body that is pulled, as long as it goes on
 };
 
 class Edits {
@@ -31,6 +32,9 @@ class Edits {
   void done(Edit edit) { undone_.clear(), done_.push_back(std::move(edit)); }
   /// The last two are one from now on.
   void merge_last() { done_.pop_back(); }
+  /// The body that the last change pulls, "": it is no pull.
+  std::string dragged() const { return done_.empty() ? "" : done_.back().dragged; }
+  void end_drag() { done_.back().dragged.clear(); }
   void forget() { done_.clear(), undone_.clear(); }
 
   std::vector<Edit>& done() { return done_; }

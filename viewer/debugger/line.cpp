@@ -112,7 +112,8 @@ DebugLine parse_input(const PlacedText& line, LineWords words) {
       i.y = number(words[2], -1000, 1000);
       break;
     case InputLine::key: {
-      want(words, 3, 3, "ui key NAME");
+      want(words, 3, 4, "ui key NAME [down|up]");
+      if (words.size() == 4) (find(words[3], "way", {"down", "up"}) == 0 ? i.goes_up : i.goes_down) = false;
       std::string low(words[2].text);
       std::transform(low.begin(), low.end(), low.begin(),
                      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

@@ -1,15 +1,15 @@
 // What the debugger understands beside the commands of a script, one a line, done one after another:
 //
-//   set | layer | camera | hide ...     as in a script, from the next frame on
+//   set | layer | camera | hide | pull ...    as in a script, from the next frame on
 //   step [N] | back [N] | seek FRAME | play | pause
 //   step stage [N] | step substep [N] | back stage [N] | back substep [N]
 //   break when CONDITION | break off | find CONDITION
 //   why NAME NAME                       what each filter of detection made of two bodies
 //   freeze FILE                         the last sub-step of the frame, for impinge step
-//   undo | redo                         of set, layer, hide ...: the last that was done, or undone
+//   undo | redo                         of set, layer, hide, pull ...: the last that was done, or undone
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
 //   panel ...                           panel_line.hpp
-//   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME |
+//   ui click NAME | drag NAME VALUE | move X Y | press BUTTON | release BUTTON | wheel STEPS | key NAME [down|up] |
 //   text WORDS | wait FRAMES
 //   shot FILE.png | plots FILE.csv      the window; what the timeline plots
 //   bundle FILE.tar                     the moment in one file (viewer/bundle/bundle.hpp)
@@ -48,8 +48,9 @@ struct SelectLine {
 struct InputLine {
   enum Verb { click, drag, move, press, release, wheel, key, type, wait };
   Verb verb = click;
-  std::string name;         ///< widget, button, key or text
-  double x = 0.0, y = 0.0;  ///< move; wheel: y; drag: value in x; wait: in x
+  std::string name;                       ///< widget, button, key or text
+  double x = 0.0, y = 0.0;                ///< move; wheel: y; drag: value in x; wait: in x
+  bool goes_down = true, goes_up = true;  ///< key
 };
 struct FileLine {
   enum What { shot, plots, bundle };

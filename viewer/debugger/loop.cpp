@@ -176,8 +176,8 @@ void DebugLoop::input(const InputLine& line, const PlacedText& place) {
       ui.add({UiEvent::wheel, 0, static_cast<float>(line.y)});
       break;
     case InputLine::key:
-      ui.add({UiEvent::key_down, 0, 0, code_of(key_names(), line.name)});
-      ui.add({UiEvent::key_up, 0, 0, code_of(key_names(), line.name)});
+      if (line.goes_down) ui.add({UiEvent::key_down, 0, 0, code_of(key_names(), line.name)});
+      if (line.goes_up) ui.add({UiEvent::key_up, 0, 0, code_of(key_names(), line.name)});
       break;
     case InputLine::type:
       ui.add({UiEvent::type, 0, 0, 0, line.name});

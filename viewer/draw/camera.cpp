@@ -64,6 +64,12 @@ double Camera::pixel_size_at(const Vec3& point, int height) const {
   return depth > 0.0 ? 2.0 * depth * std::tan(0.5 * fov_deg * kDegree) / height : 0.0;
 }
 
+Vec3 Camera::unproject(double x, double y, double depth, int width, int height) const {
+  const double pixel = 2.0 * depth * std::tan(0.5 * fov_deg * kDegree) / height;
+  const Vec3 p((x - 0.5 * width) * pixel, (0.5 * height - y) * pixel, -depth);
+  return eye + view_rotation().transpose() * p;
+}
+
 std::optional<Vec3> Camera::project(const Vec3& point, int width, int height) const {
   const Vec3 p = view_rotation() * (point - eye);
   if (p.z() >= 0.0) return std::nullopt;

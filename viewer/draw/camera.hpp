@@ -30,6 +30,8 @@ struct Camera {
   Mat3 view_rotation() const;
   /// Metres that one pixel spans at a world point, across the line of sight; 0 behind the eye.
   double pixel_size_at(const Vec3& point, int height) const;
+  /// The point that appears at a pixel, at this distance along the line of sight: project's inverse.
+  Vec3 unproject(double x, double y, double depth, int width, int height) const;
   /// Where a point appears: pixels from the top left, and its distance along the line of sight. None behind the eye.
   std::optional<Vec3> project(const Vec3& point, int width, int height) const;
 };

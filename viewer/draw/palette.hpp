@@ -36,7 +36,7 @@ constexpr Color kVelocity = hex(0xf5e663), kAabb = hex(0xa9c7e8), kPair = hex(0x
 constexpr Color kFloor = hex(0x3a4048), kLightFloor = hex(0xd3d9e0), kWallEdge = hex(0xdfe6ee),
                 kUngrouped = hex(0x8a9099);
 constexpr Color kTetrahedron = hex(0xf4f1de), kHeld = hex(0xf2e9ff), kMoved = hex(0xffa23b), kCarried = hex(0x9be7d0),
-                kOutside = hex(0xff5fb0), kAttachment = hex(0xffe14d);
+                kOutside = hex(0xff5fb0), kAttachment = hex(0xffe14d), kPull = hex(0xb8f23c);
 constexpr Color kAxisX = hex(0xe8604c), kAxisY = hex(0x5fbf4a), kAxisZ = hex(0x4c8df0);
 constexpr Color kOutline = hex(0x0d1014), kInk = hex(0xf2f4f7);
 }  // namespace role

@@ -133,6 +133,7 @@ void VtuExporter::add_surfaces(const StepRecord& record) {
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       if (moving_[i].is_deformable() != deformable) continue;
       const BodyRecord& body = of(record, moving_[i]);
+      if (body.deleted) continue;
       surface.add(moving_[i], vertices[i]);
       for (std::size_t v = 0; v < vertices[i].size(); ++v) displacement.push_back(vertices[i][v] - start_[i][v]);
       append(velocity, surface_velocity(body, vertices[i]));
@@ -164,6 +165,7 @@ void VtuExporter::add_tetrahedra(const StepRecord& record) {
   std::vector<double> stress, mises, strain, ratio;
   std::vector<int> held, bodies;
   for (const auto& [index, start] : start_nodes_) {
+    if (record.bodies[static_cast<std::size_t>(index)].deleted) continue;
     const DeformableBody& body = *record.bodies[static_cast<std::size_t>(index)].deformable;
     const auto first = static_cast<std::int64_t>(grid.points.size());
     for (int n = 0; n < body.nodes(); ++n) {

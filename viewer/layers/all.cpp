@@ -26,6 +26,7 @@ const std::vector<Layer>& layers() {
     IMPINGE_LIST(all, attachments_layer);
     IMPINGE_LIST(all, mass_centers_layer);
     IMPINGE_LIST(all, contacts_layer);
+    IMPINGE_LIST(all, pulls_layer);
     IMPINGE_LIST(all, labels_layer);
     return all;
   }();

@@ -16,7 +16,7 @@ Vec3 end_of(const BodyRecord& body, const BodyRecord& other) {
 void draw(const LayerContext& context, DrawList& list) {
   const std::vector<BodyRecord>& bodies = context.record.bodies;
   const float width = 1.2f * static_cast<float>(context.settings.line_width);
-  const BodySet hidden(context.record, context.settings.hidden);
+  const BodySet hidden = not_drawn(context.record, context.settings);
   for (const BodyPair& pair : context.record.broad_pairs) {
     if (pair.a == pair.b || hidden.has(pair.a) || hidden.has(pair.b)) continue;
     const Vec3 a = end_of(bodies[pair.a], bodies[pair.b]), b = end_of(bodies[pair.b], bodies[pair.a]);

@@ -12,8 +12,7 @@ BodySet::BodySet(const StepRecord& record, const std::vector<std::string>& names
     : record_(record), in_(record.bodies.size(), false) {
   if (names.empty()) return;
   for (std::size_t i = 0; i < in_.size(); ++i) {
-    in_[i] = std::find(names.begin(), names.end(), record.bodies[i].name) != names.end();
-    if (in_[i]) none_ = false;
+    if (std::find(names.begin(), names.end(), record.bodies[i].name) != names.end()) add(i);
   }
 }
 
@@ -24,6 +23,13 @@ bool BodySet::has(PickId pick) const {
     return has(c.body_a) && has(c.body_b);
   }
   return pick <= in_.size() && in_[pick - 1];
+}
+
+BodySet not_drawn(const StepRecord& record, const ViewSettings& settings) {
+  BodySet set(record, settings.hidden);
+  for (std::size_t i = 0; i < record.bodies.size(); ++i)
+    if (record.bodies[i].deleted) set.add(i);
+  return set;
 }
 
 Vec3 camera_origin(const StepRecord& record, const ViewSettings& settings) {

@@ -14,6 +14,7 @@ class BodySet {
  public:
   BodySet(const StepRecord& record, const std::vector<std::string>& names);
   bool is_empty() const { return none_; }
+  void add(std::size_t body) { in_[body] = true, none_ = false; }
   bool has(BodyIndex body) const { return in_[static_cast<std::size_t>(body.value())]; }
   /// A contact belongs to it if both its bodies do.
   bool has(PickId pick) const;
@@ -23,6 +24,9 @@ class BodySet {
   std::vector<bool> in_;
   bool none_ = true;
 };
+
+/// What is in no picture: bodies that are hidden, and those that are deleted.
+BodySet not_drawn(const StepRecord& record, const ViewSettings& settings);
 
 /// The centre of the body that the camera follows, the origin if it follows none.
 Vec3 camera_origin(const StepRecord& record, const ViewSettings& settings);

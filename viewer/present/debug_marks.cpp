@@ -4,6 +4,7 @@
 
 #include "engine/shapes/primitives.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/pull_mark.hpp"
 #include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
@@ -12,15 +13,18 @@ namespace {
 constexpr Color kSelected = hex(0xfff2a8);
 constexpr Color kAgainst = hex(0xff4fd8);  // bodies of what is made beside the scene
 constexpr float kTrailWidth = 1.6f;
+constexpr double kAsked = 0.6;  // of the size of a pull that acts
 
 std::vector<BodyIndex> trailed(const DebugModel& model) {
   std::vector<BodyIndex> bodies = selected_bodies(model);
   std::erase_if(bodies, [&](BodyIndex b) {
-    return model.record->bodies[static_cast<std::size_t>(b.value())].kind == BodyKind::fixed;
+    const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(b.value())];
+    return body.kind == BodyKind::fixed || body.deleted;
   });
   if (bodies.empty() && !model.selection.is_there())
     for (std::size_t i = 0; i < model.record->bodies.size(); ++i)
-      if (model.record->bodies[i].kind != BodyKind::fixed) bodies.push_back(BodyIndex(i));
+      if (model.record->bodies[i].kind != BodyKind::fixed && !model.record->bodies[i].deleted)
+        bodies.push_back(BodyIndex(i));
   return bodies;
 }
 
@@ -37,6 +41,7 @@ Aabb bounds_of_selection(const DebugModel& model) {
     return box;
   }
   const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
+  if (body.deleted) return box;
   return body.shape->as<Plane>() == nullptr ? body.bounds : box;
 }
 
@@ -51,6 +56,7 @@ void mark_selection(const DebugModel& model, DrawList& list) {
     return;
   }
   const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(s.index)];
+  if (body.deleted) return;
   if (!body.bounds.is_empty() && body.shape->as<Plane>() == nullptr)
     list.add_box({}, body.bounds.min, body.bounds.max, kSelected, 2.0f, Depth::both, 0);
   const SurfaceMesh* mesh = body.shape->mesh();
@@ -61,6 +67,24 @@ void mark_selection(const DebugModel& model, DrawList& list) {
         body.vertices[static_cast<std::size_t>(t[2])]},
        kSelected,
        Depth::on_top});
+}
+
+void mark_pulls(const DebugModel& model, DrawList& list) {
+  if (!model.view->is_on("pulls"))  // a hand must see what it does, whatever layers the scene wants
+    for (std::size_t i = 0; i < model.record->bodies.size(); ++i)
+      if (const auto& pull = model.record->bodies[i].pull)
+        mark_pull(pull->point, pull->target, *model.view, 1.0, body_pick(i), list);
+  for (const Act& act : model.asked) {
+    if (act.verb != Act::pull) continue;
+    for (std::size_t i = 0; i < model.record->bodies.size(); ++i) {
+      const BodyRecord& body = model.record->bodies[i];
+      if (body.name != act.body || body.deleted) continue;
+      const Vec3 point = body.deformable != nullptr
+                             ? body.deformable->position_of(body.deformable->own_point(*act.point))
+                             : body.file_pose.apply(*act.point);
+      mark_pull(point, act.vector, *model.view, kAsked, body_pick(i), list);
+    }
+  }
 }
 
 void draw_trails(const DebugModel& model, DrawList& list) {

@@ -10,6 +10,8 @@ namespace impinge {
 void mark_selection(const DebugModel& model, DrawList& list);
 /// Where bodies' centres were in the frames before that were seen: of those selected, else of all that move.
 void draw_trails(const DebugModel& model, DrawList& list);
+/// Pulls that were asked for, and act from the next frame on; and those that act, where their layer is off.
+void mark_pulls(const DebugModel& model, DrawList& list);
 /// Rigid bodies where they were in another frame, see-through, as far as that frame was seen.
 void draw_ghost(const DebugModel& model, DrawList& list);
 /// World box of what is selected; empty of nothing, and of a plane.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "viewer/layers/body_style.hpp"
+#include "viewer/layers/view_bodies.hpp"
 #include "viewer/panels/debug/keys.hpp"
 #include "viewer/panels/debug/outliner.hpp"
 #include "viewer/present/debug_marks.hpp"
@@ -17,6 +19,9 @@ constexpr double kZoomPerStep = 1.15;
 constexpr double kMostLegend = 0.1;  // of the view
 constexpr float kClick = 3.0f;       // pixels that the pointer may move in a click
 
+/// As exact as a hand is, so that lines can be read.
+std::string words_of(const Vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x(), v.y(), v.z()); }
+
 }  // namespace
 
 DebugWindow::DebugWindow(int width, int height, int scale)
@@ -29,9 +34,13 @@ DebugWindow::DebugWindow(int width, int height, int scale)
 DebugWindow::~DebugWindow() { context_->make_current(); }
 
 std::string DebugWindow::scene_key(const DebugModel& model) const {
-  std::string key = fmt::format("{} {:016x} {} {} {} {} {} {}", model.frame, model.record->stats.state_hash,
-                                static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
-                                static_cast<const void*>(model.record), model.state.trails, model.state.ghost);
+  std::string asked;
+  for (const Act& act : model.asked)
+    if (act.verb == Act::pull) asked += fmt::format("{} {} {} ", act.body, words_of(*act.point), words_of(act.vector));
+  std::string key =
+      asked + fmt::format("{} {:016x} {} {} {} {} {} {}", model.frame, model.record->stats.state_hash,
+                          static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
+                          static_cast<const void*>(model.record), model.state.trails, model.state.ghost);
   for (const Parameter& row : model.rows->all())
     if (row.path.starts_with("view.")) key += ' ' + format_value(row.get());
   return key;
@@ -52,6 +61,7 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
     scene_.paint(*model.record, settings, [&](DrawList& list) {
       draw_ghost(model, list);
       draw_trails(model, list);
+      mark_pulls(model, list);
       mark_selection(model, list);
     });
     painted_ = std::move(key);
@@ -89,15 +99,19 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
   const float x = ui_.mouse_x(), y = ui_.mouse_y();
   const bool over = layout_.view.holds(x, y) && !ui_.takes_mouse();
   for (int button = 0; button < 3; ++button)
-    if (over && ui_.went_down(button) && held_ < 0)
+    if (over && ui_.went_down(button) && held_ < 0) {
       held_ = button, pressed_x_ = last_x_ = x, pressed_y_ = last_y_ = y, dragged_ = false;
+      if (button == 0 && ImGui::GetIO().KeyCtrl) take_hold(model);
+    }
   if (over && ui_.wheel() != 0.0f)
     lines.push_back(fmt::format("camera zoom {}", shortest(std::pow(kZoomPerStep, ui_.wheel()))));
   if (held_ < 0) return;
   const float dx = x - last_x_, dy = y - last_y_;
   dragged_ |= std::hypot(x - pressed_x_, y - pressed_y_) > kClick * ui_.unit();
   if (dragged_ && (dx != 0.0f || dy != 0.0f)) {
-    if (held_ == 0) {
+    if (hold_) {
+      drag(model, lines);
+    } else if (held_ == 0) {
       const double turn = kDegreesPerPixel / ui_.unit();
       lines.push_back(fmt::format("camera orbit {} {}", shortest(-turn * dx), shortest(turn * dy)));
     } else {
@@ -108,6 +122,7 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
     last_y_ = y;
   }
   if (!ui_.went_up(held_)) return;
+  if (hold_ && hold_->has_pulled && hold_->is_moved) lines.push_back("release " + hold_->body);
   if (held_ == 0 && !dragged_) {
     const PanelArea& legend = scene_.legend();
     const UiArea at{layout_.view.x + legend.x, layout_.view.y + legend.y, legend.width, legend.height};
@@ -115,6 +130,30 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
                                    : pick(model, x, y));
   }
   held_ = -1;
+  hold_.reset();
+}
+
+void DebugWindow::take_hold(const DebugModel& model) {
+  const double x = pressed_x_ - layout_.view.x + 0.5, y = pressed_y_ - layout_.view.y + 0.5;
+  const auto seen = scene_.look_at(*model.record, *model.view, x, y);
+  if (!seen) return;
+  const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(seen->body.value())];
+  const auto at = camera_in_world(*model.record, *model.view).project(seen->point, scene_.width(), scene_.height());
+  if (!at) return;
+  hold_ = Hold{std::string(body.name),
+               body.deformable != nullptr ? body.deformable->own_coordinates(seen->point)
+                                          : body.file_pose.apply_inverse(seen->point),
+               at->z(), is_moved_by_contact(body), false};
+}
+
+/// The point that the mouse has hold of comes after it in a plane parallel to the screen.
+void DebugWindow::drag(const DebugModel& model, CommandLines& lines) {
+  if (hold_->has_pulled && !hold_->is_moved) return;  // that it can't be was said once
+  const double x = ui_.mouse_x() - layout_.view.x + 0.5, y = ui_.mouse_y() - layout_.view.y + 0.5;
+  const Vec3 to =
+      camera_in_world(*model.record, *model.view).unproject(x, y, hold_->depth, scene_.width(), scene_.height());
+  lines.push_back(fmt::format("pull {} {} to {}", hold_->body, words_of(hold_->own), words_of(to)));
+  hold_->has_pulled = true;
 }
 
 std::string DebugWindow::pick(const DebugModel& model, float x, float y) {

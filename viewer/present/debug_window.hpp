@@ -2,6 +2,8 @@
 // screen.
 #pragma once
 
+#include <optional>
+
 #include "viewer/gl/context.hpp"
 #include "viewer/image/image.hpp"
 #include "viewer/panels/debug/layout.hpp"
@@ -38,6 +40,8 @@ class DebugWindow {
 
  private:
   void use_mouse(const DebugModel& model, CommandLines& lines);
+  void take_hold(const DebugModel& model);
+  void drag(const DebugModel& model, CommandLines& lines);
   std::string pick(const DebugModel& model, float x, float y);
   std::string scene_key(const DebugModel& model) const;
 
@@ -50,6 +54,15 @@ class DebugWindow {
   std::string painted_;  // key of what scene_ shows
   int held_ = -1;        // button that went down over the view
   float pressed_x_ = 0.0f, pressed_y_ = 0.0f, last_x_ = 0.0f, last_y_ = 0.0f;
+  /// The point of a body that the mouse has hold of.
+  struct Hold {
+    std::string body;
+    Vec3 own = Vec3::Zero();  ///< the body's coordinates
+    double depth = 0.0;       ///< of the plane that the mouse moves in, along the line of sight, metres
+    bool is_moved = false;    ///< whether forces do that
+    bool has_pulled = false;
+  };
+  std::optional<Hold> hold_;
   bool dragged_ = false, rough_ = false, has_changed_ = true;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/layers/view_bodies.hpp"
 
@@ -87,7 +88,7 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
     layer.draw({record, settings, camera, surfaces_, layer.name}, list_);
     list_.end_layer(layer.name);
   }
-  if (const BodySet hidden(record, settings.hidden); !hidden.is_empty())
+  if (const BodySet hidden = not_drawn(record, settings); !hidden.is_empty())
     list_.leave_out([&](PickId pick) { return hidden.has(pick); });
   if (more) more(list_), list_.end_layer("selection");
   surfaces_.forget_unused();
@@ -122,6 +123,44 @@ void ScenePainter::read_ids(const StepRecord& record, const ViewSettings& settin
   add_panel(ids, figures_, "figures");
   add_panel(ids, legend_, "legend");
   for (const PanelArea& bar : bars_) add_panel(ids, bar, "bar");
+}
+
+std::optional<ScenePainter::Seen> ScenePainter::look_at(const StepRecord& record, const ViewSettings& settings,
+                                                        double x, double y) {
+  IdImage ids;
+  read_ids(record, settings, ids, true);
+  const int px = static_cast<int>(x), py = static_cast<int>(y);
+  if (px < 0 || py < 0 || px >= ids.width || py >= ids.height) return std::nullopt;
+  const IdObject* object = ids.object_at(px, py);
+  if (object == nullptr) return std::nullopt;
+  if (object->contact_index >= 0) {
+    const ContactRecord& c = record.contacts[static_cast<std::size_t>(object->contact_index)];
+    const BodyRecord& a = record.bodies[static_cast<std::size_t>(c.body_a.value())];
+    if (is_moved_by_contact(a)) return Seen{c.body_a, c.point_a};
+    return Seen{c.body_b, c.point_b};
+  }
+  if (object->body_index < 0) return std::nullopt;
+  const Camera camera = camera_of(record, settings, width(), height());
+  const auto body = static_cast<std::size_t>(object->body_index);
+  Vec3 point = record.bodies[body].pose.position, across = camera.view_rotation().row(2).transpose();
+  const auto i = static_cast<std::size_t>(py) * static_cast<std::size_t>(ids.width) + static_cast<std::size_t>(px);
+  const auto drawn = std::find_if(list_.surfaces.begin(), list_.surfaces.end(),
+                                  [&](const DrawSurface& s) { return s.pick == body_pick(body); });
+  if (ids.part[i] != IdImage::kNoPart && drawn != list_.surfaces.end() &&
+      ids.part[i] < drawn->surface->triangles.size()) {
+    const auto& positions = drawn->moved ? drawn->moved->positions : drawn->surface->positions;
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = drawn->placement().apply(positions[drawn->surface->triangles[ids.part[i]][k]].cast<double>());
+    const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const Vec3 sight = corners[0] - camera.eye;
+    point = (corners[0] + corners[1] + corners[2]) / 3.0;
+    if (std::abs(normal.dot(sight)) > 1e-3 * normal.norm() * sight.norm()) point = corners[0], across = normal;
+  }
+  const Vec3 far = camera.unproject(x, y, 1.0, width(), height()) - camera.eye;
+  const double reach = across.dot(far) == 0.0 ? 0.0 : across.dot(point - camera.eye) / across.dot(far);
+  if (!(reach > 0.0) || !std::isfinite(reach)) return std::nullopt;
+  return Seen{BodyIndex(object->body_index), camera.eye + reach * far};
 }
 
 }  // namespace impinge

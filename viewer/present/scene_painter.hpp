@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "viewer/gl/id_buffer.hpp"
 #include "viewer/gl/renderer.hpp"
@@ -21,6 +22,13 @@ class ScenePainter {
   const Framebuffer& paint(const StepRecord& record, const ViewSettings& settings,
                            const std::function<void(DrawList&)>& more = {});
   Framebuffer& target() { return target_; }
+  /// The body that is seen at a pixel of what was painted last, and which point of it; none: none, or what can't be hit
+  /// there.
+  struct Seen {
+    BodyIndex body;
+    Vec3 point;
+  };
+  std::optional<Seen> look_at(const StepRecord& record, const ViewSettings& settings, double x, double y);
   /// Where the legend of the last picture is; no width: nowhere.
   const PanelArea& legend() const { return legend_; }
   /// What each pixel of what was painted last shows; panels are objects too. Labels belong to what is behind them.

@@ -90,6 +90,12 @@ int last_frame_of(const std::string& line) {
   return std::stoi(std::string(words[words[0].text == "at" ? 1 : 3].text));
 }
 
+/// Whether what it does to a body is in the poses and velocities that bodies have after the frame.
+bool is_in_motion(const std::string& line, int frame) {
+  const std::vector<PlacedText> words = words_of(line);
+  return words[0].text == "at" && (words[2].text == "push" || words[2].text == "move") && last_frame_of(line) <= frame;
+}
+
 /// A line by frame, so many frames sooner; "" where a ramp is cut in two.
 std::string sooner(const std::string& line, int frames) {
   const std::vector<PlacedText> words = words_of(line);
@@ -191,6 +197,7 @@ std::optional<SmallScene> SmallScene::begun_at(int frame, const StepRecord& reco
     set_key(table, "angular_velocity", toml_node(ParameterValue(body.angular_velocity)));
   }
   for (TomlNode& attachment : later.scene.attachments) move_attachment(attachment, moved);
+  std::erase_if(later.run.script, [&](const std::string& line) { return is_in_motion(line, frame); });
   for (std::string& line : later.run.script) {
     line = sooner(line, frame);
     if (line.empty()) return std::nullopt;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/core/parameter.hpp"
+#include "engine/step/act.hpp"
 #include "engine/world/stage_place.hpp"
 #include "viewer/draw/view_settings.hpp"
 #include "viewer/state/against_model.hpp"
@@ -77,6 +78,7 @@ struct DebugModel {
   const AgainstModel* against = nullptr;          ///< what is made beside it; null: nothing
   const std::set<int>* changed_frames = nullptr;  ///< with commands by hand
   std::size_t snapshots = 0, snapshot_bytes = 0, most_snapshot_bytes = 0;
+  std::vector<Act> asked;  ///< of bodies by hand, for the next frame
   Selection selection;
   PanelState state;
   std::vector<ConsoleLine> console;

@@ -47,10 +47,27 @@ std::string words(Random& random) {
                                                   "step 99999999999999999999",
                                                   "at 3 set contact.friction 1",
                                                   "find contacts > 1",
+                                                  "pull crate 0.5 0.25 0.5 to 1 2 0",
+                                                  "pull ball 0 0.3 0 to 0 1e6 0 stiffness 1e9",
+                                                  "pull floor 0 0 0 to 1 1 1",
+                                                  "release crate",
+                                                  "release ball",
+                                                  "push ball 3 0 nan",
+                                                  "push ball 0 40 0",
+                                                  "push crate 1 2 3 at 0 0 1e9",
+                                                  "move crate 0 1 0 turn 0 0 1 90",
+                                                  "move ball 0 0",
+                                                  "delete crate",
+                                                  "delete floor",
                                                   "ghost"};
   if (random.below(3) > 0) return one_of(random, kLines);
   std::string noise;
-  for (int k = 1 + random.below(30); k > 0; --k) noise += static_cast<char>(' ' + random.below(95));
+  for (int k = 1 + random.below(30); k > 0; --k) {
+    const char c = static_cast<char>(' ' + random.below(95));
+    // what a word begins with a script wants closed; typed into the console it may stand anywhere else
+    const bool opens = (noise.empty() || noise.back() == ' ') && (c == '"' || c == '\'' || c == '[');
+    noise += opens ? 'x' : c;
+  }
   return "x" + noise + "x";  // blanks at the ends of a line are nobody's
 }
 
@@ -69,7 +86,7 @@ std::string event(Random& random) {
     case 7:
       return fmt::format("ui wheel {}", random.below(9) - 4);
     case 8:
-      return "ui key " + one_of(random, key_names());
+      return "ui key " + one_of(random, key_names()) + one_of(random, std::vector<std::string>{"", "", " down", " up"});
     default:
       return "ui text " + words(random) + (random.below(2) == 0 ? "\nui key enter" : "");
   }

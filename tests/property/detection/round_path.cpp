@@ -39,7 +39,8 @@ TEST_CASE("a round body that is said to stay out of triangles does, at every mom
   const SurfaceMesh drawn{icosphere(1, 0.1), make_topology(icosphere(1, 0.1))};
   const PathSurface of_round(drawn);
   int said = 0, clear = 0, clear_and_said = 0, touching = 0;
-  for (const TriangleMesh& mesh : {bumpy_sphere(2), sheet(1.0, 1), box(Vec3(0.5, 0.001, 0.5)), torus(0.6, 0.2, 24, 12)}) {
+  for (const TriangleMesh& mesh :
+       {bumpy_sphere(2), sheet(1.0, 1), box(Vec3(0.5, 0.001, 0.5)), torus(0.6, 0.2, 24, 12)}) {
     const SurfaceMesh surface{mesh, make_topology(mesh)};
     const PathSurface of_mesh(surface);
     for (int trial = 0; trial < 150; ++trial) {
@@ -59,7 +60,8 @@ TEST_CASE("a round body that is said to stay out of triangles does, at every mom
       own.of = &own_surface;
       own.poses = path(random, {turn, at + height * out}, way, 0.2 * way / core.radius, 1 << (trial % 3));
       other.of = &of_mesh;
-      other.poses = path(random, {}, trial % 2 == 0 ? 0.0 : 0.5 * way, trial % 4 == 1 ? 0.1 * way : 0.0, 1 << (trial % 2));
+      other.poses =
+          path(random, {}, trial % 2 == 0 ? 0.0 : 0.5 * way, trial % 4 == 1 ? 0.1 * way : 0.0, 1 << (trial % 2));
       const double depth = core.radius * std::pow(10.0, dips ? -1.0 : random.in(-3.5, -1.0));
       const bool is_out = stays_out(core, own, other, depth);
       double nearest = INFINITY;
@@ -104,7 +106,8 @@ TEST_CASE("two round bodies that are said to stay out of each other do, at every
     const double both = a.radius + b.radius, way = both * std::pow(10.0, random.in(-3.0, 0.5));
     SurfacePath path_a, path_b;
     path_a.of = &of_a, path_b.of = &of_b;
-    path_a.poses = path(random, {rotation_exp(3.0 * random.vector()), Vec3::Zero()}, way, 0.2 * way / both, 1 << (trial % 3));
+    path_a.poses =
+        path(random, {rotation_exp(3.0 * random.vector()), Vec3::Zero()}, way, 0.2 * way / both, 1 << (trial % 3));
     path_b.poses = path(random, {rotation_exp(3.0 * random.vector()), both * random.in(0.95, 1.5) * random.direction()},
                         way, 0.2 * way / both, 1 << (trial % 2));
     const double depth = both * std::pow(10.0, random.in(-3.5, -1.0));
@@ -116,7 +119,8 @@ TEST_CASE("two round bodies that are said to stay out of each other do, at every
     double nearest = INFINITY;
     for (int k = 0; k <= kMoments; ++k) {
       const Pose at_a = path_a.pose_at(1.0 * k / kMoments), at_b = path_b.pose_at(1.0 * k / kMoments);
-      nearest = std::min(nearest, distance(at_a.apply(a.p), at_a.apply(a.q), {at_b.apply(b.p), at_b.apply(b.q), at_b.apply(b.q)}));
+      nearest = std::min(
+          nearest, distance(at_a.apply(a.p), at_a.apply(a.q), {at_b.apply(b.p), at_b.apply(b.q), at_b.apply(b.q)}));
     }
     CAPTURE(trial, way, depth, nearest, both);
     CHECK(nearest >= both - depth - 1e-12);

@@ -37,6 +37,14 @@ TEST_CASE("the field of view is the vertical angle of the picture") {
   CHECK(camera.pixel_size_at({0, 0, 9}, 400) == 0.0);
 }
 
+TEST_CASE("the point at a pixel is seen there") {
+  Camera camera;
+  camera.look_at({3, 2, 4}, {-0.2, 0.5, 0.1});
+  const Vec3 p(0.7, 0.3, -0.4), at = *camera.project(p, 640, 360);
+  CHECK((camera.unproject(at.x(), at.y(), at.z(), 640, 360) - p).norm() < 1e-14);
+  CHECK((camera.unproject(320, 180, camera.distance(), 640, 360) - camera.target).norm() < 1e-14);
+}
+
 TEST_CASE("orbit keeps target and distance and turns by the angles asked for") {
   Camera camera;
   camera.look_at({0, 0, 3}, Vec3::Zero());

@@ -33,7 +33,8 @@ void row(const char* name, double value, std::string_view unit, const std::strin
 void body_rows(const DebugModel& model, const Selection& s) {
   const BodyRecord& b = model.record->bodies[static_cast<std::size_t>(s.index)];
   row("body", std::string(b.name));
-  row("kind", fmt::format("{}{}", kind_name(b.kind), b.asleep ? ", asleep" : ""));
+  row("kind", fmt::format("{}{}", kind_name(b.kind), b.deleted ? ", deleted" : b.asleep ? ", asleep" : ""));
+  if (b.deleted) return;
   if (b.mass > 0.0) row("mass", b.mass, "kg");
   row("place", vector_text(b.pose.position, "m"));
   row("v", vector_text(b.velocity, "m/s"));
@@ -41,6 +42,7 @@ void body_rows(const DebugModel& model, const Selection& s) {
     row("w", vector_text(b.angular_velocity, "rad/s"));
   else
     row("unknowns", fmt::format("{} in {} tetrahedra", b.deformable->dofs(), b.deformable->fem.rest().tets.size()));
+  if (b.pull) row("pulled", (b.pull->target - b.pull->point).norm(), "m", " to go");
   int contacts = 0;
   double impulse = 0.0;
   for (const ContactRecord& c : model.record->contacts)

@@ -74,6 +74,7 @@ void draw_help(const DebugModel& model, const UiArea& view) {
                                              {"b", "all of this into one file, to be opened elsewhere"},
                                              {"escape", "end the frame in work; deselect; close this"},
                                              {"left button", "orbit; a click picks"},
+                                             {"ctrl + left button", "pull a body"},
                                              {"right, middle", "pan"},
                                              {"wheel", "zoom; scroll a panel"},
                                              {"ctrl + click", "type a slider's value"},

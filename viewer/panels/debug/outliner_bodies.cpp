@@ -62,6 +62,11 @@ std::vector<double> numbers_of(const DebugModel& model) {
     const BodyRecord& b = record.bodies[i];
     const Touched& t = all[i];
     const bool moves = b.kind != BodyKind::fixed, is_plane = b.bounds.is_empty() || !b.bounds.extent().allFinite();
+    if (b.deleted) {
+      numbers.push_back(rank[i]);
+      numbers.insert(numbers.end(), bodies_table().columns.size() - 1, kNone);
+      continue;
+    }
     const double row[] = {rank[i],
                           static_cast<double>(b.kind),
                           moves ? b.velocity.norm() : kNone,
@@ -160,20 +165,23 @@ TableRows body_rows(Ui& ui, const DebugModel& model, CommandLines& lines) {
   for (std::size_t i = 0; i < model.record->bodies.size(); ++i)
     if (is_sought(model, model.record->bodies[i].name)) rows.shown.push_back(i);
   rows.words = [&](std::size_t row, std::size_t column) {
-    return column == 0 ? name_of(model, BodyIndex(row)) : std::string(kind_name(model.record->bodies[row].kind));
+    const BodyRecord& b = model.record->bodies[row];
+    if (column > 0) return std::string(kind_name(b.kind));
+    return fmt::format("{}{}", b.name, b.deleted ? ", deleted" : "");
   };
   rows.name = [&](std::size_t row) { return name_of(model, BodyIndex(row)); };
   rows.select = [&](std::size_t row) { return "select body " + name_of(model, BodyIndex(row)); };
   rows.tip = [&](std::size_t row) {
     const BodyRecord& b = model.record->bodies[row];
-    return fmt::format("{}, {}{}", b.name, kind_name(b.kind), b.asleep ? ", asleep" : "");
+    return fmt::format("{}, {}{}", b.name, kind_name(b.kind), b.deleted ? ", deleted" : b.asleep ? ", asleep" : "");
   };
   const std::vector<BodyIndex> selected = selected_bodies(model);
   rows.is_selected = [selected](std::size_t row) {
     return std::find(selected.begin(), selected.end(), BodyIndex(row)) != selected.end();
   };
   rows.is_dim = [&](std::size_t row) {
-    return model.record->bodies[row].asleep || has(model.view->hidden, name_of(model, BodyIndex(row)));
+    const BodyRecord& b = model.record->bodies[row];
+    return b.asleep || b.deleted || has(model.view->hidden, name_of(model, BodyIndex(row)));
   };
   rows.icons = 2;
   rows.draw_icons = [&ui, &model, &lines, colors = body_colors(*model.record)](std::size_t row) {

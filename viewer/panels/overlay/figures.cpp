@@ -89,13 +89,16 @@ bool is_stage(const Figure& figure) { return figure.kind == FigureKind::time && 
 std::vector<Row> rows_of(const StepRecord& record, bool timings) {
   const FrameStats& s = record.stats;
   const auto dynamic = std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) {
-    return b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable;
+    return !b.deleted && (b.kind == BodyKind::dynamic || b.kind == BodyKind::deformable);
   });
   const Unit length = length_of(record);
   std::vector<Row> rows;
   for (const Shown& shown : kShown)
     rows.push_back({shown.label, shown.text(find_figure(shown.figure)->value(s), length), shown.brief});
   rows.push_back({"asleep", fmt::format("{} of {}", s.asleep, dynamic)});
+  const auto deleted =
+      std::count_if(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& b) { return b.deleted; });
+  if (deleted > 0) rows.push_back({"deleted", grouped(deleted)});
   add_deformable(rows, record);
   if (s.unconverged > 0) rows.push_back({"not converged", grouped(s.unconverged), true, kWarning});
   if (s.unsafe_motions > 0) rows.push_back({"unsafe motions", grouped(s.unsafe_motions), true, kWarning});

@@ -1,0 +1,163 @@
+#include "viewer/controller/act_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.hpp"
+#include "viewer/controller/command.hpp"
+
+namespace impinge {
+
+namespace {
+
+constexpr double kFarthest = 1e9, kMostImpulse = 1e12, kLeastStiffness = 1e-6, kMostStiffness = 1e12, kMostTurn = 36000;
+
+struct VerbRow {
+  Act::Verb verb;
+  const char *name, *usage;
+};
+constexpr VerbRow kVerbs[] = {
+    {Act::pull, "pull", "pull BODY X Y Z to X Y Z [stiffness K]"},
+    {Act::release, "release", "release BODY"},
+    {Act::push, "push", "push BODY JX JY JZ [at X Y Z]"},
+    {Act::move, "move", "move BODY DX DY DZ [turn AX AY AZ DEGREES]"},
+    {Act::remove, "delete", "delete BODY"},
+};
+
+/// The words of a line, one after another.
+class Words {
+ public:
+  Words(std::span<const PlacedText> words, const VerbRow& verb) : words_(words), verb_(verb) {}
+
+  const PlacedText& next(const char* what) {
+    if (at_ >= words_.size())
+      words_[0].refuse(fmt::format("'{}' without {}", verb_.name, what), fmt::format("{} is wanted", verb_.usage),
+                       "mend the line");
+    return words_[at_++];
+  }
+  /// Whether the word is the next one; it is passed by then.
+  bool take(std::string_view word) {
+    const bool is_next = at_ < words_.size() && words_[at_].text == word;
+    if (is_next) ++at_;
+    return is_next;
+  }
+  double number(double low, double high, const char* what) {
+    const PlacedText& word = next(what);
+    Parameter row;
+    row.path = verb_.name;
+    row.range = {low, high};
+    try {
+      return std::get<double>(parse_value(row, word.text));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}; change it", word.place(), error.what()));
+    }
+  }
+  Vec3 vector(double most, const char* what) {
+    Vec3 v;
+    for (int k = 0; k < 3; ++k) v[k] = number(-most, most, what);
+    return v;
+  }
+  void end() const {
+    if (at_ < words_.size())
+      words_[at_].refuse(fmt::format("'{}' after all that '{}' takes", words_[at_].text, verb_.name),
+                         fmt::format("{} is wanted", verb_.usage), "remove it");
+  }
+  const PlacedText& last() const { return words_[at_ - 1]; }
+
+ private:
+  std::span<const PlacedText> words_;
+  const VerbRow& verb_;
+  std::size_t at_ = 1;
+};
+
+bool is_moved_by_forces(std::string_view body, const ParameterSet& rows) {
+  return rows.find(fmt::format("body.{}.mass", body)) != nullptr;
+}
+
+bool is_deformable(std::string_view body, const ParameterSet& rows) {
+  return rows.find(fmt::format("body.{}.material.element", body)) != nullptr;
+}
+
+std::string text_of(const Vec3& v) {
+  return fmt::format("{} {} {}", shortest(v.x()), shortest(v.y()), shortest(v.z()));
+}
+
+}  // namespace
+
+const std::vector<std::string>& act_verbs() {
+  static const std::vector<std::string> verbs = [] {
+    std::vector<std::string> names;
+    for (const VerbRow& row : kVerbs) names.emplace_back(row.name);
+    return names;
+  }();
+  return verbs;
+}
+
+Act parse_act(std::span<const PlacedText> all, const ParameterSet& rows) {
+  const VerbRow& verb = kVerbs[std::find(act_verbs().begin(), act_verbs().end(), all[0].text) - act_verbs().begin()];
+  Words words(all, verb);
+  Act act;
+  act.verb = verb.verb;
+  const PlacedText& body = words.next("a body");
+  check_body(body, body.text, body_names(rows));
+  act.body = std::string(body.text);
+  if (act.verb != Act::remove && !is_moved_by_forces(body.text, rows))
+    body.refuse(fmt::format("'{}' of '{}', which no force moves", verb.name, body.text),
+                "a dynamic or deformable body is wanted", "name another one");
+  switch (act.verb) {
+    case Act::pull:
+      act.point = words.vector(kFarthest, "the point of the body that is pulled");
+      if (const PlacedText& to = words.next("'to' and a place"); to.text != "to")
+        to.refuse(fmt::format("'{}'", to.text), fmt::format("{} is wanted", verb.usage), "write to before the place");
+      act.vector = words.vector(kFarthest, "the place that it is pulled to");
+      if (words.take("stiffness")) act.stiffness = words.number(kLeastStiffness, kMostStiffness, "a stiffness, N/m");
+      break;
+    case Act::push:
+      act.vector = words.vector(kMostImpulse, "an impulse, N s");
+      if (words.take("at")) act.point = words.vector(kFarthest, "a place, m");
+      break;
+    case Act::move:
+      act.vector = words.vector(kFarthest, "a way, m");
+      if (!words.take("turn")) break;
+      if (is_deformable(body.text, rows))
+        words.last().refuse(fmt::format("'turn' of the deformable body '{}'", body.text),
+                            "its nodes are moved as they are", "remove it");
+      act.axis = words.vector(kFarthest, "an axis");
+      if (act.axis.norm() == 0.0)
+        words.last().refuse("an axis of no length", "the direction that the body turns about is wanted", "write 0 1 0");
+      act.degrees = words.number(-kMostTurn, kMostTurn, "an angle in degrees");
+      break;
+    case Act::release:
+    case Act::remove:
+      break;
+  }
+  words.end();
+  return act;
+}
+
+std::string format_act(const Act& act) {
+  std::string line;
+  for (const VerbRow& row : kVerbs)
+    if (row.verb == act.verb) line = fmt::format("{} {}", row.name, act.body);
+  switch (act.verb) {
+    case Act::pull:
+      line += fmt::format(" {} to {}", text_of(*act.point), text_of(act.vector));
+      if (act.stiffness > 0.0) line += " stiffness " + shortest(act.stiffness);
+      break;
+    case Act::push:
+      line += " " + text_of(act.vector);
+      if (act.point) line += " at " + text_of(*act.point);
+      break;
+    case Act::move:
+      line += " " + text_of(act.vector);
+      if (act.axis.norm() > 0.0) line += fmt::format(" turn {} {}", text_of(act.axis), shortest(act.degrees));
+      break;
+    case Act::release:
+    case Act::remove:
+      break;
+  }
+  return line;
+}
+
+}  // namespace impinge

@@ -1,0 +1,21 @@
+// The commands that do something to a body: pull, release, push, move, delete.
+#pragma once
+
+#include <span>
+
+#include "engine/core/parameter.hpp"
+#include "engine/step/act.hpp"
+#include "viewer/controller/text_place.hpp"
+
+namespace impinge {
+
+/// The words that they begin with.
+const std::vector<std::string>& act_verbs();
+
+/// Reads one, whose first word is a verb. Throws InputError at the word that is wrong.
+Act parse_act(std::span<const PlacedText> words, const ParameterSet& rows);
+
+/// As a line that parse_act reads back exactly.
+std::string format_act(const Act& act);
+
+}  // namespace impinge
