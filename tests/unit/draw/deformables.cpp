@@ -11,6 +11,7 @@
 #include "viewer/draw/moved_surface.hpp"
 #include "viewer/draw/tet_shapes.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/contact_measures.hpp"
 #include "viewer/layers/heat_map.hpp"
 
 using namespace impinge;
