@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "viewer/controller/recorded_run.hpp"
-#include "viewer/controller/state_differences.hpp"
+#include "viewer/state/state_differences.hpp"
 
 namespace impinge {
 

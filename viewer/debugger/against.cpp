@@ -7,9 +7,9 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
-#include "viewer/controller/state_differences.hpp"
 #include "viewer/debugger/session_scopes.hpp"
 #include "viewer/draw/number_text.hpp"
+#include "viewer/state/state_differences.hpp"
 
 namespace impinge {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/controller/state_differences.hpp"
+#include "viewer/state/state_differences.hpp"
 
 #include <fmt/format.h>
 
