@@ -56,6 +56,16 @@ std::map<std::string, std::string> timeless(std::map<std::string, std::string> f
   return files;
 }
 
+/// Names of files that only one has, or that hold something else.
+std::string differing(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
+  std::string names;
+  for (const auto& [name, bytes] : a)
+    if (const auto it = b.find(name); it == b.end() || it->second != bytes) names += name + " ";
+  for (const auto& [name, bytes] : b)
+    if (!a.contains(name)) names += name + " ";
+  return names;
+}
+
 }  // namespace
 
 TEST_CASE("run --force replaces another run and leaves what no run wrote") {
@@ -126,13 +136,16 @@ TEST_CASE("run --force, killed at any moment, leaves a run that did not end, and
     const bool is_old = slurp(files.folder / "out/run.toml").find("frames = 40") != std::string::npos;
     if (fs::exists(files.folder / "out/done")) {  // then it is a whole run, the old one or the new one
       CHECK(impinge_run(files.folder.path(), {"replay", "out"}).code == 0);
-      if (!is_old) CHECK(timeless(contents(files.folder / "out")) == wanted);
+      auto whole_run = timeless(contents(files.folder / "out")), promised = wanted;
+      for (auto* of : {&whole_run, &promised})  // the sheet is made of the pictures afterwards
+        for (const char* later : {"contact_sheet.png", "lock"}) of->erase(later);
+      if (!is_old) CHECK(differing(whole_run, promised) == "");
     } else {
       CHECK(killed.code != 0);
       ++cut_off;
     }
     REQUIRE(impinge_run(files.folder.path(), changed).code == 0);
-    CHECK(timeless(contents(files.folder / "out")) == wanted);
+    CHECK(differing(timeless(contents(files.folder / "out")), wanted) == "");
   }
   CHECK(cut_off > 0);
 }
