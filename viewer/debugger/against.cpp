@@ -28,7 +28,7 @@ std::string words_of(const std::vector<FieldDifference>& fields) {
   return text;
 }
 
-/// The first stage of which not the same is told.
+/// The first stage of which not the same is told; "": none.
 std::string words_of(const FrameStages& a, const FrameStages& b) {
   const std::size_t both = std::min(a.entries.size(), b.entries.size());
   for (std::size_t i = 0; i < both; ++i) {
@@ -45,7 +45,7 @@ std::string words_of(const FrameStages& a, const FrameStages& b) {
   }
   if (a.entries.size() != b.entries.size())
     return fmt::format("{} stages in A, {} in B", a.entries.size(), b.entries.size());
-  return "the same work in all stages";
+  return "";
 }
 
 }  // namespace
@@ -109,7 +109,9 @@ const std::string& Against::tell(int frame, const FrameStages* stages) {
   std::string& text = model_.parted;
   text = fmt::format("A and B ({}) differ from frame {} on", model_.label, frame);
   if (!fields_.empty()) text += ": " + fields_;
-  if (stages != nullptr && stages_.frame == frame) text += "; first in " + words_of(*stages, stages_);
+  if (stages == nullptr || stages_.frame != frame) return text;
+  const std::string stage = words_of(*stages, stages_);
+  text += stage.empty() ? "; as far as is told, all stages did the same work" : "; first in " + stage;
   return text;
 }
 
