@@ -82,20 +82,28 @@ bool Against::advance() {
   return true;
 }
 
-void Against::reach(const StepRecord& a, int frame) {
+void Against::compare(const std::vector<std::uint64_t>& hashes, int frame) {
+  const int known = static_cast<int>(std::min(hashes.size(), hashes_.size()));
+  for (; first_ < 0 && same_ < known && same_ <= frame; ++same_)
+    if (hashes[static_cast<std::size_t>(same_)] != hashes_[static_cast<std::size_t>(same_)]) {
+      first_ = same_;
+      is_news_ = true;
+      fields_.clear();
+      return;
+    }
+}
+
+void Against::reach(const StepRecord& a, const std::vector<std::uint64_t>& hashes, int frame) {
   if (model_.bodies.empty())
     for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.bodies().find(std::string(body.name)));
-  while (ended_.empty() && session_.frame() < frame && advance()) {
-  }
-  if (first_ >= 0 || frame >= static_cast<int>(hashes_.size()) ||
-      hashes_[static_cast<std::size_t>(frame)] == a.stats.state_hash)
-    return;
-  first_ = frame;
-  is_news_ = true;
-  fields_ = session_.frame() == frame ? words_of(field_differences(a, session_.record())) : "";
+  compare(hashes, frame);
+  while (ended_.empty() && session_.frame() < frame && advance()) compare(hashes, frame);
+  if (is_news_ && first_ == frame && session_.frame() == frame)
+    fields_ = words_of(field_differences(a, session_.record()));
 }
 
 void Against::forget_after(int frame) {
+  same_ = std::min(same_, frame + 1);
   if (first_ > frame) first_ = -1, is_news_ = false, model_.parted.clear();
 }
 

@@ -22,8 +22,9 @@ class Against {
   /// Throws InputError.
   Against(const AgainstSource& source, const SessionOptions& options);
 
-  /// Makes B's frames up to A's, which was just made or come back to. Throws Interrupted, B then as before.
-  void reach(const StepRecord& a, int frame);
+  /// Makes B's frames up to the one at which A is. `hashes` are A's by frame, as far as they are known. Throws Interrupted,
+  /// B then as before.
+  void reach(const StepRecord& a, const std::vector<std::uint64_t>& hashes, int frame);
   /// A's frames after it are no longer what they were.
   void forget_after(int frame);
   /// The first frame in which they differ, where it was found since the last call.
@@ -34,12 +35,14 @@ class Against {
 
  private:
   bool advance();
+  void compare(const std::vector<std::uint64_t>& hashes, int frame);
 
   Session session_;
   AgainstModel model_;
   std::vector<std::uint64_t> hashes_;  // by frame
   FrameStages stages_;                 // of the last frame, as long as no difference is known
   std::string ended_;                  // why it goes no farther; "": it does
+  int same_ = 0;                       // so many frames were held against A's and are the same
   int first_ = -1;                     // frame in which they differ
   bool is_news_ = false;
   std::string fields_;  // in what, in that frame

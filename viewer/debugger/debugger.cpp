@@ -134,10 +134,6 @@ void Debugger::note_frame() {
   const StepRecord& record = session_.record();
   const auto frame = static_cast<std::size_t>(session_.frame());
   tracks_.note(record);
-  if (against_) try {
-      against_->reach(record, session_.frame());
-    } catch (const Interrupted&) {  // B goes on from where it is when A goes on
-    }
   std::vector<double> figures = figure_values(record.stats, session_.is_judged());
   if (frame < hashes_.size()) {
     check_hash(session_.frame());
@@ -154,6 +150,7 @@ void Debugger::note_frame() {
     ring_.put(session_.frame(), state.bytes());
     ++puts_;
   }
+  reach_against();
   follow_selection();
 }
 

@@ -132,6 +132,7 @@ class Debugger {
   void add_recorded(const std::string& line);
   void replace_recorded(const std::string& line);
   void follow_selection();
+  void reach_against();
   void tell_of_against();
 
   const std::atomic<bool>* interrupted_;

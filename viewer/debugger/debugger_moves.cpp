@@ -275,8 +275,17 @@ void Debugger::why(const WhyLine& line) {
   if (place != kEnd) stand_in(home, place);
 }
 
+void Debugger::reach_against() {
+  if (!against_ || within_) return;
+  try {
+    against_->reach(session_.record(), hashes_, session_.frame());
+  } catch (const Interrupted&) {  // B goes on from where it is when A goes on
+  }
+}
+
 /// What was found on the way of how B differs. The frame is made once more, so that its stages can be told apart.
 void Debugger::tell_of_against() {
+  reach_against();  // frames that were brought back were not made
   const std::optional<int> first = against_ ? against_->take_news() : std::nullopt;
   if (!first) return;
   const int home = frame();

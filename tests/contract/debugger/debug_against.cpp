@@ -77,6 +77,12 @@ TEST_CASE("A and B part in the frame in which their runs do, and A is as it is a
     CAPTURE(with_run.out);
     if (wanted >= 0)
       CHECK(with_run.out.find(fmt::format("A and B (b) differ from frame {} on", wanted)) != std::string::npos);
+    // and two runs that were made before: most of A's frames are gone past
+    folder.write("far.script", "step 60\n");
+    const Outcome runs = debug(folder, "plain", "far.script", {"--against", "b"});
+    CAPTURE(runs.out, runs.err);
+    CHECK(runs.out.find(wanted < 0 ? "A and B (b) are the same"
+                                   : fmt::format("A and B (b) differ from frame {} on", wanted)) != std::string::npos);
   }
   CHECK(differ >= 3);
 }
