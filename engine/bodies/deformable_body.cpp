@@ -123,7 +123,7 @@ void DeformableBody::come_to_rest() {
 void DeformableBody::push(const Vec3& impulse, const std::optional<Vec3>& at) {
   VecX change = VecX::Zero(dofs());
   if (at) {
-    for (const auto& [node, weight] : nodes_of(nearest_point(*at, position)))
+    for (const auto& [node, weight] : nodes_of(nearest_point(*at)))
       if (!is_held(node)) change.segment<3>(3 * free_index_[node]) += weight * impulse;
     BlockMatrix m(free_pattern_);
     for (std::size_t i = 0; i < free_source_.size(); ++i)

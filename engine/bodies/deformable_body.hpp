@@ -137,7 +137,8 @@ class DeformableBody final : public Body {
   void choose_solvers(const LinearSolverChoice& wanted);
   void check_solved() const;
   void find_displacement_velocity();
-  MaterialPoint nearest_point(const Vec3& world, const VecX& nodes) const;
+  MaterialPoint nearest_point(const Vec3& world) const;
+  static MaterialPoint nearest_point(const Vec3& x, const TetMesh& mesh);
   std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
   Mat3 edges_of(int tet) const;
 

@@ -66,11 +66,14 @@ Vec3 DeformableBody::position_of(const MaterialPoint& point) const {
          point.local.z() * world_vertices[t[2]];
 }
 
-/// With the nodes at `nodes`.
-MaterialPoint DeformableBody::nearest_point(const Vec3& world, const VecX& nodes) const {
-  TetMesh mesh = fem.rest();
-  for (int i = 0; i < this->nodes(); ++i) mesh.vertices[i] = nodes.segment<3>(3 * i);
-  const Embedding place = embed(mesh, std::span(&world, 1));
+MaterialPoint DeformableBody::nearest_point(const Vec3& world) const {
+  TetMesh now = fem.rest();
+  for (int i = 0; i < nodes(); ++i) now.vertices[i] = position.segment<3>(3 * i);
+  return nearest_point(world, now);
+}
+
+MaterialPoint DeformableBody::nearest_point(const Vec3& x, const TetMesh& mesh) {
+  const Embedding place = embed(mesh, std::span(&x, 1));
   MaterialPoint point;
   point.tet = place.tet[0];
   // a point outside is carried with negative weights, by a lever: the nearest one inside has none
@@ -81,16 +84,14 @@ MaterialPoint DeformableBody::nearest_point(const Vec3& world, const VecX& nodes
 
 MaterialPoint DeformableBody::own_point(const Vec3& own) const {
   if (pull && pull->point.local == own) return pull->point;  // a drag asks in every frame
-  VecX rest(position.size());
-  for (int i = 0; i < nodes(); ++i) rest.segment<3>(3 * i) = rest_position(i);
-  MaterialPoint point = nearest_point(own, rest);
+  MaterialPoint point = nearest_point(own, fem.rest());
   point.local = own;
   return point;
 }
 
 Vec3 DeformableBody::own_coordinates(const Vec3& world) const {
   Vec3 own = Vec3::Zero();
-  for (const auto& [node, weight] : nodes_of(nearest_point(world, position))) own += weight * rest_position(node);
+  for (const auto& [node, weight] : nodes_of(nearest_point(world))) own += weight * rest_position(node);
   return own;
 }
 

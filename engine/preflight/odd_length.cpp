@@ -5,7 +5,6 @@
 #include <set>
 
 #include "engine/core/units.hpp"
-#include "engine/geometry/aabb.hpp"
 #include "engine/io/meshes/mesh_unit.hpp"
 #include "engine/preflight/warning.hpp"
 
@@ -32,16 +31,14 @@ class OddLength : public Warning {
       const BodyIndex at = name == nullptr ? BodyIndex() : bodies.find(name->value.string);
       if (at.is_none() || bodies[at].shape->mesh() == nullptr || !is_unit_open(start.scene, table)) continue;
       const Body& body = bodies[at];
-      Aabb box;
-      for (const Vec3& x : body.shape->mesh()->mesh.vertices) box.include(x);
-      const double longest = box.is_empty() ? 0.0 : box.extent().maxCoeff();
+      const double longest = body.shape->bounds({}).extent().maxCoeff();
       // a ground may be as long as it likes
       const std::string question = body.has_freedom() || longest < 1.0 ? unit_question(longest) : "";
       if (question.empty() || !seen.insert(body.surface_file).second) continue;
       const std::string weight = body.has_freedom() ? fmt::format(" and weighs {}", mass_text(body.mass)) : "";
       found.push_back({fmt::format("'{}' is {} long{}, for {} doesn't say its unit and is taken for metres", body.name,
                                    length_text(longest), weight, body.surface_file),
-                       question.substr(question.find(": ") + 2) + ", or scale = 1 if it is right"});
+                       question + ", or scale = 1 if it is right"});
     }
     return found;
   }

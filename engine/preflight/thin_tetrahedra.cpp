@@ -1,7 +1,6 @@
 // Volumes with tetrahedra that are almost flat: they are stiff beyond measure, which solvers by iterations feel first.
 #include <fmt/format.h>
 
-#include "engine/core/units.hpp"
 #include "engine/preflight/warning.hpp"
 
 namespace impinge {

@@ -90,9 +90,9 @@ Source source_of(const Given& options) {
 }
 
 /// PATH=VALUE is the same scene with that setting; else it is another scene, or a run's folder.
-AgainstSource against_of(const Given& options, const Source& source) {
+AgainstSource against_of(const Given& options, const Source& source, const DebugScript& script) {
   if (options.against.empty()) return {};
-  AgainstSource b{source.scene, options.overrides, options.script, options.against};
+  AgainstSource b{source.scene, options.overrides, script.has_timed ? options.script : "", options.against};
   if (options.against.find('=') != std::string::npos && !is_there(options.against)) {
     b.overrides.push_back(options.against);
     return b;
@@ -175,10 +175,7 @@ void say_end(Debugger& debugger, bool is_quiet) {
     const DebugModel& model = debugger.model();
     fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
                model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
-    if (model.against != nullptr)
-      fmt::print("{}\n", !model.against->parted.empty()
-                             ? model.against->parted
-                             : fmt::format("A and B ({}) are the same", model.against->label));
+    if (model.against != nullptr) fmt::print("{}\n", model.against->words());
   }
   for (const ConsoleLine& line : debugger.model().console)
     if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
@@ -206,8 +203,7 @@ int debug(const Given& options) {
   debugged.most_bytes = static_cast<std::size_t>(options.memory) << 20;
   debugged.run_folder = source.run_folder;
   debugged.name = source.name;
-  debugged.against = against_of(options, source);
-  if (!script.has_timed) debugged.against.script.clear();
+  debugged.against = against_of(options, source, script);
   debugged.interrupted = &interrupted();
   explain_interrupt("going back to the last whole frame and ending, within 2 s");
   FrameProgress progress;

@@ -182,6 +182,9 @@ int RunCommand::run() {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
   };
+  std::string sheet;
+  if (options_.images)
+    watcher.whole = [&](const RunResult& result) { sheet = write_contact_sheet(options_.out, result.last_frame); };
   std::optional<NumberedFolder> numbered;
   if (number_) options_.out = numbered.emplace(options_.out).path();
   const RunResult result = impinge::run(options_, watcher);
@@ -190,8 +193,6 @@ int RunCommand::run() {
   if (result.interrupted)
     fmt::print(stderr, "interrupted {} {}; the same command with --resume goes on\n",
                result.last_frame < 0 ? "before frame" : "after frame", std::max(0, result.last_frame));
-  const std::string sheet =
-      options_.images && result.exit_code() < 2 ? write_contact_sheet(options_.out, result.last_frame) : "";
   const bool filmed = !sheet.empty() && !video_.empty() && write_video(options_.out, video_, result.frames_per_second);
   watchdog.set_judged(result.is_judged);
   const bool is_too_bad = strict_ && watchdog.has_barked();

@@ -174,10 +174,9 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     take_up(folder, watcher, session, conditions, exports);
   }
   const auto make_frame = [&] {
-    std::vector<Command> commands;
     FrozenStep frozen;
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
-    commands = session.advance(freezes ? &frozen : nullptr);
+    const std::vector<Command> commands = session.advance(freezes ? &frozen : nullptr);
     FrameStats stats = session.record().stats;
     if (judged) overlap.judge(session.world().bodies(), stats);
     check_figures(stats, judged);
@@ -216,6 +215,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   if (result.diverged.empty()) result.crushed = find_crushed(session.world().bodies());
   if (result.diverged.empty() && !result.interrupted) {
     conditions.expectations().note_unchecked(result.last_frame);
+    if (watcher.whole) watcher.whole(result);
     folder.finish();
   }
   result.lock = folder.hand_over_lock();

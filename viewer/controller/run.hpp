@@ -26,12 +26,16 @@ struct RunOptions {
   bool compares_pictures = true;
 };
 
+struct RunResult;
+
 /// Whoever watches a run. Called in the thread of run().
 struct RunWatcher {
   std::function<void(const FrameStats& stats, int last_frame)> frame;
   /// Of a run that goes on: frames that are there already. Not a number where the table has no such column.
   std::function<void(int frame, double unsafe_motions)> earlier_frame;
   std::function<void(const std::string& line)> message;  ///< a failed expectation, a break, a note
+  /// All frames are made: what belongs to a whole run beside them, before the folder says that it is done.
+  std::function<void(const RunResult& result)> whole;
 };
 
 struct RunResult {

@@ -69,8 +69,8 @@ bool Against::advance() {
   try {
     session_.advance();
   } catch (const DivergenceError& error) {
-    ended_ = error.what();
     take_back();
+    model_.ended = fmt::format("B diverged after frame {}: {}", session_.frame(), error.what());
     return false;
   } catch (const Interrupted&) {
     take_back();
@@ -97,7 +97,7 @@ void Against::reach(const StepRecord& a, const std::vector<std::uint64_t>& hashe
   if (model_.bodies.empty())
     for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.bodies().find(std::string(body.name)));
   compare(hashes, frame);
-  while (ended_.empty() && session_.frame() < frame && advance()) compare(hashes, frame);
+  while (model_.ended.empty() && session_.frame() < frame && advance()) compare(hashes, frame);
   if (is_news_ && first_ == frame && session_.frame() == frame)
     fields_ = words_of(field_differences(a, session_.record()));
 }

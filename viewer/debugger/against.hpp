@@ -29,7 +29,7 @@ class Against {
   void forget_after(int frame);
   /// The first frame in which they differ, where it was found since the last call.
   std::optional<int> take_news();
-  /// In what, in words. `stages` are A's of that frame.
+  /// In what, in words. `stages` are A's of that frame, null: not known.
   const std::string& tell(int frame, const FrameStages* stages);
   const AgainstModel& model() const { return model_; }
 
@@ -41,7 +41,6 @@ class Against {
   AgainstModel model_;
   std::vector<std::uint64_t> hashes_;  // by frame
   FrameStages stages_;                 // of the last frame, as long as no difference is known
-  std::string ended_;                  // why it goes no farther; "": it does
   int same_ = 0;                       // so many frames were held against A's and are the same
   int first_ = -1;                     // frame in which they differ
   bool is_news_ = false;

@@ -166,7 +166,7 @@ class Debugger {
   int known_before_ = 0;             // of the line being done: how many frames were known,
   std::size_t puts_ = 0, puts_before_ = 0;                // and how many states had been kept
   enum Trace { none, new_frames, other } trace_ = other;  // that the last line about frames left
-  bool told_of_hash_ = false, told_of_missing_ = false;
+  bool told_of_hash_ = false, told_of_missing_ = false, told_of_b_ = false;
 };
 
 }  // namespace impinge

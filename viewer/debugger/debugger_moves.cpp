@@ -286,18 +286,23 @@ void Debugger::reach_against() {
 /// What was found on the way of how B differs. The frame is made once more, so that its stages can be told apart.
 void Debugger::tell_of_against() {
   reach_against();  // frames that were brought back were not made
-  const std::optional<int> first = against_ ? against_->take_news() : std::nullopt;
+  if (!against_) return;
+  if (const std::string& ended = against_->model().ended; !ended.empty() && !told_of_b_) {
+    told_of_b_ = true;
+    say(ConsoleLine::message, ended);
+  }
+  const std::optional<int> first = against_->take_news();
   if (!first) return;
   const int home = frame();
   const int place = within_ ? within_->place : kEnd;
   const FrameStages* stages = nullptr;
   try {
     if (*first > 0) stages = &stages_of(*first);
-    say(ConsoleLine::message, against_->tell(*first, stages));
   } catch (const Interrupted&) {
     const InterruptScope finish(nullptr);
     restore_before(*first);
   }
+  say(ConsoleLine::message, against_->tell(*first, stages));
   reach(home);
   if (place != kEnd) stand_in(home, place);
 }

@@ -45,23 +45,18 @@ std::vector<double> speeds(const DrawSurface& item, const BodyRecord& body) {
       values.push_back((body.velocity + body.angular_velocity.cross(x - body.pose.position)).norm());
     return values;
   }
-  const Embedding& embedding = body.deformable->embedding;
-  const TetMesh& rest = body.deformable->fem.rest();
-  for (const std::uint32_t v : item.surface->source) {
-    const Tet& tet = rest.tets[static_cast<std::size_t>(embedding.tet[v])];
-    Vec3 velocity = Vec3::Zero();
-    for (int k = 0; k < 4; ++k) velocity += embedding.weight[v][k] * body.deformable->velocity.segment<3>(3 * tet[k]);
-    values.push_back(velocity.norm());
-  }
+  const DeformableBody& soft = *body.deformable;
+  std::vector<Vec3> velocities;
+  interpolate(soft.embedding, soft.fem.rest(), soft.velocity, velocities);
+  for (const std::uint32_t v : item.surface->source) values.push_back(velocities[v].norm());
   return values;
 }
 
 double reach_of(const StepRecord& record, const ContactRecord& c) {
   double least = INFINITY;
   for (const BodyIndex b : {c.body_a, c.body_b}) {
-    const BodyRecord& body = record.bodies[static_cast<std::size_t>(b.value())];
-    const Aabb box = body.shape->bounds({});
-    if (box.extent().allFinite() && !box.is_empty()) least = std::min(least, kReach * box.extent().norm());
+    const Aabb& box = record.bodies[static_cast<std::size_t>(b.value())].bounds;
+    if (!box.is_empty() && box.extent().allFinite()) least = std::min(least, kReach * box.extent().norm());
   }
   return least;
 }
@@ -73,8 +68,9 @@ std::vector<double> by_contacts(const DrawSurface& item, std::size_t own, const 
   for (const ContactRecord& c : record.contacts) {
     const bool is_a = static_cast<std::size_t>(c.body_a.value()) == own;
     if (!is_a && static_cast<std::size_t>(c.body_b.value()) != own) continue;
-    const double value = measure_of(record, c, what), reach = reach_of(record, c);
+    const double value = measure_of(record, c, what);
     if (!(value > 0.0)) continue;
+    const double reach = reach_of(record, c);
     const Vec3& point = is_a ? c.point_a : c.point_b;
     double nearest_sq = INFINITY;
     for (const Vec3& x : at) nearest_sq = std::min(nearest_sq, (x - point).squaredNorm());
@@ -89,8 +85,15 @@ std::vector<double> by_contacts(const DrawSurface& item, std::size_t own, const 
   return values;
 }
 
-ColorBar bar(Shown what, double high, bool exceeded) {
-  if (what != Shown::speed) return bar_of(static_cast<ContactMeasure>(static_cast<int>(what) - 1), high, exceeded);
+/// None of speed.
+std::optional<ContactMeasure> measure_of(Shown what) {
+  if (what == Shown::speed) return std::nullopt;
+  if (what == Shown::overlap) return ContactMeasure::overlap;
+  return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
+}
+
+ColorBar bar(std::optional<ContactMeasure> measure, double high, bool exceeded) {
+  if (measure) return bar_of(*measure, high, exceeded);
   const NumberText end = number_text(high, "m/s");
   return {"speed", end.unit, std::stod(end.digits), exceeded};
 }
@@ -98,18 +101,17 @@ ColorBar bar(Shown what, double high, bool exceeded) {
 void draw(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const Settings& own = context.own<Settings>();
+  const std::optional<ContactMeasure> measure = measure_of(own.of);
   std::vector<std::vector<double>> values(list.surfaces.size());
   double most = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const DrawSurface& item = list.surfaces[i];
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];
-    if (body.kind == BodyKind::fixed && own.of == Shown::speed) continue;
-    values[i] = own.of == Shown::speed ? speeds(item, body)
-                                       : by_contacts(item, item.pick - 1, record,
-                                                     static_cast<ContactMeasure>(static_cast<int>(own.of) - 1));
+    if (body.kind == BodyKind::fixed && !measure) continue;
+    values[i] = measure ? by_contacts(item, item.pick - 1, record, *measure) : speeds(item, body);
     const double highest = values[i].empty() ? 0.0 : *std::max_element(values[i].begin(), values[i].end());
-    if (own.of != Shown::speed && highest == 0.0) values[i].clear();  // what nothing touches stays as it is
+    if (measure && highest == 0.0) values[i].clear();  // what nothing touches stays as it is
     most = std::max(most, highest);
   }
   const double high = bar_end(own.max, most);
@@ -122,7 +124,7 @@ void draw(const LayerContext& context, DrawList& list) {
     list.surfaces[i].heat = std::move(heat);
   }
   if (!any) return;
-  const ColorBar shown = bar(own.of, high, most > high);
+  const ColorBar shown = bar(measure, high, most > high);
   if (list.color_bars.empty())
     list.color_bars.push_back(shown);
   else

@@ -27,7 +27,9 @@ std::string size_text(const Aabb& box) {
 
 std::string question_of(const MeshReport& report) {
   if (report.says_unit || report.facts.box.is_empty()) return "";
-  return unit_question(report.facts.box.extent().maxCoeff());
+  const double longest = report.facts.box.extent().maxCoeff();
+  const std::string question = unit_question(longest);
+  return question.empty() ? "" : fmt::format("{:.4g} m long: {}", longest, question);
 }
 
 std::string as_a_body(const MeshReport& report) {

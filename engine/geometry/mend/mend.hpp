@@ -11,8 +11,9 @@
 namespace impinge {
 
 struct MendSettings {
-  std::optional<double>
-      weld;  ///< metres between border vertices that are one, or on an edge; none: a millionth of the diagonal
+  /// Metres between border vertices that are one, or of one from an edge that it lies on; none: a millionth of the
+  /// diagonal.
+  std::optional<double> weld;
   bool drop_degenerate = true;      ///< triangles without area or twice there
   bool orient = true;               ///< neighbours alike, closed parts outwards
   bool fill_holes = true;           ///< false: what is open is a sheet

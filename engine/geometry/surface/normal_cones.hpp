@@ -21,8 +21,8 @@ class NormalCones {
     bool is_any(int k) const { return cosine[k] < -1.5f; }
     /// Whether all faces there lie in one plane, and all that share a vertex with them.
     bool is_flat(int k) const { return !is_any(k) && chord[k] <= kFlat; }
-    static constexpr float kFlat =
-        3e-7f;  ///< what rounding makes of a chord of nothing, in double precision and as floats
+    /// What rounding makes of a chord of nothing, in double precision and as floats.
+    static constexpr float kFlat = 3e-7f;
   };
 
   /// Round the normals of the faces at a vertex, and nothing more.

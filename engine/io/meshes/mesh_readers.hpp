@@ -13,8 +13,8 @@ TriangleMesh read_stl(const std::string& name, std::string_view bytes);
 /// names.
 TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard& guard, MeshOrigin& origin);
 
-/// Metres of the unit that a 3MF file says, a thousandth where it says none. Throws InputError, worded to
-/// follow the file's name, for one that the format doesn't have.
+/// Metres of the unit that a 3MF file says, a thousandth where it says none. Throws InputError, worded to follow the
+/// file's name, for one that the format doesn't have.
 double metres_of_3mf(const std::string& path);
 
 /// ".ply" of "a/B.PLY".

@@ -1,7 +1,5 @@
 #include "engine/io/meshes/mesh_unit.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 namespace impinge {
@@ -29,10 +27,8 @@ std::string unit_names() {
 }
 
 std::string unit_question(double longest) {
-  if (longest > kOddLength)
-    return fmt::format("{:.4g} m long: is it in millimetres or centimetres? unit = \"mm\" or \"cm\" then", longest);
-  if (longest < kOddShort && longest > 0.0)
-    return fmt::format("{:.3g} m long: is it in kilometres or inches? unit = \"km\" or \"inch\" then", longest);
+  if (longest > kOddLength) return "is it in millimetres or centimetres? unit = \"mm\" or \"cm\" then";
+  if (longest < kOddShort && longest > 0.0) return "is it in kilometres or inches? unit = \"km\" or \"inch\" then";
   return "";
 }
 

@@ -11,8 +11,8 @@ namespace impinge {
 std::optional<double> metres_of(std::string_view unit);
 /// All of them, with commas.
 std::string unit_names();
-/// What a length that no asset has suggests of a file that doesn't say its unit: "300 m long: is it in ...?"; "" for one
-/// that it may have. `longest`: metres, as if the file's numbers were.
+/// What a length that no asset has suggests of a file that doesn't say its unit: "is it in ...?"; "" for one that it may
+/// have. `longest`: metres, as if the file's numbers were.
 std::string unit_question(double longest);
 
 }  // namespace impinge

@@ -13,6 +13,7 @@ namespace impinge {
 namespace {
 
 constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
+constexpr std::uint64_t kMostPacked = 1032;                 // bytes that a packed one can stand for
 constexpr std::size_t kEnd = 22, kEntry = 46, kLocal = 30;  // bytes of an archive's records, without what follows them
 
 constexpr std::pair<std::string_view, double> kUnits[] = {
@@ -56,16 +57,16 @@ std::string_view model_tag(std::string_view text) {
   return "";
 }
 
-std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
-  if (at > bytes.size() || bytes.size() - at < size) throw InputError("its archive ends early");
-  std::uint64_t value = 0;
-  for (std::size_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
-}
-
 std::string_view part_of(std::string_view bytes, std::size_t at, std::size_t size) {
   if (at > bytes.size() || bytes.size() - at < size) throw InputError("its archive ends early");
   return bytes.substr(at, size);
+}
+
+std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
+  const std::string_view part = part_of(bytes, at, size);
+  std::uint64_t value = 0;
+  for (std::size_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(part[i]);
+  return value;
 }
 
 /// A file of the archive, by its entry in the list of files.
@@ -76,6 +77,9 @@ std::string unpacked(std::string_view archive, std::size_t entry) {
   const std::string_view data = part_of(archive, begin, packed);
   if (method == 0) return std::string(data);
   if (method != 8) throw InputError(fmt::format("its archive is packed by method {}", method));
+  // what can't be true must not cost the memory that it asks for
+  if (size > kMostPacked * packed)
+    throw InputError(fmt::format("its archive says {} bytes where {} are", size, packed));
   std::string text(size, '\0');
   const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> inflate(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);

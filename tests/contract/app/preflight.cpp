@@ -310,8 +310,7 @@ TEST_CASE("preflight: lengths that nobody's assets have, where the file doesn't 
 
 TEST_CASE("preflight: tetrahedra that are almost flat") {
   const TempFolder folder;
-  // a cube in five tetrahedra whose one corner lies a thousandth of an edge beside the face of those round it: the
-  // corner's own tetrahedron has angles of atan(h sqrt(3/2) ...) round it, by the formula below
+  // a corner of a cube, and on its slanted face a second tetrahedron that is hardly higher than its base
   const double h = 1e-3;
   const std::string text = fmt::format(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 {0} {0} {0}\n$EndNodes\n"
