@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "engine/geometry/distance.hpp"
+#include "engine/geometry/exact_separation.hpp"
 
 namespace impinge {
 namespace {
@@ -46,6 +47,7 @@ struct VertexFace {
     return (p[0] - p[1]) - (u * (p[2] - p[1]) + v * (p[3] - p[1]));
   }
   static Vec3 normal(const std::array<Vec3, 4>& p) { return (p[2] - p[1]).cross(p[3] - p[1]); }
+  static bool are_apart(const MovingCorners& corners) { return is_vertex_kept_off_face(corners); }
 };
 struct EdgeEdge {
   static constexpr bool kTriangle = false;
@@ -53,6 +55,7 @@ struct EdgeEdge {
     return (p[0] - p[2]) + (u * (p[1] - p[0]) - v * (p[3] - p[2]));
   }
   static Vec3 normal(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[3] - p[2]); }
+  static bool are_apart(const MovingCorners& corners) { return are_edges_kept_apart(corners); }
 };
 
 /// The corners about their common middle: large coordinates cost no accuracy beyond their own rounding.
@@ -112,6 +115,9 @@ bool are_beyond(const Vec3& normal, const std::array<Vec3, 8>& ends, double marg
   return low > least || high < -least;
 }
 
+/// Features that may pass within rounding of each other would be bisected to the end and then called in contact.
+constexpr int kBoxesBeforeExact = 512;
+
 template <class Pair>
 std::optional<Impact> bisect(const MovingCorners& given, const ContinuousSettings& settings) {
   const LocalCorners local(given);
@@ -119,6 +125,7 @@ std::optional<Impact> bisect(const MovingCorners& given, const ContinuousSetting
   const double margin = settings.separation + 2.0 * local.rounding;
   std::priority_queue<Box, std::vector<Box>, Later> boxes;
   boxes.push({});
+  bool is_told_exactly = false;
   for (int looked = 1; !boxes.empty(); ++looked) {
     const Box box = boxes.top();
     boxes.pop();
@@ -141,10 +148,15 @@ std::optional<Impact> bisect(const MovingCorners& given, const ContinuousSetting
     if (are_beyond(Pair::normal(local.at(t.low())), ends, margin)) continue;
     if (are_beyond(std::accumulate(ends.begin(), ends.end(), Vec3(Vec3::Zero())), ends, margin)) continue;
     const Vec2 place(0.5 * (u.low() + u.high()), 0.5 * (v.low() + v.high()));
-    const Vec3 extent(side[0] * t.width(), side[1] * u.width(), side[2] * v.width());
     // √3: of a range this wide in each axis the farthest point
-    if (std::sqrt(3.0) * (high - low).maxCoeff() <= settings.tolerance) return Impact{t.low(), place, true};
+    const bool is_found = std::sqrt(3.0) * (high - low).maxCoeff() <= settings.tolerance;
+    if (settings.separation == 0.0 && !is_told_exactly && (is_found || looked > kBoxesBeforeExact)) {
+      is_told_exactly = true;
+      if (Pair::are_apart(given)) return std::nullopt;
+    }
+    if (is_found) return Impact{t.low(), place, true};
     if (looked >= settings.max_boxes) return Impact{t.low(), place, false};
+    const Vec3 extent(side[0] * t.width(), side[1] * u.width(), side[2] * v.width());
     int widest = -1;
     for (int k = 0; k < 3; ++k)
       if (box.part[k].depth < kDeepest && (widest < 0 || extent[k] > extent[widest])) widest = k;

@@ -2,37 +2,10 @@
 
 #include <cmath>
 
+#include "engine/geometry/expansion.hpp"
+
 namespace impinge {
 namespace {
-
-/// A number as an exact sum of doubles that do not overlap, smallest first. [Shewchuk97 §2]
-using Expansion = std::vector<double>;
-
-/// Adds x to the expansion: each partial sum leaves its rounding error behind.
-void grow(Expansion& e, double x) {
-  for (double& component : e) {
-    const double sum = x + component, part = sum - x;
-    const double error = (x - (sum - part)) + (component - part);
-    component = error;
-    x = sum;
-  }
-  e.push_back(x);
-}
-
-Expansion difference(double a, double b) {
-  Expansion e{a};
-  grow(e, -b);
-  return e;
-}
-
-void add_product(Expansion& sum, const Expansion& e, const Expansion& f, double sign) {
-  for (const double x : e)
-    for (const double y : f) {
-      const double high = x * y, low = std::fma(x, y, -high);
-      grow(sum, sign * low);
-      grow(sum, sign * high);
-    }
-}
 
 int exact_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   std::array<std::array<Expansion, 3>, 3> row;  // a - d, b - d, c - d
@@ -49,9 +22,7 @@ int exact_sign(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     add_product(minor, row[1][v], row[2][u], -1.0);
     add_product(determinant, row[0][k], minor, 1.0);
   }
-  for (auto it = determinant.rbegin(); it != determinant.rend(); ++it)
-    if (*it != 0.0) return *it > 0.0 ? 1 : -1;
-  return 0;
+  return sign_of(determinant);
 }
 
 /// a d - b c
