@@ -6,8 +6,9 @@
 namespace impinge {
 namespace {
 
-// relative width of the bands; rounding in the triple products below is about 1e-15 of the same products
-constexpr double kBand = 1e-10;
+// relative width of the bands; rounding in the triple products below is about 1e-15 of the same products. What lies
+// flat on a face, a few picometres off, is outside of them
+constexpr double kBand = 1e-13;
 
 double l1(const Vec3& v) { return std::abs(v.x()) + std::abs(v.y()) + std::abs(v.z()); }
 
@@ -86,19 +87,42 @@ Wide triple(const WideVector& a, const WideVector& b, const WideVector& c) {
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
-// the same without bands. `distance` is that of the triangles' features: a segment that pierces the face has one of its
-// ends, or a crossing with the border, no farther off than the higher of its ends stands over the plane
-bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& c, double distance) {
-  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
-  const double height = std::max(std::abs(normal.dot(p - c[0])), std::abs(normal.dot(q - c[0])));
-  const double rounding = 64.0 * 0x1.0p-53 * (l1(p - c[0]) + l1(q - c[0])) * l1(c[1] - c[0]) * l1(c[2] - c[0]);
-  if (distance * normal.norm() > height + rounding) return false;
+// -1, 0, 1: the sign where rounding cannot have changed it, else 0
+int sure_sign(double value, double rounding) { return value > rounding ? 1 : value < -rounding ? -1 : 0; }
+
+// in wide numbers
+bool pierces_exactly(const Vec3& p, const Vec3& q, const TriangleCorners& c) {
   const WideVector e1 = difference(c[1], c[0]), e2 = difference(c[2], c[0]), direction = difference(q, p),
                    s = difference(p, c[0]);
   const Wide at_p = triple(s, e1, e2), at_q = triple(difference(q, c[0]), e1, e2);
   if (!((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0))) return false;
   const Wide sign = at_p > 0 ? 1 : -1, u = sign * triple(s, direction, e2), v = sign * triple(direction, s, e1);
   return u >= 0 && v >= 0 && sign * (at_p - at_q) - u - v >= 0;
+}
+
+// the same without bands. `distance` is that of the triangles' features: a segment that pierces the face has one of its
+// ends, or a crossing with the border, no farther off than the higher of its ends stands over the plane
+bool pierces(const Vec3& p, const Vec3& q, const TriangleCorners& c, double distance) {
+  const Vec3 e1 = c[1] - c[0], e2 = c[2] - c[0], direction = q - p, s = p - c[0], normal = e1.cross(e2);
+  const double at_p = normal.dot(s), at_q = normal.dot(q - c[0]);
+  const double height = std::max(std::abs(at_p), std::abs(at_q));
+  constexpr double kRounding = 64.0 * 0x1.0p-53;  // of three factors' product, each a difference of coordinates
+  const double rounding = kRounding * (l1(s) + l1(q - c[0])) * l1(e1) * l1(e2);
+  if (distance * normal.norm() > height + rounding) return false;
+  // in doubles wherever they decide, which is nearly everywhere
+  const int side_p = sure_sign(at_p, rounding), side_q = sure_sign(at_q, rounding);
+  if (side_p != 0 && side_p == side_q) return false;
+  if (side_p != 0 && side_q != 0) {
+    const double u = side_p * s.dot(direction.cross(e2)), v = side_p * direction.dot(s.cross(e1));
+    const double rounding_u = kRounding * l1(s) * l1(direction) * l1(e2),
+                 rounding_v = kRounding * l1(s) * l1(direction) * l1(e1);
+    const double w = side_p * (at_p - at_q) - u - v;
+    const double rounding_w = 2.0 * (rounding + rounding_u + rounding_v);
+    const int side_u = sure_sign(u, rounding_u), side_v = sure_sign(v, rounding_v), side_w = sure_sign(w, rounding_w);
+    if (side_u < 0 || side_v < 0 || side_w < 0) return false;
+    if (side_u > 0 && side_v > 0 && side_w > 0) return true;
+  }
+  return pierces_exactly(p, q, c);
 }
 
 bool is_before(const Vec3& l, const Vec3& r) {
