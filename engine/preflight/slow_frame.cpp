@@ -1,4 +1,4 @@
-// Frames that nobody will wait for, by the sub-step that was tried.
+// Frames that nobody will wait for, by the sub-step that was tried and the frames after it.
 #include <fmt/format.h>
 
 #include "engine/core/units.hpp"
@@ -12,9 +12,17 @@ constexpr double kSlow = 10.0;  // seconds a frame: 240 of them are 40 minutes
 class SlowFrame : public Warning {
  public:
   std::vector<Finding> look(const SceneAtStart& start) const override {
-    if (start.trial == nullptr || start.trial->frame_seconds() < kSlow) return {};
+    if (start.trial == nullptr) return {};
     const Trial& t = *start.trial;
     const char* remedy = "take coarser surfaces or volumes, or fewer sub-steps";
+    if (t.frame_seconds() < kSlow && t.ahead.slowest() >= kSlow)
+      return {
+          {t.ahead.given_up > 0.0
+               ? fmt::format("{} frames later one was not done after {}", t.ahead.frames, time_text(t.ahead.given_up))
+               : fmt::format("frame {} takes about {}, {:.0f} % of it the {}", t.ahead.dearest,
+                             time_text(t.ahead.dearest_seconds), 100.0 * t.ahead.share, t.ahead.stage),
+           remedy}};
+    if (t.frame_seconds() < kSlow) return {};
     if (!t.ended)
       return {{fmt::format("a sub-step was not done after {}, so a frame takes more than {}", time_text(t.seconds),
                            time_text(t.frame_seconds())),
@@ -28,7 +36,8 @@ class SlowFrame : public Warning {
 }  // namespace
 
 Entry<Warning> slow_frame_warning() {
-  return entry<Warning, SlowFrame>("slow-frame", "with --trial: a frame takes over ten seconds as the scene starts");
+  return entry<Warning, SlowFrame>("slow-frame",
+                                   "with --trial: a frame takes over ten seconds, as the scene starts or soon after");
 }
 
 }  // namespace impinge

@@ -41,7 +41,8 @@ class Deadline {
   std::thread watch_;  // last: it uses the others
 };
 
-void take_slowest(const StageTimes& times, Trial& trial) {
+template <class Report>
+void take_slowest(const StageTimes& times, Report& report) {
   const std::pair<std::string_view, double> stages[] = {{"broad phase", times.broad_ms},
                                                         {"narrow phase", times.narrow_ms},
                                                         {"assembly", times.assemble_ms},
@@ -49,8 +50,8 @@ void take_slowest(const StageTimes& times, Trial& trial) {
                                                         {"integration", times.integrate_ms}};
   double most = 0.0;
   for (const auto& [name, ms] : stages)
-    if (ms > most) most = ms, trial.stage = name;
-  trial.share = times.step_ms > 0.0 ? most / times.step_ms : 0.0;
+    if (ms > most) most = ms, report.stage = name;
+  report.share = times.step_ms > 0.0 ? most / times.step_ms : 0.0;
 }
 
 }  // namespace
@@ -78,6 +79,32 @@ Trial try_sub_steps(const std::function<const FrameStats&()>& step, int made, do
   check_interrupt();  // the deadline's flag is gone: what is raised now is somebody else's
   trial.bytes = static_cast<double>(memory_in_use());
   return trial;
+}
+
+Ahead look_ahead(const std::function<const FrameStats&()>& frame, int most_frames, double most_seconds) {
+  Ahead ahead;
+  Clock::time_point start;
+  try {
+    const Deadline deadline(most_seconds);
+    const InterruptScope scope(&deadline.flag());
+    while (ahead.frames < most_frames) {
+      start = Clock::now();
+      const FrameStats& stats = frame();
+      const double seconds = seconds_since(start);
+      ++ahead.frames;
+      ahead.seconds += seconds;
+      if (seconds <= ahead.dearest_seconds) continue;
+      ahead.dearest = ahead.frames;
+      ahead.dearest_seconds = seconds;
+      take_slowest(stats.times, ahead);
+    }
+  } catch (const Interrupted&) {
+    ahead.given_up = seconds_since(start);
+  } catch (const DivergenceError&) {
+    ++ahead.frames;
+  }
+  check_interrupt();
+  return ahead;
 }
 
 }  // namespace impinge

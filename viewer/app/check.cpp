@@ -16,7 +16,8 @@ class CheckCommand : public SubCommand {
     scene_options(options, scene_, overrides_);
     script_option(options, script_, "script file");
     options.flag("--strict", strict_, "exit code 2 if there is a warning (see impinge list warnings)");
-    options.flag("--trial", trial_, "make a sub-step and tell what time and memory a frame takes");
+    options.flag("--trial", trial_,
+                 "make a sub-step, go on for some seconds, and tell what time and memory frames take");
     threads_option(options);
   }
 

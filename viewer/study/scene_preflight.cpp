@@ -12,6 +12,8 @@ namespace impinge {
 namespace {
 
 constexpr double kMostSeconds = 60.0;
+constexpr double kAheadSeconds = 12.0;  // more than a frame may take
+constexpr int kAheadFrames = 120;
 constexpr double kShortestFrame = 1e-6;  // s, that the parameter takes
 
 }  // namespace
@@ -38,6 +40,10 @@ Trial try_scene(const Session& session, const std::filesystem::path& scene, cons
   };
   Trial trial = try_sub_steps(step, made, kMostSeconds);
   trial.substeps = p.substeps;
+  if (!trial.ended || !trial.diverged.empty()) return trial;
+  once.change(SetCommand{"simulation.frame_time", p.frame_time});
+  once.change(SetCommand{"simulation.substeps", std::int64_t{p.substeps}});
+  trial.ahead = look_ahead(step, std::min(kAheadFrames, session.default_last_frame()), kAheadSeconds);
   return trial;
 }
 
@@ -46,11 +52,21 @@ std::string trial_line(const Trial& trial, int frames) {
   const std::string memory = describe_bytes(trial.bytes);
   if (!trial.ended)
     return fmt::format("trial: a sub-step was given up after {}; {} in use", time_text(trial.seconds), memory);
-  return fmt::format(
+  const std::string line = fmt::format(
       "trial: a sub-step takes {} ({:.0f} % {}), so a frame of {} about {}, frames 0 to {} about {} without pictures, "
       "if it stays as it starts; {} in use",
       time_text(trial.seconds), 100.0 * trial.share, trial.stage, trial.substeps, time_text(trial.frame_seconds()),
       frames, time_text(frames * trial.frame_seconds()), memory);
+  const Ahead& ahead = trial.ahead;
+  std::string more;
+  if (ahead.frames > 0)
+    more += fmt::format("\nahead: {} frame{} in {}, the dearest, {}, in {} ({:.0f} % {})", ahead.frames,
+                        ahead.frames == 1 ? "" : "s", time_text(ahead.seconds), ahead.dearest,
+                        time_text(ahead.dearest_seconds), 100.0 * ahead.share, ahead.stage);
+  if (ahead.given_up > 0.0)
+    more += fmt::format("{}frame {} was given up after {}", more.empty() ? "\nahead: " : "; ", ahead.frames + 1,
+                        time_text(ahead.given_up));
+  return line + more;
 }
 
 }  // namespace impinge

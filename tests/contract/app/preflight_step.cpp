@@ -65,8 +65,25 @@ TEST_CASE("preflight: a trial tells time and memory, and what it did not solve")
   CHECK(step > 0.0);
   CHECK(frame == Approx(4.0 * step).epsilon(0.02));
   CHECK(quantity_after(outcome.out, "if it stays as it starts; ") > 1.0);  // MiB
+  CHECK(outcome.out.find("\nahead: 120 frames in ") != std::string::npos);
   const Outcome plain = impinge_run(folder.path(), {"check", "s.toml"});
   CHECK(plain.out.find("trial:") == std::string::npos);
+
+  // they meet in frame 4: before, a sub-step costs nothing
+  const auto cloud = [](const char* name, double y) {
+    return body(name,
+                fmt::format("shape = {{ box = {{ size = [1, 1, 1] }} }}\nvolume = {{ lattice = {{ cells = 8 }} }}\n"
+                            "material = {{ young = 1e5, poisson = 0.3, density = 1000 }}\n"
+                            "position = [0, {}, 0]\nvelocity = [0, {}, 0]",
+                            y, -10.0 * y),
+                "deformable");
+  };
+  folder.write("later.toml", "[simulation]\ngravity = [0, 0, 0]\n" + cloud("a", 1.0) + cloud("b", -1.0));
+  const Outcome later = impinge_run(folder.path(), {"check", "later.toml", "--trial"});
+  CAPTURE(later.out);
+  REQUIRE(later.code == 0);
+  CHECK(quantity_after(later.out, ", the dearest, ") > 2.0);
+  CHECK(quantity_after(later.out, ", the dearest, ") < 60.0);
 
   check_trap(folder, {"one sweep is too few",
                       "no-answer",
