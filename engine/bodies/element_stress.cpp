@@ -63,6 +63,10 @@ std::vector<double> element_von_mises(const DeformableBody& body) {
   return of_each(body, [&](int e) { return von_mises(element_state(body, e).stress); });
 }
 
+std::vector<double> element_mean_stress(const DeformableBody& body) {
+  return of_each(body, [&](int e) { return element_state(body, e).stress.trace() / 3.0; });
+}
+
 std::vector<double> element_equivalent_strain(const DeformableBody& body) {
   return of_each(body, [&](int e) {
     return equivalent_strain(rotation_svd(deformation_gradient(body.fem.elements()[e], corners_of(body, e))).sigma);

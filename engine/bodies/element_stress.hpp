@@ -24,7 +24,8 @@ double von_mises(const Mat3& stress);
 double equivalent_strain(const Vec3& stretch);
 
 // one number a tetrahedron
-std::vector<double> element_von_mises(const DeformableBody& body);  ///< Pa
+std::vector<double> element_von_mises(const DeformableBody& body);    ///< Pa
+std::vector<double> element_mean_stress(const DeformableBody& body);  ///< tr σ / 3, Pa: minus the pressure
 std::vector<double> element_equivalent_strain(const DeformableBody& body);
 std::vector<double> element_volume_ratio(const DeformableBody& body);
 

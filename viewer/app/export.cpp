@@ -53,6 +53,7 @@ int ExportCommand::run() {
   job.first = frames.front(), job.stride = range_.stride();
   job.frames = static_cast<int>(frames.size());
   job.frame_time = session.world().parameters.simulation.frame_time;
+  job.colors = session.view().settings().colors;
   Exports exports({format_}, job, run.record());
   FrameProgress progress;
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "viewer/controller/act_command.hpp"
+#include "viewer/draw/body_color.hpp"
 
 namespace impinge {
 
@@ -28,23 +29,28 @@ constexpr VerbRow kVerbs[] = {
     {"fit", 0, 0, 0, "camera fit"},
 };
 
-constexpr const char* kBodyVerbs[] = {"hide", "isolate", "show", "lock", "unlock", "frame", "follow"};
+constexpr const char* kBodyVerbs[] = {"hide", "isolate", "show", "lock", "unlock", "frame", "follow", "color"};
 
 /// Rows whose texts are names of bodies.
 bool names_bodies(const std::string& path) {
-  return path == "view.hidden" || path == "view.locked" || path == "view.camera.follow";
+  return path == "view.hidden" || path == "view.locked" || path == "view.camera.follow" || path == "view.colors";
 }
 
 std::string remedy(const std::string& near, const char* otherwise) {
   return near.empty() ? otherwise : fmt::format("did you mean '{}'?", near);
 }
 
-void check_bodies(const PlacedText& word, const ParameterValue& value, const ParameterSet& rows) {
+void check_bodies(const PlacedText& word, const std::string& path, const ParameterValue& value,
+                  const ParameterSet& rows) {
   const std::vector<std::string> bodies = body_names(rows);
   if (const auto* one = std::get_if<std::string>(&value); one != nullptr && !one->empty())
     check_body(word, *one, bodies);
   if (const auto* several = std::get_if<std::vector<std::string>>(&value))
-    for (const std::string& name : *several) check_body(word, name, bodies);
+    for (const std::string& entry : *several) {
+      check_body(word, name_in(entry), bodies);
+      if (path == "view.colors" && !color_in(entry))
+        word.refuse(fmt::format("'{}'", entry), "NAME=rrggbb is wanted", "write \"ball=e07020\", say");
+    }
 }
 
 std::vector<Command> parse_set(std::span<const PlacedText> words, const ParameterSet& rows, bool first_frame) {
@@ -60,7 +66,8 @@ std::vector<Command> parse_set(std::span<const PlacedText> words, const Paramete
       throw InputError(fmt::format("{}: {}; change the value", first.place(), error.what()));
     }
   for (const Command& command : commands)
-    if (const auto& set = std::get<SetCommand>(command); names_bodies(set.path)) check_bodies(first, set.value, rows);
+    if (const auto& set = std::get<SetCommand>(command); names_bodies(set.path))
+      check_bodies(first, set.path, set.value, rows);
   return commands;
 }
 
@@ -68,10 +75,11 @@ Command parse_bodies(std::span<const PlacedText> words, const ParameterSet& rows
   const auto verb = static_cast<BodiesCommand::Verb>(
       std::find(std::begin(kBodyVerbs), std::end(kBodyVerbs), words[0].text) - std::begin(kBodyVerbs));
   const bool takes_all = verb == BodiesCommand::show || verb == BodiesCommand::unlock,
-             is_follow = verb == BodiesCommand::follow;
+             is_follow = verb == BodiesCommand::follow, is_color = verb == BodiesCommand::color;
   const std::string usage = fmt::format("{} NAME{}", words[0].text,
                                         is_follow   ? "|none"
                                         : takes_all ? "...|all"
+                                        : is_color  ? "... RRGGBB|none"
                                                     : "...");
   if (words.size() < 2)
     words[0].refuse(fmt::format("'{}' without a body", words[0].text), fmt::format("{} is wanted", usage),
@@ -82,8 +90,17 @@ Command parse_bodies(std::span<const PlacedText> words, const ParameterSet& rows
   BodiesCommand command{verb, {}};
   if (words.size() == 2 && ((takes_all && words[1].text == "all") || (is_follow && words[1].text == "none")))
     return command;
+  if (is_color) {
+    const PlacedText& last = words.back();
+    command.rgb = read_color(last.text);
+    if (!command.rgb && last.text != "none")
+      last.refuse(fmt::format("'{}' for a colour", last.text), fmt::format("{} is wanted", usage),
+                  "end the line with e07020, say");
+    if (words.size() < 3)
+      last.refuse("'color' without a body", fmt::format("{} is wanted", usage), "add a body's name");
+  }
   const std::vector<std::string> bodies = body_names(rows);
-  for (const PlacedText& word : words.subspan(1)) {
+  for (const PlacedText& word : words.subspan(1, words.size() - (is_color ? 2 : 1))) {
     check_body(word, word.text, bodies);
     command.names.emplace_back(word.text);
   }
@@ -168,7 +185,9 @@ struct Formatter {
   std::string operator()(const BodiesCommand& c) const {
     if (c.names.empty())
       return fmt::format("{} {}", kBodyVerbs[c.verb], c.verb == BodiesCommand::follow ? "none" : "all");
-    return fmt::format("{} {}", kBodyVerbs[c.verb], fmt::join(c.names, " "));
+    const std::string text = fmt::format("{} {}", kBodyVerbs[c.verb], fmt::join(c.names, " "));
+    if (c.verb != BodiesCommand::color) return text;
+    return text + " " + (c.rgb ? color_text(*c.rgb) : "none");
   }
   std::string operator()(const Act& act) const { return format_act(act); }
 };

@@ -5,6 +5,7 @@
 //   camera eye X Y Z | target X Y Z | orbit YAW PITCH | pan X Y | zoom FACTOR | fov DEGREES | fit
 //   hide NAME... | isolate NAME... | show NAME...|all       bodies that are drawn; isolate: these and no others
 //   lock NAME... | unlock NAME...|all                       bodies that a click goes through
+//   color NAME... RRGGBB|none                               of their surfaces; none: the palette's
 //   frame NAME...                                           the camera looks at them, near enough to fill the view
 //   follow NAME|none                                        the camera goes along with a body
 //   pull BODY X Y Z to X Y Z [stiffness K] | release BODY   a spring from a point of it to a place
@@ -13,12 +14,14 @@
 //   delete BODY                                             it takes no part any more
 #pragma once
 
+#include <optional>
 #include <span>
 #include <variant>
 
 #include "engine/core/parameter.hpp"
 #include "engine/step/act.hpp"
 #include "viewer/controller/text_place.hpp"
+#include "viewer/draw/palette.hpp"
 
 namespace impinge {
 
@@ -35,9 +38,10 @@ struct CameraCommand {
   Vec3 value = Vec3::Zero();  ///< as many numbers as the verb has, the rest 0; angles in degrees
 };
 struct BodiesCommand {
-  enum Verb { hide, isolate, show, lock, unlock, frame, follow };
+  enum Verb { hide, isolate, show, lock, unlock, frame, follow, color };
   Verb verb = hide;
   std::vector<std::string> names;  ///< none: all; of follow: no body
+  std::optional<Color> rgb = {};   ///< of color; none: the palette's
 };
 using Command = std::variant<SetCommand, LayerCommand, CameraCommand, BodiesCommand, Act>;
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "engine/core/archive.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "viewer/draw/body_color.hpp"
 #include "viewer/image/difference.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/layers/view_bodies.hpp"
@@ -54,6 +56,37 @@ void take_away(std::vector<std::string>& list, const std::vector<std::string>& n
   std::erase_if(list, [&](const std::string& name) {
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
   });
+}
+
+bool changes_what_happens(const Command& command) {
+  const auto* set = std::get_if<SetCommand>(&command);
+  return set != nullptr ? !set->path.starts_with("view.") : std::holds_alternative<Act>(command);
+}
+
+/// What tells a caption itself is none.
+bool is_about_captions(const Command& command) {
+  const auto* set = std::get_if<SetCommand>(&command);
+  return set != nullptr && set->path.starts_with("view.caption.");
+}
+
+/// Of the last `frames` frames, the latest last; of one parameter (of a ramp, say) only the latest.
+std::vector<std::string> caption_lines(const Script& script, int frame, int frames, CaptionLines which) {
+  std::vector<std::string> lines, paths;  // the latest first
+  if (which == CaptionLines::none) return lines;
+  for (int at = frame; at > frame - frames && at >= 0; --at) {
+    std::vector<Command> commands = script.commands_at(at);
+    std::reverse(commands.begin(), commands.end());
+    for (const Command& command : commands) {
+      if (is_about_captions(command) || (which == CaptionLines::changes && !changes_what_happens(command))) continue;
+      if (const auto* set = std::get_if<SetCommand>(&command)) {
+        if (std::find(paths.begin(), paths.end(), set->path) != paths.end()) continue;
+        paths.push_back(set->path);
+      }
+      lines.push_back(format_command(command));
+    }
+  }
+  std::reverse(lines.begin(), lines.end());
+  return lines;
 }
 
 }  // namespace
@@ -122,6 +155,12 @@ void FrameView::show(const BodiesCommand& command, const StepRecord& record) {
     case BodiesCommand::unlock:
       take_away(settings_.locked, command.names);
       break;
+    case BodiesCommand::color:
+      for (const std::string& name : command.names) {
+        std::erase_if(settings_.colors, [&](const std::string& entry) { return name_in(entry) == name; });
+        if (command.rgb) settings_.colors.push_back(name + "=" + color_text(*command.rgb));
+      }
+      break;
     case BodiesCommand::frame:
       fit(bounds_of(record, command.names), record);
       break;
@@ -135,6 +174,11 @@ void FrameView::show(const BodiesCommand& command, const StepRecord& record) {
       settings_.camera_given = true;
     }
   }
+}
+
+void FrameView::write_below(const Script& script, int frame, double frames_per_second) {
+  const double frames = std::min(std::ceil(settings_.caption_time * frames_per_second), 1e6);
+  settings_.lines_shown = caption_lines(script, frame, static_cast<int>(frames), settings_.caption_lines);
 }
 
 void FrameView::open(const std::string& scene_name, bool ids) {

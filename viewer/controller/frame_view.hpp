@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "viewer/controller/command.hpp"
+#include "viewer/controller/script.hpp"
 #include "viewer/present/frame_painter.hpp"
 #include "viewer/present/png_sequence.hpp"
 
@@ -27,6 +27,8 @@ class FrameView {
   /// Makes ready to draw pictures of the settled size; without it no OpenGL is touched. `ids`: id pictures too. Throws
   /// InputError without OpenGL.
   void open(const std::string& scene_name, bool ids = false);
+  /// Makes the lines of the script that a picture of the frame has below it, by the rows view.caption.*.
+  void write_below(const Script& script, int frame, double frames_per_second);
   /// Draws the frame and hands the picture on, to be written into `folder`/frames, and what its pixels show into
   /// `folder`/ids; returns the milliseconds of drawing.
   double draw(const StepRecord& record, std::span<const Command> commands, const std::filesystem::path& folder);

@@ -65,6 +65,7 @@ Exports open_exports(const RunOptions& options, const Session& session, int last
   job.option = "--export";
   job.frames = last_frame + 1;
   job.frame_time = session.world().parameters.simulation.frame_time;
+  job.colors = session.view().settings().colors;
   return {options.exports, job, session.record()};
 }
 

@@ -147,8 +147,11 @@ std::vector<Command> Session::advance(FrozenStep* frozen) {
     }
   }
   ++frame_;
+  write_below();
   return commands;
 }
+
+void Session::write_below() { view_.write_below(script_, frame_, 1.0 / world_.parameters.simulation.frame_time); }
 
 void Session::change(const Command& command) {
   apply(command);
@@ -229,6 +232,7 @@ void Session::restore(ByteReader& in) {
   world_.restore(in);
   frame_ = frame;
   changed_ = false;
+  write_below();
 }
 
 }  // namespace impinge

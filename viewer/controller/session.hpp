@@ -72,6 +72,7 @@ class Session {
  private:
   void apply(const Command& command);
   void start();
+  void write_below();
   bool begins_later() const { return scene_.run && !scene_.run->start.empty(); }
 
   World world_;

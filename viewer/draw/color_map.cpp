@@ -9,9 +9,17 @@
 namespace impinge {
 namespace {
 
-constexpr double kDarkest = 0.34, kBrightest = 0.93;   // OKLab lightness
-constexpr double kFirstHue = 295.0, kLastHue = 105.0;  // degrees: violet, blue, teal, green, yellow
-constexpr double kChroma = 0.12, kShareOfGamut = 0.94;
+/// A way through OKLab: lightness and hue go evenly, chroma as far as both the map and screens allow.
+struct Way {
+  double first_lightness, last_lightness;
+  double first_hue, last_hue;  ///< degrees
+  double first_chroma, last_chroma;
+};
+constexpr Way kDusk = {0.34, 0.93, 295.0, 105.0, 0.12, 0.12};  // violet, blue, teal, green, yellow
+constexpr Way kFire = {0.20, 0.96, 15.0, 105.0, 0.20, 0.12};
+constexpr Way kGray = {0.24, 0.97, 0.0, 0.0, 0.0, 0.0};
+constexpr Way kBlue = {0.42, 0.96, 258.0, 240.0, 0.16, 0.0}, kRust = {0.42, 0.96, 38.0, 60.0, 0.16, 0.0};
+constexpr double kShareOfGamut = 0.94;
 
 double to_srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
@@ -28,12 +36,12 @@ Vec3 linear_rgb(const Vec3& lab) {
           -0.0041960863 * cube[0] - 0.7034186147 * cube[1] + 1.7076147010 * cube[2]};
 }
 
-/// The colour at u of the path, its chroma kept within what screens show.
-Vec3 lab_at(double u) {
-  const double lightness = kDarkest + (kBrightest - kDarkest) * u;
-  const double hue = (kFirstHue + (kLastHue - kFirstHue) * u) * M_PI / 180.0;
+/// The colour at u of the way, its chroma kept within what screens show.
+Vec3 lab_at(const Way& way, double u) {
+  const double lightness = way.first_lightness + (way.last_lightness - way.first_lightness) * u;
+  const double hue = (way.first_hue + (way.last_hue - way.first_hue) * u) * M_PI / 180.0;
   const auto lab = [&](double chroma) { return Vec3(lightness, chroma * std::cos(hue), chroma * std::sin(hue)); };
-  double low = 0.0, high = kChroma / kShareOfGamut;
+  double low = 0.0, high = (way.first_chroma + (way.last_chroma - way.first_chroma) * u) / kShareOfGamut;
   for (int i = 0; i < 40; ++i) {
     const double chroma = 0.5 * (low + high);
     const Vec3 rgb = linear_rgb(lab(chroma));
@@ -42,35 +50,58 @@ Vec3 lab_at(double u) {
   return lab(kShareOfGamut * low);
 }
 
-std::array<Color, kHeatColors> make_colors() {
-  // the path cut into pieces of equal length, which are equal steps to the eye
+Color color_of(const Vec3& lab) {
+  const Vec3 rgb = linear_rgb(lab);
+  const auto share = [](double v) { return static_cast<float>(to_srgb(std::clamp(v, 0.0, 1.0))); };
+  return {share(rgb[0]), share(rgb[1]), share(rgb[2])};
+}
+
+/// The way cut into pieces of equal length, which are equal steps to the eye.
+std::vector<Color> cut(const Way& way, int count) {
   constexpr int kFine = 2000;
   std::vector<double> length = {0.0};
   for (int i = 1; i <= kFine; ++i)
-    length.push_back(length.back() +
-                     (lab_at(i / static_cast<double>(kFine)) - lab_at((i - 1) / static_cast<double>(kFine))).norm());
-  std::array<Color, kHeatColors> colors;
-  for (int k = 0; k < kHeatColors; ++k) {
-    const double wanted = length.back() * k / (kHeatColors - 1.0);
+    length.push_back(
+        length.back() +
+        (lab_at(way, i / static_cast<double>(kFine)) - lab_at(way, (i - 1) / static_cast<double>(kFine))).norm());
+  std::vector<Color> colors;
+  for (int k = 0; k < count; ++k) {
+    const double wanted = length.back() * k / (count - 1.0);
     const auto at = std::lower_bound(length.begin(), length.end() - 1, wanted) - length.begin();
-    const Vec3 rgb = linear_rgb(lab_at(at / static_cast<double>(kFine)));
-    const auto share = [](double v) { return static_cast<float>(to_srgb(std::clamp(v, 0.0, 1.0))); };
-    colors[static_cast<std::size_t>(k)] = {share(rgb[0]), share(rgb[1]), share(rgb[2])};
+    colors.push_back(color_of(lab_at(way, at / static_cast<double>(kFine))));
   }
+  return colors;
+}
+
+std::array<Color, kHeatColors> make_colors(ColorMap map) {
+  std::vector<Color> all;
+  if (map == ColorMap::balance) {
+    constexpr int kHalf = kHeatColors / 2 + 1;  // the middle is in both
+    all = cut(kBlue, kHalf);
+    const std::vector<Color> other = cut(kRust, kHalf);
+    all.insert(all.end(), other.rbegin() + 1, other.rend());
+  } else {
+    all = cut(map == ColorMap::dusk ? kDusk : map == ColorMap::fire ? kFire : kGray, kHeatColors);
+  }
+  std::array<Color, kHeatColors> colors;
+  std::copy(all.begin(), all.end(), colors.begin());
   return colors;
 }
 
 }  // namespace
 
-const std::array<Color, kHeatColors>& heat_colors() {
-  static const std::array<Color, kHeatColors> colors = make_colors();
-  return colors;
+const std::array<Color, kHeatColors>& heat_colors(ColorMap map) {
+  static const std::array<std::array<Color, kHeatColors>, 4> colors = {
+      make_colors(ColorMap::dusk), make_colors(ColorMap::fire), make_colors(ColorMap::gray),
+      make_colors(ColorMap::balance)};
+  return colors[static_cast<std::size_t>(map)];
 }
 
-Color heat_color(double t) {
+Color heat_color(double t, ColorMap map) {
   const double place = std::clamp(t, 0.0, 1.0) * (kHeatColors - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), heat_colors().size() - 2);
-  return mix(heat_colors()[below], heat_colors()[below + 1], static_cast<float>(place - static_cast<double>(below)));
+  const auto& colors = heat_colors(map);
+  const auto below = std::min(static_cast<std::size_t>(place), colors.size() - 2);
+  return mix(colors[below], colors[below + 1], static_cast<float>(place - static_cast<double>(below)));
 }
 
 }  // namespace impinge

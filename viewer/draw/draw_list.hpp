@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "viewer/draw/color_scale.hpp"
 #include "viewer/draw/moved_surface.hpp"
 #include "viewer/draw/palette.hpp"
 
@@ -88,13 +89,6 @@ struct DrawLabel {
   std::string text;
   Color color = role::kInk;
   PickId pick = 0;
-};
-
-/// What the colours of heated surfaces mean: from 0 to `high`, beyond which the last colour stays.
-struct ColorBar {
-  std::string title, unit;
-  double high = 1.0;      ///< in `unit`
-  bool exceeded = false;  ///< whether something in the picture lies beyond
 };
 
 /// How much of a draw list there was when a layer had drawn.

@@ -60,6 +60,26 @@ const LayerSwitch& ViewSettings::layer(std::string_view name) const {
   return *it;
 }
 
+void ViewSettings::bind_writing(const Rows& rows) {
+  rows.add("caption.text", caption, "A text below the picture.");
+  rows.add(
+      "caption.lines", caption_lines,
+      {{CaptionLines::none, "none"}, {CaptionLines::changes, "changes"}, {CaptionLines::all, "all"}},
+      "Lines of the script below the pictures of a run, from the frame in which they take effect: those that change "
+      "what happens, or all, those of the view too.");
+  rows.add("caption.time", caption_time, {0.0, 1e9, true}, "s", "How long such a line stays, in simulated time.");
+  rows.add("panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
+  rows.add("panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
+  rows.add("panel.legend_form", legend_form,
+           {{LegendForm::automatic, "automatic"}, {LegendForm::whole, "whole"}, {LegendForm::folded, "folded"}},
+           "Folded, the legend is a heading; automatic, it is where it would cover a tenth of the debugger's view, or "
+           "what is picked there wherever it stood.");
+  rows.add("panel.timings", show_timings,
+           "Times of the stages among the figures; pictures then differ from run to run.");
+  rows.add("panel.scale", panel_scale, {0, 16}, "",
+           "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
+}
+
 void ViewSettings::bind(ParameterSet& set) {
   const Rows all(set), rows = all.below("view");
   all.add(vector_row(*this, "view.camera.eye", &Camera::eye,
@@ -112,6 +132,9 @@ void ViewSettings::bind(ParameterSet& set) {
             {BackdropStyle::transparent, "transparent"}},
            "What stands behind the scene; flat is one colour, for pictures that are compared; transparent nothing, for "
            "pictures that are laid over others.");
+  rows.add("color_map", color_map, {{ColorMap::dusk, "dusk"}, {ColorMap::fire, "fire"}, {ColorMap::gray, "gray"}},
+           "Colours of quantities: violet over teal to yellow; black red over orange to pale yellow; dark to light "
+           "gray. A diverging scale goes from blue over white to rust whatever this says.");
   rows.add("clip.enabled", clip.enabled,
            "Cut surfaces and tetrahedra by a plane, to see into bodies; marks are never cut.");
   rows.add("clip.normal", clip.normal, {-1e9, 1e9}, "",
@@ -122,16 +145,9 @@ void ViewSettings::bind(ParameterSet& set) {
            "Backs of surfaces; only leaves the fronts out, so that bodies are seen from inside.");
   rows.add("hidden", hidden, "Bodies that are not drawn; a contact is while one of its two bodies is.");
   rows.add("locked", locked, "Bodies that can't be picked in the view: a click goes through them.");
-  rows.add("panel.figures", show_figures, "The panel of figures, left out where the picture is too small for it.");
-  rows.add("panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
-  rows.add("panel.legend_form", legend_form,
-           {{LegendForm::automatic, "automatic"}, {LegendForm::whole, "whole"}, {LegendForm::folded, "folded"}},
-           "Folded, the legend is a heading; automatic, it is where it would cover a tenth of the debugger's view, or "
-           "what is picked there wherever it stood.");
-  rows.add("panel.timings", show_timings,
-           "Times of the stages among the figures; pictures then differ from run to run.");
-  rows.add("panel.scale", panel_scale, {0, 16}, "",
-           "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
+  rows.add("colors", colors,
+           "Colours of bodies, \"NAME=rrggbb\" each; those that are not named take turns through the palette.");
+  bind_writing(rows);
 }
 
 }  // namespace impinge

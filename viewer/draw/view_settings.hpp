@@ -5,6 +5,7 @@
 #include "engine/core/parameter.hpp"
 #include "viewer/draw/camera.hpp"
 #include "viewer/draw/clip_plane.hpp"
+#include "viewer/draw/color_map.hpp"
 #include "viewer/draw/layer_settings.hpp"
 
 namespace impinge {
@@ -22,6 +23,9 @@ enum class BackdropStyle { dark, light, flat, transparent };
 /// How much of the legend is seen: of the automatic one only its heading where it would cover too much.
 enum class LegendForm { automatic, whole, folded };
 
+/// Which lines of the script stand below a picture for a while: those that change what happens, or also what is seen.
+enum class CaptionLines { none, changes, all };
+
 struct ViewSettings {
   Camera camera;
   bool camera_given = false;        ///< else the painter fits the camera to what it paints
@@ -36,6 +40,7 @@ struct ViewSettings {
   int panel_scale = 0;  ///< text size in steps of 13 pixels; 0: by the picture's height
   bool antialiasing = true;
   BackdropStyle backdrop = BackdropStyle::dark;
+  ColorMap color_map = ColorMap::dusk;
 
   ClipPlane clip;
   Backs backs = Backs::shown;
@@ -43,6 +48,14 @@ struct ViewSettings {
   // bodies by name
   std::vector<std::string> hidden;  ///< not drawn
   std::vector<std::string> locked;  ///< drawn, and a click goes through them
+  std::vector<std::string> colors;  ///< NAME=rrggbb (draw/body_color)
+
+  // what is written below a picture
+  std::string caption;
+  CaptionLines caption_lines = CaptionLines::none;
+  double caption_time = 2.0;  ///< of a line, seconds of the simulation
+  /// The lines themselves, the latest last. No row: whoever has the script finds them.
+  std::vector<std::string> lines_shown;
 
   // What a debugger has picked. No rows: pictures of a run have none of it.
   std::vector<std::string> selected;  ///< bodies
@@ -63,6 +76,7 @@ struct ViewSettings {
   void bind(ParameterSet& set);
 
  private:
+  void bind_writing(const Rows& rows);  ///< of captions and panels
   const LayerSwitch& layer(std::string_view name) const;
 };
 

@@ -29,9 +29,9 @@ Vec3 center_in_file(const BodyRecord& body) { return body.file_pose.apply_invers
 
 bool is_shown_apart(const Shape& shape) { return shape.mesh() != nullptr && shape.mesh()->full != nullptr; }
 
-std::vector<ExportBody> export_bodies(const StepRecord& start) {
+std::vector<ExportBody> export_bodies(const StepRecord& start, const std::vector<std::string>& given) {
   std::map<const Shape*, std::shared_ptr<const TriangleMesh>> of_shapes;
-  const std::vector<Color> colors = body_colors(start);
+  const std::vector<Color> colors = body_colors(start, given);
   std::vector<ExportBody> bodies;
   for (std::size_t i = 0; i < start.bodies.size(); ++i) {
     const BodyRecord& body = start.bodies[i];

@@ -28,8 +28,8 @@ struct ExportBody {
 /// Whether what is drawn and exported has other triangles than what takes part in contact (SurfaceMesh::full).
 bool is_shown_apart(const Shape& shape);
 
-/// In the scene's order.
-std::vector<ExportBody> export_bodies(const StepRecord& start);
+/// In the scene's order. `colors`: entries of view.colors.
+std::vector<ExportBody> export_bodies(const StepRecord& start, const std::vector<std::string>& colors);
 
 /// The vertices of its surface in the world.
 std::vector<Vec3> world_surface(const ExportBody& body, const StepRecord& record);

@@ -11,12 +11,13 @@
 namespace impinge {
 
 struct ExportJob {
-  std::filesystem::path folder;  ///< there already; the files' own names are the format's
-  std::string name;              ///< of the scene, fit for a file's name
-  std::string option;            ///< what asked for it, for messages: "--format gltf"
-  int first = 0, stride = 1;     ///< frames of the scene
-  int frames = 0;                ///< how many will come, at most
-  double frame_time = 0.0;       ///< seconds from one frame of the scene to the next, as it starts
+  std::filesystem::path folder;          ///< there already; the files' own names are the format's
+  std::string name;                      ///< of the scene, fit for a file's name
+  std::string option;                    ///< what asked for it, for messages: "--format gltf"
+  int first = 0, stride = 1;             ///< frames of the scene
+  int frames = 0;                        ///< how many will come, at most
+  std::vector<std::string> colors = {};  ///< of bodies: entries of view.colors
+  double frame_time = 0.0;               ///< seconds from one frame of the scene to the next, as it starts
 };
 
 class Exporter {

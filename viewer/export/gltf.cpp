@@ -79,7 +79,7 @@ class GltfExporter final : public Exporter {
 void GltfExporter::begin(const ExportJob& job, const StepRecord& start) {
   path_ = job.folder / (job.name + ".glb");
   name_ = job.name;
-  bodies_ = export_bodies(start);
+  bodies_ = export_bodies(start, job.colors);
   check_size(job);
   tracks_.resize(bodies_.size());
   origin_ = far_origin(bounds_of(bodies_, start));

@@ -8,7 +8,7 @@ namespace impinge {
 
 void SurfaceSequence::begin(const ExportJob& job, const StepRecord& start) {
   folder_ = job.folder;
-  bodies_ = export_bodies(start);
+  bodies_ = export_bodies(start, job.colors);
   files_ = FrameFiles(job.folder, ending_);
 }
 

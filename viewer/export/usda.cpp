@@ -108,7 +108,7 @@ void UsdaExporter::begin(const ExportJob& job, const StepRecord& start) {
   path_ = job.folder / (job.name + ".usda");
   name_ = job.name;
   codes_per_second_ = rounded(1.0 / job.frame_time);
-  bodies_ = export_bodies(start);
+  bodies_ = export_bodies(start, job.colors);
   std::set<std::string> taken;
   for (const ExportBody& body : bodies_) {
     ++users_[body.surface.get()];

@@ -101,7 +101,7 @@ void VtuExporter::begin(const ExportJob& job, const StepRecord& start) {
   surfaces_ = PvdFile(folder_ / "surfaces.pvd");
   tetrahedra_ = PvdFile(folder_ / "tetrahedra.pvd");
   contacts_ = PvdFile(folder_ / "contacts.pvd");
-  for (ExportBody& body : export_bodies(start)) {
+  for (ExportBody& body : export_bodies(start, job.colors)) {
     if (!body.is_static()) start_.push_back(world_surface(body, start));
     (body.is_static() ? static_ : moving_).push_back(std::move(body));
   }
@@ -140,8 +140,8 @@ void VtuExporter::add_surfaces(const StepRecord& record) {
       append(impulse, contacts[i].impulse);
       append(gap, contacts[i].gap);
       if (!deformable) continue;
-      append(stress, at_surface(*body.deformable, HeatQuantity::stress));
-      append(strain, at_surface(*body.deformable, HeatQuantity::strain));
+      append(stress, at_surface(*body.deformable, HeatQuantity::von_mises));
+      append(strain, at_surface(*body.deformable, HeatQuantity::equivalent_strain));
     }
     if (displacement.empty()) continue;
     surface.grid.add_point_field("displacement", displacement);

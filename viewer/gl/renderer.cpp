@@ -45,15 +45,17 @@ bool hides_its_backs(const DrawSurface& item, const ViewTransform& view) {
   return item.bounds().exteriorDistance(eye) > 1.001 * reach;
 }
 
-std::vector<Eigen::Vector3f> heat_table() {
+std::vector<Eigen::Vector3f> heat_table(ColorMap map) {
   std::vector<Eigen::Vector3f> table;
-  for (const Color& c : heat_colors()) table.emplace_back(c.r, c.g, c.b);
+  for (const Color& c : heat_colors(map)) table.emplace_back(c.r, c.g, c.b);
   return table;
 }
 
 }  // namespace
 
-Renderer::Renderer() : heat_table_(heat_table()) {}
+Renderer::Renderer()
+    : heat_tables_{heat_table(ColorMap::dusk), heat_table(ColorMap::fire), heat_table(ColorMap::gray),
+                   heat_table(ColorMap::balance)} {}
 
 Renderer::SurfaceBuffers& Renderer::buffers_of(const DrawSurface& item) {
   const ShadedSurface& surface = *item.surface;
@@ -132,7 +134,8 @@ void Renderer::prepare(Program& program, const DrawList& list, const ViewTransfo
   program.use();
   program.set("projection", view.projection);
   program.set("eye_up", view.eye_up);
-  program.set("heat_colors[0]", heat_table_);
+  const ColorMap map = list.color_bars.empty() ? ColorMap::dusk : list.color_bars.front().map;
+  program.set("heat_colors[0]", heat_tables_[static_cast<std::size_t>(map)]);
   if (!style.clip.is_on() || list.surfaces.empty()) return;
   const Eigen::Vector3f normal = (view.rotation * style.clip.normal.normalized()).cast<float>();
   const auto eye_height = static_cast<float>(style.clip.height(view.eye));

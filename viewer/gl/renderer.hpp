@@ -59,8 +59,8 @@ class Renderer {
   void draw_see_through(Program& program, const DrawList& list, const ViewTransform& view, const ClipPlane& clip);
 
   Program surface_program_{"surface"}, backdrop_program_{"backdrop"};
-  VertexArray nothing_;  // a core profile draws nothing without a vertex array
-  std::vector<Eigen::Vector3f> heat_table_;
+  VertexArray nothing_;                                      // a core profile draws nothing without a vertex array
+  std::array<std::vector<Eigen::Vector3f>, 4> heat_tables_;  ///< of each colour map
   std::map<const ShadedSurface*, SurfaceBuffers> buffers_;
   Grid grid_;
   Marks marks_;

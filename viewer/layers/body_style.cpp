@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/shapes/primitives.hpp"
+#include "viewer/draw/body_color.hpp"
 
 namespace impinge {
 namespace {
@@ -24,7 +25,7 @@ bool any_body(const StepRecord& record, Condition&& condition) {
 
 }  // namespace
 
-std::vector<Color> body_colors(const StepRecord& record) {
+std::vector<Color> body_colors(const StepRecord& record, const std::vector<std::string>& given) {
   std::vector<Color> colors;
   int turn = 0;
   for (const BodyRecord& body : record.bodies) {
@@ -39,6 +40,7 @@ std::vector<Color> body_colors(const StepRecord& record) {
         colors.push_back(series_color(turn++));
         break;
     }
+    if (const std::optional<Color> own = given_color(given, body.name)) colors.back() = *own;
   }
   return colors;
 }

@@ -6,7 +6,8 @@
 namespace impinge {
 
 /// Dynamic bodies take turns through the palette in scene order; static grey, scripted pale.
-std::vector<Color> body_colors(const StepRecord& record);
+/// `given`: entries of view.colors, which come first.
+std::vector<Color> body_colors(const StepRecord& record, const std::vector<std::string>& given);
 
 /// Whether the scene has such bodies (or nodes, vertices, tetrahedra of some body): what a legend need not explain
 /// else.

@@ -55,26 +55,23 @@ double measure_of(const StepRecord& record, const ContactRecord& contact, Contac
   }
 }
 
-ColorBar bar_of(ContactMeasure what, double high, bool exceeded) {
+ColorBar bar_of(ContactMeasure what, const ColorScale& scale, ColorMap map) {
   struct Words {
     const char *title, *unit;
   };
   constexpr Words kWords[] = {{"overlap", "m"}, {"normal impulse", "N s"}, {"slip", "m/s"}};
   const Words& words = kWords[static_cast<std::size_t>(what)];
-  const NumberText end = number_text(high, words.unit);
-  return {words.title, end.unit, std::stod(end.digits), exceeded};
+  return bar_in(words.title, words.unit, scale, map);
 }
 
-double bar_end(double setting, double most) {
-  constexpr double kLeast = 1e-12;  // so that rounding is no picture
-  return setting > 0.0 ? setting : rounded_up(std::max(most, kLeast));
-}
-
-double rounded_up(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 5.0, 10.0})
-    if (value <= step * power * (1.0 + 1e-12)) return step * power;
-  return 10.0 * power;
+ColorBar bar_in(const std::string& title, const std::string& unit, const ColorScale& scale, ColorMap map) {
+  const NumberText end = number_text(scale.high, unit);
+  ColorBar bar;
+  bar.title = title, bar.unit = end.unit;
+  bar.scale = scale;
+  bar.factor = std::stod(end.digits) / scale.high;
+  bar.map = map_of(scale, map);
+  return bar;
 }
 
 }  // namespace impinge

@@ -18,7 +18,7 @@ struct Settings {
   bool carrying = false, of_selected = false;
   Size size = Size::same;
   Shown color = Shown::state;
-  double max = 0.0;  // of the colour bar
+  ScaleSettings colors;
 
   void declare(const Rows& rows) {
     rows.add("carrying", carrying, "Only contacts that carry something.");
@@ -29,8 +29,7 @@ struct Settings {
              {{Shown::state, "state"}, {Shown::gap, "gap"}, {Shown::impulse, "impulse"}, {Shown::slip, "slip"}},
              "What colours mean: the state; how deep the bodies overlap (m); the normal impulse (N s); the speed at "
              "which the two points slide along each other (m/s).");
-    rows.add("max", max, {0.0, 1e15, true}, "",
-             "Upper end of the colour bar, in the unit of what it shows; 0 chooses by the frame.");
+    colors.declare(rows, 1e15, "");
   }
 };
 
@@ -86,7 +85,8 @@ void draw(const LayerContext& context, DrawList& list) {
     if (!by_state) most = std::max(most, measure_of(record, record.contacts[i], measure));
   }
   const double mean = carrying > 0 ? sum / carrying : 0.0;
-  const double high = by_state ? 0.0 : bar_end(own.max, most);
+  const ColorScale scale = own.colors.scale(std::max(most, kLeastShown), false);
+  ColorBar bar = bar_of(measure, scale, context.settings.color_map);
   const auto size_of = [&](const ContactRecord& c) {
     if (own.size == Size::same) return c.state == ContactState::open ? 0.65f : 1.0f;
     if (!(mean > 0.0)) return kLeastSize;
@@ -94,12 +94,12 @@ void draw(const LayerContext& context, DrawList& list) {
   };
   for (const std::size_t i : order) {
     const ContactRecord& c = record.contacts[i];
-    const Color color = by_state ? color_of(c.state) : heat_color(measure_of(record, c, measure) / high);
+    const Color color = by_state ? color_of(c.state) : heat_color(bar.place(measure_of(record, c, measure)), bar.map);
     list.points.push_back({0.5 * (c.point_a + c.point_b), color,
                            size_of(c) * static_cast<float>(context.settings.point_size), Depth::on_top,
                            contact_pick(i)});
   }
-  if (!by_state && !order.empty()) list.color_bars.push_back(bar_of(measure, high, most > high));
+  if (!by_state && !order.empty()) list.color_bars.push_back(bar);
 }
 
 bool shows_states(const ViewSettings& settings) {

@@ -8,7 +8,7 @@ namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
-  const std::vector<Color> colors = body_colors(record);
+  const std::vector<Color> colors = body_colors(record, context.settings.colors);
   for (DrawSurface& item : list.surfaces) {
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];

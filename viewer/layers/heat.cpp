@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewer/draw/number_text.hpp"
 #include "viewer/layers/contact_measures.hpp"
 #include "viewer/layers/heat_map.hpp"
 #include "viewer/layers/layer.hpp"
@@ -17,15 +16,14 @@ enum class Shown { speed, overlap, impulse, slip };
 
 struct Settings {
   Shown of = Shown::speed;
-  double max = 0.0;  // of the colour bar
+  ScaleSettings colors;
 
   void declare(const Rows& rows) {
     rows.add("of", of,
              {{Shown::speed, "speed"}, {Shown::overlap, "overlap"}, {Shown::impulse, "impulse"}, {Shown::slip, "slip"}},
              "What colours mean: the speed of the material (m/s); at contacts how deep the bodies overlap (m), the "
              "normal impulse (N s), the speed at which the two points slide along each other (m/s).");
-    rows.add("max", max, {0.0, 1e15, true}, "",
-             "Upper end of the colour bar, in the unit of what it shows; 0 chooses by the frame.");
+    colors.declare(rows, 1e15, "");
   }
 };
 
@@ -92,12 +90,6 @@ std::optional<ContactMeasure> measure_of(Shown what) {
   return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
 }
 
-ColorBar bar(std::optional<ContactMeasure> measure, double high, bool exceeded) {
-  if (measure) return bar_of(*measure, high, exceeded);
-  const NumberText end = number_text(high, "m/s");
-  return {"speed", end.unit, std::stod(end.digits), exceeded};
-}
-
 void draw(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const Settings& own = context.own<Settings>();
@@ -114,21 +106,22 @@ void draw(const LayerContext& context, DrawList& list) {
     if (measure && highest == 0.0) values[i].clear();  // what nothing touches stays as it is
     most = std::max(most, highest);
   }
-  const double high = bar_end(own.max, most);
+  const ColorScale scale = own.colors.scale(std::max(most, kLeastShown), false);
+  const ColorMap map = context.settings.color_map;
+  ColorBar bar = measure ? bar_of(*measure, scale, map) : bar_in("speed", "m/s", scale, map);
   bool any = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i].empty()) continue;
     any = true;
     auto heat = std::make_shared<std::vector<float>>();
-    for (const double v : values[i]) heat->push_back(static_cast<float>(v / high));
+    for (const double v : values[i]) heat->push_back(bar.place(v));
     list.surfaces[i].heat = std::move(heat);
   }
   if (!any) return;
-  const ColorBar shown = bar(measure, high, most > high);
   if (list.color_bars.empty())
-    list.color_bars.push_back(shown);
+    list.color_bars.push_back(bar);
   else
-    list.color_bars.front() = shown;  // of the surfaces there is one: instead of stress's or strain's
+    list.color_bars.front() = bar;  // of the surfaces there is one: instead of stress's or strain's
 }
 
 }  // namespace

@@ -4,43 +4,64 @@
 #include <cmath>
 
 #include "engine/bodies/element_stress.hpp"
-#include "viewer/layers/contact_measures.hpp"
 
 namespace impinge {
 
-namespace {
+void StressSettings::declare(const Rows& rows) {
+  rows.add("of", of, {{HeatQuantity::von_mises, "von_mises"}, {HeatQuantity::mean_stress, "mean"}},
+           "The von Mises stress, which distortion makes; or the mean of the principal stresses, whose sign tells "
+           "tension (+) from pressure (-).");
+  colors.declare(rows, 1e15, "Pa");
+}
 
-const char* layer_of(HeatQuantity quantity) { return quantity == HeatQuantity::stress ? "stress" : "strain"; }
-
-}  // namespace
+void StrainSettings::declare(const Rows& rows) {
+  rows.add("of", of, {{HeatQuantity::equivalent_strain, "equivalent"}, {HeatQuantity::volume_change, "volume"}},
+           "The equivalent strain, of distortion alone; or by how much the volume has grown (+) or shrunk (-).");
+  colors.declare(rows, 1e6, "");
+}
 
 std::optional<HeatQuantity> heat_shown(const ViewSettings& settings) {
-  for (const HeatQuantity quantity : {HeatQuantity::strain, HeatQuantity::stress})
-    if (settings.is_on(layer_of(quantity))) return quantity;
+  if (settings.is_on("strain")) return settings.of_layer<StrainSettings>("strain").of;
+  if (settings.is_on("stress")) return settings.of_layer<StressSettings>("stress").of;
   return std::nullopt;
 }
 
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity) {
-  return quantity == HeatQuantity::stress ? element_von_mises(body) : element_equivalent_strain(body);
+  std::vector<double> values;
+  switch (quantity) {
+    case HeatQuantity::von_mises:
+      return element_von_mises(body);
+    case HeatQuantity::mean_stress:
+      return element_mean_stress(body);
+    case HeatQuantity::equivalent_strain:
+      return element_equivalent_strain(body);
+    default:
+      values = element_volume_ratio(body);
+      for (double& v : values) v -= 1.0;
+      return values;
+  }
 }
 
-double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity) {
-  const HeatSettings& own = settings.of_layer<HeatSettings>(layer_of(quantity));
-  if (own.max > 0.0) return own.max;
+ColorScale heat_scale(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity) {
+  const bool is_stress = quantity == HeatQuantity::von_mises || quantity == HeatQuantity::mean_stress;
+  const bool is_signed = quantity == HeatQuantity::mean_stress || quantity == HeatQuantity::volume_change;
+  const ScaleSettings& own = is_stress ? settings.of_layer<StressSettings>("stress").colors
+                                       : settings.of_layer<StrainSettings>("strain").colors;
+  // at rest nothing but rounding is left, which is no picture
+  const double least = is_stress ? 1.0 : 1e-4;
   std::vector<double> all;
   for (const BodyRecord& body : record.bodies) {
-    if (body.deformable == nullptr) continue;
+    if (body.deformable == nullptr || own.max > 0.0) continue;
     std::vector<double> shown = node_average(*body.deformable, heat_of_elements(*body.deformable, quantity));
     if (!body.deformable->embedding.tet.empty())
       shown = values_at_points(body.deformable->embedding, body.deformable->fem.rest(), shown);
-    std::copy_if(shown.begin(), shown.end(), std::back_inserter(all), [](double v) { return std::isfinite(v); });
+    for (const double v : shown)
+      if (std::isfinite(v)) all.push_back(std::abs(v));
   }
-  // at rest nothing but rounding is left, which is no picture
-  const double least = quantity == HeatQuantity::stress ? 1.0 : 1e-4;
-  if (all.empty()) return least;
+  if (all.empty()) return own.scale(least, is_signed);
   const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), place, all.end());
-  return rounded_up(std::max(*place, least));
+  return own.scale(std::max(*place, least), is_signed);
 }
 
 std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh,
@@ -54,12 +75,22 @@ std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& 
   return values;
 }
 
-ColorBar make_color_bar(HeatQuantity quantity, double high) {
-  if (quantity == HeatQuantity::strain) return {"equivalent strain", "%", 100.0 * high};
-  const char* const units[] = {"Pa", "kPa", "MPa", "GPa"};
-  int thousands = 0;
-  while (thousands < 3 && high >= 1000.0) high /= 1000.0, ++thousands;
-  return {"von Mises stress", units[thousands], high};
+ColorBar heat_bar(HeatQuantity quantity, const ColorScale& scale, ColorMap map) {
+  ColorBar bar;
+  bar.scale = scale;
+  bar.map = map_of(scale, map);
+  if (quantity == HeatQuantity::von_mises || quantity == HeatQuantity::mean_stress) {
+    constexpr const char* kUnits[] = {"Pa", "kPa", "MPa", "GPa"};
+    std::size_t thousands = 0;
+    while (thousands < 3 && scale.high * bar.factor >= 1000.0) bar.factor *= 1e-3, ++thousands;
+    bar.title = quantity == HeatQuantity::von_mises ? "von Mises stress" : "mean stress";
+    bar.unit = kUnits[thousands];
+  } else {
+    bar.title = quantity == HeatQuantity::equivalent_strain ? "equivalent strain" : "change of volume";
+    bar.unit = "%";
+    bar.factor = 100.0;
+  }
+  return bar;
 }
 
 void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantity) {
@@ -67,8 +98,7 @@ void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantit
   if (std::none_of(record.bodies.begin(), record.bodies.end(),
                    [](const BodyRecord& b) { return b.deformable != nullptr; }))
     return;
-  const double high = heat_high(record, context.settings, quantity);
-  ColorBar bar = make_color_bar(quantity, high);
+  ColorBar bar = heat_bar(quantity, heat_scale(record, context.settings, quantity), context.settings.color_map);
   for (DrawSurface& item : list.surfaces) {
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];
@@ -77,8 +107,7 @@ void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantit
     const std::vector<double> points = values_at_points(body.deformable->embedding, body.deformable->fem.rest(), nodes);
     auto heat = std::make_shared<std::vector<float>>();
     heat->reserve(item.surface->source.size());
-    for (const std::uint32_t v : item.surface->source) heat->push_back(static_cast<float>(points[v] / high));
-    bar.exceeded = bar.exceeded || std::any_of(heat->begin(), heat->end(), [](float v) { return v > 1.0f; });
+    for (const std::uint32_t v : item.surface->source) heat->push_back(bar.place(points[v]));
     item.heat = std::move(heat);
   }
   if (list.color_bars.empty())

@@ -6,33 +6,35 @@
 
 namespace impinge {
 
-enum class HeatQuantity { stress, strain };
+enum class HeatQuantity { von_mises, mean_stress, equivalent_strain, volume_change };
 
-/// Of either layer.
-struct HeatSettings {
-  Range range;
-  std::string unit, doc;
-  double max = 0.0;  ///< upper end of the colour bar; 0: by the frame
-
-  void declare(const Rows& rows) { rows.add("max", max, range, unit, doc); }
+struct StressSettings {
+  HeatQuantity of = HeatQuantity::von_mises;
+  ScaleSettings colors;
+  void declare(const Rows& rows);
+};
+struct StrainSettings {
+  HeatQuantity of = HeatQuantity::equivalent_strain;
+  ScaleSettings colors;
+  void declare(const Rows& rows);
 };
 
 /// What is shown by colours: strain wins over stress; none if neither layer is on.
 std::optional<HeatQuantity> heat_shown(const ViewSettings& settings);
 
-/// von Mises stress (Pa) or equivalent strain of every tetrahedron.
+/// Of every tetrahedron: von Mises stress and mean stress (Pa; tension is positive), equivalent strain, J - 1.
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity);
 
-/// The end of the colour bar: the setting's, or what 99 % of all deformable surfaces' vertices stay below, rounded up
-/// to 1, 2 or 5 times a power of ten so that it keeps still from frame to frame.
-double heat_high(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity);
+/// From the layer's rows; ends that are left open lie where 99 % of all deformable surfaces' vertices stay below,
+/// rounded up to 1, 2 or 5 times a power of ten so that they keep still from frame to frame.
+ColorScale heat_scale(const StepRecord& record, const ViewSettings& settings, HeatQuantity quantity);
 
 /// Nodal values at embedded points, by their weights.
 std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& mesh,
                                      const std::vector<double>& of_nodes);
 
-/// Title, and the unit in which `high` has few digits.
-ColorBar make_color_bar(HeatQuantity quantity, double high);
+/// With its title, and the unit in which the upper end has few digits.
+ColorBar heat_bar(HeatQuantity quantity, const ColorScale& scale, ColorMap map);
 
 /// Heats the surfaces of deformable bodies that are in the list, and puts the colour bar there.
 void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantity);

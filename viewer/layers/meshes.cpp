@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/shapes/primitives.hpp"
+#include "viewer/draw/body_color.hpp"
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -9,14 +10,16 @@ namespace impinge {
 namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
-  const std::vector<Color> colors = body_colors(context.record);
+  const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (const auto* plane = body.shape->as<Plane>()) {
       const Vec3 normal = body.pose.rotation * plane->normal;
-      list.planes.push_back({normal, plane->offset + normal.dot(body.pose.position),
-                             context.settings.backdrop == BackdropStyle::light ? role::kLightFloor : role::kFloor,
-                             body_pick(i)});
+      list.planes.push_back(
+          {normal, plane->offset + normal.dot(body.pose.position),
+           given_color(context.settings.colors, body.name)
+               .value_or(context.settings.backdrop == BackdropStyle::light ? role::kLightFloor : role::kFloor),
+           body_pick(i)});
       continue;
     }
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};

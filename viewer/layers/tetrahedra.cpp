@@ -72,19 +72,20 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
   if (!everted.empty()) add(everted, role::kOverlap);
   DrawSurface& solids = add(upright, color);
   if (const auto quantity = heat_shown(context.settings)) {
-    const double high = heat_high(context.record, context.settings, *quantity);
+    ColorBar bar = heat_bar(*quantity, heat_scale(context.record, context.settings, *quantity), ColorMap::dusk);
     const std::vector<double> values = heat_of_elements(body, *quantity);
     auto heat = std::make_shared<std::vector<float>>();
-    for (const int t : upright)
-      heat->insert(heat->end(), 12, static_cast<float>(values[static_cast<std::size_t>(t)] / high));
-    if (!list.color_bars.empty())
-      list.color_bars.front().exceeded |= std::any_of(heat->begin(), heat->end(), [](float v) { return v > 1.0f; });
+    for (const int t : upright) heat->insert(heat->end(), 12, bar.place(values[static_cast<std::size_t>(t)]));
+    if (!list.color_bars.empty()) {
+      list.color_bars.front().exceeded |= bar.exceeded;
+      list.color_bars.front().below |= bar.below;
+    }
     solids.heat = std::move(heat);
   }
 }
 
 void draw(const LayerContext& context, DrawList& list) {
-  const std::vector<Color> colors = body_colors(context.record);
+  const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
   const bool wire = context.own<Settings>().style == Settings::Style::wire;
   const bool over_surfaces = context.settings.is_on("meshes");
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {

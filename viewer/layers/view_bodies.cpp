@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/parameter.hpp"
+#include "viewer/draw/body_color.hpp"
 
 namespace impinge {
 
@@ -60,6 +61,12 @@ std::string unknown_body(const StepRecord& record, const ViewSettings& settings)
   for (const auto& [path, names] : {std::pair("view.hidden", settings.hidden), {"view.locked", settings.locked}})
     for (const std::string& name : names)
       if (std::string text = wrong(path, name); !text.empty()) return text;
+  for (const std::string& entry : settings.colors) {
+    if (std::string text = wrong("view.colors", std::string(name_in(entry))); !text.empty()) return text;
+    if (!color_in(entry))
+      return fmt::format("'{}' for view.colors; NAME=rrggbb is wanted; write \"{}=e07020\", say", entry,
+                         name_in(entry));
+  }
   return wrong("view.camera.follow", settings.followed);
 }
 

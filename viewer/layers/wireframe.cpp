@@ -7,7 +7,7 @@ namespace impinge {
 namespace {
 
 void draw(const LayerContext& context, DrawList& list) {
-  const std::vector<Color> colors = body_colors(context.record);
+  const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
   const bool over_surfaces = context.settings.is_on("meshes");
   const float width = 0.7f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {

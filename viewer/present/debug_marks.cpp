@@ -89,7 +89,7 @@ void mark_pulls(const DebugModel& model, DrawList& list) {
 
 void draw_trails(const DebugModel& model, DrawList& list) {
   if (!model.state.trails) return;
-  const std::vector<Color> colors = body_colors(*model.record);
+  const std::vector<Color> colors = body_colors(*model.record, model.view->colors);
   for (const BodyIndex body : trailed(model)) {
     const Color color = colors[static_cast<std::size_t>(body.value())];
     std::optional<Pose> before;

@@ -102,6 +102,8 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
     const PanelArea picked = area_of(settings.picked, camera, width(), height());
     legend_ = draw_legend(pen, record, settings, figures_, picked);
     std::vector<PanelArea> taken = {figures_, legend_};
+    caption_ = draw_caption(pen, settings, taken);
+    taken.push_back(caption_);
     bars_.clear();
     for (const ColorBar& bar : list_.color_bars) {
       bars_.push_back(draw_color_bar(pen, bar, settings, taken));
@@ -122,6 +124,7 @@ void ScenePainter::read_ids(const StepRecord& record, const ViewSettings& settin
   ids_->read(ids);
   add_panel(ids, figures_, "figures");
   add_panel(ids, legend_, "legend");
+  add_panel(ids, caption_, "caption");
   for (const PanelArea& bar : bars_) add_panel(ids, bar, "bar");
 }
 

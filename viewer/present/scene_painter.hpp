@@ -42,7 +42,7 @@ class ScenePainter {
   SurfaceCache surfaces_;
   DrawList list_;
   // of the last picture
-  PanelArea figures_, legend_;
+  PanelArea figures_, legend_, caption_;
   std::vector<PanelArea> bars_;
   std::unique_ptr<IdBuffer> ids_;
 };

@@ -7,6 +7,7 @@
 #include "engine/geometry/rotation.hpp"
 #include "engine/io/scene/scene_values.hpp"
 #include "viewer/bundle/scene.hpp"
+#include "viewer/draw/body_color.hpp"
 
 namespace impinge {
 
@@ -156,6 +157,9 @@ SmallScene SmallScene::with_bodies(const std::vector<std::string>& names) const 
     ParameterValue value = row.get();
     if (row.path == "view.hidden" || row.path == "view.locked")
       std::erase_if(std::get<std::vector<std::string>>(value), is_gone);
+    if (row.path == "view.colors")
+      std::erase_if(std::get<std::vector<std::string>>(value),
+                    [&](const std::string& entry) { return is_gone(std::string(name_in(entry))); });
     if (row.path == "view.camera.follow" && is_gone(std::get<std::string>(value))) value = std::string();
     copy.get = [value = std::move(value)] { return value; };
     rows_left.add(std::move(copy));

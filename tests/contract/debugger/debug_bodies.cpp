@@ -65,6 +65,12 @@ TEST_CASE("a body that is not there is one message at its place") {
       {"follow al\n", "a.script:1:8: unknown body 'al'; "},
       {"frame crate bal\n", "a.script:1:13: unknown body 'bal'; "},
       {"set view.hidden [crate, bal]\n", "a.script:1:17: unknown body 'bal'; "},
+      {"color ball\n", "a.script:1:7: 'ball' for a colour; color NAME... RRGGBB|none is wanted; "},
+      {"color none\n", "a.script:1:7: 'color' without a body; color NAME... RRGGBB|none is wanted; "},
+      {"color bal none\n", "a.script:1:7: unknown body 'bal'; "},
+      {"color ball e0702\n", "a.script:1:12: 'e0702' for a colour; "},
+      {"set view.colors [\"bal=e07020\"]\n", "a.script:1:17: unknown body 'bal'; "},
+      {"set view.colors [\"ball=orange\"]\n", "a.script:1:17: 'ball=orange'; NAME=rrggbb is wanted; "},
       {"panel sort bodies sped\n", "a.script:1:19: unknown column 'sped'; "},
       {"panel columns body +mass\n", "a.script:1:15: unknown table 'body'; allowed: contacts, bodies, groups, pairs; "},
       {"panel columns bodies mass\n", "a.script:1:22: 'mass'; +COLUMN or -COLUMN is wanted; "},
@@ -102,6 +108,9 @@ ui click outliner/frame
 ui click outliner/follow
 step 5
 ui click outliner/isolate
+ui click outliner/color
+ui click outliner/color:d02020
+ui key escape
 shot alone.png
 ui click outliner/show_all
 ui click outliner/columns
@@ -123,10 +132,11 @@ shot end.png
   REQUIRE(first.code == 0);
   const std::string recording = slurp(folder / "r.script");
   INFO(recording);
-  for (const char* line : {"panel front outliner\n", "panel sort bodies speed\n", "panel sort bodies speed down\n",
-                           "select body ball\n", "hide crate\n", "show crate\n", "lock ball\n", "frame ball\n",
-                           "follow ball\n", "isolate ball\n", "show all\n", "panel columns bodies +mass\n",
-                           "panel tab pairs\n", "select contact ", "panel tab groups\n", "panel search ba\n"})
+  for (const char* line :
+       {"panel front outliner\n", "panel sort bodies speed\n", "panel sort bodies speed down\n", "select body ball\n",
+        "hide crate\n", "show crate\n", "lock ball\n", "frame ball\n", "follow ball\n", "isolate ball\n",
+        "color ball d02020\n", "show all\n", "panel columns bodies +mass\n", "panel tab pairs\n", "select contact ",
+        "panel tab groups\n", "panel search ba\n"})
     CHECK(recording.find("\n" + std::string(line)) != std::string::npos);
   CHECK(recording.find("ui click") == std::string::npos);
   const Outcome again = debug(folder, "s.toml", "r.script", {"--out", "two"});

@@ -31,27 +31,52 @@ std::array<Mat3, 4> all_eyes() {
   return eyes;
 }
 
+/// Hardly any colour of its own.
+bool at_middle_is_pale() {
+  const Vec3 middle = lab(linear(heat_color(0.5, ColorMap::balance)));
+  return middle[0] > 90.0 && std::hypot(middle[1], middle[2]) < 3.0;
+}
+
 Vec3 seen(const Mat3& eye, const Color& c) { return lab((eye * linear(c)).cwiseMax(0.0).cwiseMin(1.0)); }
 
 }  // namespace
 
 TEST_CASE("the colours of quantities grow in lightness by even steps, for colour-blind eyes too") {
-  for (const Mat3& eye : all_eyes()) {
-    double previous = -1.0, smallest = 1e9, largest = 0.0;
-    Vec3 before = Vec3::Zero();
-    for (int k = 0; k < kHeatColors; ++k) {
-      const Vec3 now = seen(eye, heat_colors()[static_cast<std::size_t>(k)]);
-      CHECK(now[0] > previous + 1.2);
-      if (k > 0) {
-        const double step = (now - before).norm();
-        smallest = std::min(smallest, step), largest = std::max(largest, step);
+  for (const ColorMap map : {ColorMap::dusk, ColorMap::fire, ColorMap::gray})
+    for (const Mat3& eye : all_eyes()) {
+      CAPTURE(static_cast<int>(map), eye);
+      double previous = -1.0, smallest = 1e9, largest = 0.0;
+      Vec3 before = Vec3::Zero();
+      for (int k = 0; k < kHeatColors; ++k) {
+        const Vec3 now = seen(eye, heat_colors(map)[static_cast<std::size_t>(k)]);
+        CHECK(now[0] > previous + 1.2);
+        if (k > 0) {
+          const double step = (now - before).norm();
+          smallest = std::min(smallest, step), largest = std::max(largest, step);
+        }
+        previous = now[0], before = now;
       }
-      previous = now[0], before = now;
+      CHECK(smallest > 1.5);  // just noticeable is about 1
+      CHECK(largest < (eye.isIdentity() ? 2.0 : 3.5) * smallest);
     }
-    CHECK(smallest > 1.5);  // just noticeable is about 1
-    CHECK(largest < (eye.isIdentity() ? 2.0 : 3.5) * smallest);
+  for (const ColorMap map : {ColorMap::dusk, ColorMap::fire, ColorMap::gray})
+    CHECK(lab(linear(heat_color(1.0, map)))[0] - lab(linear(heat_color(0.0, map)))[0] > 60.0);
+}
+
+TEST_CASE(
+    "the colours of what has a sign grow evenly darker from their middle, to ends that no eye takes for each other") {
+  constexpr int kMiddle = kHeatColors / 2;
+  for (const Mat3& eye : all_eyes()) {
+    CAPTURE(eye);
+    const auto at = [&](int k) { return seen(eye, heat_colors(ColorMap::balance)[static_cast<std::size_t>(k)]); };
+    for (int k = 0; k < kMiddle; ++k) {
+      CHECK(at(k)[0] + 1.2 < at(k + 1)[0]);
+      CHECK(at(kHeatColors - 1 - k)[0] + 1.2 < at(kHeatColors - 2 - k)[0]);
+    }
+    CHECK((at(0) - at(kHeatColors - 1)).norm() > 45.0);
+    CHECK((at(kMiddle / 2) - at(kHeatColors - 1 - kMiddle / 2)).norm() > 15.0);
   }
-  CHECK(lab(linear(heat_color(1.0)))[0] - lab(linear(heat_color(0.0)))[0] > 60.0);
+  CHECK(at_middle_is_pale());
 }
 
 TEST_CASE("colours between two of the table are between them, and beyond its ends the ends") {

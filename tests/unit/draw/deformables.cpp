@@ -151,15 +151,20 @@ TEST_CASE("the colour bar ends at a round number that covers what is shown, or w
   scene.add_soft("bar", cube, mesh, embed(mesh, cube->mesh.vertices),
                  [](const Vec3& p) { return Vec3(1.013 * p.x(), (1.0 - 0.00585) * p.y(), (1.0 - 0.00585) * p.z()); });
   ViewSettings settings = make_view_settings();
-  for (const double stress : heat_of_elements(*scene.record().bodies[0].deformable, HeatQuantity::stress))
+  for (const double stress : heat_of_elements(*scene.record().bodies[0].deformable, HeatQuantity::von_mises))
     CHECK(stress == Approx(1300.0).epsilon(0.02));
-  CHECK(heat_high(scene.record(), settings, HeatQuantity::stress) == Approx(2000.0).epsilon(1e-12));
-  CHECK(heat_high(scene.record(), settings, HeatQuantity::strain) == Approx(0.02).epsilon(1e-9));
+  for (const double stress : heat_of_elements(*scene.record().bodies[0].deformable, HeatQuantity::mean_stress))
+    CHECK(stress == Approx(1300.0 / 3.0).epsilon(0.02));  // two of the three principal stresses are zero
+  for (const double change : heat_of_elements(*scene.record().bodies[0].deformable, HeatQuantity::volume_change))
+    CHECK(change == Approx(1.013 * (1.0 - 0.00585) * (1.0 - 0.00585) - 1.0).epsilon(1e-9));
+  CHECK(heat_scale(scene.record(), settings, HeatQuantity::mean_stress).low == Approx(-500.0));
+  CHECK(heat_scale(scene.record(), settings, HeatQuantity::von_mises).high == Approx(2000.0).epsilon(1e-12));
+  CHECK(heat_scale(scene.record(), settings, HeatQuantity::equivalent_strain).high == Approx(0.02).epsilon(1e-9));
   set(settings, "view.stress.max", "4321");
-  CHECK(heat_high(scene.record(), settings, HeatQuantity::stress) == 4321.0);
-  const ColorBar bar = make_color_bar(HeatQuantity::stress, 2e5);
+  CHECK(heat_scale(scene.record(), settings, HeatQuantity::von_mises).high == 4321.0);
+  const ColorBar bar = heat_bar(HeatQuantity::von_mises, {ScaleForm::linear, 0.0, 2e5}, ColorMap::dusk);
   CHECK(bar.unit == "kPa");
-  CHECK(bar.high == Approx(200.0));
+  CHECK(bar.factor * bar.scale.high == Approx(200.0));
 }
 
 TEST_CASE("the legend explains only what the scene has") {

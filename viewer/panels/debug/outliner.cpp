@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "viewer/draw/body_color.hpp"
+
 namespace impinge {
 namespace {
 
@@ -47,6 +49,28 @@ class ButtonRow {
   float room_, used_ = 0.0f;
 };
 
+/// Colours to choose from for bodies, in a list that is open: the palette's and strong ones.
+void draw_swatches(Ui& ui, const std::string& names, CommandLines& lines) {
+  constexpr int kOfPalette = 7, kInRow = 8;
+  constexpr std::uint32_t kStrong[] = {0xffffff, 0xd02020, 0xe8a010, 0x60b020, 0x1080d0, 0x8040c0, 0x202428, 0x808890};
+  std::vector<Color> colors;
+  for (int i = 0; i < kOfPalette; ++i) colors.push_back(series_color(i));
+  for (const std::uint32_t rgb : kStrong) colors.push_back(hex(rgb));
+  const float size = 1.2f * ImGui::GetTextLineHeight();
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (i % kInRow != 0) ImGui::SameLine(0.0f, 2.0f * ui.unit());
+    const std::string text = color_text(colors[i]);
+    const Color c = colors[i];
+    if (ImGui::ColorButton(text.c_str(), {c.r, c.g, c.b, 1.0f}, ImGuiColorEditFlags_NoTooltip, {size, size}))
+      lines.push_back("color " + names + " " + text);
+    ui.name("outliner/color:" + text);
+    tooltip(text);
+  }
+  if (ImGui::Selectable("as before")) lines.push_back("color " + names + " none");
+  ui.name("outliner/color:none");
+  tooltip("the palette's");
+}
+
 void draw_deeds(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const std::vector<std::string> names = meant(model);
   const std::string all = fmt::format("{}", fmt::join(names, " "));
@@ -59,6 +83,12 @@ void draw_deeds(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (row.add("follow", "outliner/follow", "the camera goes along with the selected body",
               is_some || !model.view->followed.empty(), follows))
     lines.push_back("follow " + (follows || !is_some ? "none" : names.front()));
+  if (row.add("color", "outliner/color", "colours for the selected bodies", is_some)) ImGui::OpenPopup("##swatches");
+  if (ImGui::BeginPopup("##swatches")) {
+    if (is_some) draw_swatches(ui, all, lines);
+    close_on_escape(ui);
+    ImGui::EndPopup();
+  }
   if (row.add("show all", "outliner/show_all", "nothing is hidden (ctrl h)", !model.view->hidden.empty()))
     lines.push_back("show all");
 }

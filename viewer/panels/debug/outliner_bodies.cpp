@@ -184,7 +184,7 @@ TableRows body_rows(Ui& ui, const DebugModel& model, CommandLines& lines) {
     return b.asleep || b.deleted || has(model.view->hidden, name_of(model, BodyIndex(row)));
   };
   rows.icons = 2;
-  rows.draw_icons = [&ui, &model, &lines, colors = body_colors(*model.record)](std::size_t row) {
+  rows.draw_icons = [&ui, &model, &lines, colors = body_colors(*model.record, model.view->colors)](std::size_t row) {
     draw_icons(ui, model, lines, colors, row);
   };
   return rows;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <algorithm>
+#include <cmath>
 
 #include "viewer/draw/color_map.hpp"
 #include "viewer/panels/overlay/picture_panels.hpp"
@@ -19,9 +20,14 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
                          const std::vector<PanelArea>& taken) {
   if (!settings.show_legend) return {};
   const float u = pen.unit, pad = pen.padding(), width = (pen.is_small() ? 0.7f : 1.0f) * kWidth * u;
-  const std::string title = bar.unit.empty() ? bar.title : fmt::format("{}, {}", bar.title, bar.unit);
-  const std::string low = "0", middle = fmt::format("{:.4g}", 0.5 * bar.high),
-                    high = fmt::format("{}{:.4g}", bar.exceeded ? ">" : "", bar.high);
+  const ColorScale& scale = bar.scale;
+  const bool by_logarithm = scale.form == ScaleForm::logarithmic;
+  const std::string title =
+      fmt::format("{}{}{}{}", bar.title, bar.unit.empty() ? "" : ", ", bar.unit, by_logarithm ? " (logarithmic)" : "");
+  const auto shown = [&](double value) { return fmt::format("{:.4g}", bar.factor * value); };
+  const std::string low = (bar.below ? "<" : "") + shown(scale.low),
+                    high = (bar.exceeded ? ">" : "") + shown(scale.high),
+                    middle = shown(by_logarithm ? std::sqrt(scale.low * scale.high) : 0.5 * (scale.low + scale.high));
   PanelArea area;
   const float beside = 0.5f * pen.text_width(high);  // the last number stands under the bar's end
   area.width = std::max(pen.text_width(title), width + beside) + 2.0f * pad;
@@ -36,7 +42,7 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
   pen.sheet(area.x, area.y, area.width, area.height);
   pen.text(area.x + pad, area.y + pad, kTitle, title);
   const float left = area.x + pad, top = area.y + pad + pen.text_size + 3.0f * u, bottom = top + kHeight * u;
-  const auto& colors = heat_colors();
+  const auto& colors = heat_colors(bar.map);
   for (std::size_t k = 0; k + 1 < colors.size(); ++k) {
     const float from = left + width * static_cast<float>(k) / (kHeatColors - 1),
                 to = left + width * static_cast<float>(k + 1) / (kHeatColors - 1);
@@ -48,6 +54,11 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
     pen.list.AddLine({x, bottom}, {x, bottom + kTick * u}, packed(kInk), u);
     pen.text(std::max(left, x - half), bottom + (kTick + 1.0f) * u, kInk, text);
   };
+  if (by_logarithm)  // a mark for each power of ten
+    for (double v = std::pow(10.0, std::ceil(std::log10(scale.low))); v < scale.high; v *= 10.0) {
+      const float x = left + static_cast<float>(scale.place(v)) * width;
+      pen.list.AddLine({x, bottom}, {x, bottom + 0.6f * kTick * u}, packed(kTitle), u);
+    }
   number(0.0f, low);
   number(0.5f, middle);
   number(1.0f, high);

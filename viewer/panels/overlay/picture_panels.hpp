@@ -27,6 +27,9 @@ PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettin
 PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings,
                          const std::vector<PanelArea>& taken);
 
+/// The caption and the lines of the script, at the bottom; left out where it would meet one of `taken`.
+PanelArea draw_caption(const Pen& pen, const ViewSettings& settings, const std::vector<PanelArea>& taken);
+
 /// Whether two panels share a pixel; those that were left out don't.
 bool panels_meet(const PanelArea& a, const PanelArea& b);
 

@@ -1,0 +1,98 @@
+// Colours that bodies are given, and lines of the script below the pictures: in a run, gone on with, and exported.
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tests/support/program/debug_session.hpp"
+#include "viewer/draw/body_color.hpp"
+#include "viewer/image/png.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+void run_pictures(const TempFolder& folder, const std::string& out, std::vector<std::string> more) {
+  std::vector<std::string> words = {"run", "s.toml", "--out", out, "--size", "640x360"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = impinge_run(folder.path(), words);
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+}
+
+std::vector<std::uint8_t> pixels(const TempFolder& folder, const std::string& out, int frame) {
+  return read_png(folder.path() / out / "frames" / fmt::format("{:06}.png", frame)).rgb;
+}
+
+/// Pixels that are much greener than anything else in such a picture.
+int green(const std::vector<std::uint8_t>& rgb) {
+  int count = 0;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
+    count += rgb[i + 1] > 3 * rgb[i] / 2 + 30 && rgb[i + 1] > 3 * rgb[i + 2] / 2 + 30;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a body has the colour that it is given, in pictures and in what is exported") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "at 2 color ball 10e010\nat 4 color ball none\n");
+  run_pictures(folder, "plain", {"--frames", "5"});
+  run_pictures(folder, "script", {"--frames", "5", "--script", "a.script"});
+  run_pictures(folder, "set", {"--frames", "5", "--set", R"(view.colors=["ball=#10E010"])", "--export", "gltf"});
+  for (const int frame : {0, 1, 4, 5}) CHECK((pixels(folder, "script", frame) == pixels(folder, "plain", frame)));
+  for (const int frame : {2, 3}) CHECK((pixels(folder, "script", frame) == pixels(folder, "set", frame)));
+  CHECK(green(pixels(folder, "plain", 3)) < 20);
+  CHECK(green(pixels(folder, "set", 3)) > 300);
+  CHECK(hash_in(folder / "script/stats.csv", 5) == hash_in(folder / "plain/stats.csv", 5));
+  // as light, by the formula of sRGB: ((c / 255 + 0.055) / 1.055)^2.4 of 0x10 and 0xe0
+  const std::string gltf = slurp(folder.path() / "set" / "export" / "s.glb");
+  CHECK(gltf.find("\"baseColorFactor\":[0.00518,0.74540,0.00518,1]") != std::string::npos);
+  const Outcome wrong =
+      impinge_run(folder.path(), {"run", "s.toml", "--out", "no", "--set", R"(view.colors=["bal=10e010"])"});
+  CHECK(wrong.code == 2);
+  CHECK(wrong.err.find("'bal' for view.colors; bodies: floor, crate, ball; did you mean 'ball'?") != std::string::npos);
+}
+
+TEST_CASE("a colour is read and written back, and nothing else is one") {
+  for (const char* text : {"10e010", "ffffff", "000000", "a1b2c3"}) {
+    REQUIRE(read_color(text));
+    CHECK(color_text(*read_color(text)) == text);
+    CHECK(read_color(std::string("#") + text) == read_color(text));
+  }
+  for (const char* text :
+       {"", "#", "fff", "#12345", "1234567", "-12345", "+12345", "0x1234", "12345g", "red", " 12345"})
+    CHECK_FALSE(read_color(text));
+  CHECK(given_color({"a=b=010203", "b=0a0b0c", "a=b=040506"}, "a=b") == read_color("040506"));
+  CHECK_FALSE(given_color({"ball=010203"}, "bal"));
+}
+
+TEST_CASE("lines of the script stand below the pictures for as long as is asked, also when a run is gone on with") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script",
+               "at 3 set contact.friction 0.4\nat 3 layer +aabbs\nfrom 6 to 8 ramp contact.friction 0.4 0.7\n"
+               "at 20 set view.caption.text \"the end\"\n");
+  const std::vector<std::string> with = {
+      "--script", "a.script", "--set", "view.caption.lines=changes", "--set", "view.caption.time=0.1"};
+  const auto run = [&](const std::string& out, std::vector<std::string> words, const char* frames) {
+    words.insert(words.end(), {"--frames", frames});
+    run_pictures(folder, out, words);
+  };
+  run("plain", {"--script", "a.script"}, "22");
+  run("captions", with, "22");
+  const auto differs = [&](int frame) { return pixels(folder, "plain", frame) != pixels(folder, "captions", frame); };
+  // kRigid has 60 frames a second: six frames of the last line, of the ramp's that is at frame 8
+  for (const int frame : {0, 2, 14, 19, 20, 22}) CHECK_FALSE(differs(frame));
+  for (const int frame : {3, 5, 8, 9, 13}) CHECK(differs(frame));
+  CHECK(pixels(folder, "plain", 19) != pixels(folder, "plain", 20));  // a text of one's own stands by itself
+  run("resumed", with, "7");
+  std::vector<std::string> on = with;
+  on.emplace_back("--resume");
+  run("resumed", on, "22");
+  for (const int frame : {5, 9, 13, 21}) CHECK((pixels(folder, "resumed", frame) == pixels(folder, "captions", frame)));
+  CHECK(hash_in(folder / "captions/stats.csv", 22) == hash_in(folder / "plain/stats.csv", 22));
+}

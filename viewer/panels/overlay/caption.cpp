@@ -1,0 +1,62 @@
+// What is written below a picture: lines of the script that have just taken effect, and a text of one's own.
+#include <algorithm>
+
+#include "viewer/panels/overlay/picture_panels.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr std::size_t kMostLines = 4;  // of the script
+constexpr float kWidest = 0.56f;       // of the picture
+constexpr Color kInk = hex(0xf2f4f7), kLine = hex(0xb9d7f0);
+
+/// Cut at words where it is too wide; a word that is wider alone stays so.
+std::vector<std::string> wrapped(const Pen& pen, const std::string& text, float width) {
+  std::vector<std::string> lines = {""};
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || pen.text_width(longer) <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+PanelArea draw_caption(const Pen& pen, const ViewSettings& settings, const std::vector<PanelArea>& taken) {
+  struct Row {
+    std::string text;
+    Color color;
+  };
+  const float widest = kWidest * pen.picture_width - 2.0f * pen.padding();
+  std::vector<Row> rows;
+  const auto add = [&](const std::string& text, Color color) {
+    for (std::string& line : wrapped(pen, text, widest)) rows.push_back({std::move(line), color});
+  };
+  const std::vector<std::string>& lines = settings.lines_shown;
+  for (std::size_t i = lines.size() - std::min(lines.size(), kMostLines); i < lines.size(); ++i) add(lines[i], kLine);
+  if (!settings.caption.empty()) add(settings.caption, kInk);
+  if (rows.empty()) return {};
+  PanelArea area;
+  for (const Row& row : rows) area.width = std::max(area.width, pen.text_width(row.text));
+  area.width += 2.0f * pen.padding();
+  area.height = pen.row() * static_cast<float>(rows.size()) + 2.0f * pen.padding();
+  area.x = std::max(0.0f, 0.5f * (pen.picture_width - area.width));
+  area.y = pen.picture_height - pen.margin() - area.height;
+  const bool meets = std::any_of(taken.begin(), taken.end(), [&](const PanelArea& t) { return panels_meet(t, area); });
+  if (meets || area.y < 0.0f || area.width > pen.picture_width) return {};
+  pen.sheet(area.x, area.y, area.width, area.height);
+  float y = area.y + pen.padding();
+  for (const Row& row : rows) {
+    pen.text(area.x + 0.5f * (area.width - pen.text_width(row.text)), y, row.color, row.text);
+    y += pen.row();
+  }
+  return area;
+}
+
+}  // namespace impinge
