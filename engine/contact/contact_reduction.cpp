@@ -109,12 +109,20 @@ class PairReduction {
     for (const Fineness& how : kFineness) {
       is_kept_.assign(contacts_.size(), 0);
       reduce_patches(how);
-      if (std::count(is_kept_.begin(), is_kept_.end(), 1) <= most_) break;
+      if (std::count(is_kept_.begin(), is_kept_.end(), 1) <= most_) return is_kept_;
     }
+    keep_nearest();
     return is_kept_;
   }
 
  private:
+  /// Too many patches: what has farthest to go waits.
+  void keep_nearest() {
+    std::ptrdiff_t left = most_;
+    for (const std::size_t i : by_gap_)
+      if (is_kept_[i] != 0 && --left < 0) is_kept_[i] = 0;
+  }
+
   void reduce_patches(const Fineness& how) {
     std::vector<std::size_t> left = by_gap_, patch, others;
     while (!left.empty()) {
@@ -195,8 +203,9 @@ std::vector<Collision> reduce_contacts(const Bodies& bodies, const ContactCache&
     }
     std::vector<char> is_preferred;
     for (const Collision& c : of_pair) is_preferred.push_back(carried.find({a, b, c.feature}).isZero(0.0) ? 0 : 1);
-    return contacts_that_stay(of_pair, is_preferred,
-                              {contact.activation(pair_size(bodies[a], bodies[b])), contact.most_contacts});
+    const auto sure = static_cast<int>(std::count_if(of_pair.begin(), of_pair.end(), is_asked));
+    const int most = std::max(contact.most_contacts - sure, static_cast<int>(kFewOfPair));
+    return contacts_that_stay(of_pair, is_preferred, {contact.activation(pair_size(bodies[a], bodies[b])), most});
   };
   std::vector<Collision> kept, dropped;
   for (std::size_t first = 0, last = 0; first < collisions.size(); first = last) {

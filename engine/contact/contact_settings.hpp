@@ -34,7 +34,7 @@ struct ContactSettings {
   PushOut push_out = PushOut::split;
   bool warm_start = true;
   Reduction reduction = Reduction::patch;
-  int most_contacts = 40;
+  int most_contacts = 30;
   int turning_solves = 4;
   int second_looks = 4;
   int successive_impacts = 8;

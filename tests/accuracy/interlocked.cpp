@@ -69,6 +69,18 @@ TEST_CASE("arms on pins, a bolt in its nut and an arch whose gaps close hold at 
     }
 }
 
+TEST_CASE("a roller chain swings with no more than 30 contacts a pair, its pins in their holes", "[interlocked]") {
+  for (const int substeps : {4, 1}) {
+    const AssemblyResult r = run({"rollers", 4, substeps, substeps == 4 ? 0.08 : 0.04}, true);
+    CAPTURE(substeps, r.overlap, r.thickness, r.contacts, r.gain, r.fall, r.reach);
+    CHECK(r.overlap <= 2e-3 * r.thickness);
+    CHECK(r.contacts <= 30);
+    CHECK(r.unconverged == 0);
+    CHECK(r.unsafe == 0);
+    CHECK(r.gain <= 0.01 * r.fall);
+  }
+}
+
 TEST_CASE("what only the response drives together overlaps unless it is looked for again", "[interlocked]") {
   const Assembly arch{"arch", 25, 1, 0.1};
   const AssemblyResult with = run(arch, true), without = run(arch, true, 0);

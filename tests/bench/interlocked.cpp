@@ -12,7 +12,7 @@ namespace {
 
 void print(const Assembly& what) {
   const AssemblyResult r = run(what, true);
-  std::printf("%-6s %4d %8d %7.2f  %8.4f mm %6.2f %%  %8d %11lld %6lld  %9.2g %8.2f m  %8.1f %9.1f (frame %d)\n",
+  std::printf("%-7s %4d %8d %7.2f  %8.4f mm %6.2f %%  %8d %11lld %6lld  %9.2g %8.2f m  %8.1f %9.1f (frame %d)\n",
               what.name.c_str(), what.count, what.substeps, what.seconds, 1e3 * r.overlap,
               100.0 * r.overlap / r.thickness, r.contacts, static_cast<long long>(r.unconverged),
               static_cast<long long>(r.unsafe), r.gain / r.fall, r.reach, r.median_ms, r.dearest_ms, r.dearest_frame);
@@ -22,7 +22,7 @@ void print(const Assembly& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::printf("%-6s %4s %8s %7s  %11s %8s  %8s %11s %6s  %9s %10s  %8s %9s\n", "what", "of", "substeps", "seconds",
+  std::printf("%-7s %4s %8s %7s  %11s %8s  %8s %11s %6s  %9s %10s  %8s %9s\n", "what", "of", "substeps", "seconds",
               "overlap", "of thick", "a pair", "unconverged", "unsafe", "gain/fall", "moved", "median", "dearest ms");
   if (argc > 3) {
     print({argv[1], std::atoi(argv[2]), argc > 4 ? std::atoi(argv[4]) : 1, std::atof(argv[3])});

@@ -1,4 +1,4 @@
-// Bodies that hang in one another, made by formula: a chain, arms on pins, a bolt in its nut, an arch of stones.
+// Bodies that hang in one another, made by formula: chains, arms on pins, a bolt in its nut, an arch of stones.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace impinge::test {
 inline constexpr double kLinkMajor = 0.1, kLinkMinor = 0.02;  ///< metres, radii of the chain's links
 
 struct Assembly {
-  std::string name;  ///< chain, arms, bolt, arch
+  std::string name;  ///< chain, arms, rollers, bolt, arch
   int count = 2;     ///< of links, arms, stones; a bolt has none
   int substeps = 1;  ///< of frame_time 0.01 s
   double seconds = 1.0;

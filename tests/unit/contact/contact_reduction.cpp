@@ -106,6 +106,12 @@ TEST_CASE("a pin in a hole keeps at most 40 contacts, and small motions see its 
     CAPTURE(sides, kept.size());
     CHECK(kept.size() <= 40);
     CHECK(unseen_depth(all, kept, play, 0.0) <= 0.2 * play);
+    for (const int most : {30, 12}) {  // what has farthest to go waits
+      const std::vector<Collision> few = that_stay(all, most);
+      CAPTURE(most, few.size());
+      CHECK(few.size() <= static_cast<std::size_t>(most));
+      CHECK(unseen_depth(all, few, 0.1 * play, 0.0) <= 0.1 * play);
+    }
   }
 }
 
