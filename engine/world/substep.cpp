@@ -51,6 +51,19 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
   return safe;
 }
 
+/// How far apart features of a pair may begin that get rows before anything is cut. What slides over facets, as a pin does
+/// that turns in its hole, meets others than it began with: rows of those hold it where turns are followed, as long as the
+/// way is one that contacts see well.
+PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_are_followed) {
+  return [&bodies, &step, turns_are_followed](const UnsafeMotion::Pair& p) {
+    const auto is_of = [&](const Collision& c) { return c.body_a == p.a && c.body_b == p.b; };
+    const auto deforms = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
+    const bool is_held = turns_are_followed && !deforms(p.a) && !deforms(p.b) &&
+                         std::any_of(step.collisions.begin(), step.collisions.end(), is_of);
+    return is_held ? p.safe : 0.0;
+  };
+}
+
 /// Contacts of the features that pass, begin no farther from one another than `reach` of their pair says, and have none
 /// of this normal yet. False: each had one.
 bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
@@ -67,6 +80,17 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
       is_new = true;
     }
   return is_new;
+}
+
+/// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
+double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
+                  std::vector<Collision>& asked) {
+  if (ask_for(motion, seen, asked)) return 1.0;
+  if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
+  return ask_for(
+             motion, [](const UnsafeMotion::Pair&) { return INFINITY; }, asked)
+             ? 1.0
+             : 0.5;
 }
 
 /// Adds the bodies of pairs that pass to those that stay, and takes out the pairs of which one is new there. A body that
@@ -137,16 +161,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation, is_kept);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
-  // what slides over facets, as a pin does that turns in its hole, meets others than it began with: rows of those hold it
-  // where turns are followed, and nothing need be cut as long as the way is one that contacts see well
-  const PairLength seen = [&](const UnsafeMotion::Pair& p) {
-    const auto is_of = [&](const Collision& c) { return c.body_a == p.a && c.body_b == p.b; };
-    const auto deforms = [&](BodyIndex b) { return bodies_[b].kind() == BodyKind::deformable; };
-    const bool is_held = parameters.contact.turning_solves > 0 && !deforms(p.a) && !deforms(p.b) &&
-                         std::any_of(sub_step_->collisions.begin(), sub_step_->collisions.end(), is_of);
-    return is_held ? p.safe : 0.0;
-  };
-  const PairLength any = [](const UnsafeMotion::Pair&) { return INFINITY; };
+  const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
@@ -198,12 +213,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      if (!ask_for(*unsafe, seen, sub_step_->asked)) {
-        if (const std::optional<double> safe = safe_share(*unsafe, of_pair))
-          share *= motion <= kPatience ? *safe : 0.5 * *safe;
-        else if (!ask_for(*unsafe, any, sub_step_->asked))
-          share *= 0.5;
-      }
+      share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, sub_step_->asked);
       start->bring_back(bodies_, sleeping_);
     }
     next = motion > kPatience ? kGrowth * share : 1.0;
