@@ -73,6 +73,14 @@ void Framebuffer::copy_to(Framebuffer& target, int x, int y) const {
   glBlitFramebuffer(0, 0, width_, height_, x, bottom, x + width_, bottom + height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void Framebuffer::copy_with_depth_to(Framebuffer& target) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer_);
+  glDisable(GL_SCISSOR_TEST);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
+                    GL_NEAREST);
+}
+
 void Framebuffer::read(Image& out, bool with_alpha) {
   read_rows();
   if (out.width != width_ || out.height != height_) out = Image(width_, height_);

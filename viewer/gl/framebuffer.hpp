@@ -25,6 +25,8 @@ class Framebuffer {
   void smooth_edges();
   /// Copies itself into `target`, its upper left corner at (x, y) from there.
   void copy_to(Framebuffer& target, int x, int y) const;
+  /// Copies itself into one of the same size, depths too.
+  void copy_with_depth_to(Framebuffer& target) const;
   /// Top row first. `with_alpha`: colours are taken as times their alpha, and come out without that factor.
   void read(Image& out, bool with_alpha = false);
 

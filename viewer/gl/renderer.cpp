@@ -84,15 +84,6 @@ Renderer::SurfaceBuffers& Renderer::buffers_of(const DrawSurface& item) {
   return buffers;
 }
 
-void Renderer::draw_backdrop(const Backdrop& backdrop) {
-  glDisable(GL_DEPTH_TEST);
-  nothing_.bind();
-  backdrop_program_.use();
-  backdrop_program_.set("top", Eigen::Vector3f(backdrop.top.r, backdrop.top.g, backdrop.top.b));
-  backdrop_program_.set("bottom", Eigen::Vector3f(backdrop.bottom.r, backdrop.bottom.g, backdrop.bottom.b));
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
 void Renderer::draw_surface(Program& program, const DrawSurface& item, const ViewTransform& view,
                             const ClipPlane& clip) {
   SurfaceBuffers& buffers = buffers_of(item);
@@ -158,20 +149,10 @@ void Renderer::draw_solid(Program& program, const DrawList& list, const ViewTran
 
 void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target) {
   const ViewTransform view = make_view_transform(camera, bounds_of(list), target.width(), target.height());
-  target.bind();
-  glDisable(GL_SCISSOR_TEST);
+  scenery_.draw(style.backdrop, list.planes, camera, view, style.pixel_scale, target);
   glDepthMask(GL_TRUE);
-  glClearDepth(1.0);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  if (style.backdrop.is_transparent) {
-    glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
-  } else {
-    draw_backdrop(style.backdrop);
-  }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
-  for (const DrawPlane& plane : list.planes) grid_.draw(plane, camera, view, style.pixel_scale);
   prepare(surface_program_, list, view, style);
   draw_solid(surface_program_, list, view, style);
   draw_see_through(surface_program_, list, view, style.clip);

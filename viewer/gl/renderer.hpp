@@ -5,17 +5,11 @@
 
 #include "viewer/draw/clip_plane.hpp"
 #include "viewer/gl/framebuffer.hpp"
-#include "viewer/gl/grid.hpp"
 #include "viewer/gl/id_buffer.hpp"
 #include "viewer/gl/marks.hpp"
+#include "viewer/gl/scenery.hpp"
 
 namespace impinge {
-
-/// What is behind everything: two colours, one above the other.
-struct Backdrop {
-  Color top, bottom;
-  bool is_transparent = false;  ///< nothing instead: pixels have an alpha, and their colours are times that
-};
 
 struct RenderStyle {
   Backdrop backdrop;
@@ -52,17 +46,15 @@ class Renderer {
     Marks marks{true};
   };
 
-  void draw_backdrop(const Backdrop& backdrop);
   void prepare(Program& program, const DrawList& list, const ViewTransform& view, const RenderStyle& style);
   void draw_solid(Program& program, const DrawList& list, const ViewTransform& view, const RenderStyle& style);
   void draw_surface(Program& program, const DrawSurface& item, const ViewTransform& view, const ClipPlane& clip);
   void draw_see_through(Program& program, const DrawList& list, const ViewTransform& view, const ClipPlane& clip);
 
-  Program surface_program_{"surface"}, backdrop_program_{"backdrop"};
-  VertexArray nothing_;                                      // a core profile draws nothing without a vertex array
+  Program surface_program_{"surface"};
   std::array<std::vector<Eigen::Vector3f>, 4> heat_tables_;  ///< of each colour map
   std::map<const ShadedSurface*, SurfaceBuffers> buffers_;
-  Grid grid_;
+  Scenery scenery_;
   Marks marks_;
   std::unique_ptr<IdPass> id_pass_;  // made when it is first needed
 };

@@ -5,6 +5,16 @@
 
 namespace impinge {
 
+namespace {
+
+/// In four steps an octave, so that depths keep their measure while bodies move.
+template <class Round>
+double in_steps(double length, Round&& round) {
+  return length > 0.0 ? std::exp2(0.25 * round(4.0 * std::log2(length))) : length;
+}
+
+}  // namespace
+
 Eigen::Matrix4f ViewTransform::model_view(const Pose& pose) const {
   Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
   m.topLeftCorner<3, 3>() = (rotation * pose.rotation).cast<float>();
@@ -29,8 +39,9 @@ ViewTransform make_view_transform(const Camera& camera, const Aabb& bounds, int 
     farthest = std::max(farthest, depth);
   }
   // 24 bits: a near plane at 1/1000 of the far one still tells depths of 1e-4 apart at the far end
-  view.far = 1.1 * farthest + 3.0 * distance;
-  view.near = std::clamp(0.7 * nearest, std::max(1e-4 * view.far, 0.01 * distance), 0.5 * distance);
+  view.far = in_steps(1.1 * farthest + 3.0 * distance, [](double x) { return std::ceil(x); });
+  view.near = std::clamp(in_steps(0.7 * nearest, [](double x) { return std::floor(x); }),
+                         std::max(1e-4 * view.far, 0.01 * distance), 0.5 * distance);
   const double tangent = std::tan(0.5 * camera.fov_deg * M_PI / 180.0);
   view.focal = 0.5 * height / tangent;
   Eigen::Matrix4d p = Eigen::Matrix4d::Zero();
