@@ -291,5 +291,10 @@ TEST_CASE("no two panels overlap, and all lie in the window") {
   }
   CHECK(debug_scale(720) == 1);
   CHECK(debug_scale(1080) == 1);
-  CHECK(debug_scale(2160) == 3);
+  CHECK(debug_scale(1440) == 1);
+  CHECK(debug_scale(2160) == 2);
+  // a screen with four times the pixels has letters twice as high, and room for more
+  const DebugLayout small = debug_layout(1280, 720, 1.0f), large = debug_layout(3840, 2160, 2.0f);
+  for (const char* panel : {"contacts", "parameters", "timeline", "console"})
+    CHECK(large.area(panel).height > 2.0f * 1.3f * small.area(panel).height);
 }

@@ -37,7 +37,7 @@ std::vector<float> extents(PanelPlace place, float length, float gap, float unit
 
 }  // namespace
 
-int debug_scale(int height) { return std::max(1, static_cast<int>(std::lround(height / 800.0))); }
+int debug_scale(int height) { return std::max(1, height / 1000); }
 
 const UiArea& DebugLayout::area(std::string_view panel) const {
   for (std::size_t i = 0; i < panels.size(); ++i)
@@ -48,7 +48,7 @@ const UiArea& DebugLayout::area(std::string_view panel) const {
 DebugLayout debug_layout(int width, int height, float unit) {
   const float w = static_cast<float>(width), h = static_cast<float>(height), gap = std::max(1.0f, unit);
   const float side = whole(std::clamp(0.225f * w, 200.0f * unit, 330.0f * unit)),
-              below = whole(std::clamp(0.24f * h, 150.0f * unit, 230.0f * unit));
+              below = whole(std::clamp(0.24f * h, 150.0f * unit, 280.0f * unit));
   const float right = whole(std::clamp(0.265f * w, 230.0f * unit, 400.0f * unit));  // the contact table wants it
   const float top = h - below - gap;
   float bars = top + gap;  // where the next bar begins, and after the last one what lies below
