@@ -187,6 +187,54 @@ void growth(int finest) {
   }
 }
 
+// n x n squares above and below, each two triangles, and walls between
+MeshPointer slab(int n) {
+  constexpr double kSide = 0.4, kThickness = 0.05;
+  TriangleMesh m;
+  const auto at = [n](int level, int i, int j) { return (level * (n + 1) + i) * (n + 1) + j; };
+  for (int level = 0; level < 2; ++level)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j)
+        m.vertices.emplace_back(kSide * i / n - 0.5 * kSide, kThickness * level, kSide * j / n - 0.5 * kSide);
+  const auto quad = [&](int a, int b, int c, int d) {
+    m.triangles.push_back({a, b, c});
+    m.triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      quad(at(0, i, j), at(0, i + 1, j), at(0, i + 1, j + 1), at(0, i, j + 1));
+      quad(at(1, i, j), at(1, i, j + 1), at(1, i + 1, j + 1), at(1, i + 1, j));
+    }
+  for (int i = 0; i < n; ++i) {
+    quad(at(0, i, 0), at(1, i, 0), at(1, i + 1, 0), at(0, i + 1, 0));
+    quad(at(0, i + 1, n), at(1, i + 1, n), at(1, i, n), at(0, i, n));
+    quad(at(0, n, i), at(1, n, i), at(1, n, i + 1), at(0, n, i + 1));
+    quad(at(0, 0, i + 1), at(1, 0, i + 1), at(1, 0, i), at(0, 0, i));
+  }
+  return surface(std::move(m));
+}
+
+// faces that lie on each other as after a solve: some picometres within each other, turned about their normal
+void flush() {
+  const std::vector<std::string> names = methods();
+  fmt::print(stderr, "\nFlush: a slab of fine triangles on another, 2e-11 m within it\n{:>10} {:>8}{}\n", "triangles",
+             "pairs", head(names));
+  const Mat3 turn = Eigen::AngleAxisd(0.35, Vec3::UnitY()).toRotationMatrix();
+  for (const int n : {10, 40, 100}) {
+    const MeshPointer mesh = slab(n);
+    ColliderSet set;
+    set.add(mesh);
+    set.add(mesh, {turn, Vec3(0.03, 0.05 - 2e-11, 0.02)});
+    const std::vector<BodyPair> pair = {{BodyIndex(0), BodyIndex(1), 0.0}};
+    std::vector<Result> results;
+    for (const std::string& name : names)
+      results.push_back(name == kReference && n > 40 ? Result{} : measure(name, set, pair));
+    const std::size_t triangles = 2 * mesh->mesh.triangles.size();
+    row("flush", triangles, results);
+    fmt::print(stderr, "{:>10} {:>8}{}\n", triangles, results.front().pairs, cells(results));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -216,4 +264,5 @@ int main(int argc, char** argv) {
   const Plot plot = figure_6_4();
   if (!picture.empty()) write_png(picture, paint_plots({plot}, 1280, 720).front());
   growth(finest);
+  flush();
 }
