@@ -14,14 +14,16 @@ class SlowFrame : public Warning {
   std::vector<Finding> look(const SceneAtStart& start) const override {
     if (start.trial == nullptr) return {};
     const Trial& t = *start.trial;
-    const char* remedy = "take coarser surfaces or volumes, or fewer sub-steps";
+    // an explicit integrator has sub-steps for a reason (unstable-step)
+    const bool may_have_fewer = !start.world.parameters.simulation.integrator->is_explicit();
+    const char* remedy =
+        may_have_fewer ? "take coarser surfaces or volumes, or fewer sub-steps" : "take coarser surfaces or volumes";
     if (t.frame_seconds() < kSlow && t.ahead.slowest() >= kSlow)
-      return {
-          {t.ahead.given_up > 0.0
-               ? fmt::format("{} frames later one was not done after {}", t.ahead.frames, time_text(t.ahead.given_up))
-               : fmt::format("frame {} takes about {}, {:.0f} % of it the {}", t.ahead.dearest,
-                             time_text(t.ahead.dearest_seconds), 100.0 * t.ahead.share, t.ahead.stage),
-           remedy}};
+      return {{t.ahead.given_up > 0.0
+                   ? fmt::format("frame {} was not done after {}", t.ahead.frames + 1, time_text(t.ahead.given_up))
+                   : fmt::format("frame {} takes about {}, {:.0f} % of it the {}", t.ahead.dearest,
+                                 time_text(t.ahead.dearest_seconds), 100.0 * t.ahead.share, t.ahead.stage),
+               remedy}};
     if (t.frame_seconds() < kSlow) return {};
     if (!t.ended)
       return {{fmt::format("a sub-step was not done after {}, so a frame takes more than {}", time_text(t.seconds),

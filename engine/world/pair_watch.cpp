@@ -29,7 +29,8 @@ void PairWatch::found(const Bodies&, const SubStep& step) {
   has_contact_now_ = std::any_of(step.collisions.begin(), step.collisions.end(),
                                  [&](const Collision& c) { return c.body_a == a_ && c.body_b == b_; });
   const auto may_be_nearer = [&] {
-    return box_gap(step.colliders[a_].bounds, step.colliders[b_].bounds) < nearest_distance_;
+    const double gap = box_gap(step.colliders[a_].bounds, step.colliders[b_].bounds);
+    return gap < nearest_distance_ || gap <= 0.0;  // boxes that overlap don't tell how deep
   };
   now_.reset();
   if (is_asked_for(world_.frame()) || (!first_contact_ && (has_contact_now_ || may_be_nearer() || !telling_)))

@@ -169,13 +169,15 @@ std::unique_ptr<DebugWindow> make_window(const Given& options, int scale) {
   }
 }
 
-/// Where it stands, what B came to, and what went wrong on the way.
+/// Where it stands, what B came to, what was answered, and what went wrong on the way.
 void say_end(Debugger& debugger, bool is_quiet) {
   if (!is_quiet) {
     const DebugModel& model = debugger.model();
     fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
                model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
     if (model.against != nullptr) fmt::print("{}\n", model.against->words());
+    for (const ConsoleLine& line : model.console)
+      if (line.kind == ConsoleLine::message) fmt::print("{}\n", line.text);
   }
   for (const ConsoleLine& line : debugger.model().console)
     if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);

@@ -1,19 +1,37 @@
-// The moving bodies' names, in their middle: above it a name would stand on the next body of a stack.
+// The bodies' names, in their middle: above it a name would stand on the next body of a stack.
+#include <algorithm>
+
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
 
+struct Settings {
+  bool fixed = false;
+
+  void declare(const Rows& rows) { rows.add("static", fixed, "Static bodies too, not only those that are selected."); }
+};
+
 void draw(const LayerContext& context, DrawList& list) {
+  const std::vector<std::string>& selected = context.settings.selected;
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
-    if (body.kind == BodyKind::fixed || body.bounds.is_empty()) continue;
+    const bool is_selected = std::find(selected.begin(), selected.end(), body.name) != selected.end();
+    if (body.kind == BodyKind::fixed && !context.own<Settings>().fixed && !is_selected) continue;
+    if (body.bounds.is_empty() || !body.bounds.extent().allFinite()) continue;
     list.labels.push_back({body.bounds.center(), std::string(body.name), role::kInk, body_pick(i)});
   }
 }
 
 }  // namespace
 
-Layer labels_layer() { return {"labels", "The names of dynamic and scripted bodies.", false, draw, {}}; }
+Layer labels_layer() {
+  return {"labels",
+          "The names of dynamic and scripted bodies, of what is selected, and of static ones (view.labels.static).",
+          false,
+          draw,
+          {},
+          Settings{}};
+}
 
 }  // namespace impinge

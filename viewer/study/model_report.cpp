@@ -7,6 +7,7 @@
 
 #include "engine/bodies/scale.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/parameter.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/io/scene/former_paths.hpp"
@@ -124,7 +125,12 @@ ModelFacts model_facts(const World& world) {
     facts.largest = std::max(facts.largest, body.size);
   }
   facts.mesh_pairs = meshes > 1 || facts.self_collision;
-  for (const AttachmentRecord& attachment : world.record().attachments) ++count_of(attachment.kind, facts);
+  for (const AttachmentRecord& a : world.record().attachments) {
+    ++count_of(a.kind, facts);
+    if (a.body_a.is_none() || a.body_b.is_none() || !world.bodies().never_touch(a.body_a, a.body_b)) continue;
+    facts.exempt.push_back(fmt::format("{} and {}{}", world.bodies()[a.body_a].name, world.bodies()[a.body_b].name,
+                                       a.name.empty() ? "" : fmt::format(" ('{}')", a.name)));
+  }
   return facts;
 }
 
@@ -206,7 +212,10 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
                    p.simulation.linear_solver.name()),
        "no body is deformable");
   line("self-contact", f.self_collision, "of the deformable bodies that ask for it", "no deformable body asks for it");
-  line("attachments", f.attachments() > 0, attachments_text(f), "the scene has none");
+  line("attachments", f.attachments() > 0,
+       attachments_text(f) +
+           (f.exempt.empty() ? "" : fmt::format("; never touch, collide = false: {}", some_of(f.exempt))),
+       "the scene has none");
   return lines;
 }
 

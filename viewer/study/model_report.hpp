@@ -18,6 +18,7 @@ struct ModelFacts {
   bool restitution = false, mesh_pairs = false, self_collision = false;
   /// Sizes of bodies, metres: the least of all, and of those that move freely; 0: not known.
   double thinnest = 0.0, smallest = 0.0, largest = 0.0;
+  std::vector<std::string> exempt;  ///< pairs that an attachment keeps from touching: "lid and shelf ('tag')"
   int attachments() const { return points + lines + planes + surfaces; }
   int attachment_rows() const { return 3 * points + 2 * lines + planes + surfaces; }
   int moving() const { return dynamic + deformable; }

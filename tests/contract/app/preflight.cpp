@@ -329,6 +329,28 @@ TEST_CASE("preflight: tetrahedra that are almost flat") {
                       0.05});
 }
 
+TEST_CASE("preflight: a scripted body that jumps between two keys") {
+  const TempFolder folder;
+  const auto pusher = [](double second) {
+    return body(
+        "pusher",
+        fmt::format("shape = {{ box = {{ size = [0.1, 0.4, 1] }} }}\nmotion = [{{ time = 0, position = [-1.5, 0.25, 0] "
+                    "}}, {{ time = 1, position = [-1.2, 0.25, 0] }}, {{ time = {}, position = [-0.75, 0.25, 0] }}, {{ "
+                    "time = 3, position = [-0.5, 0.25, 0] }}]",
+                    second),
+        "scripted");
+  };
+  check_trap(folder, {"two keys 20 ms apart",
+                      "sudden-motion",
+                      pusher(1.02),
+                      {"'pusher'", "keys 2 and 3", "from 1 s on", "75 times"},
+                      "goes ",
+                      0.45,
+                      {}});
+  folder.write("fine.toml", pusher(2.0));
+  CHECK(warnings_in(impinge_run(folder.path(), {"check", "fine.toml"}).out).empty());
+}
+
 TEST_CASE("preflight: a code that is none is refused where it stands, and list has them all") {
   const TempFolder folder;
   folder.write("s.toml", "[check]\nsilence = [\"start-overlapp\"]\n" + ball("a", 1.0, {0, 0, 0}));

@@ -330,3 +330,45 @@ TEST_CASE("why refuses what is not there, and says what is") {
   refused({"meshes", "--pair", "ball", "floor"}, "no run.toml");
   refused({"nothing.toml", "--pair", "ball", "floor"}, "nothing.toml");
 }
+
+TEST_CASE("the deepest of a pair that never touches is the deepest of all its frames") {
+  const TempFolder folder;
+  folder.write("through.toml", R"([simulation]
+substeps = 1
+[[body]]
+name = "shelf"
+kind = "static"
+shape = { box = { size = [1, 0.1, 1] } }
+[[body]]
+name = "ball"
+kind = "dynamic"
+shape = { sphere = { radius = 0.2 } }
+material = { density = 500 }
+position = [0, 0.5, 0]
+[[attachment]]
+name = "tag"
+kind = "slide"
+body_a = "ball"
+body_b = "shelf"
+point = [0, 0.5, 0]
+direction = [0, 1, 0]
+collide = false
+)");
+  const auto number_after = [](const std::string& text, const std::string& key, std::size_t from) {
+    const std::size_t at = text.find(key, from);
+    return at == std::string::npos ? NAN : std::stod(text.substr(at + key.size()));
+  };
+  double deepest = INFINITY;
+  for (int frame = 10; frame <= 30; ++frame) {
+    const Outcome one = impinge_run(
+        folder.path(), {"why", "through.toml", "--pair", "ball", "shelf", "--frame", std::to_string(frame), "--json"});
+    REQUIRE(one.code == 0);
+    deepest = std::min(deepest, number_after(one.out, "\"distance_m\": ", one.out.find("\"nearest\": {")));
+  }
+  CHECK(deepest < -0.1);  // half the shelf and more
+  const Outcome all = impinge_run(folder.path(), {"why", "through.toml", "--pair", "ball", "shelf", "--json"});
+  CAPTURE(all.out);
+  REQUIRE(all.code == 0);
+  CHECK(number_after(all.out, "\"distance_m\": ", all.out.find("\"nearest_miss\": {")) ==
+        Approx(deepest).margin(1e-12));
+}
