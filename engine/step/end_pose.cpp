@@ -3,24 +3,34 @@
 #include <algorithm>
 #include <set>
 
+#include "engine/bodies/rigid_motion.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
+#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr double kAllowed = 0.25;   // of the activation distance: overlap at the end that is left to recovery
+constexpr double kOfRigid = 0.02;   // of the same: where neither deforms, and nothing of the answer is smooth over nodes
+constexpr double kSwift = 10.0;     // of the same: an approach in which rigid bodies meet where their start doesn't show
 constexpr double kDeepest = 100.0;  // of the same: what ends deeper has passed, and its normal says nothing
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
+/// Planes are met by the corners that their contacts have from the start, and surfaces of triangles are searched by edges.
+bool may_hide(const Body& a, const Body& b) {
+  const auto is_plane = [](const Body& body) { return body.shape->as<Plane>() != nullptr; };
+  return !is_plane(a) && !is_plane(b) && (a.shape->mesh() == nullptr || b.shape->mesh() == nullptr);
+}
+
 /// Bodies of some pairs where the velocities of a solved step lead; the others stay as they are.
 class EndPose {
  public:
-  EndPose(const Bodies& bodies, const SubStep& step, std::span<const BodyPair> pairs)
+  EndPose(const Bodies& bodies, const SubStep& step, std::span<const Collider> solved, std::span<const BodyPair> pairs)
       : bodies_(bodies), step_(step), vertices_(step.colliders.size()) {
     make_colliders(bodies, colliders_);
     std::vector<const BodyVector*> changes(colliders_.size(), nullptr);
@@ -31,7 +41,7 @@ class EndPose {
     for (const BodyPair& pair : pairs) wanted.insert({pair.a, pair.b});
     std::size_t most = 0;
     for (const BodyIndex b : wanted) {
-      move(b, changes[b]);
+      move(b, changes[b], {solved[b].velocity, solved[b].angular_velocity});
       most = std::max(most, vertices_[b].size());
     }
     resting_.assign(most, Vec3::Zero());
@@ -53,7 +63,7 @@ class EndPose {
   }
 
  private:
-  void move(BodyIndex b, const BodyVector* change) {
+  void move(BodyIndex b, const BodyVector* change, const Twist& twist) {
     const Body& body = bodies_[b];
     Collider& c = colliders_[b];
     if (deforms(body)) {
@@ -62,12 +72,14 @@ class EndPose {
       else
         body.surface_at_end(change, vertices_[b]);
     } else {
-      Twist twist{step_.colliders[b].velocity, step_.colliders[b].angular_velocity};
-      if (change != nullptr) twist.linear += change->twist.linear, twist.angular += change->twist.angular;
       c.velocity = c.angular_velocity = Vec3::Zero();
       if (body.asleep || (twist.linear.isZero(0.0) && twist.angular.isZero(0.0))) return;
-      c.pose.position += step_.time_step * twist.linear;
-      c.pose.rotation = rotation_exp(step_.time_step * twist.angular) * c.pose.rotation;
+      if (const RigidBody* rigid = body.as<RigidBody>()) {
+        c.pose = free_flight(*rigid, twist.linear, rigid->world_inertia() * twist.angular, step_.time_step);
+      } else {
+        c.pose.position += step_.time_step * twist.linear;
+        c.pose.rotation = rotation_exp(step_.time_step * twist.angular) * c.pose.rotation;
+      }
       if (body.world_vertices.empty()) {
         c.bounds = body.shape->bounds(c.pose);
         return;
@@ -88,16 +100,22 @@ class EndPose {
 
 }  // namespace
 
-std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step) {
+std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
+                                       std::span<const Collider> solved) {
   std::vector<BodyPair> pairs;
   for (const BodyPair& pair : step.pairs) {
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
-    if (pair.a == pair.b || (!deforms(a) && !deforms(b)) || a.asleep || b.asleep) continue;
+    if (pair.a == pair.b || a.asleep || b.asleep) continue;
+    const double activation = by.contact.activation(pair_size(a, b));
+    const auto approaches = [&](double way) {
+      return approach(solved[pair.a], a.radius, solved[pair.b], b.radius, step.time_step) > way;
+    };
+    if (!deforms(a) && !deforms(b) && !(may_hide(a, b) && approaches(kSwift * activation))) continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
-    pairs.push_back({pair.a, pair.b, by.contact.activation(pair_size(a, b))});
+    pairs.push_back({pair.a, pair.b, activation});
   }
   if (pairs.empty()) return {};
-  const EndPose end(bodies, step, pairs);
+  const EndPose end(bodies, step, solved, pairs);
   std::erase_if(pairs,
                 [&](const BodyPair& p) { return !overlap(end.colliders()[p.a].bounds, end.colliders()[p.b].bounds); });
   if (pairs.empty()) return {};
@@ -106,13 +124,15 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   find_collisions(end.colliders(), pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
   std::erase_if(found, [&](Collision& c) {
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
-    if (c.gap >= -kAllowed * activation || c.gap < -kDeepest * activation) return true;
+    const bool is_rigid = !deforms(bodies[c.body_a]) && !deforms(bodies[c.body_b]);
+    const double allowed = (is_rigid ? kOfRigid : kAllowed) * activation;
+    if (c.gap >= -allowed || c.gap < -kDeepest * activation) return true;
     const double at_end = c.gap;
     c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a);
     c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);
     c.gap = c.normal.dot(c.point_a - c.point_b);
     c.normal_owner = {};
-    return at_end >= std::min(c.gap, 0.0) - kAllowed * activation;
+    return at_end >= std::min(c.gap, 0.0) - allowed;
   });
   return found;
 }

@@ -1,14 +1,17 @@
 // Contacts are sought where a sub-step begins, and a surface that deforms is not where it was when it ends: it slides round
-// what holds it, folds, and lies with other places on it than those that had contacts. So where the response leads is
-// looked at, and an overlap there is a contact of the sub-step that ends so: the same material points, the normal of the end.
+// what holds it, folds, and lies with other places on it than those that had contacts. Rigid bodies that approach fast turn
+// on the way, and meet with other features than those that were nearest. So where the response leads is looked at, and an
+// overlap there is a contact of the sub-step that ends so: the same material points, the normal of the end.
 #pragma once
 
 #include "engine/step/detect.hpp"
 
 namespace impinge {
 
-/// Of a step that is solved: overlaps at its end of pairs with a deforming body, deeper than they were at its start and
-/// than contacts leave. Points and gap are those of the start, in pair order; changes nothing.
-std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step);
+/// Of a step that is solved: overlaps at its end, deeper than they were at its start and than contacts leave, of pairs with a
+/// deforming body and of rigid bodies, one of them an exact shape, that approach fast. `solved`: the colliders with the
+/// velocities that the response gave to rigid bodies. Points and gap are those of the start, in pair order; changes nothing.
+std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
+                                       std::span<const Collider> solved);
 
 }  // namespace impinge

@@ -8,6 +8,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/detection/continuous/plane_between.hpp"
 #include "engine/detection/continuous/round_path.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -85,13 +86,14 @@ double safe_for(const Body& a, double share_a, const Body& b, double share_b) {
 }
 
 /// Of a ball or capsule and another, or a rigid mesh, as far as distances tell it: they touch all along their way as a rule.
+/// Of boxes and other small solids, as far as a plane between them does.
 bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const SurfacePath& of_b, double depth) {
   if (deforms(a) || deforms(b)) return false;
   const std::optional<RoundCore> core_a = round_core(*a.shape), core_b = round_core(*b.shape);
   if (core_a && core_b) return stays_out(*core_a, of_a, *core_b, of_b, depth);
   if (core_a && b.shape->mesh() != nullptr) return stays_out(*core_a, of_a, of_b, depth);
   if (core_b && a.shape->mesh() != nullptr) return stays_out(*core_b, of_b, of_a, depth);
-  return false;
+  return stays_beside(of_a, of_b, depth);
 }
 
 double way_of(const Sweep& s) { return s.shift.norm() + s.turn; }

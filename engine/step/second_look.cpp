@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kTolerance = 1e-2;  // of the activation distance: overlap that recovery takes for little
 constexpr int kMostBack = 8;         // of the dropped contacts of a pair that come back at once
+constexpr double kNearly = 1e-4;     // relative residual: what is answered to this is worth more than an overlap
 
 bool is_rigid(const Body& body) { return body.kind() != BodyKind::deformable; }
 bool is_of(const Collision& c, const BodyPair& pair) { return c.body_a == pair.a && c.body_b == pair.b; }
@@ -72,7 +73,7 @@ bool SecondLook::find(StageTimes& times) {
   if (is_anyone_driven()) find_driven(times);
   {
     const StageTimer timer(times.narrow_ms);
-    ahead_ = overlaps_at_end(bodies_, by_, step_);
+    ahead_ = overlaps_at_end(bodies_, by_, step_, colliders_);
   }
   return !back_.empty() || !found_.empty() || !ahead_.empty();
 }
@@ -300,7 +301,9 @@ int SolvedBefore::solve_changed(Bodies& bodies, std::span<const Attachment> atta
 
 bool SolvedBefore::was_better(const SubStep& step) const {
   const auto unanswered = [](const std::vector<GroupResult>& results) {
-    return std::count_if(results.begin(), results.end(), [](const GroupResult& r) { return !r.is_answered(); });
+    return std::count_if(results.begin(), results.end(), [](const GroupResult& r) {
+      return !r.is_answered() && (r.is_contradiction || !(r.verdict.relative <= kNearly));
+    });
   };
   return unanswered(step.results) > unanswered(results_);
 }

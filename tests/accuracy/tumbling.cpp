@@ -1,0 +1,94 @@
+// Boxes that fall in a heap meet with corners and edges that were not the nearest ones when the sub-step began. What holds
+// them is found where they end, so that their motion need not be cut short and tried again.
+#include <catch2/catch.hpp>
+
+#include "engine/step/step_watcher.hpp"
+#include "tests/support/geometry/brute_convex.hpp"
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/mechanics/worlds.hpp"
+#include "tests/support/random.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+constexpr double kSide = 0.5, kHalfDiagonal = 0.4331;  // metres
+constexpr int kFirst = 8, kLast = 24;                  // frames: after the overlaps of the start, until they lie
+
+TriangleMesh placed(const Body& body) {
+  TriangleMesh mesh = box(Vec3::Constant(0.5 * kSide));
+  for (Vec3& x : mesh.vertices) x = body.pose.apply(x);
+  return mesh;
+}
+
+double deepest_of(const World& world) {
+  std::vector<const Body*> boxes;
+  for (const Body& b : world.bodies())
+    if (b.kind() == BodyKind::dynamic) boxes.push_back(&b);
+  double deepest = 0.0;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t k = i + 1; k < boxes.size(); ++k)
+      if ((boxes[i]->pose.position - boxes[k]->pose.position).norm() < 2.0 * kHalfDiagonal)
+        deepest = std::max(deepest, -brute_convex_gap(placed(*boxes[i]), placed(*boxes[k])).gap);
+  return deepest;
+}
+
+struct Heap {
+  double deepest = 0.0;  // metres
+  int undone = 0;        // motions
+};
+
+class Undone : public StepWatcher {
+ public:
+  int count = 0;
+  void moved(const Bodies&, const SubStep&, MotionGuard&, const std::optional<UnsafeMotion>&, bool is_kept) override {
+    count += is_kept ? 0 : 1;
+  }
+};
+
+/// Of thirty boxes, while they fall in.
+Heap tumble(Continuous continuous, int second_looks) {
+  World world;
+  world.parameters.simulation.substeps = 1;
+  world.parameters.simulation.sleeping = false;
+  world.parameters.narrow_phase.continuous = continuous;
+  world.parameters.contact.second_looks = second_looks;
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+  for (const Vec3& side : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
+    world.add_body(fixed_plane(("wall" + std::to_string(world.bodies().size().value())).c_str(), side, -1.1));
+  Random random(4242);
+  for (int k = 0; k < 30; ++k) {
+    const Vec3 at(0.6 * (k % 3 - 1), 0.6 * (k / 9) + 0.35, 0.6 * (k / 3 % 3 - 1));
+    BodyDescription body = cube("box" + std::to_string(k), kSide, at + 0.02 * random.vector());
+    body.rotation = 16.5 * random.vector();  // degrees
+    world.add_body(body);
+  }
+  world.start();
+  Undone undone;
+  world.watch(&undone);
+  Heap heap;
+  for (int frame = 1; frame <= kLast; ++frame) {
+    world.step();
+    if (frame >= kFirst) heap.deepest = std::max(heap.deepest, deepest_of(world));
+  }
+  heap.undone = undone.count;
+  return heap;
+}
+
+}  // namespace
+
+TEST_CASE("boxes that tumble onto one another end where their surfaces are") {
+  const Heap with = tumble(Continuous::off, 4), without = tumble(Continuous::off, 0);
+  CAPTURE(with.deepest, without.deepest);
+  CHECK(with.deepest <= 1e-3 * kSide);
+  CHECK(without.deepest >= 1e-2 * kSide);
+}
+
+TEST_CASE("hardly a motion of boxes that tumble has to be undone") {
+  const Heap with = tumble(Continuous::when_needed, 4), without = tumble(Continuous::when_needed, 0);
+  CAPTURE(with.undone, without.undone);
+  CHECK(with.undone <= 3);
+  CHECK(without.undone >= 10 * std::max(with.undone, 1));
+  CHECK(with.deepest <= 1e-3 * kSide);
+}
