@@ -20,7 +20,7 @@
 namespace impinge {
 namespace {
 
-constexpr int kFirstSweeps = 3, kRescueSweeps = 5;  // Gauss-Seidel, to begin with and where Newton fails
+constexpr int kFirstSweeps = 3, kRescueSweeps = 5;   // Gauss-Seidel, to begin with and where Newton fails
 constexpr double kSmallest = 1e-12, kLargest = 1.0;  // α
 constexpr double kExact = 1e-3;                      // of F: what a system's solution may leave of it
 constexpr double kFirstFactor = 10.0;                // α over the relative residual

@@ -44,12 +44,12 @@ class SuddenMotion : public Warning {
       if (!(parts[1].speed() > 0.0) || fastest.speed() < kTimes * parts[1].speed() || fastest.time > kFrames * frame ||
           fastest.way < kOfSize * 2.0 * body.radius)
         continue;
-      found.push_back({fmt::format("motion of '{}' goes {} in {} between its keys {} and {} (from {} on), at {:.3g} m/s, {:.0f} "
-                                   "times as fast as anywhere else",
-                                   body.name, length_text(fastest.way), time_text(fastest.time), fastest.key + 1,
-                                   fastest.key + 2, time_text(keys[fastest.key].time), fastest.speed(),
-                                   fastest.speed() / parts[1].speed()),
-                       "look at those keys' times"});
+      found.push_back(
+          {fmt::format("motion of '{}' goes {} in {} between its keys {} and {} (from {} on), at {:.3g} m/s, {:.0f} "
+                       "times as fast as anywhere else",
+                       body.name, length_text(fastest.way), time_text(fastest.time), fastest.key + 1, fastest.key + 2,
+                       time_text(keys[fastest.key].time), fastest.speed(), fastest.speed() / parts[1].speed()),
+           "look at those keys' times"});
     }
     return found;
   }

@@ -7,16 +7,16 @@
 #include "engine/contact/pair_scale.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
-#include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr double kAllowed = 0.25;   // of the activation distance: overlap at the end that is left to recovery
-constexpr double kOfRigid = 0.02;   // of the same: where neither deforms, and nothing of the answer is smooth over nodes
-constexpr double kSwift = 10.0;     // of the same: an approach in which rigid bodies meet where their start doesn't show
+constexpr double kAllowed = 0.25;  // of the activation distance: overlap at the end that is left to recovery
+constexpr double kOfRigid = 0.02;  // of the same: where neither deforms, and nothing of the answer is smooth over nodes
+constexpr double kSwift = 10.0;    // of the same: an approach in which rigid bodies meet where their start doesn't show
 constexpr double kDeepest = 100.0;  // of the same: what ends deeper has passed, and its normal says nothing
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }

@@ -46,7 +46,8 @@ TEST_CASE("boxes that a plane is said to stand between overlap at no moment by m
     SurfacePath a, b;
     a.of = &of_mesh, b.of = &of_other;
     const double height = 0.02 + half.y() * random.in(0.9, 1.6);
-    a.poses = path(random, {rotation_exp(random.in(0.0, 0.5) * random.vector()), Vec3(0, height, 0)}, way, way, 1 << (trial % 3));
+    a.poses = path(random, {rotation_exp(random.in(0.0, 0.5) * random.vector()), Vec3(0, height, 0)}, way, way,
+                   1 << (trial % 3));
     b.poses = path(random, {}, 0.3 * way, trial % 2 == 0 ? 0.0 : way, 1 << (trial % 2));
     const bool is_said = stays_beside(a, b, depth);
     double deepest = -INFINITY;
