@@ -59,7 +59,7 @@ struct Given {
   fs::path scene, script, out, record;
   std::string against;
   std::vector<std::string> overrides;
-  bool window = false, headless = false, quiet = false;
+  bool window = false, headless = false, quiet = false, answers = false;
   int width = 1280, height = 720;  // pixels
   int scale = 0;                   // of text; 0: by the height
   int memory = 256;                // megabytes
@@ -170,14 +170,14 @@ std::unique_ptr<DebugWindow> make_window(const Given& options, int scale) {
 }
 
 /// Where it stands, what B came to, what was answered, and what went wrong on the way.
-void say_end(Debugger& debugger, bool is_quiet) {
+void say_end(Debugger& debugger, bool is_quiet, bool with_answers) {
   if (!is_quiet) {
     const DebugModel& model = debugger.model();
     fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
                model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
     if (model.against != nullptr) fmt::print("{}\n", model.against->words());
     for (const ConsoleLine& line : model.console)
-      if (line.kind == ConsoleLine::message) fmt::print("{}\n", line.text);
+      if (line.kind == ConsoleLine::message && with_answers) fmt::print("{}\n", line.text);
   }
   for (const ConsoleLine& line : debugger.model().console)
     if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
@@ -254,7 +254,7 @@ int debug(const Given& options) {
     throw;
   }
   save_recording();
-  say_end(debugger, options.quiet);
+  say_end(debugger, options.quiet, options.answers);
   if (interrupted()) return 130;
   return debugger.failures() > 0 ? 1 : 0;
 }
@@ -271,6 +271,7 @@ class DebugCommand : public SubCommand {
     options.flag("--window", given_.window,
                  "show a window, after the script if there is one (default where there is a screen)");
     options.flag("--headless", given_.headless, "no window: the script drives it");
+    options.flag("--answers", given_.answers, "print what find, why and the like answered, at the end");
     given_.doors.declare(options);
     options.text("--against", given_.against,
                  "PATH=VALUE: the same scene with that setting, or another scene or run's folder, made beside "
