@@ -226,7 +226,8 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
   DebugLine parsed =
       parse_debug_line(line, {session_.rows(), shown(), figure_names(session_.is_judged()), conditions_});
   if (std::holds_alternative<InputLine>(parsed) || std::holds_alternative<FileLine>(parsed) ||
-      std::holds_alternative<FreezeLine>(parsed) || std::holds_alternative<QuitLine>(parsed))
+      std::holds_alternative<FreezeLine>(parsed) || std::holds_alternative<ExportLine>(parsed) ||
+      std::holds_alternative<QuitLine>(parsed))
     return parsed;
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;

@@ -73,6 +73,9 @@ class Debugger {
   void record_bundle(const std::string& file, const Vec2& pointer) { record_picture("bundle " + file, pointer); }
   /// Writes the last sub-step of the frame as it was handed to the response. Throws InputError where it can't.
   void freeze(const std::filesystem::path& file);
+  /// All frames that are known, and says what there is to open; "" if it was interrupted. Throws InputError where the
+  /// format can't take them, OutputError where they can't be written.
+  std::string export_frames(const std::string& format, const std::filesystem::path& folder);
   void record_freeze(const std::string& file) { add_recorded("freeze " + file), trace_ = other; }
   /// The moment, for format_bundle; what was seen is for others to add. Throws InputError where a file that the scene reads
   /// can't be read any more.

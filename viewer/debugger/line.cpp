@@ -10,6 +10,7 @@
 #include "engine/core/error.hpp"
 #include "viewer/debugger/line_words.hpp"
 #include "viewer/debugger/panel_line.hpp"
+#include "viewer/export/exporter.hpp"
 #include "viewer/panels/debug/ui.hpp"
 
 namespace impinge {
@@ -138,8 +139,9 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> own = {"step",  "back", "seek",  "play", "pause",  "select", "panel",  "ui",   "shot",
-                                        "plots", "quit", "break", "find", "freeze", "why",    "bundle", "undo", "redo"};
+  const std::vector<std::string> own = {"step", "back",   "seek",  "play", "pause", "select", "panel",
+                                        "ui",   "shot",   "plots", "quit", "break", "find",   "freeze",
+                                        "why",  "bundle", "undo",  "redo", "export"};
   std::vector<std::string> verbs = command_verbs();
   const std::size_t commands = verbs.size();
   verbs.insert(verbs.end(), own.begin(), own.end());
@@ -161,6 +163,13 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
     want(words, 3, 3, "why NAME NAME");
     const std::vector<std::string> bodies = body_names(names);
     return WhyLine{static_cast<int>(find(words[1], "body", bodies)), static_cast<int>(find(words[2], "body", bodies))};
+  }
+  if (verb == "export") {
+    want(words, 2, 3, "export FORMAT [FOLDER]");
+    std::vector<std::string> formats;
+    for (const Entry<Exporter>& e : exporters()) formats.emplace_back(e.name);
+    find(words[1], "format", formats);
+    return ExportLine{std::string(words[1].text), words.size() > 2 ? std::string(words[2].text) : "export"};
   }
   const std::string ending = verb == "shot" ? ".png" : verb == "plots" ? ".csv" : verb == "bundle" ? ".tar" : ".step";
   want(words, 2, 2, (verb + " FILE").c_str());

@@ -6,6 +6,7 @@
 //   break when CONDITION | break off | find CONDITION
 //   why NAME NAME                       what each filter of detection made of two bodies
 //   freeze FILE                         the last sub-step of the frame, for impinge step
+//   export FORMAT [FOLDER]              all frames that are known, for other programs
 //   undo | redo                         of set, layer, hide, pull ...: the last that was done, or undone
 //   select body NAME [TRIANGLE] | select contact INDEX | select none
 //   panel ...                           panel_line.hpp
@@ -42,6 +43,9 @@ struct WhyLine {
 struct FreezeLine {
   std::string file;
 };
+struct ExportLine {
+  std::string format, folder;
+};
 struct SelectLine {
   Selection selection;  ///< pair_id is not filled in
 };
@@ -62,7 +66,7 @@ struct UndoLine {
   bool again = false;  ///< redo
 };
 using DebugLine = std::variant<std::vector<Command>, TransportLine, SelectLine, PanelLine, InputLine, FileLine,
-                               QuitLine, UndoLine, BreakLine, FindLine, WhyLine, FreezeLine>;
+                               QuitLine, UndoLine, BreakLine, FindLine, WhyLine, FreezeLine, ExportLine>;
 
 /// What names a line may use.
 struct DebugNames {

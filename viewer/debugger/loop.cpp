@@ -101,6 +101,7 @@ void DebugLoop::take(const DebugLine& line, const PlacedText& place) {
     }
   }
   if (const auto* frozen = std::get_if<FreezeLine>(&line)) freeze(frozen->file, place);
+  if (const auto* frames = std::get_if<ExportLine>(&line)) export_frames(frames->format, frames->folder, place);
   if (std::holds_alternative<QuitLine>(line)) quit_ = true;
 }
 
@@ -116,6 +117,18 @@ void DebugLoop::freeze(const std::string& file, const PlacedText& place) {
                  "a folder that may be written to is wanted", "change --out or the name");
   }
   debugger_.record_freeze(file);
+}
+
+void DebugLoop::export_frames(const std::string& format, const std::string& folder, const PlacedText& place) {
+  const std::filesystem::path path = out_ / folder;
+  try {
+    const std::string result = debugger_.export_frames(format, path);
+    if (!result.empty()) debugger_.say(ConsoleLine::message, result);
+  } catch (const OutputError& error) {
+    place.refuse(fmt::format("{} can't be written ({})", path.string(), error.reason),
+                 "a folder that may be written to is wanted", "change --out or the name");
+  }
+  debugger_.record_file(fmt::format("export {} {}", format, folder));
 }
 
 const UiWidget& DebugLoop::find(const std::string& name, const PlacedText& place) {

@@ -46,6 +46,7 @@ class DebugLoop {
   void shoot(const std::string& file, const PlacedText& place);
   void write_bundle(const std::string& file, const PlacedText& place);
   void freeze(const std::string& file, const PlacedText& place);
+  void export_frames(const std::string& format, const std::string& folder, const PlacedText& place);
 
   Debugger& debugger_;
   DebugWindow& window_;
