@@ -19,7 +19,6 @@ struct BodySpace {
   std::vector<std::array<Side, 2>> sides;  ///< by contact
   std::vector<double> mass;                ///< by body, kg
   std::vector<Mat3> inertia;               ///< kg·m²
-  std::vector<Mat3> inverse_inertia;       ///< 1/(kg·m²)
 
   VecX no_velocities() const { return VecX::Zero(static_cast<Eigen::Index>(6 * mass.size())); }
 
@@ -28,14 +27,6 @@ struct BodySpace {
     for (const Side& side : sides[i])
       if (side.body >= 0)
         s.segment<6>(6 * side.body) += x.x() * side.row[0] + x.y() * side.row[1] + x.z() * side.row[2];
-  }
-  /// s = M⁻¹ s.
-  void divide_by_mass(VecX& s) const {
-    for (std::size_t b = 0; b < mass.size(); ++b) {
-      const auto at = static_cast<Eigen::Index>(6 * b);
-      s.segment<3>(at) /= mass[b];
-      s.segment<3>(at + 3) = (inverse_inertia[b] * s.segment<3>(at + 3)).eval();
-    }
   }
   /// J_i s.
   Vec3 relative(std::size_t i, const VecX& s) const {

@@ -14,8 +14,8 @@ class NewtonSystem {
   virtual ~NewtonSystem() = default;
   /// Takes the numbers; kept[i] says that contact i has rows of its own, otherwise A_i = 0 and B_i = 1.
   virtual void factorize(std::span<const Mat3> a, std::span<const Mat3> b, const std::vector<char>& kept) = 0;
-  /// x = (A W + B)⁻¹ b; not finite where the matrix is singular. `exact`: of b, what may be left where it is solved by turns.
-  virtual void solve(const VecX& b, VecX& x, double exact = 1e-9) const = 0;
+  /// x = (A W + B)⁻¹ b; not finite where the matrix is singular.
+  virtual void solve(const VecX& b, VecX& x) const = 0;
 };
 
 /// W is written out: 3 rows a contact, of which those that a method knows already are taken out before the LU, dense or,

@@ -8,12 +8,15 @@ namespace impinge {
 namespace {
 
 constexpr int kRefinements = 6;  // where B is small 1 / B takes digits, which come back
+constexpr double kExact = 1e-9;  // of b
 constexpr double kUseful = 0.5;  // a solution that leaves more of b is none
 
 class SystemOfBodies : public NewtonSystem {
  public:
   explicit SystemOfBodies(const BodySpace& bodies)
-      : bodies_(bodies), matrix_(bodies), by_u_(bodies.sides.size()), inverse_(bodies.sides.size()) {}
+      : bodies_(bodies), matrix_(bodies), by_u_(bodies.sides.size()), inverse_(bodies.sides.size()) {
+    for (const Mat3& inertia : bodies.inertia) inverse_inertia_.push_back(inertia.inverse());
+  }
 
   void factorize(std::span<const Mat3> a, std::span<const Mat3> b, const std::vector<char>& kept) override {
     a_.assign(a.begin(), a.end()), b_.assign(b.begin(), b.end());
@@ -26,11 +29,11 @@ class SystemOfBodies : public NewtonSystem {
     matrix_.factorize(by_u_);
   }
 
-  void solve(const VecX& b, VecX& x, double exact) const override {
+  void solve(const VecX& b, VecX& x) const override {
     solve_once(b, x);
     VecX rest = b - product(x), better, more;
     double size = rest.norm();
-    for (int k = 0; k < kRefinements && size > exact * b.norm(); ++k) {
+    for (int k = 0; k < kRefinements && size > kExact * b.norm(); ++k) {
       solve_once(rest, more);
       better = x + more;
       rest = b - product(better);
@@ -58,7 +61,11 @@ class SystemOfBodies : public NewtonSystem {
   /// (A W + B) x.
   VecX product(const VecX& x) const {
     VecX v = push(x), y(x.size());
-    bodies_.divide_by_mass(v);
+    for (std::size_t body = 0; body < bodies_.mass.size(); ++body) {
+      const auto at = static_cast<Eigen::Index>(6 * body);
+      v.segment<3>(at) /= bodies_.mass[body];
+      v.segment<3>(at + 3) = inverse_inertia_[body] * v.segment<3>(at + 3);
+    }
     for (std::size_t i = 0; i < by_u_.size(); ++i)
       y.segment<3>(3 * static_cast<Eigen::Index>(i)) =
           a_[i] * bodies_.relative(i, v) + b_[i] * x.segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -74,7 +81,7 @@ class SystemOfBodies : public NewtonSystem {
 
   const BodySpace& bodies_;
   BodyMatrix matrix_;
-  std::vector<Mat3> a_, b_, by_u_, inverse_;  // A, B, B⁻¹ A, B⁻¹
+  std::vector<Mat3> inverse_inertia_, a_, b_, by_u_, inverse_;  // M⁻¹'s, A, B, B⁻¹ A, B⁻¹
 };
 
 }  // namespace

@@ -54,7 +54,7 @@ class SystemOfRows : public NewtonSystem {
     singular_ = sparse_lu_.info() != Eigen::Success;
   }
 
-  void solve(const VecX& b, VecX& x, double /*exact*/) const override {
+  void solve(const VecX& b, VecX& x) const override {
     x = VecX::Zero(b.size());
     for (const int row : known_) x[row] = b[row];
     const auto n = static_cast<Eigen::Index>(kept_.size());

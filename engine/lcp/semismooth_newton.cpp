@@ -13,29 +13,19 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/lcp/alart_curnier.hpp"
-#include "engine/lcp/body_space.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 #include "engine/lcp/newton_system.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr int kFirstSweeps = 3, kRescueSweeps = 5;   // Gauss-Seidel, to begin with and where Newton fails
+constexpr int kFirstSweeps = 3, kRescueSweeps = 5;  // Gauss-Seidel, to begin with and where Newton fails
+constexpr int kHalvings = 7;
+constexpr std::size_t kMemory = 10;                  // steps that a new one is compared with
 constexpr double kSmallest = 1e-12, kLargest = 1.0;  // α
-constexpr double kExact = 1e-3;                      // of F: what a system's solution may leave of it
 constexpr double kFirstFactor = 10.0;                // α over the relative residual
 constexpr int kPatience = 500;                       // steps without a better residual before giving up
 constexpr std::size_t kMostContacts = 6000;          // W written out takes 2.6 GB then
-
-/// How boldly steps are taken.
-struct Boldness {
-  int halvings;        ///< of a step
-  std::size_t memory;  ///< steps that a new one is compared with
-  double relief;       ///< what α falls by after a long step
-};
-// tumbling heaps of rigid bodies: of some 190 solves with 60 contacts and more 12 don't end instead of 28, in a fifth less
-// iterations; the published RockPile, which only the careful one solves, is made of rows
-constexpr Boldness kCareful = {7, 10, 0.5}, kBold = {10, 20, 0.25};
 
 class Search {
  public:
@@ -44,11 +34,9 @@ class Search {
         settings_(settings),
         lambda_(lambda),
         n_(lambda.size()),
-        how_(problem.w->body_space() != nullptr ? kBold : kCareful),
         system_(problem.w->body_space() != nullptr ? newton_system_of_bodies(*problem.w->body_space())
                                                    : newton_system_of_rows(problem)),
         u_(n_),
-        u_inside_(n_),
         trial_(n_),
         a_(n_),
         b_(n_),
@@ -79,7 +67,6 @@ class Search {
       }
       factor_ = kFirstFactor;
       merits_.clear();
-      merit_ = -1.0;
       for (std::size_t i = 0; i < n_; ++i) lambda_[i] = problem_.nearest(i, lambda_[i]);
       for (int k = 0; k < kRescueSweeps && iterations_ < settings_.max_iterations; ++k)
         if (sweep()) return finish(StopReason::converged);
@@ -89,7 +76,6 @@ class Search {
 
  private:
   bool sweep() {
-    merit_ = -1.0;
     problem_.w->begin(lambda_);
     gauss_seidel_sweep(problem_, lambda_);
     ++iterations_;
@@ -100,8 +86,9 @@ class Search {
   bool measure() {
     std::vector<Vec3> inside(n_);
     for (std::size_t i = 0; i < n_; ++i) inside[i] = problem_.nearest(i, lambda_[i]);
-    find_velocities(inside, u_inside_);
-    residual_ = relative_residual(problem_, u_inside_, inside, settings_.measure);
+    problem_.w->begin(inside);
+    velocities(problem_, u_);
+    residual_ = relative_residual(problem_, u_, inside, settings_.measure);
     note(residual_);
     if (best_.empty() || residual_ < best_residual_) {
       if (best_.empty() || residual_ < 0.99 * best_residual_) best_at_ = iterations_;
@@ -118,24 +105,11 @@ class Search {
     return {iterations_, reason};
   }
 
-  /// u = W λ + q.
-  void find_velocities(const std::vector<Vec3>& lambda, std::vector<Vec3>& u) const {
-    const BodySpace* bodies = problem_.w->body_space();
-    if (bodies == nullptr) {
-      problem_.w->begin(lambda);
-      return velocities(problem_, u);
-    }
-    VecX v = bodies->no_velocities();
-    for (std::size_t i = 0; i < n_; ++i)
-      if (!lambda[i].isZero(0.0)) bodies->push(i, lambda[i], v);
-    bodies->divide_by_mass(v);
-    for (std::size_t i = 0; i < n_; ++i) u[i] = problem_.q[i] + bodies->relative(i, v);
-  }
-
   /// ‖F‖² in velocities, at λ.
   double merit(const std::vector<Vec3>& lambda) {
     check_interrupt();
-    find_velocities(lambda, u_);
+    problem_.w->begin(lambda);
+    velocities(problem_, u_);
     double sum = 0.0;
     for (std::size_t i = 0; i < n_; ++i) {
       const Vec3 f = alart_curnier_value(problem_, i, u_[i], lambda[i], rho_[i]);
@@ -147,7 +121,7 @@ class Search {
 
   /// One regularised Newton step with its line search; false if no length served (λ is as before).
   bool step() {
-    const double now = merit_ >= 0.0 ? merit_ : merit(lambda_);  // u_ is λ's where it is known
+    const double now = merit(lambda_);
     alpha_ = std::clamp(factor_ * residual_, kSmallest, kLargest);
     VecX f(static_cast<Eigen::Index>(3 * n_)), d;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -158,26 +132,24 @@ class Search {
       f.segment<3>(3 * static_cast<Eigen::Index>(i)) = -e.value;
     }
     system_->factorize(a_, b_, kept_);
-    system_->solve(f, d, kExact);
-    if (!d.allFinite()) return false;  // u_ and its merit are λ's still
+    system_->solve(f, d);
+    if (!d.allFinite()) return false;
     double worst = now;
     for (const double m : merits_) worst = std::max(worst, m);
     double length = 1.0;
-    for (int k = 0; k <= how_.halvings; ++k, length *= 0.5) {
+    for (int k = 0; k <= kHalvings; ++k, length *= 0.5) {
       for (std::size_t i = 0; i < n_; ++i)
         trial_[i] = lambda_[i] + length * d.segment<3>(3 * static_cast<Eigen::Index>(i));
-      merit_ = merit(trial_);
-      if (!(merit_ <= (1.0 - 1e-4 * length) * worst)) continue;
+      if (!(merit(trial_) <= (1.0 - 1e-4 * length) * worst)) continue;
       lambda_ = trial_;
       merits_.push_back(now);
-      if (merits_.size() >= how_.memory) merits_.pop_front();
+      if (merits_.size() >= kMemory) merits_.pop_front();
       if (length > 0.4)
-        factor_ = std::max(how_.relief * factor_, 1e-3);
+        factor_ = std::max(0.5 * factor_, 1e-3);
       else if (length < 0.2)
         factor_ *= 2.0;
       return true;
     }
-    merit_ = -1.0;
     return false;
   }
 
@@ -185,15 +157,13 @@ class Search {
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
-  const Boldness how_;
   std::unique_ptr<NewtonSystem> system_;
   std::vector<Vec2> rho_;
   std::vector<double> scale_;
-  std::vector<Vec3> u_, u_inside_, trial_, best_;
+  std::vector<Vec3> u_, trial_, best_;
   std::vector<Mat3> a_, b_;
   std::vector<char> kept_;
   std::deque<double> merits_;
-  double merit_ = -1.0;  // of λ, whose velocities u_ are; < 0: not known
   double residual_ = 0.0, best_residual_ = 0.0, alpha_ = 0.0, factor_ = kFirstFactor;
   int iterations_ = 0, best_at_ = 0;
 };

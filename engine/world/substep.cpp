@@ -17,8 +17,7 @@ namespace {
 
 constexpr int kMostPieces = 64;       // of a sub-step
 constexpr int kMostMotions = 32;      // tried for a piece
-constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be, and tell by their
-constexpr double kGrowth = 2.0;       // length how long the next may be
+constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
@@ -51,26 +50,11 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
   return safe;
 }
 
-/// How far apart features of a pair may begin that get rows before anything is cut. What slides over facets, as a pin does
-/// that turns in its hole, meets others than it began with: rows of those hold it where turns are followed, as long as the
-/// way is one that contacts see well.
-PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_are_followed) {
-  return [&bodies, &step, turns_are_followed](const UnsafeMotion::Pair& p) {
-    const auto is_of = [&](const Collision& c) { return c.body_a == p.a && c.body_b == p.b; };
-    const auto deforms = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
-    const bool is_held = turns_are_followed && !deforms(p.a) && !deforms(p.b) &&
-                         std::any_of(step.collisions.begin(), step.collisions.end(), is_of);
-    return is_held ? p.safe : 0.0;
-  };
-}
-
-/// Contacts of the features that pass, begin no farther from one another than `reach` of their pair says, and have none
-/// of this normal yet. False: each had one.
-bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
+/// Contacts of all features that pass and have none of this normal yet. False: each had one.
+bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
   bool is_new = false;
   for (const UnsafeMotion::Pair& pair : motion.pairs)
     for (const Passage& p : pair.passages) {
-      if ((p.point_a - p.point_b).norm() > reach(pair)) continue;
       const auto same = std::find_if(asked.begin(), asked.end(), [&](const Collision& c) {
         return c.body_a == pair.a && c.body_b == pair.b && c.feature == p.feature;
       });
@@ -80,17 +64,6 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
       is_new = true;
     }
   return is_new;
-}
-
-/// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
-double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
-                  std::vector<Collision>& asked) {
-  if (ask_for(motion, seen, asked)) return 1.0;
-  if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
-  return ask_for(
-             motion, [](const UnsafeMotion::Pair&) { return INFINITY; }, asked)
-             ? 1.0
-             : 0.5;
 }
 
 /// Adds the bodies of pairs that pass to those that stay, and takes out the pairs of which one is new there. A body that
@@ -161,12 +134,10 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation, is_kept);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
-  const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
   double rest = 1.0;         // of the sub-step
-  double next = 1.0;         // the same, of the piece that is tried
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
@@ -174,9 +145,8 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     sub_step_->asked.clear();
     sub_step_->rebounds = true;
     guard_.open(bodies_);
-    double share = std::min(rest, next);
-    int motion = 1;
-    for (;; ++motion) {
+    double share = rest;
+    for (int motion = 1;; ++motion) {
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && share == rest);
       const auto hold_back = [&] {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
@@ -213,10 +183,12 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, sub_step_->asked);
+      if (const std::optional<double> safe = safe_share(*unsafe, of_pair))
+        share *= motion <= kPatience ? *safe : 0.5 * *safe;
+      else if (!ask_for(*unsafe, sub_step_->asked))
+        share *= 0.5;
       start->bring_back(bodies_, sleeping_);
     }
-    next = motion > kPatience ? kGrowth * share : 1.0;
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }

@@ -46,7 +46,6 @@ const BodySpace* FactoredDelassus::body_space() {
   for (const RigidBlock& block : group_.rigid) {
     body_space_->mass.push_back(1.0 / block.inverse_mass);
     body_space_->inertia.push_back(block.inverse_inertia.inverse());
-    body_space_->inverse_inertia.push_back(block.inverse_inertia);
   }
   for (std::size_t i = 0; i < group_.contacts.size(); ++i) {
     const ContactRows& rows = group_.contacts[i];
