@@ -46,14 +46,11 @@ int ExportCommand::run() {
   RecordedRun run(folder_);
   const std::vector<int> frames = range_.frames(static_cast<int>(run.rows().size()) - 1);
   const Session& session = run.session();
-  ExportJob job;
+  ExportJob job = session.export_job();
   job.folder = out_;
-  job.name = export_name(session.scene().run->scene);
   job.option = "--format";
   job.first = frames.front(), job.stride = range_.stride();
   job.frames = static_cast<int>(frames.size());
-  job.frame_time = session.world().parameters.simulation.frame_time;
-  job.colors = session.view().settings().colors;
   Exports exports({format_}, job, run.record());
   FrameProgress progress;
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);

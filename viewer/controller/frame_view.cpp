@@ -156,10 +156,7 @@ void FrameView::show(const BodiesCommand& command, const StepRecord& record) {
       take_away(settings_.locked, command.names);
       break;
     case BodiesCommand::color:
-      for (const std::string& name : command.names) {
-        std::erase_if(settings_.colors, [&](const std::string& entry) { return name_in(entry) == name; });
-        if (command.rgb) settings_.colors.push_back(name + "=" + color_text(*command.rgb));
-      }
+      give_color(settings_.colors, command.names, command.rgb);
       break;
     case BodiesCommand::frame:
       fit(bounds_of(record, command.names), record);

@@ -53,19 +53,11 @@ void check_options(const RunOptions& options, const Session& session, int last_f
                     *options.freeze, last_frame));
 }
 
-/// Of a run.toml the scene that it was made of.
-std::filesystem::path scene_file(const Session& session) {
-  return session.scene().run ? std::filesystem::path(session.scene().run->scene) : session.scene().path;
-}
-
 Exports open_exports(const RunOptions& options, const Session& session, int last_frame) {
-  ExportJob job;
+  ExportJob job = session.export_job();
   job.folder = options.out / "export";
-  job.name = export_name(scene_file(session));
   job.option = "--export";
   job.frames = last_frame + 1;
-  job.frame_time = session.world().parameters.simulation.frame_time;
-  job.colors = session.view().settings().colors;
   return {options.exports, job, session.record()};
 }
 
@@ -150,7 +142,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   const RunRecord record = record_of(options, session, last_frame);
   Exports exports = open_exports(options, session, last_frame);
   FrameView& view = session.view();
-  if (options.images) view.open(scene_file(session).filename().string(), options.ids);
+  if (options.images) view.open(session.scene_file().filename().string(), options.ids);
   const RunStart how = options.resume ? RunStart::resume : options.force ? RunStart::force : RunStart::anew;
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), how,
                    options.snapshot_megabytes << 20);

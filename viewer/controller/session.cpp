@@ -10,6 +10,7 @@
 #include "engine/io/paths.hpp"
 #include "engine/world/figures.hpp"
 #include "viewer/controller/snapshot_file.hpp"
+#include "viewer/draw/body_color.hpp"
 #include "viewer/preflight/preflight.hpp"
 
 namespace impinge {
@@ -199,6 +200,25 @@ RunRecord Session::run_record() const {
   run.judge = judge_;
   run.judge_substeps = judge_substeps_;
   return run;
+}
+
+fs::path Session::scene_file() const { return scene_.run ? fs::path(scene_.run->scene) : scene_.path; }
+
+ExportJob Session::export_job() const {
+  ExportJob job;
+  job.name = export_name(scene_file());
+  job.frame_time = world_.parameters.simulation.frame_time;
+  job.colors = view_.settings().colors;
+  if (frame_ >= 0) return job;
+  // frame 0 is not made yet, and exports have one colour for all frames
+  for (const Command& command : script_.commands_at(0)) {
+    if (const auto* bodies = std::get_if<BodiesCommand>(&command);
+        bodies != nullptr && bodies->verb == BodiesCommand::color)
+      give_color(job.colors, bodies->names, bodies->rgb);
+    if (const auto* set = std::get_if<SetCommand>(&command); set != nullptr && set->path == "view.colors")
+      job.colors = std::get<std::vector<std::string>>(set->value);
+  }
+  return job;
 }
 
 void Session::save(ByteWriter& out) const {

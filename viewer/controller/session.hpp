@@ -8,6 +8,7 @@
 #include "viewer/controller/condition_values.hpp"
 #include "viewer/controller/frame_view.hpp"
 #include "viewer/controller/script.hpp"
+#include "viewer/export/exporter.hpp"
 
 namespace impinge {
 
@@ -66,6 +67,10 @@ class Session {
   bool is_judged_by_substep() const { return judge_substeps_; }
   /// Who looks on while frames are made, none: null.
   void watch(StepWatcher* watcher) { world_.watch(watcher); }
+  /// What exports of its frames need to know of it; where they go, and which, is for whoever asks.
+  ExportJob export_job() const;
+  /// The file that it was made of: of a run.toml the run's scene.
+  std::filesystem::path scene_file() const;
   /// The scene's, script's and program's part of run.toml.
   RunRecord run_record() const;
 

@@ -24,14 +24,10 @@ std::string Debugger::export_frames(const std::string& format, const std::filesy
   std::string result;
   try {
     reach(0);
-    const Scene& scene = session_.scene();
-    ExportJob job;
+    ExportJob job = session_.export_job();
     job.folder = folder;
-    job.name = export_name(scene.run ? std::filesystem::path(scene.run->scene) : scene.path);
     job.option = "export";
     job.frames = last + 1;
-    job.frame_time = session_.world().parameters.simulation.frame_time;
-    job.colors = session_.view().settings().colors;
     Exports exports({format}, job, session_.record());
     int made = 0;
     for (int k = 0; k <= last && !is_interrupted(); ++k) {

@@ -31,6 +31,13 @@ std::optional<Color> color_in(std::string_view entry) {
   return sign == std::string_view::npos ? std::nullopt : read_color(entry.substr(sign + 1));
 }
 
+void give_color(std::vector<std::string>& entries, const std::vector<std::string>& bodies, std::optional<Color> color) {
+  for (const std::string& body : bodies) {
+    std::erase_if(entries, [&](const std::string& entry) { return name_in(entry) == body; });
+    if (color) entries.push_back(body + "=" + color_text(*color));
+  }
+}
+
 std::optional<Color> given_color(const std::vector<std::string>& entries, std::string_view body) {
   for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry)
     if (name_in(*entry) == body) return color_in(*entry);

@@ -20,6 +20,8 @@ std::string_view name_in(std::string_view entry);
 /// What colour it gives; none where it isn't one.
 std::optional<Color> color_in(std::string_view entry);
 
+/// Gives the bodies that colour, instead of what the entries said of them; none: takes it away.
+void give_color(std::vector<std::string>& entries, const std::vector<std::string>& bodies, std::optional<Color> color);
 /// Of the last entry that names the body.
 std::optional<Color> given_color(const std::vector<std::string>& entries, std::string_view body);
 

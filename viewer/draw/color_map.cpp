@@ -88,13 +88,25 @@ std::array<Color, kHeatColors> make_colors(ColorMap map) {
   return colors;
 }
 
+template <ColorMap map>
+const std::array<Color, kHeatColors>& made_once() {  // when they are first asked for
+  static const std::array<Color, kHeatColors> colors = make_colors(map);
+  return colors;
+}
+
 }  // namespace
 
 const std::array<Color, kHeatColors>& heat_colors(ColorMap map) {
-  static const std::array<std::array<Color, kHeatColors>, 4> colors = {
-      make_colors(ColorMap::dusk), make_colors(ColorMap::fire), make_colors(ColorMap::gray),
-      make_colors(ColorMap::balance)};
-  return colors[static_cast<std::size_t>(map)];
+  switch (map) {
+    case ColorMap::fire:
+      return made_once<ColorMap::fire>();
+    case ColorMap::gray:
+      return made_once<ColorMap::gray>();
+    case ColorMap::balance:
+      return made_once<ColorMap::balance>();
+    default:
+      return made_once<ColorMap::dusk>();
+  }
 }
 
 Color heat_color(double t, ColorMap map) {

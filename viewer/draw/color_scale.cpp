@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/draw/number_text.hpp"
+
 namespace impinge {
 namespace {
 
@@ -55,8 +57,15 @@ ColorScale ScaleSettings::scale(double largest, bool is_signed) const {
   return scale;
 }
 
-ColorMap map_of(const ColorScale& scale, ColorMap chosen) {
-  return scale.form == ScaleForm::diverging ? ColorMap::balance : chosen;
+ColorBar make_color_bar(const std::string& title, const std::string& unit, const ColorScale& scale, ColorMap chosen) {
+  const NumberText end = number_text(scale.high, unit);
+  ColorBar bar;
+  bar.title = title;
+  bar.unit = end.unit;
+  bar.scale = scale;
+  bar.factor = std::pow(10.0, std::round(std::log10(std::stod(end.digits) / scale.high)));  // of the prefix alone
+  bar.map = scale.form == ScaleForm::diverging ? ColorMap::balance : chosen;
+  return bar;
 }
 
 double rounded_up(double value) {

@@ -42,8 +42,8 @@ struct ScaleSettings {
   ColorScale scale(double largest, bool is_signed) const;
 };
 
-/// A scale that diverges has colours of its own.
-ColorMap map_of(const ColorScale& scale, ColorMap chosen);
+/// With numbers in the prefix that the upper end has few figures in; a scale that diverges has colours of its own.
+ColorBar make_color_bar(const std::string& title, const std::string& unit, const ColorScale& scale, ColorMap chosen);
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a positive value.
 double rounded_up(double value);

@@ -53,10 +53,6 @@ std::vector<Eigen::Vector3f> heat_table(ColorMap map) {
 
 }  // namespace
 
-Renderer::Renderer()
-    : heat_tables_{heat_table(ColorMap::dusk), heat_table(ColorMap::fire), heat_table(ColorMap::gray),
-                   heat_table(ColorMap::balance)} {}
-
 Renderer::SurfaceBuffers& Renderer::buffers_of(const DrawSurface& item) {
   const ShadedSurface& surface = *item.surface;
   const auto [place, is_new] = buffers_.try_emplace(item.surface.get());
@@ -125,8 +121,7 @@ void Renderer::prepare(Program& program, const DrawList& list, const ViewTransfo
   program.use();
   program.set("projection", view.projection);
   program.set("eye_up", view.eye_up);
-  const ColorMap map = list.color_bars.empty() ? ColorMap::dusk : list.color_bars.front().map;
-  program.set("heat_colors[0]", heat_tables_[static_cast<std::size_t>(map)]);
+  if (!list.color_bars.empty()) program.set("heat_colors[0]", heat_table(list.color_bars.front().map));
   if (!style.clip.is_on() || list.surfaces.empty()) return;
   const Eigen::Vector3f normal = (view.rotation * style.clip.normal.normalized()).cast<float>();
   const auto eye_height = static_cast<float>(style.clip.height(view.eye));

@@ -22,7 +22,7 @@ struct RenderStyle {
 class Renderer {
  public:
   /// A context must be current, here and in every call.
-  Renderer();
+  Renderer() = default;
 
   /// Draws into `target`, which is left bound.
   void draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target);
@@ -52,7 +52,6 @@ class Renderer {
   void draw_see_through(Program& program, const DrawList& list, const ViewTransform& view, const ClipPlane& clip);
 
   Program surface_program_{"surface"};
-  std::array<std::vector<Eigen::Vector3f>, 4> heat_tables_;  ///< of each colour map
   std::map<const ShadedSurface*, SurfaceBuffers> buffers_;
   Scenery scenery_;
   Marks marks_;

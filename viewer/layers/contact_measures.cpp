@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "viewer/draw/number_text.hpp"
-
 namespace impinge {
 namespace {
 
@@ -61,17 +59,7 @@ ColorBar bar_of(ContactMeasure what, const ColorScale& scale, ColorMap map) {
   };
   constexpr Words kWords[] = {{"overlap", "m"}, {"normal impulse", "N s"}, {"slip", "m/s"}};
   const Words& words = kWords[static_cast<std::size_t>(what)];
-  return bar_in(words.title, words.unit, scale, map);
-}
-
-ColorBar bar_in(const std::string& title, const std::string& unit, const ColorScale& scale, ColorMap map) {
-  const NumberText end = number_text(scale.high, unit);
-  ColorBar bar;
-  bar.title = title, bar.unit = end.unit;
-  bar.scale = scale;
-  bar.factor = std::stod(end.digits) / scale.high;
-  bar.map = map_of(scale, map);
-  return bar;
+  return make_color_bar(words.title, words.unit, scale, map);
 }
 
 }  // namespace impinge

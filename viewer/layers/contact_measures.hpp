@@ -13,8 +13,6 @@ double measure_of(const StepRecord& record, const ContactRecord& contact, Contac
 
 /// Its colours, with numbers in the prefix that the upper end has few figures in.
 ColorBar bar_of(ContactMeasure what, const ColorScale& scale, ColorMap map);
-/// The same by words.
-ColorBar bar_in(const std::string& title, const std::string& unit, const ColorScale& scale, ColorMap map);
 /// Below what rounding makes there is no picture: at least where an open upper end lies.
 inline constexpr double kLeastShown = 1e-12;
 

@@ -108,7 +108,7 @@ void draw(const LayerContext& context, DrawList& list) {
   }
   const ColorScale scale = own.colors.scale(std::max(most, kLeastShown), false);
   const ColorMap map = context.settings.color_map;
-  ColorBar bar = measure ? bar_of(*measure, scale, map) : bar_in("speed", "m/s", scale, map);
+  ColorBar bar = measure ? bar_of(*measure, scale, map) : make_color_bar("speed", "m/s", scale, map);
   bool any = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i].empty()) continue;

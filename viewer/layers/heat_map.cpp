@@ -76,20 +76,12 @@ std::vector<double> values_at_points(const Embedding& embedding, const TetMesh& 
 }
 
 ColorBar heat_bar(HeatQuantity quantity, const ColorScale& scale, ColorMap map) {
-  ColorBar bar;
-  bar.scale = scale;
-  bar.map = map_of(scale, map);
-  if (quantity == HeatQuantity::von_mises || quantity == HeatQuantity::mean_stress) {
-    constexpr const char* kUnits[] = {"Pa", "kPa", "MPa", "GPa"};
-    std::size_t thousands = 0;
-    while (thousands < 3 && scale.high * bar.factor >= 1000.0) bar.factor *= 1e-3, ++thousands;
-    bar.title = quantity == HeatQuantity::von_mises ? "von Mises stress" : "mean stress";
-    bar.unit = kUnits[thousands];
-  } else {
-    bar.title = quantity == HeatQuantity::equivalent_strain ? "equivalent strain" : "change of volume";
-    bar.unit = "%";
-    bar.factor = 100.0;
-  }
+  if (quantity == HeatQuantity::von_mises) return make_color_bar("von Mises stress", "Pa", scale, map);
+  if (quantity == HeatQuantity::mean_stress) return make_color_bar("mean stress", "Pa", scale, map);
+  ColorBar bar = make_color_bar(quantity == HeatQuantity::equivalent_strain ? "equivalent strain" : "change of volume",
+                                "", scale, map);
+  bar.unit = "%";
+  bar.factor = 100.0;
   return bar;
 }
 

@@ -51,6 +51,12 @@ TEST_CASE("a body has the colour that it is given, in pictures and in what is ex
   // as light, by the formula of sRGB: ((c / 255 + 0.055) / 1.055)^2.4 of 0x10 and 0xe0
   const std::string gltf = slurp(folder.path() / "set" / "export" / "s.glb");
   CHECK(gltf.find("\"baseColorFactor\":[0.00518,0.74540,0.00518,1]") != std::string::npos);
+  // from frame 0 on: in the run's export, and in one that is made afterwards
+  folder.write("start.script", "at 0 color ball 10e010\n");
+  run_pictures(folder, "start", {"--frames", "1", "--script", "start.script", "--export", "gltf"});
+  REQUIRE(impinge_run(folder.path(), {"export", "start", "--format", "gltf", "--out", "after"}).code == 0);
+  for (const char* file : {"start/export/s.glb", "after/s.glb"})
+    CHECK(slurp(folder / file).find("\"baseColorFactor\":[0.00518,0.74540,0.00518,1]") != std::string::npos);
   const Outcome wrong =
       impinge_run(folder.path(), {"run", "s.toml", "--out", "no", "--set", R"(view.colors=["bal=10e010"])"});
   CHECK(wrong.code == 2);

@@ -8,6 +8,7 @@
 #include "engine/geometry/rotation.hpp"
 #include "tests/support/geometry/brute_convex.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "tests/support/geometry/rigid_paths.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
@@ -16,16 +17,6 @@ using namespace impinge::test;
 namespace {
 
 constexpr int kMoments = 60;
-
-std::vector<Pose> path(Random& random, const Pose& start, double way, double turn, int pieces) {
-  const Vec3 shift = way * random.vector(), axis = turn * random.vector();
-  std::vector<Pose> poses;
-  for (int i = 0; i <= pieces; ++i) {
-    const double t = static_cast<double>(i) / pieces;
-    poses.push_back({rotation_exp(t * axis) * start.rotation, start.position + t * shift});
-  }
-  return poses;
-}
 
 TriangleMesh placed(TriangleMesh mesh, const Pose& pose) {
   for (Vec3& x : mesh.vertices) x = pose.apply(x);

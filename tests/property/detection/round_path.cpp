@@ -9,6 +9,7 @@
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "tests/support/geometry/rigid_paths.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
@@ -20,16 +21,6 @@ constexpr int kMoments = 300;
 
 /// Distance of a segment, taken as a triangle without area, and a triangle: the general routine.
 double distance(const Vec3& p, const Vec3& q, const TriangleCorners& t) { return triangle_distance({p, q, q}, t); }
-
-std::vector<Pose> path(Random& random, const Pose& start, double way, double turn, int pieces) {
-  const Vec3 shift = way * random.vector(), axis = turn * random.vector();
-  std::vector<Pose> poses;
-  for (int i = 0; i <= pieces; ++i) {
-    const double t = static_cast<double>(i) / pieces;
-    poses.push_back({rotation_exp(t * axis) * start.rotation, start.position + t * shift});
-  }
-  return poses;
-}
 
 }  // namespace
 

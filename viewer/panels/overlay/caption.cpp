@@ -1,4 +1,6 @@
 // What is written below a picture: lines of the script that have just taken effect, and a text of one's own.
+#include <imgui.h>
+
 #include <algorithm>
 
 #include "viewer/panels/overlay/picture_panels.hpp"
@@ -10,18 +12,14 @@ constexpr std::size_t kMostLines = 4;  // of the script
 constexpr float kWidest = 0.56f;       // of the picture
 constexpr Color kInk = hex(0xf2f4f7), kLine = hex(0xb9d7f0);
 
-/// Cut at words where it is too wide; a word that is wider alone stays so.
+/// Cut at words, and within one that is wider alone.
 std::vector<std::string> wrapped(const Pen& pen, const std::string& text, float width) {
-  std::vector<std::string> lines = {""};
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
-    if (lines.back().empty() || pen.text_width(longer) <= width)
-      lines.back() = longer;
-    else
-      lines.push_back(word);
-    begin = end + 1;
+  std::vector<std::string> lines;
+  for (const char *at = text.c_str(), *end = at + text.size(); at < end;) {
+    const char* stop = pen.font.CalcWordWrapPositionA(pen.text_size / pen.font.FontSize, at, end, width);
+    stop = std::max(stop, at + 1);
+    lines.emplace_back(at, stop);
+    for (at = stop; at < end && *at == ' ';) ++at;
   }
   return lines;
 }

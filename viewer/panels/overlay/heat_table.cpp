@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "viewer/draw/color_map.hpp"
+#include "viewer/draw/color_scale.hpp"
 
 namespace impinge {
 namespace {
@@ -21,28 +22,20 @@ Color ink_on(Color c) {
                                                                                                               : kWhite;
 }
 
-/// Colours from the least to the largest value.
-struct Scale {
-  double low = 1e300, high = -1e300;
-  bool logarithmic = true;
+/// Colours from the least to the largest value; none where there is no number.
+std::optional<ColorScale> scale_of(const std::vector<double>& values) {
+  double low = 1e300, high = -1e300, least = 1e300;
+  for (const double v : values) {
+    if (!std::isfinite(v)) continue;
+    low = std::min(low, v), high = std::max(high, v);
+    if (v > 0.0) least = std::min(least, v);
+  }
+  if (low > high) return std::nullopt;
+  if (low >= 0.0 && least < 1e300 && high > kWide * least) return ColorScale{ScaleForm::logarithmic, least, high};
+  return ColorScale{ScaleForm::linear, low, high};
+}
 
-  explicit Scale(const std::vector<double>& values) {
-    double least = 1e300;
-    for (const double v : values) {
-      if (!std::isfinite(v)) continue;
-      low = std::min(low, v), high = std::max(high, v);
-      if (v > 0.0) least = std::min(least, v);
-    }
-    logarithmic = low >= 0.0 && least < 1e300 && high > kWide * least;
-    if (logarithmic) low = least;
-  }
-  bool is_empty() const { return low > high; }
-  Color color(double v) const {
-    if (!(high > low)) return heat_color(0.5);
-    return heat_color(logarithmic ? (v <= 0.0 ? 0.0 : std::log(v / low) / std::log(high / low))
-                                  : (v - low) / (high - low));
-  }
-};
+Color color_of(const ColorScale& scale, double v) { return heat_color(scale.high > scale.low ? scale.place(v) : 0.5); }
 
 std::string shortened(const Pen& pen, std::string text, float width) {
   if (pen.text_width(text) <= width) return text;
@@ -50,7 +43,7 @@ std::string shortened(const Pen& pen, std::string text, float width) {
   return text + "..";
 }
 
-void draw_bar(const Pen& pen, const HeatTable& table, const Scale& scale, float x, float y, float width) {
+void draw_bar(const Pen& pen, const HeatTable& table, const ColorScale& scale, float x, float y, float width) {
   const float height = 0.9f * pen.text_size;
   constexpr int kSteps = 96;
   for (int k = 0; k < kSteps; ++k)
@@ -59,8 +52,9 @@ void draw_bar(const Pen& pen, const HeatTable& table, const Scale& scale, float 
                            packed(heat_color((k + 0.5) / kSteps)));
   const std::string low = fmt::format("{:.3g}", scale.low), high = fmt::format("{:.3g}", scale.high);
   pen.text(x - pen.text_width(low) - 8.0f * pen.unit, y, kInk, low);
-  pen.text(x + width + 8.0f * pen.unit, y, kInk,
-           fmt::format("{}   {}{}", high, table.value_label, scale.logarithmic ? ", logarithmic" : ""));
+  pen.text(
+      x + width + 8.0f * pen.unit, y, kInk,
+      fmt::format("{}   {}{}", high, table.value_label, scale.form == ScaleForm::logarithmic ? ", logarithmic" : ""));
 }
 
 }  // namespace
@@ -79,7 +73,7 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
               height = std::min((bottom - top) / static_cast<float>(table.rows.size()), 120.0f * u);
   pen.text(left, margin + 1.9f * line, kInk, table.column_label);
   pen.text(margin, margin + 3.0f * line, kInk, shortened(pen, table.row_label, heads));
-  const Scale scale(table.values);
+  const std::optional<ColorScale> scale = scale_of(table.values);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string head = shortened(pen, table.columns[c], width - 4.0f * u);
     pen.text(left + (static_cast<float>(c) + 0.5f) * width - 0.5f * pen.text_width(head), margin + 3.0f * line, kInk,
@@ -92,7 +86,7 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
       const float x = left + static_cast<float>(c) * width;
       const std::size_t cell = r * table.columns.size() + c;
       const bool has_value = std::isfinite(table.values[cell]);
-      const Color color = has_value ? scale.color(table.values[cell]) : kNone;
+      const Color color = has_value ? color_of(*scale, table.values[cell]) : kNone;
       pen.list.AddRectFilled({x + u, y + u}, {x + width - u, y + height - u}, packed(color));
       if (!has_value) pen.list.AddRect({x + u, y + u}, {x + width - u, y + height - u}, packed(kLine), 0.0f, 0, u);
       const std::string text = shortened(
@@ -106,8 +100,8 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
                has_value ? ink_on(color) : kInk, text);
     }
   }
-  if (!scale.is_empty())
-    draw_bar(pen, table, scale, left + 60.0f * u, top + static_cast<float>(table.rows.size()) * height + 0.8f * line,
+  if (scale)
+    draw_bar(pen, table, *scale, left + 60.0f * u, top + static_cast<float>(table.rows.size()) * height + 0.8f * line,
              240.0f * u);
 }
 
