@@ -20,7 +20,8 @@ double ColorScale::place(double value) const {
 }
 
 float ColorBar::place(double value) {
-  below |= value<scale.low, exceeded |= value> scale.high;
+  if (value < scale.low) below = true;
+  if (value > scale.high) exceeded = true;
   return static_cast<float>(scale.place(value));
 }
 
