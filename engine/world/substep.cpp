@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kMostPieces = 64;       // of a sub-step
 constexpr int kMostMotions = 32;      // tried for a piece
-constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
+constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be, and tell by their
+constexpr double kGrowth = 2.0;       // length how long the next may be
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
@@ -50,11 +51,38 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
   return safe;
 }
 
-/// Contacts of all features that pass and have none of this normal yet. False: each had one.
-bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
+/// Whether one of the two hangs in the other, as a pin does in its hole: their contacts push to all sides.
+bool are_interlocked(const SubStep& step, const UnsafeMotion::Pair& pair) {
+  const auto is_of = [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; };
+  Vec3 sum = Vec3::Zero();
+  for (const Collision& c : step.collisions)
+    if (is_of(c)) sum += c.normal;
+  return std::any_of(step.collisions.begin(), step.collisions.end(),
+                     [&](const Collision& c) { return is_of(c) && c.normal.dot(sum) <= 0.0; });
+}
+
+/// How far apart features of a pair may begin that get rows before anything is cut. What turns in a hole slides over
+/// facets and meets others than it began with: rows of those hold it where turns are followed, as long as the way is one
+/// that contacts see well.
+PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_are_followed) {
+  return [&bodies, &step, turns_are_followed](const UnsafeMotion::Pair& p) {
+    const auto deforms = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
+    return turns_are_followed && !deforms(p.a) && !deforms(p.b) && are_interlocked(step, p) ? p.safe : 0.0;
+  };
+}
+
+/// Every group has its answer.
+bool is_answered(const SubStep& step) {
+  return std::all_of(step.results.begin(), step.results.end(), [](const GroupResult& r) { return r.is_answered(); });
+}
+
+/// Contacts of the features that pass, begin no farther from one another than `reach` of their pair says, and have none
+/// of this normal yet. False: each had one.
+bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
   bool is_new = false;
   for (const UnsafeMotion::Pair& pair : motion.pairs)
     for (const Passage& p : pair.passages) {
+      if ((p.point_a - p.point_b).norm() > reach(pair)) continue;
       const auto same = std::find_if(asked.begin(), asked.end(), [&](const Collision& c) {
         return c.body_a == pair.a && c.body_b == pair.b && c.feature == p.feature;
       });
@@ -64,6 +92,17 @@ bool ask_for(const UnsafeMotion& motion, std::vector<Collision>& asked) {
       is_new = true;
     }
   return is_new;
+}
+
+/// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
+double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
+                  bool& has_asked, std::vector<Collision>& asked) {
+  if (ask_for(motion, seen, asked)) return has_asked = true, 1.0;
+  if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
+  return ask_for(
+             motion, [](const UnsafeMotion::Pair&) { return INFINITY; }, asked)
+             ? 1.0
+             : 0.5;
 }
 
 /// Adds the bodies of pairs that pass to those that stay, and takes out the pairs of which one is new there. A body that
@@ -134,10 +173,14 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation, is_kept);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
+  const PairLength no_reach = [](const UnsafeMotion::Pair&) { return 0.0; };
+  const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
   double rest = 1.0;         // of the sub-step
+  double next = 1.0;         // the same, of the piece that is tried
+  bool may_ask = true;       // for rows before anything is cut; not once such a solve had no answer
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
@@ -145,9 +188,17 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     sub_step_->asked.clear();
     sub_step_->rebounds = true;
     guard_.open(bodies_);
-    double share = rest;
-    for (int motion = 1;; ++motion) {
+    double share = std::min(rest, next);
+    bool has_asked = false;
+    int motion = 1;
+    for (;; ++motion) {
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && share == rest);
+      if (has_asked && !is_answered(*sub_step_)) {  // rows that can't be had: it is cut instead
+        has_asked = may_ask = false;
+        sub_step_->asked.clear();
+        start->bring_back(bodies_, sleeping_);
+        continue;
+      }
       const auto hold_back = [&] {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
       };
@@ -183,12 +234,10 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      if (const std::optional<double> safe = safe_share(*unsafe, of_pair))
-        share *= motion <= kPatience ? *safe : 0.5 * *safe;
-      else if (!ask_for(*unsafe, sub_step_->asked))
-        share *= 0.5;
+      share *= ask_or_cut(*unsafe, may_ask ? seen : no_reach, of_pair, motion <= kPatience, has_asked, sub_step_->asked);
       start->bring_back(bodies_, sleeping_);
     }
+    next = motion > kPatience ? kGrowth * share : 1.0;
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }

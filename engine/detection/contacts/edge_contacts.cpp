@@ -42,6 +42,7 @@ void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone
   const SegmentSegment closest = closest_between_segments(ea.p, ea.q, eb.p, eb.q);
   if (!closest.interior || !(closest.squared_distance <= query.margin * query.margin)) return;
   const double gap = normal.dot(closest.point0 - closest.point1);
+  if (gap < -query.deepest) return;  // of the far side of what is thin
 
   const int ta = query.a.edge(ea.index).triangle0, tb = query.b.edge(eb.index).triangle0;
   const Vec3 path =

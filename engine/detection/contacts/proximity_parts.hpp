@@ -15,6 +15,9 @@ struct ProximityQuery {
   /// Metres; how deep an overlap may be to be taken at face value: as far as the triangle pairs reach, or farther where
   /// they cross.
   double margin = 0.0;
+  /// Metres: what edges overlap by that are in front of one another. Where nothing crosses that is rounding, however far
+  /// apart the two may be that are looked at.
+  double deepest = 0.0;
   double activation = 0.0;  ///< metres
   double time_step = 0.0;   ///< seconds
   /// Features closer than this count as touching, metres: the direction between them is noise and their normals decide.

@@ -133,15 +133,18 @@ void proximity_contacts(std::span<const Collider> colliders, const BodyPair& pai
   if (triangles.empty()) return;
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
   const bool crosses = any_crosses(triangles);
-  const double margin = std::max({pair.margin, activation, crosses ? kDeep * std::min(a.size, b.size) : 0.0});
+  const double touch = kTouch * std::min(a.mean_edge, b.mean_edge);
+  const double deepest = crosses ? std::max(activation, kDeep * std::min(a.size, b.size)) : touch;
+  const double margin = std::max({pair.margin, activation, deepest});
   const ProximityQuery query{SurfaceView(a, pair.a),
                              SurfaceView(b, pair.b),
                              triangles,
                              crosses,
                              margin,
+                             deepest,
                              activation,
                              time_step,
-                             kTouch * std::min(a.mean_edge, b.mean_edge)};
+                             touch};
   std::vector<Collision> found;
   append_vertex_contacts(query, found);
   append_edge_contacts(query, found);
