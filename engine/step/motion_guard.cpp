@@ -12,6 +12,7 @@
 #include "engine/detection/continuous/round_path.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/wall.hpp"
 #include "engine/step/find_pairs.hpp"
 
 namespace impinge {
@@ -104,6 +105,7 @@ double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).nor
 
 struct MotionGuard::Known {
   double thickness = 0.0;  // smallest side of its box at rest, metres; 0: not looked at
+  double wall = 0.0;       // what it is made of is as thick, metres
   MeshPointer made;        // the triangles of a shape that is no mesh
   std::unique_ptr<PathSurface> surface;
 };
@@ -128,10 +130,14 @@ double MotionGuard::safe_approach(const Body& body) {
 
 double MotionGuard::thickness_of(const Body& body) {
   Known& known = known_[body.shape.get()];
-  if (known.thickness == 0.0) {
-    known.thickness = impinge::thickness_of(*body.shape);
-  }
+  if (known.thickness == 0.0)
+    known.thickness = impinge::thickness_of(*body.shape), known.wall = impinge::wall_of(*body.shape);
   return known.thickness;
+}
+
+double MotionGuard::wall_of(const Body& body) {
+  thickness_of(body);
+  return known_[body.shape.get()].wall;
 }
 
 void MotionGuard::open(const Bodies& bodies) {
@@ -243,6 +249,9 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
   paths.reserve(pairs.size());
   for (const UnsafeMotion::Pair& pair : pairs)
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
+  std::vector<double> seen;  // by pair: as its safe approach is, but of a wall where one of the two is hollow
+  for (const UnsafeMotion::Pair& pair : pairs)
+    seen.push_back(std::min(pair.safe, kSafe * std::min(wall_of(bodies[pair.a]), wall_of(bodies[pair.b]))));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const Body &of_a = bodies[pairs[i].a], &of_b = bodies[pairs[i].b];
     PassageSettings own = settings(of_a, of_b);
@@ -251,9 +260,9 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
     else if (depth == Depth::rough && !deforms(of_a) && !deforms(of_b))
       own.depth = std::max(own.depth, pairs[i].safe);
     else if (deforms(of_a) || deforms(of_b))
-      own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * pairs[i].safe) : own.depth;
+      own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * seen[i]) : own.depth;
     else {
-      own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * pairs[i].safe);
+      own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * seen[i]);
       own.creep = kCreep * own.depth;
     }
     if (is_known_clear(of_a, of_b, paths[i].first, paths[i].second, own.depth)) return;

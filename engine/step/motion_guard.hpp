@@ -68,6 +68,7 @@ class MotionGuard {
   struct Known;
   const PathSurface& surface_of(const Body& body);
   double thickness_of(const Body& body);
+  double wall_of(const Body& body);
   double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
   void add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs);

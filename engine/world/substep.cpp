@@ -234,7 +234,8 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      share *= ask_or_cut(*unsafe, may_ask ? seen : no_reach, of_pair, motion <= kPatience, has_asked, sub_step_->asked);
+      share *=
+          ask_or_cut(*unsafe, may_ask ? seen : no_reach, of_pair, motion <= kPatience, has_asked, sub_step_->asked);
       start->bring_back(bodies_, sleeping_);
     }
     next = motion > kPatience ? kGrowth * share : 1.0;
