@@ -11,7 +11,7 @@
 // What Newton leaves of rigid bodies (tumbling piles) goes to alternating directions, which no local minimum holds, and
 // from there to Newton again. Before Newton they cost more than they save, except on tall stacks. Where Newton came near
 // it is only begun anew, without what it remembers, for a while: in heaps of 100 to 1,000 boxes a third of what is left
-// is solved so, and a thousand iterations would solve an eighth more.
+// is solved so, and a thousand iterations would solve an eighth more. Some of the rest are solved by conjugate sweeps from there.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -38,6 +38,7 @@ constexpr double kSweepsOfConjugate = 50.0;            // what conjugate sweeps 
 constexpr int kFirstNewton = 200, kAlternating = 300;  // iterations, where all bodies are rigid
 constexpr double kNear = 1e-5;  // a relative residual below which ADMM, slow towards its end, betters one in fifty
 constexpr int kAgain = 150;     // of Newton begun anew there, half of whose successes come within 15
+constexpr int kLast = 300;      // of conjugate sweeps, where that got nowhere either
 
 class Automatic : public LcpSolver {
  public:
@@ -99,6 +100,9 @@ class Automatic : public LcpSolver {
     const bool is_near = judge(problem, lambda).map.relative <= kNear;
     if (is_near || !can_alternate_directions(problem)) {
       result = go_on(newton, problem, settings, result.iterations, lambda, kAgain);
+      if (result.reason != StopReason::converged)
+        result = go_on(by_solver(nonsmooth_nonlinear_conjugate_gradient_solver()), problem, settings, result.iterations,
+                       lambda, kLast);
       if (result.reason == StopReason::iteration_cap && result.iterations < settings.max_iterations)
         result.reason = StopReason::stagnated;
       return result;
