@@ -20,6 +20,8 @@ std::int64_t check_stopped(const Shot& shot) {
   CHECK(r.error.empty());
   CHECK_FALSE(r.has_passed);
   CHECK(r.energy <= 1.0 + 1e-6);
+  CHECK(r.overlap <= 1e-3 * r.thickness);
+  CHECK(r.shown <= 1e-2 * r.thickness);
   return r.unsafe;
 }
 
@@ -37,7 +39,7 @@ TEST_CASE("nothing passes a plate of 2 mm, at 1 to 1,000 m/s", "[bullets]") {
 
 TEST_CASE("nothing leaves a closed shell of 10 mm", "[bullets]") {
   std::uint64_t seed = 200;
-  for (const char* mover : {"box", "cube", "icosphere"})
+  for (const char* mover : {"box", "hull", "cube", "icosphere"})
     for (const double speed : {10.0, 30.0, 100.0}) check_stopped({mover, "shell", speed, 4, ++seed});
 }
 

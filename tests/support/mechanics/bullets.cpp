@@ -128,6 +128,7 @@ ShotResult shoot(const Shot& shot) {
       result.unconverged += s.unconverged;
       result.energy = std::max(result.energy, s.kinetic / kinetic);
       result.has_hit |= std::abs(s.kinetic - kinetic) > 1e-9 * kinetic;
+      result.shown = std::max(result.shown, s.max_penetration);
       result.overlap = std::max(result.overlap, judge_overlap(world.bodies()).penetration);
       const Vec3 mover = world.bodies()[1].pose.position, target = world.bodies()[0].pose.position;
       const Vec3 between = world.bodies()[0].pose.rotation.transpose() * (mover - target);

@@ -22,6 +22,7 @@ struct ShotResult {
   bool has_passed = false;
   bool has_hit = false;
   double overlap = 0.0;     ///< largest at the end of a sub-step, metres, by the judge
+  double shown = 0.0;       ///< largest max_penetration_m, which is all a user sees of it
   double thickness = 0.0;   ///< of the thinner of the two, metres
   std::int64_t unsafe = 0;  ///< unsafe_motions, summed
   std::int64_t unconverged = 0;
