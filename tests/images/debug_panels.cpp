@@ -127,7 +127,7 @@ TEST_CASE("the outliner's tabs are those of the baselines") {
 
 TEST_CASE("the ledger is that of the baselines, of all bodies and of one") {
   PanelSession session(1280, 720);
-  session.run(kLines).run({"panel front ledger", "select none"});
+  session.run(kLines).run({"panel front ledger", "select none", "seek 18"});  // the ball lands
   const UiArea area = debug_layout(1280, 720, 1.0f).area("ledger");
   check_baseline("ledger", crop(session.loop.picture(), area), 40'000);
   check_baseline("ledger_of_a_body", crop(session.run({"select body crate"}).loop.picture(), area), 40'000);
