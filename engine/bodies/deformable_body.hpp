@@ -87,6 +87,7 @@ class DeformableBody final : public Body {
   void set_center_velocity(const Vec3& velocity);
 
   // a sub-step
+  const DeformableStep& open_step() const { return step_; }  ///< until the next find_free_velocity
   void drive(double time, double h, double share) override;
   void open_sub_step() override {}
   void find_free_velocity(const TimeIntegration& how) override;
@@ -110,6 +111,8 @@ class DeformableBody final : public Body {
   Vec3 world_normal(const MaterialPoint& point, const Vec3& material) const override;
   MaterialPoint point_beside(const MaterialPoint& point, const Vec3& world) const override;
 
+  /// The point of its tetrahedra that is nearest.
+  MaterialPoint nearest_point(const Vec3& world) const;
   MaterialPoint own_point(const Vec3& own) const override;
   Vec3 own_coordinates(const Vec3& world) const override;
   /// Nodes and weights of a point within a tetrahedron.
@@ -137,7 +140,6 @@ class DeformableBody final : public Body {
   void choose_solvers(const LinearSolverChoice& wanted);
   void check_solved() const;
   void find_displacement_velocity();
-  MaterialPoint nearest_point(const Vec3& world) const;
   static MaterialPoint nearest_point(const Vec3& x, const TetMesh& mesh);
   std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
   Mat3 edges_of(int tet) const;

@@ -6,6 +6,14 @@
 
 namespace impinge {
 
+/// What changed the momenta M v of a sub-step that ends with a given velocity, by cause; over all nodes, kg m/s. At nodes
+/// that are held it is what would have.
+struct StepImpulses {
+  VecX gravity, elastic, damping;
+  VecX external;    ///< of the body's external force, and of who pulls it
+  VecX integrator;  ///< of a scheme that remembers accelerations: what these are beside the forces; empty: nothing
+};
+
 /// Vectors over the free nodes (DeformableBody::free_node), x, y, z each. Keep it from one sub-step to the next: its
 /// matrices are as large as the body, and begin() reuses them.
 struct DeformableStep {

@@ -8,6 +8,7 @@ namespace impinge {
 
 class DeformableBody;
 struct DeformableStep;
+struct StepImpulses;
 
 /// Of the schemes that are solved to the root of g.
 struct NewtonSettings {
@@ -29,6 +30,9 @@ class DeformableIntegrator : public Method {
   virtual void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const = 0;
   /// Closes the sub-step with the velocity v of the free nodes (v* or what contact made of it).
   virtual void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const = 0;
+  /// Of the open sub-step, if it ends with v (over all nodes) and the body still has the velocity before it: what the
+  /// scheme's equation says, without contact and what its solution is short of.
+  virtual void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const = 0;
   /// Of a scheme whose free_velocity iterates to the root of g, so that contact has to be solved in each of its
   /// iterations; null for others.
   virtual const NewtonSettings* newton() const { return nullptr; }

@@ -31,6 +31,8 @@ void merge_sides(ContactRows& rows) {
     else
       at->weight -= n.weight;
   }
+  rows.a.driven -= rows.b.driven;
+  rows.b.driven.setZero();
   rows.b.nodes.clear();
   rows.b.deformable = -1;
   std::erase_if(rows.a.nodes, [](const NodeWeight& n) { return std::abs(n.weight) < 1e-12; });
@@ -179,6 +181,7 @@ class Assembly {
     side.deformable = block.deformable;
     side.arm = carried.arm;
     side.nodes = std::move(carried.nodes);
+    for (const Prescribed& p : carried.prescribed) side.driven += p.weight * p.velocity;
     for (const Prescribed& p : carried.prescribed) rows.surface += sign * p.weight * rows.directions * p.velocity;
     velocity_before += sign * carried.velocity_before;
   }

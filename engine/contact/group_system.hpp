@@ -17,6 +17,7 @@ struct ContactSide {
   int deformable = -1;            ///< index into GroupSystem::deformable
   Vec3 arm = Vec3::Zero();        ///< rigid: from the centre of mass to the common point
   std::vector<NodeWeight> nodes;  ///< deformable; held nodes are left out
+  Vec3 driven = Vec3::Zero();     ///< what prescribed motion is of the point's velocity, m/s
 };
 
 /// Rows (n, t1, t2) of J for one contact. Two rigid bodies act at one common point, or impulses would not keep angular

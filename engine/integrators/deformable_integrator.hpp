@@ -20,6 +20,8 @@ class OneStepScheme : public DeformableIntegrator {
   /// By Newton's method.
   void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override;
   void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const override;
+  /// Of a scheme with v̂ = v₀ and τ = h, its forces those of the end.
+  void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const override;
 };
 
 const Registry<DeformableIntegrator>& integrators();
@@ -34,6 +36,8 @@ void fill_system(const DeformableBody& body, double mass, double start, double n
 VecX applied_force(const DeformableBody& body, const Vec3& gravity);
 /// D v = α M v + β K(x₀) v over all nodes, N.
 VecX damping_force(const DeformableBody& body, const DeformableStep& step, const VecX& v);
+/// Fills `gravity` with h m g, and `external` with h times the body's external force.
+void applied_impulses(const DeformableBody& body, const DeformableStep& step, StepImpulses& out);
 /// Solves step.a v* = step.b, starting from the body's velocity.
 void solve_free_velocity(const DeformableBody& body, DeformableStep& step, LinearSolver& solver);
 /// Newton's method with a projected tangent and a line search on the incremental potential, whose gradient is g.

@@ -37,6 +37,14 @@ class LinearlyImplicitEuler : public OneStepScheme {
     step.b = body.gather_free(b);
   }
 
+  void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const override {
+    const double h = step.time_step;
+    applied_impulses(body, step, out);
+    out.elastic = h * step.force - h * h * (step.stiffness * v);
+    out.damping = -h * damping_force(body, step, v);
+    add_pull(body, step, v, 1.0, out.external);
+  }
+
   void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override {
     linearize(body, {}, step);
     solve_free_velocity(body, step, solver);

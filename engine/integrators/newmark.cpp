@@ -2,6 +2,7 @@
 // by Newton's method. β = ¼, γ = ½ (constant average acceleration): second order, no damping of its own in linear
 // problems.
 #include "engine/integrators/deformable_integrator.hpp"
+#include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
 namespace {
@@ -36,6 +37,19 @@ class Newmark : public OneStepScheme {
     for (int i = 0; i < body.nodes(); ++i)
       if (body.is_held(i)) body.acceleration.segment<3>(3 * i).setZero();
     body.acceleration_known = true;
+  }
+  /// The part of the sub-step that a₀ makes is split by the forces at its start; what a₀ is beside these, the scheme has
+  /// remembered from sub-steps before.
+  void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const override {
+    const double start = (1.0 - settings_.gamma) * step.time_step;
+    applied_impulses(body, step, out);
+    const VecX damping = damping_force(body, step, body.velocity);
+    body.fem.multiply_mass(body.acceleration, out.integrator);
+    out.integrator = start * (out.integrator - step.force - applied_force(body, step.gravity) + damping);
+    body.fem.forces(step.position(v), out.elastic);
+    out.elastic = start * step.force + step.tau * out.elastic;
+    out.damping = -start * damping - step.tau * damping_force(body, step, v);
+    add_pull(body, step, v, 1.0, out.external);
   }
   const NewtonSettings* newton() const override { return &newton_; }
 

@@ -32,6 +32,12 @@ class SymplecticEuler : public OneStepScheme {
     for (int i = 0; i < body.free_nodes(); ++i)
       step.v_star.segment<3>(3 * i) = step.b.segment<3>(3 * i) / body.fem.node_mass()[body.free_node()[i]];
   }
+  void impulses(DeformableBody& body, const DeformableStep& step, const VecX&, StepImpulses& out) const override {
+    applied_impulses(body, step, out);
+    out.elastic = step.time_step * step.force;
+    out.damping = -step.time_step * damping_force(body, step, step.v_hat);
+    add_limited_pull(body, step, out.external);
+  }
   bool is_explicit() const override { return true; }
 };
 

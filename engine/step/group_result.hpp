@@ -30,6 +30,15 @@ SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& 
 Vec3 normal_of(const SolvedContact& contact, const Bodies& bodies);
 double gap_of(const SolvedContact& contact, const Bodies& bodies);
 
+/// What a row gave to its bodies, for the books (ledger/ledger.hpp).
+struct RowImpulse {
+  RowKind kind = RowKind::contact;
+  BodyIndex body_a, body_b;  ///< none: the world
+  ContactSide a, b;
+  Vec3 normal = Vec3::Zero(),
+       tangent = Vec3::Zero();  ///< its two parts on A, world axes, N·s; of attachments: all of it, 0
+};
+
 struct GroupResult {
   // the answer, by body of the group
   std::vector<BodyVector> velocity;      ///< Δv
@@ -49,6 +58,8 @@ struct GroupResult {
   std::vector<ContactCache::Item> impulses;  ///< of each of them, zero ones too
   std::vector<SolvedContact> solved;         ///< of collisions, in order
   std::optional<FrozenGroup> frozen;         ///< where it was asked for
+  std::vector<RowImpulse> rows;              ///< where it was asked for
+  std::vector<BodyVector> row_impulse;       ///< with `rows`: J^T λ by body of the group, N·s and N·m·s
   double assemble_ms = 0.0, response_ms = 0.0;
 };
 

@@ -54,11 +54,14 @@ void change_velocities(Bodies& bodies, const SubStep& step) {
       bodies[step.groups[g].bodies[i]].change_velocity(step.results[g].velocity[i]);
 }
 
-void integrate(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {
+void advance(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {
   const double end = step.time + step.time_step;
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
     if (!body.asleep && !body.deleted) naming_group(step, b, [&] { body.advance(how, end); });
   });
+}
+
+void push_out(Bodies& bodies, const SubStep& step) {
   displace(bodies, step);
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
     if (!body.has_freedom() || body.asleep) return;

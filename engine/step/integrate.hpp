@@ -10,8 +10,11 @@ namespace impinge {
 /// Adds each group's change of velocity to its bodies.
 void change_velocities(Bodies& bodies, const SubStep& step);
 
-/// Moves the bodies to the end of the sub-step, out of overlap too. Threads share them; throws DivergenceError, without
-/// a frame, for the lowest body whose state is no longer finite.
-void integrate(Bodies& bodies, const TimeIntegration& how, const SubStep& step);
+/// Moves the bodies by their velocities to the end of the sub-step. Threads share them; throws DivergenceError, without a
+/// frame, as the next one does.
+void advance(Bodies& bodies, const TimeIntegration& how, const SubStep& step);
+
+/// Moves them out of overlap, and closes the motion. Throws for the lowest body whose state is no longer finite.
+void push_out(Bodies& bodies, const SubStep& step);
 
 }  // namespace impinge

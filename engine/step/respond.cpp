@@ -205,7 +205,28 @@ class GroupSolve {
       result_.frozen->deformable_bodies = now_.deformable;
       result_.frozen->geometry = frozen_geometry();
     }
+    if (how_.keeps_rows) keep_rows();
     result_.contacts = std::move(now_.contacts);
+  }
+
+  void keep_rows() {
+    const GroupSystem& s = system();
+    std::vector<Vec3> linear(s.rigid.size(), Vec3::Zero()), angular = linear;
+    for (std::size_t i = 0; i < s.contacts.size(); ++i) {
+      const ContactRows& rows = s.contacts[i];
+      const Vec3 lambda = s.lambda[i], on_a = rows.directions.transpose() * lambda;
+      const auto [a, b] = input_.contacts.bodies(now_.contacts[i]);
+      const Vec3 tangent = rows.kind == RowKind::contact
+                               ? Vec3(rows.directions.transpose() * Vec3(0.0, lambda.y(), lambda.z()))
+                               : Vec3(Vec3::Zero());
+      result_.rows.push_back({rows.kind, a, b, rows.a, rows.b, on_a - tangent, tangent});
+      for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)})
+        if (side->rigid >= 0) linear[side->rigid] += sign * on_a, angular[side->rigid] += side->arm.cross(sign * on_a);
+    }
+    std::vector<VecX> nodes;
+    for (std::size_t k = 0; k < s.deformable.size(); ++k)
+      nodes.push_back(s.deformable_impulse(static_cast<int>(k), s.lambda));
+    result_.row_impulse = now_.by_body(group_, linear, angular, nodes);
   }
 
   std::vector<FrozenContact> frozen_geometry() const {

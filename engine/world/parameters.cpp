@@ -11,6 +11,14 @@ const Words<Continuous> kContinuous = {
 }  // namespace
 
 void Parameters::bind(ParameterSet& set) {
+  bind_model(set);
+  Rows(set).below("record").add(
+      "ledger", record.ledger,
+      "Whether the books of energy and momentum are kept, by source and by body: ledger.csv and the panel ledger. It "
+      "changes no state.");
+}
+
+void Parameters::bind_model(ParameterSet& set) {
   const Rows all(set), of_simulation = all.below("simulation"), of_lcp = all.below("lcp");
   of_simulation.add("frame_time", simulation.frame_time, {1e-6, 10.0, true}, "s",
                     "Length of a frame; a sub-step is frame_time / substeps.");

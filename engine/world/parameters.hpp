@@ -43,8 +43,15 @@ struct Parameters {
     int max_iterations = 1000;
   } lcp;
 
+  /// What is kept of frames; nothing of it changes one.
+  struct Record {
+    bool ledger = false;
+  } record;
+
   /// Declares the rows `simulation.*`, `contact.*`, `broad_phase.method`, … The set refers to this object.
   void bind(ParameterSet& set);
+  /// Those that frames depend on: all but `record.*`.
+  void bind_model(ParameterSet& set);
 };
 
 /// Values by path, former ones too, as a frozen step holds them. Paths that this program lacks are passed over: they are

@@ -1,6 +1,7 @@
 // The full state as bytes: what makes the next frame, and what the last one showed; nothing that can be derived from
 // these.
 #include "engine/core/archive.hpp"
+#include "engine/ledger/ledger.hpp"
 #include "engine/step/sub_step.hpp"
 #include "engine/world/step_record_archive.hpp"
 #include "engine/world/world.hpp"
@@ -37,6 +38,7 @@ void World::restore(ByteReader& in) {
   *sub_step_ = {};  // the record says what was found
   publish_found();
   was_still_ = false;
+  if (ledger_) ledger_->forget_acts();
   const std::uint64_t hash = record().stats.state_hash;
   get_record(in, record_);
   if (record_.stats.state_hash != hash)

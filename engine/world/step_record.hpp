@@ -12,6 +12,7 @@
 #include "engine/contact/contact_state.hpp"
 #include "engine/core/profile.hpp"
 #include "engine/detection/collision.hpp"
+#include "engine/ledger/frame_ledger.hpp"
 
 namespace impinge {
 
@@ -134,7 +135,8 @@ struct FrameStats {
   // Filled in by who asks the judge of overlap (judge.hpp).
   double judged_penetration = 0.0;  ///< metres
   std::int64_t judged_intersections = 0;
-  Crossing crossing;  ///< the deepest by its share; of frames that this process made
+  Crossing crossing;                          ///< the deepest by its share; of frames that this process made
+  std::shared_ptr<const FrameLedger> ledger;  ///< with record.ledger; of frames that this process made
 };
 
 struct StepRecord {

@@ -8,6 +8,7 @@
 #include "engine/bodies/scale.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/archive.hpp"
+#include "engine/ledger/ledger.hpp"
 #include "engine/step/impacts.hpp"
 #include "engine/step/step_watcher.hpp"
 #include "engine/world/world.hpp"
@@ -242,10 +243,12 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }
+  if (ledger_) ledger_->close_substep(substep);
   if (watcher_ == nullptr) return;
   watcher_->finished(bodies_, substep);
   if (!watcher_->wants_record(substep, parameters.simulation.substeps)) return;
   FrameStats so_far = stats_;
+  if (ledger_) so_far.ledger = ledger_->so_far(bodies_);
   StepRecord record;
   describe(solved_contacts(), so_far, record);
   watcher_->recorded(bodies_, record, substep, parameters.simulation.substeps);

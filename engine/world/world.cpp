@@ -7,6 +7,7 @@
 #include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/ledger/ledger.hpp"
 #include "engine/step/act.hpp"
 #include "engine/step/drive.hpp"
 #include "engine/step/free_velocities.hpp"
@@ -81,7 +82,7 @@ FrozenStep World::step_and_freeze() {
   frozen.gravity = parameters.simulation.gravity;
   frozen.linear_solver = parameters.simulation.linear_solver;
   ParameterSet rows;
-  parameters.bind(rows);
+  parameters.bind_model(rows);
   for (const Parameter& row : rows.all()) frozen.settings.emplace_back(row.path, format_value(row.get()));
   frozen.bodies = bodies_.names();
   return frozen;
@@ -94,6 +95,8 @@ void World::advance(FrozenStep* frozen) {
   stats_ = {};
   unsafe_.clear();
   ++frame_;
+  keep_ledger();
+  if (ledger_) ledger_->open_frame(bodies_, parameters.simulation.gravity);
   try {
     const StageTimer timer(stats_.times.step_ms);
     const double h = parameters.simulation.time_step();
@@ -101,8 +104,16 @@ void World::advance(FrozenStep* frozen) {
   } catch (const DivergenceError& error) {  // the stages know no frame
     throw DivergenceError(fmt::format("frame {}, {}", frame_, error.what()));
   }
+  if (ledger_) stats_.ledger = ledger_->so_far(bodies_);
   publish_solved();
   was_still_ = still && is_still();
+}
+
+void World::keep_ledger() {
+  if (!parameters.record.ledger)
+    ledger_.reset();
+  else if (!ledger_)
+    ledger_ = std::make_unique<Ledger>();
 }
 
 void World::drop_what_never_carries() {
@@ -125,6 +136,8 @@ void World::make_motion(double h, double share, bool freezes) {
     const StageTimer timer(total_ms);
     stage();
   };
+
+  if (ledger_) ledger_->open_motion(bodies_);
 
   // 2 begin
   s.time = time_, s.time_step = h;
@@ -158,6 +171,7 @@ void World::make_motion(double h, double share, bool freezes) {
   solve.context.share = h / parameters.simulation.time_step();
   solve.rebounds = s.rebounds;
   solve.freezes = freezes;
+  solve.keeps_rows = ledger_ != nullptr;
   if (watcher_ != nullptr) solve.watcher = watcher_->solve_watcher(s);
   s.results.clear();
   respond(bodies_, contacts, s.start, s.groups, {}, solve, s.results, times);
@@ -168,10 +182,15 @@ void World::make_motion(double h, double share, bool freezes) {
   check_interrupt();
   // 11 integrate
   timed(times.integrate_ms, [&] {
+    if (ledger_) ledger_->freed(bodies_, how);
     change_velocities(bodies_, s);
+    if (ledger_) ledger_->solved(bodies_, s, how);
     reached(StepStage::push_out);
     guard_.follow(bodies_, how, time_ + h);
-    integrate(bodies_, how, s);
+    impinge::advance(bodies_, how, s);
+    if (ledger_) ledger_->advanced(bodies_);
+    push_out(bodies_, s);
+    if (ledger_) ledger_->pushed_out(bodies_);
   });
   reached(StepStage::integration);
 }
@@ -220,15 +239,19 @@ void World::take_results(FrozenStep* frozen) {
   if (frozen != nullptr)
     for (GroupResult& result : s.results) frozen->groups.push_back(std::move(*result.frozen));
   time_ += s.time_step;
+  if (ledger_) ledger_->kept(bodies_);
   const Parameters::Simulation& p = parameters.simulation;
   if (!p.sleeping) return;
   sleeping_.update(bodies_, s.groups, find_supports(bodies_, s.results), push_out_speeds(bodies_, s.groups, s.results),
                    {p.sleep_speed, p.sleep_time, scale_gravity(p.gravity)}, s.time_step);
+  if (ledger_) ledger_->rested(bodies_);
 }
 
 void World::act(const Act& act) {
   was_still_ = false;
-  act_on(bodies_, act, parameters.simulation.frame_time, sleeping_, cache_);
+  keep_ledger();
+  const auto doing = [&] { act_on(bodies_, act, parameters.simulation.frame_time, sleeping_, cache_); };
+  ledger_ ? ledger_->act(bodies_, act, parameters.simulation.gravity, doing) : doing();
 }
 
 void World::parameters_changed() {
@@ -236,7 +259,7 @@ void World::parameters_changed() {
   // only what the model reads counts: a change of the view must not wake a sleeper, or pictures would change states
   ByteWriter settings;
   ParameterSet rows;
-  parameters.bind(rows);
+  parameters.bind_model(rows);
   for (const Parameter& row : rows.all()) settings.put(hash_bytes(format_value(row.get())));
   for (const Body& body : bodies_)
     settings.put(body.friction.value_or(-1.0)), settings.put(body.restitution.value_or(-1.0)), settings.put(body.mass);

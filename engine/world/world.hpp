@@ -21,6 +21,7 @@ struct FrozenStep;
 class StepWatcher;
 
 struct Act;
+class Ledger;
 struct Solving;
 enum class StepStage : std::uint8_t;
 
@@ -86,6 +87,7 @@ class World {
   void make_motion(double time_step, double share, bool freezes);
   void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
+  void keep_ledger();
   bool is_still() const;
   void repeat_still_frame();
   void save_state(ByteWriter& out) const;
@@ -104,6 +106,7 @@ class World {
   MotionGuard guard_;
   std::map<BodyIndex, UnsafeBody> unsafe_;  // of the frame being made
   StepWatcher* watcher_ = nullptr;
+  std::unique_ptr<Ledger> ledger_;   // null: nobody asked for it
   FrameStats stats_;                 // of the frame being made: sums and maxima over its sub-steps
   std::uint64_t settings_seen_ = 0;  // hash of what parameters_changed compares with
   mutable StepRecord record_;        // the published one

@@ -125,6 +125,30 @@ TEST_CASE("the outliner's tabs are those of the baselines") {
     check_baseline("outliner_" + tab, crop(session.run({"panel tab " + tab}).loop.picture(), area), 40'000);
 }
 
+TEST_CASE("the ledger is that of the baselines, of all bodies and of one") {
+  PanelSession session(1280, 720);
+  session.run(kLines).run({"panel front ledger", "select none", "seek 18"});  // the ball lands
+  const UiArea area = debug_layout(1280, 720, 1.0f).area("ledger");
+  check_baseline("ledger", crop(session.loop.picture(), area), 40'000);
+  check_baseline("ledger_of_a_body", crop(session.run({"select body crate"}).loop.picture(), area), 40'000);
+}
+
+TEST_CASE("no text of the ledger is cut off or lies over another, small or large") {
+  for (const auto& [width, height] : {std::pair(1280, 720), {3840, 2160}, {kLeastWidth, kLeastHeight}}) {
+    PanelSession session(width, height);
+    session.run(kLines).run({"panel front ledger"});
+    const DebugLayout layout = debug_layout(width, height, session.window.ui().unit());
+    for (const char* deed : {"select body crate", "select none", "select body floor", "seek 1", "seek 0"}) {
+      CAPTURE(width, height, deed);
+      session.run({deed}).loop.picture();
+      const TextFaults faults = text_faults(*ImGui::GetDrawData(), layout.area("ledger"));
+      CHECK(faults.letters > 10);
+      CHECK(faults.cut_off == 0);
+      CHECK(faults.over_others == 0);
+    }
+  }
+}
+
 TEST_CASE("no text of tables, numbers and plots is cut off or lies over another, small or large") {
   for (const auto& [width, height] : {std::pair(1280, 720), {3840, 2160}, {kLeastWidth, kLeastHeight}}) {
     PanelSession session(width, height);

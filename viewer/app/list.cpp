@@ -10,6 +10,7 @@
 #include "engine/detection/triangles/narrow_phase.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
 #include "engine/lcp/lcp_solver.hpp"
+#include "engine/ledger/frame_ledger.hpp"
 #include "engine/response/response.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "engine/shapes/shape_entry.hpp"
@@ -187,6 +188,13 @@ Listing list_figures() {
   return list;
 }
 
+Listing list_sources() {
+  Listing list;
+  for (const LedgerSourceInfo& source : ledger_sources())
+    list.add({"name", "meaning"}, {std::string(source.name), std::string(source.doc)});
+  return list;
+}
+
 Listing list_shapes() {
   Listing list;
   for (const ShapeEntry& entry : shape_entries()) {
@@ -233,6 +241,7 @@ const std::vector<Topic> kTopics = {
     {"figures", list_figures},
     {"shapes", list_shapes},
     {"warnings", list_warnings},
+    {"sources", list_sources},
 };
 
 std::vector<std::string> topic_names() {

@@ -22,6 +22,7 @@ std::vector<double> ConditionReader::values(const Expression& condition, std::sp
 }
 
 double ConditionReader::value(const BodyTerm& term, const StepRecord& record, Bodies& bodies) {
+  if (term.function == BodyFunction::energy_from) return energy_from(record.stats.ledger.get(), term.source, term.a);
   const BodyIndex a(std::min(term.a, term.b)), b(std::max(term.a, term.b));
   switch (term.function) {
     case BodyFunction::contacts:
@@ -37,6 +38,8 @@ double ConditionReader::value(const BodyTerm& term, const StepRecord& record, Bo
       const Balance of_body = bodies[term.a].balance(record.gravity);
       return of_body.kinetic + of_body.elastic + of_body.potential;
     }
+    case BodyFunction::energy_from:
+      break;  // of no body, maybe
   }
   return 0.0;
 }

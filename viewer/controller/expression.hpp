@@ -13,22 +13,25 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/ledger/frame_ledger.hpp"
 #include "viewer/controller/text_place.hpp"
 
 namespace impinge {
 
 /// What may be asked of one or two bodies.
 enum class BodyFunction : std::uint8_t {
-  contacts,  ///< of the two, handed to the response
-  depth,     ///< how deep they overlap, metres
-  gap,       ///< between them, metres; negative inside
-  speed,     ///< of a centre of mass, m/s
-  energy     ///< kinetic, elastic and potential, J
+  contacts,    ///< of the two, handed to the response
+  depth,       ///< how deep they overlap, metres
+  gap,         ///< between them, metres; negative inside
+  speed,       ///< of a centre of mass, m/s
+  energy,      ///< kinetic, elastic and potential, J
+  energy_from  ///< what a source of the ledger did in the frame, to a body or to all, J
 };
 struct BodyTerm {
   BodyFunction function = BodyFunction::contacts;
-  int a = 0, b = 0;  ///< places in ExpressionWords::bodies; b of a function of two
-  std::string text;  ///< "depth(crate,floor)"
+  int a = 0, b = 0;  ///< places in ExpressionWords::bodies; b of a function of two; of energy_from: a is -1 for all
+  LedgerSource source = LedgerSource::gravity;  ///< of energy_from
+  std::string text;                             ///< "depth(crate,floor)"
 };
 /// "contacts(A,B)" and so on, for messages and help.
 const std::vector<std::string>& body_functions();

@@ -24,11 +24,16 @@ struct FunctionRow {
   BodyFunction function;
   int bodies;
 };
-constexpr FunctionRow kFunctions[] = {{"contacts", BodyFunction::contacts, 2},
-                                      {"depth", BodyFunction::depth, 2},
-                                      {"gap", BodyFunction::gap, 2},
-                                      {"speed", BodyFunction::speed, 1},
-                                      {"energy", BodyFunction::energy, 1}};
+constexpr FunctionRow kFunctions[] = {
+    {"contacts", BodyFunction::contacts, 2}, {"depth", BodyFunction::depth, 2},
+    {"gap", BodyFunction::gap, 2},           {"speed", BodyFunction::speed, 1},
+    {"energy", BodyFunction::energy, 1},     {"energy_from", BodyFunction::energy_from, 1}};
+
+/// What stands between a function's parentheses.
+std::string_view arguments_of(const FunctionRow& row) {
+  if (row.function == BodyFunction::energy_from) return "SOURCE or SOURCE,A";
+  return row.bodies == 2 ? "A,B" : "A";
+}
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; }
 
@@ -226,11 +231,32 @@ class Parser {
     }
     return static_cast<int>(it - words_.bodies.begin());
   }
+  LedgerSource read_source() {
+    skip_blanks();
+    const std::size_t begin = at_;
+    while (at_ < text_.text.size() && is_word(text_.text[at_])) ++at_;
+    const std::string name(text_.text.substr(begin, at_ - begin));
+    if (const std::optional<LedgerSource> source = find_ledger_source(name)) return *source;
+    std::vector<std::string> known;
+    for (const LedgerSourceInfo& info : ledger_sources()) known.emplace_back(info.name);
+    const std::string near = nearest_word(name, known);
+    text_.part(begin, at_ - begin)
+        .refuse(name.empty() ? found() + " instead of a source" : fmt::format("unknown source '{}'", name),
+                fmt::format("sources of the ledger: {}", fmt::join(known, ", ")),
+                near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+  }
   Type read_call(const FunctionRow& function) {
     BodyTerm term;
     term.function = function.function;
-    term.a = read_body();
-    term.text = fmt::format("{}({}", function.name, words_.bodies[static_cast<std::size_t>(term.a)]);
+    if (function.function == BodyFunction::energy_from) {
+      term.source = read_source();
+      term.text = fmt::format("{}({}", function.name, info_of(term.source).name);
+      term.a = take(",") ? read_body() : -1;
+      if (term.a >= 0) term.text += fmt::format(",{}", words_.bodies[static_cast<std::size_t>(term.a)]);
+    } else {
+      term.a = read_body();
+      term.text = fmt::format("{}({}", function.name, words_.bodies[static_cast<std::size_t>(term.a)]);
+    }
     if (function.bodies == 2) {
       if (!take(",")) here().refuse(found(), fmt::format("{} asks of two bodies", function.name), "name another one");
       term.b = read_body();
@@ -323,8 +349,7 @@ class Parser {
 const std::vector<std::string>& body_functions() {
   static const std::vector<std::string> list = [] {
     std::vector<std::string> calls;
-    for (const FunctionRow& row : kFunctions)
-      calls.push_back(fmt::format("{}({})", row.name, row.bodies == 2 ? "A,B" : "A"));
+    for (const FunctionRow& row : kFunctions) calls.push_back(fmt::format("{}({})", row.name, arguments_of(row)));
     return calls;
   }();
   return list;

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
-constexpr std::string_view kRecord[] = {"run.toml", "commands.log", "stats.csv", "contacts.csv", "done"};
+constexpr std::string_view kRecord[] = {"run.toml", "commands.log", "stats.csv", "contacts.csv", "ledger.csv", "done"};
 // what impinge export writes
 constexpr std::string_view kExported[] = {".ply", ".obj", ".mtl", ".gltf", ".glb", ".bin",
                                           ".vtu", ".vtp", ".pvd", ".usda", ".csv", ".json"};

@@ -10,6 +10,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/paths.hpp"
+#include "engine/ledger/ledger_table.hpp"
 #include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/run_files.hpp"
 #include "viewer/controller/snapshot_file.hpp"
@@ -197,6 +198,12 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
   for (const Command& command : commands) log += fmt::format("at {} {}\n", frame, format_command(command));
   commands_.append(log);
   if (run_.contacts) contacts_.append(contacts_rows(record));
+  if (record.stats.ledger) {
+    if (!ledger_) ledger_ = open_table(folder_ / "ledger.csv", resume_frame(), ledger_header());
+    std::vector<std::string> names;
+    for (const BodyRecord& body : record.bodies) names.emplace_back(body.name);
+    ledger_->append(ledger_rows(*record.stats.ledger, frame, record.stats.time, names));
+  }
   stats_.append(columns_.row(stats) + "\n");
 }
 

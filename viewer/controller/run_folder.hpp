@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "engine/io/append_file.hpp"
@@ -65,6 +66,7 @@ class RunFolder {
   int spacing_ = 1;                                         // frames from one that stays to the next
   StatsColumns columns_;  // of stats.csv: a run that goes on keeps those it began with
   AppendFile stats_, contacts_, commands_;
+  std::optional<AppendFile> ledger_;  // from the first frame on that has one
 };
 
 }  // namespace impinge

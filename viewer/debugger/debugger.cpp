@@ -50,6 +50,7 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
   if (!run_folder_.empty()) read_run_folder();
   if (!options.against.scene.empty()) against_.emplace(options.against, options.session);
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
+  session_.rows().find("record.ledger")->set(true);        // a panel, plots and conditions are of it
   if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
   if (!advance()) return;
   first_ = values_of(session_.rows());

@@ -41,6 +41,7 @@ std::vector<std::pair<std::string, bool>> parse_switches(LineWords words, const 
   std::vector<std::string> names;
   for (const QuantityName& name : quantity_names())
     names.push_back(fmt::format("{}(a){}", name.name, name.of_pairs ? fmt::format(", {}(a,b)", name.name) : ""));
+  names.emplace_back("energy_from(source), energy_from(source,a)");
   word.refuse(fmt::format("'{}'", text),
               fmt::format("{} of bodies {}, without blanks, are wanted", fmt::join(names, ", "), some_of(bodies)),
               "mend the name");

@@ -17,7 +17,25 @@ std::optional<BodyIndex> body_of(std::string_view name, const std::vector<std::s
   return BodyIndex(it - bodies.begin());
 }
 
+/// What stands behind its parenthesis, the other one at the end.
+std::optional<Quantity> parse_energy_from(std::string_view text, const std::vector<std::string>& bodies) {
+  text.remove_suffix(1);
+  const std::size_t comma = text.find(',');
+  const std::optional<LedgerSource> source = find_ledger_source(text.substr(0, comma));
+  if (!source) return std::nullopt;
+  Quantity quantity{Quantity::energy_from, {}, {}, *source};
+  if (comma == std::string_view::npos) return quantity;
+  const std::optional<BodyIndex> body = body_of(text.substr(comma + 1), bodies);
+  if (!body) return std::nullopt;
+  quantity.a = *body;
+  return quantity;
+}
+
 }  // namespace
+
+std::string_view Quantity::unit() const {
+  return what == energy_from ? "J" : quantity_names()[static_cast<std::size_t>(what)].unit;
+}
 
 const std::vector<QuantityName>& quantity_names() {
   static const std::vector<QuantityName> names = {
@@ -28,6 +46,7 @@ const std::vector<QuantityName>& quantity_names() {
 std::optional<Quantity> parse_quantity(std::string_view text, const std::vector<std::string>& bodies) {
   const std::size_t open = text.find('(');
   if (open == std::string_view::npos || !text.ends_with(')')) return std::nullopt;
+  if (text.substr(0, open) == "energy_from") return parse_energy_from(text.substr(open + 1), bodies);
   const std::vector<QuantityName>& names = quantity_names();
   const auto name =
       std::find_if(names.begin(), names.end(), [&](const QuantityName& n) { return n.name == text.substr(0, open); });
@@ -54,7 +73,8 @@ void Tracks::Touch::take(const ContactRecord& contact) {
 
 std::size_t Tracks::Frame::bytes() const {
   constexpr std::size_t kNode = 48;  // what a map adds to each
-  return bodies.size() * sizeof(OfBody) + (touched.size() + pairs.size()) * (sizeof(Touch) + kNode);
+  return bodies.size() * sizeof(OfBody) + (ledger ? ledger->bodies.size() * sizeof(BodyLedger) : 0) +
+         (touched.size() + pairs.size()) * (sizeof(Touch) + kNode);
 }
 
 void Tracks::note(const StepRecord& record) {
@@ -67,6 +87,8 @@ void Tracks::note(const StepRecord& record) {
     frame.pairs[{std::min(c.body_a, c.body_b), std::max(c.body_a, c.body_b)}].take(c);
   }
   Frame& kept = frames_[record.stats.frame];
+  frame.ledger = record.stats.ledger ? record.stats.ledger : kept.ledger;  // a frame that was brought back has none
+  if (frame.ledger != kept.ledger && record.stats.frame <= sum_.last) sum_ = {};
   bytes_ -= kept.bytes();
   kept = std::move(frame);
   bytes_ += kept.bytes();
@@ -78,6 +100,7 @@ void Tracks::note(const StepRecord& record) {
 }
 
 void Tracks::forget_after(int frame) {
+  if (frame < sum_.last) sum_ = {};
   for (auto it = frames_.upper_bound(frame); it != frames_.end(); it = frames_.erase(it)) bytes_ -= it->second.bytes();
 }
 
@@ -85,6 +108,8 @@ double Tracks::value(int number, const Quantity& quantity) const {
   const auto it = frames_.find(number);
   if (it == frames_.end()) return kNone;
   const Frame& frame = it->second;
+  if (quantity.what == Quantity::energy_from)
+    return impinge::energy_from(frame.ledger.get(), quantity.source, quantity.a.value());
   if (quantity.what == Quantity::speed) return frame.bodies[static_cast<std::size_t>(quantity.a.value())].speed;
   const Touch* touch = nullptr;
   if (quantity.b.is_none()) {
@@ -102,6 +127,24 @@ double Tracks::value(int number, const Quantity& quantity) const {
     default:
       return touch == nullptr ? 0.0 : frame.substep_time > 0.0 ? touch->impulse / frame.substep_time : kNone;
   }
+}
+
+const FrameLedger* Tracks::ledger(int frame) const {
+  const auto it = frames_.find(frame);
+  return it == frames_.end() ? nullptr : it->second.ledger.get();
+}
+
+const Tracks::LedgerSum& Tracks::ledger_sum(int frame) const {
+  if (sum_.last > frame) sum_ = {};
+  for (auto it = frames_.upper_bound(sum_.last); it != frames_.end() && it->first <= frame; ++it) {
+    if (!it->second.ledger) continue;
+    const std::vector<BodyLedger>& bodies = it->second.ledger->bodies;
+    sum_.books.bodies.resize(bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b) sum_.books.bodies[b] += bodies[b];
+    ++sum_.frames;
+  }
+  sum_.last = frame;
+  return sum_;
 }
 
 std::optional<Pose> Tracks::pose(int frame, BodyIndex body) const {

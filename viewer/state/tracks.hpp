@@ -12,11 +12,14 @@
 
 namespace impinge {
 
-/// A number of a body or a pair: "speed(ball)", "gap(crate,ball)".
+/// A number of a body or a pair: "speed(ball)", "gap(crate,ball)"; or of the ledger: "energy_from(friction)" of all
+/// bodies, "energy_from(friction,crate)" of one.
 struct Quantity {
-  enum What { speed, contacts, gap, depth, force };
+  enum What { speed, contacts, gap, depth, force, energy_from };
   What what = speed;
-  BodyIndex a, b;  ///< b none: of a alone
+  BodyIndex a, b;  ///< b none: of a alone; a none: of all
+  LedgerSource source = LedgerSource::gravity;
+  std::string_view unit() const;
 };
 struct QuantityName {
   std::string_view name, unit;
@@ -35,6 +38,14 @@ class Tracks {
   double value(int frame, const Quantity& quantity) const;
   /// Where a body's frame was; none where that wasn't seen.
   std::optional<Pose> pose(int frame, BodyIndex body) const;
+  /// Null where it wasn't seen, or no books were kept.
+  const FrameLedger* ledger(int frame) const;
+  /// The books of all frames up to that one that have some, and of how many.
+  struct LedgerSum {
+    FrameLedger books;
+    int frames = 0, last = -1;
+  };
+  const LedgerSum& ledger_sum(int frame) const;
   int first() const { return frames_.empty() ? 0 : frames_.begin()->first; }
 
  private:
@@ -50,6 +61,7 @@ class Tracks {
   struct Frame {
     double substep_time = 0.0;
     std::vector<OfBody> bodies;
+    std::shared_ptr<const FrameLedger> ledger;
     std::map<BodyIndex, Touch> touched;
     std::map<std::pair<BodyIndex, BodyIndex>, Touch> pairs;
     std::size_t bytes() const;
@@ -57,6 +69,7 @@ class Tracks {
 
   std::map<int, Frame> frames_;
   std::size_t bytes_ = 0;
+  mutable LedgerSum sum_;  // of the frame asked for last: the next one is soon found from it
 };
 
 }  // namespace impinge

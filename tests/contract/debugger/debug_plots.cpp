@@ -119,7 +119,8 @@ TEST_CASE("a figure of a body that is not there is one message") {
   const std::pair<const char*, const char*> cases[] = {
       {"panel plot +speed(bal)\n",
        "a.script:1:13: 'speed(bal)'; speed(a), contacts(a), contacts(a,b), gap(a), gap(a,b), depth(a), depth(a,b), "
-       "force(a), force(a,b) of bodies floor, crate, ball, without blanks, are wanted; mend the name"},
+       "force(a), force(a,b), energy_from(source), energy_from(source,a) of bodies floor, crate, ball, without blanks, "
+       "are wanted; mend the name"},
       {"panel plot +speed(ball,crate)\n", "a.script:1:13: 'speed(ball,crate)'; "},
       {"panel plot +sped(ball)\n", "a.script:1:13: 'sped(ball)'; "},
       {"panel plot speed(ball)\n", "a.script:1:12: 'speed(ball)'; +COLUMN or -COLUMN is wanted; "},

@@ -12,6 +12,7 @@ const std::vector<Panel>& panels() {
     IMPINGE_LIST(all, outliner_panel);
     IMPINGE_LIST(all, inspector_panel);
     IMPINGE_LIST(all, contacts_panel);
+    IMPINGE_LIST(all, ledger_panel);
     IMPINGE_LIST(all, stages_panel);
     IMPINGE_LIST(all, transport_panel);
     IMPINGE_LIST(all, timeline_panel);

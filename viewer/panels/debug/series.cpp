@@ -20,7 +20,7 @@ NumberText Series::text(double value) const {
 
 Series series_of(const DebugModel& model, const std::string& name) {
   if (const std::optional<Quantity> quantity = parse_quantity(name, model.bodies()))
-    return {name, std::string(quantity_names()[quantity->what].unit),
+    return {name, std::string(quantity->unit()),
             [&model, q = *quantity](int frame) { return model.tracks->value(frame, q); }};
   const auto column = static_cast<std::size_t>(std::find(model.figure_names->begin(), model.figure_names->end(), name) -
                                                model.figure_names->begin());

@@ -127,6 +127,15 @@ std::vector<std::string> quantities_of_selected(const DebugModel& model) {
   return all;
 }
 
+/// Of the ledger, where books are kept: of all bodies, or of the one that is selected.
+void add_sources(const DebugModel& model, std::vector<std::string>& names) {
+  if (model.tracks == nullptr || model.tracks->ledger_sum(model.frame).frames == 0) return;
+  const std::vector<BodyIndex> selected = selected_bodies(model);
+  const std::string body = selected.size() == 1 ? "," + name_of(model, selected.front()) : "";
+  for (const LedgerSourceInfo& info : ledger_sources())
+    names.push_back(fmt::format("energy_from({}{})", info.name, body));
+}
+
 void draw_chooser(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::SetNextItemWidth(120.0f * ui.unit());
   const bool open = ImGui::BeginCombo("##columns", "columns", ImGuiComboFlags_HeightLarge);
@@ -134,6 +143,7 @@ void draw_chooser(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (!open) return;
   // what is plotted though it is of nothing that is selected now can be taken away here too
   std::vector<std::string> names = quantities_of_selected(model);
+  add_sources(model, names);
   for (const std::string& plot : model.state.plots)
     if (plot.ends_with(')') && std::find(names.begin(), names.end(), plot) == names.end()) names.push_back(plot);
   names.insert(names.end(), model.figure_names->begin(), model.figure_names->end());
