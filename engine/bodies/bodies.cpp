@@ -10,6 +10,11 @@ Body& Bodies::add(std::unique_ptr<Body> body) {
   return *bodies_.back();
 }
 
+void Bodies::remove_last() {
+  index_.erase(back().name);
+  bodies_.pop_back();
+}
+
 void Bodies::keep_from_touching(BodyIndex a, BodyIndex b) {
   const std::pair<BodyIndex, BodyIndex> pair(std::min(a, b), std::max(a, b));
   const auto at = std::lower_bound(never_touch_.begin(), never_touch_.end(), pair);

@@ -29,6 +29,8 @@ class Bodies {
     return (*this)[BodyIndex(i)];
   }
   Body& back() { return *bodies_.back(); }
+  const Body& back() const { return *bodies_.back(); }
+  void remove_last();
 
   /// Two that never touch, whatever their surfaces do.
   void keep_from_touching(BodyIndex a, BodyIndex b);

@@ -63,6 +63,7 @@ class Body {
   // what somebody did to it (step/act.hpp)
   std::optional<Pull> pull;  ///< a force on it until it is let go
   bool deleted = false;      ///< it takes no part any more: a name without a body
+  bool absent = false;       ///< it takes no part yet, and is in no state and no record (World::add_absent_body)
 
   // where it is
   Pose pose;                         ///< of the centre of mass; of a deformable body: the world's frame

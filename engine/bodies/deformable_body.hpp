@@ -26,6 +26,7 @@ class DeformableBody final : public Body {
   std::string model;                   ///< the material's name
   RayleighDamping damping;
   Embedding embedding;  ///< of the surface's vertices
+  Pose placed;          ///< where its file's axes were put at the start
 
   // state, node by node x, y, z
   VecX position;                    ///< m

@@ -131,6 +131,7 @@ std::unique_ptr<Body> make_deformable(const BodyDescription& d) {
   body->damping = own.damping;
   body->embedding = own.embedding;
   const Pose file = file_pose_of(d);
+  body->placed = file;
   for (int i = 0; i < body->nodes(); ++i) body->position.segment<3>(3 * i) = file.apply(own.mesh.vertices[i]);
   const Vec3 center = body->center_of_mass();
   for (int i = 0; i < body->nodes(); ++i)

@@ -111,6 +111,10 @@ Parameter& ParameterSet::add(Parameter parameter) {
   return rows_.back();
 }
 
+void ParameterSet::cut(std::size_t count) {
+  for (; rows_.size() > count; rows_.pop_back()) index_.erase(rows_.back().path);
+}
+
 void ParameterSet::add_former_path(std::string former, std::string path) {
   if (index_.count(former) > 0) throw InternalError("parameter '" + former + "' is declared twice");
   former_[std::move(former)].push_back(std::move(path));

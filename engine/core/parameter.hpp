@@ -4,6 +4,7 @@
 // declared through rows.hpp.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -54,14 +55,16 @@ class ParameterSet {
   const std::map<std::string, std::vector<std::string>, std::less<>>& former_paths() const { return former_; }
   /// What to tell whoever used such paths, each once: which to write instead. "" for none.
   std::string note_of_former(const std::vector<std::string>& used) const;
-  const std::vector<Parameter>& all() const { return rows_; }  ///< in order of declaration
+  /// Takes away those that were declared last, all but the first `count`.
+  void cut(std::size_t count);
+  const std::deque<Parameter>& all() const { return rows_; }  ///< in order of declaration; they stay where they are
   /// The known path nearest to `path` (edit distance), or "" when none is near.
   std::string nearest(std::string_view path) const;
   /// "unknown parameter 'x'; did you mean 'y'?" and the like: what to say for a path that is not there.
   std::string unknown_message(std::string_view path) const;
 
  private:
-  std::vector<Parameter> rows_;
+  std::deque<Parameter> rows_;
   std::map<std::string, std::size_t, std::less<>> index_;
   std::map<std::string, std::vector<std::string>, std::less<>> former_;
 };

@@ -52,7 +52,8 @@ void Ledger::open_frame(Bodies& bodies, const Vec3& gravity) {
   gravity_ = gravity;
   const auto n = static_cast<std::size_t>(bodies.size().value());
   frame_ = {};
-  frame_.bodies = acts_.empty() ? std::vector<BodyLedger>(n) : std::move(acts_);
+  frame_.bodies = std::move(acts_);
+  frame_.bodies.resize(n);  // bodies that come later may have been announced since
   acts_ = {};
   begin_.assign(n, {});
   elastic_.assign(n, 0.0);
@@ -367,6 +368,12 @@ void Ledger::act(Bodies& bodies, const Act& act, const Vec3& gravity, const std:
       entry += {-before.kinetic, -before.potential - before.elastic, -before.momentum, -before.angular_momentum};
       doing();
       break;
+    case Act::add: {
+      doing();
+      const Balance now = measured(body);
+      entry += {now.kinetic, now.potential + now.elastic, now.momentum, now.angular_momentum};
+      break;
+    }
     default:
       doing();
   }

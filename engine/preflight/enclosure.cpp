@@ -65,7 +65,8 @@ std::vector<Enclosure> find_enclosures(const Bodies& bodies) {
   };
   for (BodyIndex inner(0); inner < bodies.size(); ++inner)
     for (BodyIndex outer(0); outer < bodies.size(); ++outer) {
-      if (inner == outer || (!bodies[inner].has_freedom() && !bodies[outer].has_freedom())) continue;
+      if (inner == outer || bodies[inner].absent || bodies[outer].absent) continue;
+      if (!bodies[inner].has_freedom() && !bodies[outer].has_freedom()) continue;
       if (is_plane(bodies[inner]) || !may_hold(outer, inner) || bodies.never_touch(inner, outer)) continue;
       if (const double depth = least_depth(bodies[inner], bodies[outer]); depth > 0.0)
         found.push_back({inner, outer, depth});

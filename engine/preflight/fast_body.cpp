@@ -53,7 +53,7 @@ class FastBody : public Warning {
     std::vector<std::pair<double, Finding>> all;
     for (BodyIndex a(0); a < bodies.size(); ++a) {
       const double way = way_of(bodies[a], p.simulation.time_step());
-      if (!(way > 0.0)) continue;
+      if (!(way > 0.0) || bodies[a].absent) continue;
       BodyIndex thinnest;
       for (BodyIndex b(0); b < bodies.size(); ++b) {
         // what is through a plane is inside it still

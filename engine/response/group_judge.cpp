@@ -31,6 +31,7 @@ double rounding(const GroupSystem& group) {
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal) {
   GroupVerdict verdict;
   double scale = 0.0;
+  verdict.of_contacts.assign(group.contacts.size(), 0.0);
   std::vector<Vec3> impulse(group.rigid.size(), Vec3::Zero()), turn(group.rigid.size(), Vec3::Zero());
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactRows& rows = group.contacts[i];
@@ -67,6 +68,7 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
     const double r = rows.kind == RowKind::attachment ? u.norm()
                      : rows.kind == RowKind::sliding  ? std::abs(u.x())
                                                       : natural_map(w, u, group.lambda[i], rows.friction);
+    verdict.of_contacts[i] = r;
     if (std::isnan(verdict.natural_map) || r <= verdict.natural_map) continue;
     verdict.natural_map = r;
     verdict.worst = static_cast<int>(i);
@@ -85,8 +87,10 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
       verdict.momentum =
           larger(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
-  if (!(verdict.natural_map <= rounding(group)))
-    verdict.relative = scale > 0.0 ? verdict.natural_map / scale : verdict.natural_map;
+  const double known = rounding(group);
+  const auto relative = [&](double map) { return map <= known ? 0.0 : scale > 0.0 ? map / scale : map; };
+  verdict.relative = relative(verdict.natural_map);
+  for (double& map : verdict.of_contacts) map = relative(map);
   return verdict;
 }
 

@@ -11,6 +11,7 @@ struct GroupVerdict {
   double momentum = 0.0;     ///< max |Δv - A⁻¹ J^T λ| over rigid bodies, |D⁻¹ (A Δv - J^T λ)| over nodes, m/s
   double relative = 0.0;     ///< the natural map by max |J v* - bound|; of a map that is rounding, 0
   int worst = -1;            ///< contact of the largest natural map
+  std::vector<double> of_contacts = {};  ///< each one's own natural map, relative likewise
   double residual() const { return larger(natural_map, momentum); }
 };
 

@@ -8,11 +8,6 @@
 namespace impinge {
 namespace {
 
-Mat3 turn_of(const Act& act) {
-  const double length = act.axis.norm();
-  return length == 0.0 ? Mat3(Mat3::Identity()) : rotation_exp(act.degrees * M_PI / 180.0 / length * act.axis);
-}
-
 /// Wakes what rests on it, and forgets its impulses.
 void leave_contacts(BodyIndex body, Bodies& bodies, Sleeping& sleeping, ContactCache& cache) {
   std::vector<ContactCache::Item> others;
@@ -30,6 +25,11 @@ void leave_contacts(BodyIndex body, Bodies& bodies, Sleeping& sleeping, ContactC
 }
 
 }  // namespace
+
+Mat3 turn_of(const Act& act) {
+  const double length = act.axis.norm();
+  return length == 0.0 ? Mat3(Mat3::Identity()) : rotation_exp(act.degrees * M_PI / 180.0 / length * act.axis);
+}
 
 void act_on(Bodies& bodies, const Act& act, double frame_time, Sleeping& sleeping, ContactCache& cache) {
   const BodyIndex index = bodies.find(act.body);
@@ -59,6 +59,9 @@ void act_on(Bodies& bodies, const Act& act, double frame_time, Sleeping& sleepin
       body.pull.reset();
       body.come_to_rest();
       body.deleted = true;
+      break;
+    case Act::add:
+      throw InternalError("a body that is there is added");
   }
 }
 

@@ -20,6 +20,7 @@ struct SolvedContact {
   double friction = 0.0;
   ContactState state = ContactState::open;
   GroupIndex group;
+  double residual = 0.0;  ///< its own natural map, as the judge measures it (GroupVerdict::of_contacts)
 };
 
 /// The collision at the bodies' present poses, not solved.

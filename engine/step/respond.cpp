@@ -197,6 +197,7 @@ class GroupSolve {
       solved.lambda = s.lambda[i];
       solved.state = state_of(solved.lambda, solved.friction);
       solved.group = index_;
+      solved.residual = result_.verdict.of_contacts[i];
       result_.solved.push_back(std::move(solved));
     }
     if (result_.frozen) {

@@ -20,7 +20,7 @@ class BodyRows {
     coefficient("restitution", &Body::restitution);
     if (auto* rigid = body_.as<RigidBody>()) declare_rigid(*rigid);
     if (auto* deformable = body_.as<DeformableBody>()) declare_deformable(*deformable);
-    if (body_.has_freedom())
+    if (body_.has_freedom() || body_.absent)  // such bodies alone are added
       set_.add(body_row(
           path_, "mass", [b = &body_] { return ParameterValue(b->mass); }, nullptr));
   }
@@ -141,7 +141,11 @@ class BodyRows {
 }  // namespace
 
 void World::bind_bodies(ParameterSet& set) {
-  for (Body& body : bodies_) BodyRows(set, body, [this] { sleeping_.wake_all(bodies_); }).declare();
+  for (Body& body : bodies_) bind_body(set, body);
+}
+
+void World::bind_body(ParameterSet& set, Body& body) {
+  BodyRows(set, body, [this] { sleeping_.wake_all(bodies_); }).declare();
 }
 
 }  // namespace impinge

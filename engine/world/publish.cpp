@@ -93,6 +93,13 @@ void World::publish_found() {
   publish(contacts);
 }
 
+StepRecord World::record_of_all() const {
+  StepRecord all = record();
+  for (const Body& body : bodies_)
+    if (body.absent) all.bodies.push_back(record_of(body)), all.bodies.back().deleted = false;
+  return all;
+}
+
 std::vector<SolvedContact> World::solved_contacts() const {
   std::vector<SolvedContact> contacts;
   for (const GroupResult& result : sub_step_->results)
@@ -117,7 +124,8 @@ void World::publish(std::span<const SolvedContact> contacts) {
 void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats, StepRecord& record) {
   const SubStep& s = *sub_step_;
   record.bodies.clear();
-  for (const Body& body : bodies_) record.bodies.push_back(record_of(body));
+  for (const Body& body : bodies_)
+    if (!body.absent) record.bodies.push_back(record_of(body));
   record.groups.clear();
   for (GroupIndex g(0); g < s.groups.size(); ++g) {
     record.groups.push_back(s.groups[g].bodies);

@@ -17,6 +17,7 @@ ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
   record.state = contact.state;
   record.group = contact.group;
   record.pair_id = c.feature;
+  record.residual = contact.residual;
   return record;
 }
 

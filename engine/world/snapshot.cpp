@@ -11,8 +11,11 @@ namespace impinge {
 void World::save_state(ByteWriter& out) const {
   out.put(frame_);
   out.put(time_);
-  out.put<std::uint64_t>(static_cast<std::uint64_t>(bodies_.size().value()));
-  for (const Body& body : bodies_) body.save(out);
+  std::uint64_t present = 0;
+  for (const Body& body : bodies_) present += body.absent ? 0 : 1;
+  out.put(present);
+  for (const Body& body : bodies_)
+    if (!body.absent) body.save(out);
   cache_.save(out);
   sleeping_.save(out);
 }
@@ -25,9 +28,13 @@ void World::save(ByteWriter& out) const {
 void World::restore(ByteReader& in) {
   frame_ = in.get<int>();
   time_ = in.get<double>();
-  if (in.get<std::uint64_t>() != static_cast<std::uint64_t>(bodies_.size().value()))
+  const std::uint64_t size = static_cast<std::uint64_t>(bodies_.size().value()), present = in.get<std::uint64_t>();
+  if (present > size || present + starts_.size() < size)
     throw InputError("snapshot: it belongs to a scene with another number of bodies");
-  for (Body& body : bodies_) {
+  for (std::uint64_t b = 0; b < size; ++b) {
+    Body& body = bodies_[b];
+    body.absent = body.deleted = b >= present;
+    if (body.absent) continue;
     body.restore(in);
     body.update_world_vertices();
   }
@@ -39,6 +46,7 @@ void World::restore(ByteReader& in) {
   publish_found();
   was_still_ = false;
   if (ledger_) ledger_->forget_acts();
+  settings_seen_ = settings();
   const std::uint64_t hash = record().stats.state_hash;
   get_record(in, record_);
   if (record_.stats.state_hash != hash)

@@ -26,7 +26,8 @@ void SolveTape::begin(const Bodies& bodies, const ContactList& contacts, std::sp
   groups_.assign(groups.size(), {});
 }
 
-SolveTape::Look SolveTape::look_at(GroupIndex group, const AssembledGroup& assembled, const GroupSystem& now) const {
+SolveTape::Look SolveTape::look_at(GroupIndex group, const AssembledGroup& assembled, const GroupSystem& now,
+                                   const GroupVerdict* verdict) const {
   Look look;
   for (std::size_t i = 0; i < assembled.contacts.size(); ++i) {
     const Collision* collision = contacts_.collision(assembled.contacts[i]);
@@ -36,6 +37,7 @@ SolveTape::Look SolveTape::look_at(GroupIndex group, const AssembledGroup& assem
     if (i < now.lambda.size()) contact.lambda = now.lambda[i];
     contact.state = state_of(contact.lambda, contact.friction);
     contact.group = group;
+    if (verdict != nullptr) contact.residual = verdict->of_contacts[i];
     look.contacts.push_back(std::move(contact));
   }
   return look;
@@ -49,10 +51,11 @@ void SolveTape::solving(GroupIndex group, const AssembledGroup& assembled, const
       mine.rows += row.kind == RowKind::attachment ? 3 : row.has_one_row() ? 1 : 3;
   }
   const auto take = [&](const GroupSystem& now) {
-    mine.taken = look_at(group, assembled, now);
+    const GroupVerdict verdict = judge_group(now);
+    mine.taken = look_at(group, assembled, now, &verdict);
     mine.taken->change =
         assembled.by_body(of_[group], now.delta_velocity, now.delta_angular_velocity, now.deformable_delta);
-    mine.taken->residual = judge_group(now).relative;
+    mine.taken->residual = verdict.relative;
   };
   const auto solve = [&](GroupSystem& system, const ResponseContext& context) -> std::optional<ResponseResult> {
     try {

@@ -38,7 +38,8 @@ class SolveTape : public SolveWatcher {
   bool starts_at_zero() const;
 
  private:
-  Look look_at(GroupIndex group, const AssembledGroup& assembled, const GroupSystem& now) const;
+  Look look_at(GroupIndex group, const AssembledGroup& assembled, const GroupSystem& now,
+               const GroupVerdict* verdict = nullptr) const;
 
   const Bodies* bodies_ = nullptr;
   ContactList contacts_;

@@ -20,7 +20,8 @@ class Writer {
       : world_(world), bodies_(world.bodies()), step_(step), entry_(entry), tape_(tape) {}
 
   StepRecord write() {
-    for (const Body& body : bodies_) r_.bodies.push_back(record_of(body));
+    for (const Body& body : bodies_)
+      if (!body.absent) r_.bodies.push_back(record_of(body));
     show_attachments(world_.attachments(), bodies_, r_);
     r_.gravity = world_.parameters.simulation.gravity;
     r_.frame_time = world_.parameters.simulation.frame_time;

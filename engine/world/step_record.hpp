@@ -49,6 +49,9 @@ struct ContactRecord {
   ContactState state = ContactState::open;
   GroupIndex group;
   std::uint64_t pair_id = 0;  ///< stable identity from step to step
+  /// How far the last sub-step's answer is from Coulomb's law at this contact: its natural map as the judge measures it,
+  /// by the largest velocity that the group's contacts had to answer. The largest of all is residual_coulomb.
+  double residual = 0.0;
 };
 
 struct AttachmentRecord {

@@ -60,6 +60,7 @@ void put_contact(ByteWriter& out, const ContactRecord& c) {
   out.put(c.point_a), out.put(c.point_b), out.put(c.normal);
   out.put(c.gap), out.put(c.gap0), out.put(c.lambda), out.put(c.friction);
   out.put(static_cast<std::uint8_t>(c.state)), put_index(out, c.group), out.put(c.pair_id);
+  out.put(c.residual);
 }
 
 ContactRecord get_contact(ByteReader& in, const StepRecord& record) {
@@ -70,6 +71,7 @@ ContactRecord get_contact(ByteReader& in, const StepRecord& record) {
   c.gap = in.get<double>(), c.gap0 = in.get<double>(), c.lambda = in.get_vec3(), c.friction = in.get<double>();
   c.state = static_cast<ContactState>(std::min<int>(in.get<std::uint8_t>(), static_cast<int>(ContactState::slip)));
   c.group = GroupIndex(in.get<int>()), c.pair_id = in.get<std::uint64_t>();
+  c.residual = in.get<double>();
   return c;
 }
 
@@ -97,7 +99,7 @@ void get_record(ByteReader& in, StepRecord& record) {
   for (BodyPair& pair : record.broad_pairs)
     pair.a = get_body(in, record), pair.b = get_body(in, record), pair.margin = in.get<double>();
   get_triangle_pairs(in, record);
-  record.contacts.resize(get_count(in, 149));
+  record.contacts.resize(get_count(in, 157));
   for (ContactRecord& contact : record.contacts) contact = get_contact(in, record);
   if (get_count(in, 24) != record.attachments.size())
     throw InputError("snapshot: it belongs to a scene with another number of attachments");

@@ -35,6 +35,31 @@ World::~World() = default;
 
 Body& World::add_body(const BodyDescription& description) { return bodies_.add(make_body(description)); }
 
+Body& World::add_absent_body(const BodyDescription& description) {
+  Body& body = add_body(description);
+  ByteWriter start;
+  body.save(start);
+  starts_[BodyIndex(bodies_.size().value() - 1)] = start.take();
+  body.absent = body.deleted = true;
+  return body;
+}
+
+void World::remove_absent_body() {
+  IMPINGE_ASSERT(!bodies_.is_empty() && bodies_.back().absent);
+  starts_.erase(BodyIndex(bodies_.size().value() - 1));
+  bodies_.remove_last();
+}
+
+void World::bring_to_life(BodyIndex index) {
+  Body& body = bodies_[index];
+  if (!body.absent) return;
+  IMPINGE_ASSERT(index == 0 || !bodies_[BodyIndex(index.value() - 1)].absent);
+  ByteReader start(starts_.at(index));
+  body.restore(start);
+  body.update_world_vertices();
+  body.absent = false;
+}
+
 void World::add_attachment(const AttachmentDescription& description) {
   const int number = attachments_.empty() ? 0 : attachments_.back().number + 1;
   for (Attachment& attachment : make_attachment(description, bodies_, number))
@@ -250,22 +275,41 @@ void World::take_results(FrozenStep* frozen) {
 void World::act(const Act& act) {
   was_still_ = false;
   keep_ledger();
-  const auto doing = [&] { act_on(bodies_, act, parameters.simulation.frame_time, sleeping_, cache_); };
+  const auto doing = [&] {
+    if (act.verb == Act::add)
+      bring_to_life(bodies_.find(act.body));
+    else
+      act_on(bodies_, act, parameters.simulation.frame_time, sleeping_, cache_);
+  };
   ledger_ ? ledger_->act(bodies_, act, parameters.simulation.gravity, doing) : doing();
+}
+
+/// Of what only the model reads: a change of the view must not wake a sleeper, or pictures would change states. The first
+/// is of the parameters, one a body follows, 0 of an absent one.
+std::vector<std::uint64_t> World::settings() const {
+  ByteWriter all;
+  ParameterSet rows;
+  const_cast<World*>(this)->parameters.bind_model(rows);
+  for (const Parameter& row : rows.all()) all.put(hash_bytes(format_value(row.get())));
+  std::vector<std::uint64_t> hashes = {hash_bytes(all.bytes())};
+  for (const Body& body : bodies_) {
+    ByteWriter own;
+    own.put(body.friction.value_or(-1.0)), own.put(body.restitution.value_or(-1.0)), own.put(body.mass);
+    hashes.push_back(body.absent ? 0 : hash_bytes(own.bytes()));
+  }
+  return hashes;
 }
 
 void World::parameters_changed() {
   was_still_ = false;
-  // only what the model reads counts: a change of the view must not wake a sleeper, or pictures would change states
-  ByteWriter settings;
-  ParameterSet rows;
-  parameters.bind_model(rows);
-  for (const Parameter& row : rows.all()) settings.put(hash_bytes(format_value(row.get())));
-  for (const Body& body : bodies_)
-    settings.put(body.friction.value_or(-1.0)), settings.put(body.restitution.value_or(-1.0)), settings.put(body.mass);
-  const std::uint64_t hash = hash_bytes(settings.bytes());
-  if (hash != settings_seen_) sleeping_.wake_all(bodies_);
-  settings_seen_ = hash;
+  std::vector<std::uint64_t> now = settings();
+  const std::size_t both = std::min(now.size(), settings_seen_.size());
+  bool is_changed = settings_seen_.empty();
+  // what has come to life was not changed by that
+  for (std::size_t i = 0; i < both; ++i)
+    is_changed |= now[i] != settings_seen_[i] && now[i] != 0 && settings_seen_[i] != 0;
+  if (is_changed) sleeping_.wake_all(bodies_);
+  settings_seen_ = std::move(now);
 }
 
 }  // namespace impinge

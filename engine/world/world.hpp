@@ -37,6 +37,12 @@ class World {
   /// Adds a body before start(); it stays where it is for as long as the world lives. Throws InputError (without a
   /// place) where the body can't be made.
   Body& add_body(const BodyDescription& description);
+  /// Adds a body behind all others that is in no state and no record until Act::add brings it to life, in the order in
+  /// which they were added here; before start() or between frames. What comes before is as it would be without it. Throws
+  /// as add_body does.
+  Body& add_absent_body(const BodyDescription& description);
+  /// Takes away the last body, which is absent.
+  void remove_absent_body();
   /// Joins two points after the bodies were added. Throws InputError (without a place) where it can't.
   void add_attachment(const AttachmentDescription& description);
   Bodies& bodies() { return bodies_; }
@@ -44,6 +50,7 @@ class World {
 
   /// Declares the rows `body.NAME.*` of the bodies there are. The set refers to this object.
   void bind_bodies(ParameterSet& set);
+  void bind_body(ParameterSet& set, Body& body);
 
   /// Publishes frame 0: detection only, no solve. Throws DivergenceError as step() does.
   void start();
@@ -70,12 +77,15 @@ class World {
   double time() const { return time_; }
   /// Its state_hash is taken when the record is asked for first.
   const StepRecord& record() const;
+  /// The record with the bodies that are still to be added, as they will begin: who writes a file must know all.
+  StepRecord record_of_all() const;
   /// 64 bits over poses, velocities, warm-start and sleep data and time.
   std::uint64_t state_hash() const;
 
   /// The full state, bit for bit; not the parameters.
   void save(ByteWriter& out) const;
-  /// Restores what save() wrote for a world with the same bodies and publishes its record. Throws InputError otherwise.
+  /// Restores what save() wrote for a world with the same bodies and publishes its record; those that were absent then, or
+  /// not there yet, are absent now. Throws InputError otherwise.
   void restore(ByteReader& in);
 
  private:
@@ -88,6 +98,8 @@ class World {
   void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
   void keep_ledger();
+  void bring_to_life(BodyIndex index);
+  std::vector<std::uint64_t> settings() const;
   bool is_still() const;
   void repeat_still_frame();
   void save_state(ByteWriter& out) const;
@@ -106,12 +118,13 @@ class World {
   MotionGuard guard_;
   std::map<BodyIndex, UnsafeBody> unsafe_;  // of the frame being made
   StepWatcher* watcher_ = nullptr;
-  std::unique_ptr<Ledger> ledger_;   // null: nobody asked for it
-  FrameStats stats_;                 // of the frame being made: sums and maxima over its sub-steps
-  std::uint64_t settings_seen_ = 0;  // hash of what parameters_changed compares with
-  mutable StepRecord record_;        // the published one
-  StepRecord next_record_;           // the one of the frame being made
-  std::string state_, next_state_;   // the bytes that their hashes are of
+  std::unique_ptr<Ledger> ledger_;            // null: nobody asked for it
+  FrameStats stats_;                          // of the frame being made: sums and maxima over its sub-steps
+  std::vector<std::uint64_t> settings_seen_;  // hashes that parameters_changed compares with
+  std::map<BodyIndex, std::string> starts_;   // states with which absent bodies come to life
+  mutable StepRecord record_;                 // the published one
+  StepRecord next_record_;                    // the one of the frame being made
+  std::string state_, next_state_;            // the bytes that their hashes are of
   mutable bool hash_is_due_ = false;
   mutable std::mutex hash_mutex_;
   bool was_still_ = false;  // nothing moved in the last frame, nor was changed since

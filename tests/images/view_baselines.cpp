@@ -122,6 +122,16 @@ const std::vector<Baseline>& baselines() {
          set(settings, "view.heat.of", "impulse");
          return painted(soft_record(), settings);
        }},
+      {"heat_of_residuals",
+       [] {
+         StepRecord record = sample_record();
+         double next = 0.0;
+         for (ContactRecord& c : record.contacts) c.residual = next += 0.002;
+         ViewSettings settings = settings_with({"meshes", "heat"});
+         set(settings, "view.heat.of", "residual");
+         settings.show_legend = true;
+         return painted(record, settings);
+       }},
       {"strain_of_tetrahedra",
        [] {
          ViewSettings settings = settings_with({"meshes", "tetrahedra", "strain"});

@@ -275,7 +275,7 @@ class DebugCommand : public SubCommand {
     given_.doors.declare(options);
     options.text("--against", given_.against,
                  "PATH=VALUE: the same scene with that setting, or another scene or run's folder, made beside "
-                 "this one; where they part is told, and its rigid bodies are seen through");
+                 "this one; where they part is told, and its bodies are seen through");
     options.path("--out", given_.out, "folder that `shot FILE` lines write into (default: here)");
     size_option(options, given_.width, given_.height, "WIDTHxHEIGHT of the window in pixels (default: 1280x720)");
     options.whole("--scale", given_.scale, 1, 8, "size of text, in whole steps (default: by the height)");

@@ -51,7 +51,7 @@ int ExportCommand::run() {
   job.option = "--format";
   job.first = frames.front(), job.stride = range_.stride();
   job.frames = static_cast<int>(frames.size());
-  Exports exports({format_}, job, run.record());
+  Exports exports({format_}, job, session.world().record_of_all());
   FrameProgress progress;
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   bool is_the_run = true;

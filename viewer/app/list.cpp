@@ -88,7 +88,7 @@ class AllRows {
   AllRows(const AllRows&) = delete;
   AllRows& operator=(const AllRows&) = delete;
 
-  const std::vector<Parameter>& all() const { return rows_.all(); }
+  const std::deque<Parameter>& all() const { return rows_.all(); }
   /// What both kinds of bodies have is shown once.
   bool is_twin(const Parameter& row) const {
     const std::string own = "body.DEFORMABLE.";

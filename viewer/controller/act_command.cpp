@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "engine/bodies/body_keys.hpp"
 #include "engine/core/error.hpp"
+#include "engine/io/scene/scene_body.hpp"
 #include "viewer/controller/command.hpp"
 
 namespace impinge {
@@ -23,12 +25,13 @@ constexpr VerbRow kVerbs[] = {
     {Act::push, "push", "push BODY JX JY JZ [at X Y Z]"},
     {Act::move, "move", "move BODY DX DY DZ [turn AX AY AZ DEGREES]"},
     {Act::remove, "delete", "delete BODY"},
+    {Act::add, "add", "add NAME like BODY at X Y Z [velocity VX VY VZ] [turn AX AY AZ DEGREES]"},
 };
 
 /// The words of a line, one after another.
-class Words {
+class WordReader {
  public:
-  Words(std::span<const PlacedText> words, const VerbRow& verb) : words_(words), verb_(verb) {}
+  WordReader(std::span<const PlacedText> words, const VerbRow& verb) : words_(words), verb_(verb) {}
 
   const PlacedText& next(const char* what) {
     if (at_ >= words_.size())
@@ -41,6 +44,20 @@ class Words {
     const bool is_next = at_ < words_.size() && words_[at_].text == word;
     if (is_next) ++at_;
     return is_next;
+  }
+  /// The word, which must be the next one.
+  void must(std::string_view word, const char* before) {
+    const PlacedText& found = next(fmt::format("'{}' and {}", word, before).c_str());
+    if (found.text != word)
+      found.refuse(fmt::format("'{}'", found.text), fmt::format("{} is wanted", verb_.usage),
+                   fmt::format("write {} before {}", word, before));
+  }
+  /// `turn AX AY AZ DEGREES`, where it is next.
+  void turn(Act& act) {
+    act.axis = vector(kFarthest, "an axis");
+    if (act.axis.norm() == 0.0)
+      last().refuse("an axis of no length", "the direction that the body turns about is wanted", "write 0 1 0");
+    act.degrees = number(-kMostTurn, kMostTurn, "an angle in degrees");
   }
   double number(double low, double high, const char* what) {
     const PlacedText& word = next(what);
@@ -79,6 +96,30 @@ bool is_deformable(std::string_view body, const ParameterSet& rows) {
   return rows.find(fmt::format("body.{}.material.element", body)) != nullptr;
 }
 
+/// Whether the name is free is for others to say (check_new_name): a script's own are known before it is read.
+Act parse_add(WordReader& words, const ParameterSet& rows) {
+  const double farthest = body_key("position").range.high, fastest = body_key("velocity").range.high;
+  Act act;
+  act.verb = Act::add;
+  const PlacedText& name = words.next("a name");
+  if (const std::string fault = fault_of_name(name.text, "a body"); !fault.empty())
+    throw InputError(fmt::format("{}: {}", name.place(), fault));
+  act.body = std::string(name.text);
+  words.must("like", "the body that it is a copy of");
+  const PlacedText& like = words.next("the body that it is a copy of");
+  check_body(like, like.text, body_names(rows));
+  if (!is_moved_by_forces(like.text, rows))
+    like.refuse(fmt::format("a copy of '{}', which no force moves", like.text),
+                "a dynamic or deformable body is wanted", "name another one");
+  act.like = std::string(like.text);
+  words.must("at", "its place");
+  act.vector = words.vector(farthest, "the place of its file's origin, m");
+  if (words.take("velocity")) act.velocity = words.vector(fastest, "a velocity, m/s");
+  if (words.take("turn")) words.turn(act);
+  words.end();
+  return act;
+}
+
 std::string text_of(const Vec3& v) {
   return fmt::format("{} {} {}", shortest(v.x()), shortest(v.y()), shortest(v.z()));
 }
@@ -96,9 +137,10 @@ const std::vector<std::string>& act_verbs() {
 
 Act parse_act(std::span<const PlacedText> all, const ParameterSet& rows) {
   const VerbRow& verb = kVerbs[std::find(act_verbs().begin(), act_verbs().end(), all[0].text) - act_verbs().begin()];
-  Words words(all, verb);
+  WordReader words(all, verb);
   Act act;
   act.verb = verb.verb;
+  if (act.verb == Act::add) return parse_add(words, rows);
   const PlacedText& body = words.next("a body");
   check_body(body, body.text, body_names(rows));
   act.body = std::string(body.text);
@@ -108,8 +150,7 @@ Act parse_act(std::span<const PlacedText> all, const ParameterSet& rows) {
   switch (act.verb) {
     case Act::pull:
       act.point = words.vector(kFarthest, "the point of the body that is pulled");
-      if (const PlacedText& to = words.next("'to' and a place"); to.text != "to")
-        to.refuse(fmt::format("'{}'", to.text), fmt::format("{} is wanted", verb.usage), "write to before the place");
+      words.must("to", "the place");
       act.vector = words.vector(kFarthest, "the place that it is pulled to");
       if (words.take("stiffness")) act.stiffness = words.number(kLeastStiffness, kMostStiffness, "a stiffness, N/m");
       break;
@@ -123,17 +164,22 @@ Act parse_act(std::span<const PlacedText> all, const ParameterSet& rows) {
       if (is_deformable(body.text, rows))
         words.last().refuse(fmt::format("'turn' of the deformable body '{}'", body.text),
                             "its nodes are moved as they are", "remove it");
-      act.axis = words.vector(kFarthest, "an axis");
-      if (act.axis.norm() == 0.0)
-        words.last().refuse("an axis of no length", "the direction that the body turns about is wanted", "write 0 1 0");
-      act.degrees = words.number(-kMostTurn, kMostTurn, "an angle in degrees");
+      words.turn(act);
       break;
+    case Act::add:
     case Act::release:
     case Act::remove:
       break;
   }
   words.end();
   return act;
+}
+
+void check_new_name(const PlacedText& name, const ParameterSet& rows) {
+  const std::vector<std::string> taken = body_names(rows);
+  if (std::find(taken.begin(), taken.end(), name.text) != taken.end())
+    name.refuse(fmt::format("a second body named '{}'", name.text), "names must differ, also from deleted ones",
+                "choose another");
 }
 
 std::string format_act(const Act& act) {
@@ -151,6 +197,11 @@ std::string format_act(const Act& act) {
       break;
     case Act::move:
       line += " " + text_of(act.vector);
+      if (act.axis.norm() > 0.0) line += fmt::format(" turn {} {}", text_of(act.axis), shortest(act.degrees));
+      break;
+    case Act::add:
+      line += fmt::format(" like {} at {}", act.like, text_of(act.vector));
+      if (act.velocity != Vec3::Zero()) line += " velocity " + text_of(act.velocity);
       if (act.axis.norm() > 0.0) line += fmt::format(" turn {} {}", text_of(act.axis), shortest(act.degrees));
       break;
     case Act::release:

@@ -1,4 +1,4 @@
-// The commands that do something to a body: pull, release, push, move, delete.
+// The commands that do something to a body: pull, release, push, move, delete, add.
 #pragma once
 
 #include <span>
@@ -14,6 +14,9 @@ const std::vector<std::string>& act_verbs();
 
 /// Reads one, whose first word is a verb. Throws InputError at the word that is wrong.
 Act parse_act(std::span<const PlacedText> words, const ParameterSet& rows);
+
+/// Refuses, for `add`, a name that a body has or had.
+void check_new_name(const PlacedText& name, const ParameterSet& rows);
 
 /// As a line that parse_act reads back exactly.
 std::string format_act(const Act& act);

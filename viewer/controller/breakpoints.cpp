@@ -8,6 +8,14 @@
 
 namespace impinge {
 
+void Breakpoints::read_again(const ExpressionWords& words) {
+  static const std::string kBreak = "break";
+  for (Breakpoint& point : points_) {
+    const std::string text = point.condition.text();
+    point.condition = Expression({text, &kBreak, 1, 1}, words);
+  }
+}
+
 void Breakpoints::recorded(Bodies& bodies, const StepRecord& so_far, int substep, int) {
   if (substep == 1) forget_begun();
   std::vector<double> figures = figure_values(so_far.stats, judged_);

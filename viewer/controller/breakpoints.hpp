@@ -38,6 +38,8 @@ class Breakpoints : public StepWatcher {
   explicit Breakpoints(bool judged) : judged_(judged) {}
 
   void add(Expression condition, std::string place) { points_.push_back({std::move(condition), std::move(place)}); }
+  /// The bodies that they may speak of have changed places.
+  void read_again(const ExpressionWords& words);
   void clear() { points_.clear(), forget_begun(); }
   bool empty() const { return points_.empty(); }
   const std::vector<Breakpoint>& points() const { return points_; }

@@ -12,6 +12,7 @@
 //   push BODY JX JY JZ [at X Y Z]                           an impulse
 //   move BODY DX DY DZ [turn AX AY AZ DEGREES]              puts it elsewhere
 //   delete BODY                                             it takes no part any more
+//   add NAME like BODY at X Y Z [velocity VX VY VZ] [turn AX AY AZ DEGREES]     a copy of a body
 #pragma once
 
 #include <optional>

@@ -24,6 +24,9 @@ std::vector<double> ConditionReader::values(const Expression& condition, std::sp
 double ConditionReader::value(const BodyTerm& term, const StepRecord& record, Bodies& bodies) {
   if (term.function == BodyFunction::energy_from) return energy_from(record.stats.ledger.get(), term.source, term.a);
   const BodyIndex a(std::min(term.a, term.b)), b(std::max(term.a, term.b));
+  const bool is_of_pair = term.function == BodyFunction::gap || term.function == BodyFunction::depth;
+  if (bodies[term.a].absent || (is_of_pair && bodies[term.b].absent))  // nobody can say anything of it yet
+    return term.function == BodyFunction::contacts || term.function == BodyFunction::depth ? 0.0 : NAN;
   switch (term.function) {
     case BodyFunction::contacts:
       return static_cast<double>(std::count_if(record.contacts.begin(), record.contacts.end(),

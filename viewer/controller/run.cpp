@@ -58,7 +58,7 @@ Exports open_exports(const RunOptions& options, const Session& session, int last
   job.folder = options.out / "export";
   job.option = "--export";
   job.frames = last_frame + 1;
-  return {options.exports, job, session.record()};
+  return {options.exports, job, session.world().record_of_all()};
 }
 
 /// Of a run that goes on the frame to be frozen is not behind it, unless it was frozen then.
@@ -68,6 +68,12 @@ void check_freeze(const RunOptions& options, const RunFolder& folder) {
         fmt::format("command line: --freeze is {}; the run goes on after frame {}, and a later frame is wanted; choose "
                     "one, or another --out",
                     *options.freeze, folder.resume_frame()));
+}
+
+void tell_of_overlap(const RunWatcher& watcher, int frame, std::span<const Command> commands,
+                     const StepRecord& record) {
+  const std::string note = overlap_note(commands, record);
+  if (!note.empty() && watcher.message) watcher.message(fmt::format("note: frame {}: {}", frame, note));
 }
 
 /// What the script expects of frames, and what ends the run.
@@ -150,9 +156,8 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   if (const std::string note = session.note_of_former_paths(); !note.empty() && watcher.message)
     watcher.message("note: " + note);
   RunResult result;
-  result.is_judged = session.is_judged();
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
-  const bool judged = session.is_judged();
+  const bool judged = result.is_judged = session.is_judged();
   Conditions conditions(options, watcher, folder, session);
   FrameJudge overlap(session.is_judged_by_substep() ? FrameJudge::each_substep : FrameJudge::each_frame);
   WatcherList watchers;
@@ -174,6 +179,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     if (judged) overlap.judge(session.world().bodies(), stats);
     check_figures(stats, judged);
     const int frame = session.frame();
+    tell_of_overlap(watcher, frame, commands, session.record());
     stats.times.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
     if (freezes) {
       folder.add_frozen_step(frozen);

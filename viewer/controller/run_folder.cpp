@@ -14,7 +14,7 @@
 #include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/run_files.hpp"
 #include "viewer/controller/snapshot_file.hpp"
-#include "viewer/controller/surface_export.hpp"
+#include "viewer/export/surface_export.hpp"
 
 namespace impinge {
 

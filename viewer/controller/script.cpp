@@ -31,20 +31,6 @@ ParameterValue mix(const ParameterValue& from, const ParameterValue& to, double 
   return between(std::get<double>(from), std::get<double>(to));
 }
 
-std::string_view without_comment(std::string_view line) {
-  char quote = '\0';
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quote != '\0')
-      quote = c == quote ? '\0' : quote;
-    else if (c == '"' || c == '\'')
-      quote = c;
-    else if (c == '#')
-      return line.substr(0, i);
-  }
-  return line;
-}
-
 // from the first word's start to the last word's end
 PlacedText spanning(std::span<const PlacedText> words, const PlacedText& line) {
   const auto begin = static_cast<std::size_t>(words.front().text.data() - line.text.data());
@@ -59,6 +45,20 @@ std::string unquoted(std::string_view word) {
 }
 
 }  // namespace
+
+std::string_view without_comment(std::string_view line) {
+  char quote = '\0';
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quote != '\0')
+      quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '#')
+      return line.substr(0, i);
+  }
+  return line;
+}
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
   const std::string text = read_file(path, 16u << 20);

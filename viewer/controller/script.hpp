@@ -76,6 +76,9 @@ class Script {
   bool pictures_may_be_missing_ = false;
 };
 
+/// The line up to a # that is in no quotes.
+std::string_view without_comment(std::string_view line);
+
 /// The lines of a script file. Throws InputError.
 std::vector<std::string> read_lines(const std::filesystem::path& path);
 

@@ -89,22 +89,34 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   scene_ = load_scene(scene_file, overrides, world_, rows_);
   judge_substeps_ = options.judge_substeps || (scene_.run && scene_.run->judge_substeps);
   judge_ = options.judge || judge_substeps_ || (scene_.run && scene_.run->judge);
-  fs::path folder = script_file.parent_path();
+  script_folder_ = script_file.parent_path();
   if (!script_file.empty()) {
     script_name_ = script_file.string();
     script_lines_ = options.script_lines ? *options.script_lines : read_lines(script_file);
   } else if (scene_.run) {
     script_name_ = scene_.run->script_file;
     script_lines_ = scene_.run->script;
-    folder = fs::path(script_name_).parent_path();
+    script_folder_ = fs::path(script_name_).parent_path();
   }
-  script_ = Script(script_name_, folder, script_lines_, rows_, condition_words(), options.pictures_may_be_missing);
+  pictures_may_be_missing_ = options.pictures_may_be_missing;
+  added_.read(script_name_, script_lines_, scene_, world_, rows_);
+  read_script();
   start();
   try {
     view_.settle(world_.record(), options.width, options.height);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene_.path.string(), error.what()));
   }
+}
+
+void Session::read_script() {
+  script_ = Script(script_name_, script_folder_, script_lines_, rows_, condition_words(), pictures_may_be_missing_);
+}
+
+bool Session::list_added(std::vector<Addition> by_hand) {
+  if (!added_.list(std::move(by_hand), scene_, world_, rows_)) return false;
+  read_script();  // bodies that it speaks of may have changed places
+  return true;
 }
 
 void Session::start() {
@@ -173,9 +185,26 @@ void Session::apply(const Command& command) {
   } else if (const auto* camera = std::get_if<CameraCommand>(&command)) {
     view_.move_camera(*camera, world_.record());
   } else if (const auto* act = std::get_if<Act>(&command)) {
+    if (act->verb == Act::add) add_body(*act);
     world_.act(*act);
   } else {
     view_.show(std::get<BodiesCommand>(command), world_.record());
+  }
+}
+
+/// A copy takes what can be set of its pattern as it is now, but for where that is and how it moves.
+void Session::add_body(const Act& act) {
+  const World& world = world_;
+  if (!world.bodies()[world.bodies().find(act.body)].absent) return;
+  constexpr std::string_view kState[] = {"position", "rotation", "velocity", "angular_velocity", "fixed_"};
+  const std::string like = "body." + act.like + ".";
+  for (const Parameter& row : rows_.all()) {
+    if (!row.path.starts_with(like) || !row.set || !row.live) continue;
+    const std::string_view key = std::string_view(row.path).substr(like.size());
+    if (std::any_of(std::begin(kState), std::end(kState), [&](std::string_view k) { return key.starts_with(k); }))
+      continue;
+    const Parameter& own = *rows_.find(fmt::format("body.{}.{}", act.body, key));
+    if (const ParameterValue value = row.get(); own.get() != value) own.set(value);
   }
 }
 
@@ -223,8 +252,10 @@ ExportJob Session::export_job() const {
 
 void Session::save(ByteWriter& out) const {
   out.put(frame_);
-  out.put<std::uint64_t>(rows_.all().size());
-  for (const Parameter& row : rows_.all()) {
+  const std::size_t rows = rows_present();
+  out.put<std::uint64_t>(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Parameter& row = rows_.all()[i];
     put_text(out, row.path);
     put_value(out, written(row));
   }
@@ -233,9 +264,11 @@ void Session::save(ByteWriter& out) const {
 
 void Session::restore(ByteReader& in) {
   const int frame = in.get<int>();
-  if (in.get<std::uint64_t>() != rows_.all().size())
+  const auto rows = in.get<std::uint64_t>();
+  if (rows > rows_.all().size())
     throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
-  for (const Parameter& row : rows_.all()) {
+  for (std::uint64_t i = 0; i < rows; ++i) {
+    const Parameter& row = rows_.all()[i];
     if (get_text(in) != row.path)
       throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
     ParameterValue value;
@@ -250,6 +283,8 @@ void Session::restore(ByteReader& in) {
   world_.parameters_changed();
   // after the rows: setting a body's row derives state from it, and the snapshot's bits must stand
   world_.restore(in);
+  if (rows != rows_present())
+    throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
   frame_ = frame;
   changed_ = false;
   write_below();

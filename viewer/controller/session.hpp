@@ -5,6 +5,7 @@
 
 #include "engine/io/scene/scene.hpp"
 #include "engine/world/figures.hpp"
+#include "viewer/controller/added_bodies.hpp"
 #include "viewer/controller/condition_values.hpp"
 #include "viewer/controller/frame_view.hpp"
 #include "viewer/controller/script.hpp"
@@ -41,6 +42,14 @@ class Session {
   /// stays that of the frame; what was done to a body shows in the next.
   void change(const Command& command);
 
+  /// Makes bodies known, absent, that lines by hand add in coming frames, in place of those that were known so far and have
+  /// not come to life. True: there are others now. Throws InputError where one can't be had, the old ones then being gone.
+  bool list_added(std::vector<Addition> by_hand);
+  /// Throws InputError, without a place, where there can be no such body.
+  void check_added(const Act& act) const { added_.check(act, scene_); }
+  /// How many of rows() belong to parameters and bodies that are there; those of bodies yet to be added come last.
+  std::size_t rows_present() const { return added_.rows_present(world_.bodies(), rows_); }
+
   /// The last frame to make when nobody says otherwise: a run.toml's, or the larger of 240 and the script's last.
   int default_last_frame() const;
 
@@ -76,6 +85,8 @@ class Session {
 
  private:
   void apply(const Command& command);
+  void add_body(const Act& act);
+  void read_script();
   void start();
   void write_below();
   bool begins_later() const { return scene_.run && !scene_.run->start.empty(); }
@@ -85,7 +96,10 @@ class Session {
   std::vector<std::string> silenced_;
   ParameterSet rows_;
   Scene scene_;
+  AddedBodies added_;
   Script script_;
+  std::filesystem::path script_folder_;
+  bool pictures_may_be_missing_ = false;
   std::vector<std::string> script_lines_;
   std::string script_name_;
   bool judge_ = false, judge_substeps_ = false;

@@ -10,7 +10,7 @@ namespace impinge {
 
 namespace {
 
-constexpr std::string_view kName = "impinge snapshot ", kHead = "impinge snapshot 3\n";
+constexpr std::string_view kName = "impinge snapshot ", kHead = "impinge snapshot 4\n";
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
 // the state between head and checksum; empty if the file is damaged

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/core/error.hpp"
 
 namespace impinge {
@@ -40,6 +42,16 @@ std::vector<PlacedText> split_words(const PlacedText& line) {
     i = end;
   }
   return words;
+}
+
+bool names_one_of(const std::string& line, const std::set<std::string>& bodies) {
+  constexpr std::string_view kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  for (std::size_t begin = line.find_first_of(kNameLetters); begin != std::string::npos;) {
+    const std::size_t end = std::min(line.find_first_not_of(kNameLetters, begin), line.size());
+    if (bodies.contains(line.substr(begin, end - begin))) return true;
+    begin = line.find_first_of(kNameLetters, end);
+  }
+  return false;
 }
 
 }  // namespace impinge

@@ -1,6 +1,7 @@
 // Where in a script something stands, for messages.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,5 +23,8 @@ struct PlacedText {
 
 /// Words between blanks; a bracketed list such as `[0, -20, 0]` and a quoted text are one word each.
 std::vector<PlacedText> split_words(const PlacedText& line);
+
+/// Whether a line of a script, or of the debugger, names one of them.
+bool names_one_of(const std::string& line, const std::set<std::string>& bodies);
 
 }  // namespace impinge

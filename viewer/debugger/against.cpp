@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
@@ -94,23 +95,49 @@ void Against::compare(const std::vector<std::uint64_t>& hashes, int frame) {
 }
 
 void Against::reach(const StepRecord& a, const std::vector<std::uint64_t>& hashes, int frame) {
-  if (model_.bodies.empty())
-    for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.bodies().find(std::string(body.name)));
+  model_.bodies.clear();  // A may have others than before
+  for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.bodies().find(body.name));
   compare(hashes, frame);
   while (model_.ended.empty() && session_.frame() < frame && advance()) compare(hashes, frame);
-  if (is_news_ && first_ == frame && session_.frame() == frame)
-    fields_ = words_of(field_differences(a, session_.record()));
+  if (session_.frame() == frame) compare_places(a, frame);
+}
+
+/// In what they differ first; and, where nothing is elsewhere yet, when something is.
+void Against::compare_places(const StepRecord& a, int frame) {
+  const bool is_first = is_news_ && first_ == frame;
+  if (!is_first && (same_place_ < 0 || frame <= same_place_ || apart_ >= 0)) return;
+  const std::vector<FieldDifference> fields = field_differences(a, session_.record());
+  const bool is_elsewhere =
+      std::any_of(fields.begin(), fields.end(), [](const FieldDifference& f) { return f.unit == "m"; });
+  if (is_first) {
+    fields_ = words_of(fields);
+    if (!is_elsewhere) same_place_ = frame;
+  } else if (is_elsewhere) {
+    apart_ = frame;
+    const bool is_next = frame == same_place_ + 1;
+    apart_fields_ = fmt::format("positions differ from frame {} on{}: {}", frame, is_next ? "" : " at the latest",
+                                words_of(fields));
+  } else {
+    same_place_ = frame;
+  }
 }
 
 void Against::forget_after(int frame) {
   same_ = std::min(same_, frame + 1);
-  if (first_ > frame) first_ = -1, is_news_ = false, model_.parted.clear();
+  if (first_ > frame) first_ = -1, is_news_ = false, same_place_ = -1, model_.parted.clear();
+  if (same_place_ > frame) same_place_ = frame;
+  if (apart_ > frame) apart_ = -1, model_.apart.clear();
 }
 
 std::optional<int> Against::take_news() {
   if (!is_news_) return std::nullopt;
   is_news_ = false;
   return first_;
+}
+
+std::string Against::take_apart() {
+  if (apart_fields_.empty()) return "";
+  return model_.apart = std::exchange(apart_fields_, {});
 }
 
 const std::string& Against::tell(int frame, const FrameStages* stages) {

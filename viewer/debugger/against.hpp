@@ -29,6 +29,9 @@ class Against {
   void forget_after(int frame);
   /// The first frame in which they differ, where it was found since the last call.
   std::optional<int> take_news();
+  /// The first frame in which positions differ, where there was none with the first difference: found since the last call,
+  /// in words; "": not found.
+  std::string take_apart();
   /// In what, in words. `stages` are A's of that frame, null: not known.
   const std::string& tell(int frame, const FrameStages* stages);
   const AgainstModel& model() const { return model_; }
@@ -36,6 +39,7 @@ class Against {
  private:
   bool advance();
   void compare(const std::vector<std::uint64_t>& hashes, int frame);
+  void compare_places(const StepRecord& a, int frame);
 
   Session session_;
   AgainstModel model_;
@@ -44,7 +48,10 @@ class Against {
   int same_ = 0;                       // so many frames were held against A's and are the same
   int first_ = -1;                     // frame in which they differ
   bool is_news_ = false;
-  std::string fields_;  // in what, in that frame
+  std::string fields_;   // in what, in that frame
+  int same_place_ = -1;  // the last frame in which they differ and all positions are the same; -1: not sought
+  int apart_ = -1;       // and the first with others; -1: not known
+  std::string apart_fields_;
 };
 
 }  // namespace impinge

@@ -8,6 +8,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/io/file.hpp"
+#include "engine/world/record_parts.hpp"
 #include "viewer/bundle/scene.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
@@ -144,6 +145,7 @@ void Debugger::note_frame() {
     expectations_.check(
         session_.frame(), [this](const Expression& condition) { return values_here(condition); },
         [] { return fs::path(); });
+    tell_of_overlap(session_.frame());
   }
   if (!ring_.has(session_.frame())) {
     ByteWriter state;
@@ -201,6 +203,7 @@ void Debugger::do_transport(const TransportLine& line) {
 }
 
 void Debugger::do_select(Selection s) {
+  if (s.kind == Selection::body) s.place = s.index;
   if (s.kind == Selection::contact) s.pair_id = shown().contacts[static_cast<std::size_t>(s.index)].pair_id;
   model_.selection = s;
   model_.state.is_selected_sought = s.is_there();
@@ -209,6 +212,7 @@ void Debugger::do_select(Selection s) {
 void Debugger::follow_selection() {
   model_.state.is_selected_sought = false;  // rows change places with every frame: nobody goes after them
   Selection& s = model_.selection;
+  if (s.kind == Selection::body) s.index = s.place < std::ssize(shown().bodies) ? s.place : -1;
   if (s.kind != Selection::contact) return;
   const std::vector<ContactRecord>& contacts = shown().contacts;
   const auto it =
@@ -220,7 +224,12 @@ void Debugger::do_panel(const PanelLine& line) { take(line, model_.state); }
 
 void Debugger::check(const PlacedText& line) const {
   if (line.text.starts_with("select contact")) return;  // how many there are depends on the frame
-  parse_debug_line(line, {session_.rows(), shown(), figure_names(session_.is_judged()), conditions_});
+  // so does who is there of those that lines before this one add
+  if (names_one_of(std::string(line.text), announced_)) return;
+  const DebugLine parsed =
+      parse_debug_line(line, {session_.rows(), shown(), figure_names(session_.is_judged()), conditions_});
+  check_added(line, parsed);
+  if (line.text.starts_with("add ")) announced_.emplace(split_words(line)[1].text);
 }
 
 std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
@@ -230,6 +239,7 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
       std::holds_alternative<FreezeLine>(parsed) || std::holds_alternative<ExportLine>(parsed) ||
       std::holds_alternative<QuitLine>(parsed))
     return parsed;
+  check_added(line, parsed);
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
   stopped_ = was_ended_ = false;
@@ -404,6 +414,7 @@ std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
 const DebugModel& Debugger::model() {
   model_.record = &shown();
   model_.rows = &session_.rows();
+  model_.rows_present = session_.rows_present();
   model_.view = &view();
   model_.frame = frame();
   model_.stages = within_ ? &*stages_ : nullptr;
@@ -411,14 +422,26 @@ const DebugModel& Debugger::model() {
   model_.known_last = static_cast<int>(hashes_.size()) - 1;
   model_.playing = playing_;
   model_.figure_names = &figure_names(session_.is_judged());
-  model_.asked.clear();
+  model_.asked.clear(), model_.coming.clear();
   if (const auto it = by_hand_.find(session_.frame() + 1); it != by_hand_.end() && !within_)
     for (const Command& command : it->second)
       if (const auto* act = std::get_if<Act>(&command)) model_.asked.push_back(*act);
+  for (const Act& act : model_.asked) {
+    const Bodies& bodies = session_.world().bodies();
+    if (act.verb == Act::add) model_.coming.push_back({record_of(bodies[bodies.find(act.body)]), act.like});
+  }
   model_.history = &history_;
   model_.tracks = &tracks_;
   model_.against = against_ ? &against_->model() : nullptr;
   model_.changed_frames = &changed_frames_;
+  model_.commands_of = [this](int frame) {
+    std::vector<Command> commands = session_.script().commands_at(frame);
+    if (const auto it = by_hand_.find(frame); it != by_hand_.end())
+      commands.insert(commands.begin(), it->second.begin(), it->second.end());
+    std::vector<std::string> lines;
+    for (const Command& command : commands) lines.push_back(format_command(command));
+    return lines;
+  };
   model_.snapshots = ring_.count();
   model_.snapshot_bytes = ring_.bytes();
   model_.most_snapshot_bytes = ring_.most();

@@ -96,6 +96,9 @@ class Debugger {
   void exchange(Future& future);
   void find(const FindLine& line);
   void why(const WhyLine& line);
+  void list_added();
+  void check_added(const PlacedText& line, const DebugLine& parsed) const;
+  void tell_of_overlap(int frame);
   bool do_by_hand(int frame);
   void show_by_hand();
   bool advance();
@@ -156,6 +159,7 @@ class Debugger {
   ExpressionWords conditions_;
   Expectations expectations_;
   Breakpoints breaks_;
+  mutable std::set<std::string> announced_;  // bodies that lines which were checked will add
   ConditionReader reader_;
   std::optional<Against> against_;
   std::optional<FrameStages> stages_;  // of the frame looked into last

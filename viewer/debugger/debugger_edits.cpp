@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "engine/core/error.hpp"
+#include "viewer/controller/act_command.hpp"
 #include "viewer/debugger/debugger.hpp"
 
 namespace impinge {
@@ -97,9 +99,45 @@ void Debugger::exchange(Future& future) {
   std::swap(folder_last_, future.folder_last);
 }
 
+/// Has the session know, from now on, the bodies that by_hand_ will add, and no others beside the script's.
+void Debugger::list_added() {
+  std::vector<Addition> added;
+  for (const auto& [frame, commands] : by_hand_)
+    for (const Command& command : commands)
+      if (const auto* act = std::get_if<Act>(&command); act != nullptr && act->verb == Act::add)
+        added.push_back({frame, *act});
+  if (!session_.list_added(std::move(added))) return;
+  if (model_.selection.kind == Selection::body && !model_.selection.is_there()) model_.selection = {};
+  conditions_ = session_.condition_words();
+  breaks_.read_again(conditions_);
+}
+
+/// What can only be said against bodies that a line by hand adds.
+void Debugger::check_added(const PlacedText& line, const DebugLine& parsed) const {
+  const auto* commands = std::get_if<std::vector<Command>>(&parsed);
+  const Act* act = commands == nullptr || commands->empty() ? nullptr : std::get_if<Act>(&commands->front());
+  if (act == nullptr || act->verb != Act::add) return;
+  const std::vector<PlacedText> words = split_words(line);
+  check_new_name(words[1], session_.rows());
+  try {
+    session_.check_added(*act);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", words[3].place(), error.what()));
+  }
+}
+
+/// A body may be added where others are.
+void Debugger::tell_of_overlap(int frame) {
+  std::vector<Command> commands = session_.script().commands_at(frame);
+  if (const auto it = by_hand_.find(frame); it != by_hand_.end())
+    commands.insert(commands.end(), it->second.begin(), it->second.end());
+  if (const std::string note = overlap_note(commands, session_.record()); !note.empty())
+    say(ConsoleLine::message, note);
+}
+
 void Debugger::do_command(const Command& command) {
   if (is_look(command)) return session_.change(command);
-  if (const auto* act = std::get_if<Act>(&command))
+  if (const auto* act = std::get_if<Act>(&command); act != nullptr && act->verb != Act::add)
     for (const BodyRecord& body : shown().bodies)
       if (body.name == act->body && body.deleted)
         return say(ConsoleLine::message, fmt::format("'{}' is deleted: nothing comes of it", body.name));
@@ -123,6 +161,13 @@ void Debugger::do_command(const Command& command) {
     commands.push_back(command);
     by_hand_[next] = std::move(commands);
     changed_frames_.insert(next);
+    try {
+      list_added();
+    } catch (const InputError&) {  // there is no room for it: as it was
+      exchange(*edit.future);
+      list_added();
+      throw;
+    }
     if (const auto* act = std::get_if<Act>(&command)) {
       if (act->verb == Act::pull || act->verb == Act::release) edit.dragged = act->body;
       is_last_of_drag = act->verb == Act::release;
@@ -130,7 +175,7 @@ void Debugger::do_command(const Command& command) {
       session_.change(command);
     }
   } else {
-    const std::vector<Parameter>& rows = session_.rows().all();
+    const std::deque<Parameter>& rows = session_.rows().all();
     std::vector<std::pair<const Parameter*, ParameterValue>> before;
     for (const Parameter& row : rows)
       if (row.path.starts_with("view.")) before.emplace_back(&row, row.get());
@@ -161,6 +206,7 @@ void Debugger::take_back(const UndoLine& line) {
       reach(future.frame);
     }
     exchange(future);
+    list_added();
     if (session_.frame() == future.frame) show_by_hand();
     if (was_later)
       say(ConsoleLine::message, fmt::format("back to frame {}, after which that was changed", session_.frame()));

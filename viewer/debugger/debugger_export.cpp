@@ -28,7 +28,7 @@ std::string Debugger::export_frames(const std::string& format, const std::filesy
     job.folder = folder;
     job.option = "export";
     job.frames = last + 1;
-    Exports exports({format}, job, session_.record());
+    Exports exports({format}, job, session_.world().record_of_all());
     int made = 0;
     for (int k = 0; k <= last && !is_interrupted(); ++k) {
       reach(k);

@@ -292,7 +292,11 @@ void Debugger::tell_of_against() {
     say(ConsoleLine::message, ended);
   }
   const std::optional<int> first = against_->take_news();
-  if (!first) return;
+  if (!first) {
+    if (const std::string apart = against_->take_apart(); !apart.empty())
+      say(ConsoleLine::message, "A and B: " + apart);
+    return;
+  }
   const int home = frame();
   const int place = within_ ? within_->place : kEnd;
   const FrameStages* stages = nullptr;
@@ -303,6 +307,7 @@ void Debugger::tell_of_against() {
     restore_before(*first);
   }
   say(ConsoleLine::message, against_->tell(*first, stages));
+  if (const std::string apart = against_->take_apart(); !apart.empty()) say(ConsoleLine::message, "A and B: " + apart);
   reach(home);
   if (place != kEnd) stand_in(home, place);
 }

@@ -41,6 +41,7 @@ std::vector<ExportBody> export_bodies(const StepRecord& start, const std::vector
     out.name = body.name;
     out.kind = body.kind;
     out.color = colors[i];
+    out.start = body.file_pose;
     if (out.is_deformable()) {
       TriangleMesh surface = surface_of(*body.shape);
       surface.vertices.assign(body.vertices.begin(), body.vertices.end());
@@ -61,6 +62,11 @@ std::vector<ExportBody> export_bodies(const StepRecord& start, const std::vector
   return bodies;
 }
 
+const BodyRecord* there(const ExportBody& body, const StepRecord& record) {
+  const auto i = static_cast<std::size_t>(body.body.value());
+  return i < record.bodies.size() && !record.bodies[i].deleted ? &record.bodies[i] : nullptr;
+}
+
 std::vector<Vec3> world_surface(const ExportBody& body, const StepRecord& record) {
   const BodyRecord& now = record.bodies[static_cast<std::size_t>(body.body.value())];
   if (!now.vertices.empty() && !is_shown_apart(*now.shape)) return {now.vertices.begin(), now.vertices.end()};
@@ -70,7 +76,8 @@ std::vector<Vec3> world_surface(const ExportBody& body, const StepRecord& record
 }
 
 std::vector<Vec3> local_surface(const ExportBody& body, const StepRecord& record) {
-  std::vector<Vec3> vertices = body.is_deformable() ? world_surface(body, record) : body.surface->vertices;
+  if (!body.is_deformable()) return start_surface(body);
+  std::vector<Vec3> vertices = world_surface(body, record);
   for (Vec3& x : vertices) x -= body.origin;
   return vertices;
 }
@@ -79,6 +86,17 @@ Pose local_pose(const ExportBody& body, const StepRecord& record) {
   if (body.is_deformable()) return {Mat3::Identity(), body.origin};
   const Pose& pose = record.bodies[static_cast<std::size_t>(body.body.value())].file_pose;
   return {pose.rotation, pose.apply(body.origin)};
+}
+
+std::vector<Vec3> start_surface(const ExportBody& body) {
+  std::vector<Vec3> vertices = body.surface->vertices;
+  for (Vec3& x : vertices) x -= body.origin;
+  return vertices;
+}
+
+Pose start_pose(const ExportBody& body) {
+  if (body.is_deformable()) return {Mat3::Identity(), body.origin};
+  return {body.start.rotation, body.start.apply(body.origin)};
 }
 
 Vec3 far_origin(const Aabb& box) {

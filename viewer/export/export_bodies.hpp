@@ -20,6 +20,7 @@ struct ExportBody {
   /// In the same frame: where single precision counts from. Zero, unless the surface lies far from there for its size.
   Vec3 origin = Vec3::Zero();
   Color color;
+  Pose start = {};  ///< its file_pose then
 
   bool is_static() const { return kind == BodyKind::fixed; }
   bool is_deformable() const { return kind == BodyKind::deformable; }
@@ -31,6 +32,9 @@ bool is_shown_apart(const Shape& shape);
 /// In the scene's order. `colors`: entries of view.colors.
 std::vector<ExportBody> export_bodies(const StepRecord& start, const std::vector<std::string>& colors);
 
+/// Null while it is not added yet, or deleted.
+const BodyRecord* there(const ExportBody& body, const StepRecord& record);
+
 /// The vertices of its surface in the world.
 std::vector<Vec3> world_surface(const ExportBody& body, const StepRecord& record);
 
@@ -38,6 +42,10 @@ std::vector<Vec3> world_surface(const ExportBody& body, const StepRecord& record
 /// what brings it into the world.
 std::vector<Vec3> local_surface(const ExportBody& body, const StepRecord& record);
 Pose local_pose(const ExportBody& body, const StepRecord& record);
+
+/// The same as it started, or will when it is added.
+std::vector<Vec3> start_surface(const ExportBody& body);
+Pose start_pose(const ExportBody& body);
 
 /// The middle of the box if that is so far from zero that single precision would not tell its points apart; else zero.
 Vec3 far_origin(const Aabb& box);

@@ -23,7 +23,8 @@ struct ExportJob {
 class Exporter {
  public:
   virtual ~Exporter() = default;
-  /// `start`: the bodies as loaded, whatever the first frame is. Throws InputError, with nothing written, where the
+  /// `start`: the bodies as loaded, whatever the first frame is, and behind them those that will be added: records of
+  /// frames before have fewer. Throws InputError, with nothing written, where the
   /// format cannot take the job.
   virtual void begin(const ExportJob& job, const StepRecord& start) = 0;
   /// The next frame. Throws OutputError where it can't be written.

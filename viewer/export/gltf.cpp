@@ -23,6 +23,7 @@ struct Track {
   std::vector<Vec3> position;
   std::vector<Quat> rotation;
   std::vector<std::vector<Eigen::Vector3f>> surface;  // of a deformable body, frame by frame
+  std::vector<bool> is_there;  // not added yet, or deleted: as it was, or will be, and of no size
 
   bool moves() const {
     return std::any_of(position.begin(), position.end(), [&](const Vec3& x) { return x != position.front(); }) ||
@@ -59,7 +60,8 @@ class GltfExporter final : public Exporter {
   void check_size(const ExportJob& job) const;
   void add_mesh(std::size_t i, const StepRecord& first);
   void add_body(std::size_t i);
-  void add_channel(std::size_t node, const char* path, int values);
+  void add_channel(std::size_t node, const char* path, int values, const char* between = "LINEAR");
+  void add_scale(std::size_t node, const std::vector<bool>& is_there);
 
   std::filesystem::path path_;
   std::string name_;
@@ -111,12 +113,22 @@ void GltfExporter::add(const StepRecord& record) {
   times_.push_back(static_cast<float>(record.stats.time));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Track& track = tracks_[i];
+    const bool is_there = there(bodies_[i], record) != nullptr;
+    track.is_there.push_back(is_there);
     if (bodies_[i].is_static() && !track.position.empty()) continue;
-    const Pose pose = local_pose(bodies_[i], record);
+    const bool is_known = is_there || !track.position.empty();
     if (bodies_[i].is_deformable()) {
-      track.surface.push_back(singles(local_surface(bodies_[i], record)));
+      track.surface.push_back(is_there   ? singles(local_surface(bodies_[i], record))
+                              : is_known ? track.surface.back()
+                                         : singles(start_surface(bodies_[i])));
       if (!track.position.empty()) continue;
     }
+    if (!is_there && is_known) {
+      track.position.push_back(track.position.back());
+      track.rotation.push_back(track.rotation.back());
+      continue;
+    }
+    const Pose pose = is_there ? local_pose(bodies_[i], record) : start_pose(bodies_[i]);
     track.position.push_back(pose.position - origin_);
     track.rotation.push_back(
         quaternion_of(pose.rotation, track.rotation.empty() ? std::nullopt : std::optional(track.rotation.back())));
@@ -127,15 +139,24 @@ void GltfExporter::add_mesh(std::size_t i, const StepRecord& first) {
   const TriangleMesh* surface = bodies_[i].surface.get();
   const auto [at, is_new] = shared_.try_emplace(surface);
   if (is_new)
-    at->second = {buffer_.add_points(singles(local_surface(bodies_[i], first)), true),
+    at->second = {buffer_.add_points(singles(there(bodies_[i], first) != nullptr ? local_surface(bodies_[i], first)
+                                                                                 : start_surface(bodies_[i])),
+                                     true),
                   buffer_.add_corners(surface->triangles)};
   of_body_.push_back(at->second);
 }
 
-void GltfExporter::add_channel(std::size_t node, const char* path, int values) {
+void GltfExporter::add_channel(std::size_t node, const char* path, int values, const char* between) {
   channels_.push_back(
       fmt::format("{{\"sampler\":{},\"target\":{{\"node\":{},\"path\":\"{}\"}}}}", samplers_.size(), node, path));
-  samplers_.push_back(fmt::format("{{\"input\":{},\"interpolation\":\"LINEAR\",\"output\":{}}}", input_, values));
+  samplers_.push_back(fmt::format("{{\"input\":{},\"interpolation\":\"{}\",\"output\":{}}}", input_, between, values));
+}
+
+/// glTF has no other way to say from when to when there is something.
+void GltfExporter::add_scale(std::size_t node, const std::vector<bool>& is_there) {
+  std::vector<Eigen::Vector3f> scales;
+  for (const bool now : is_there) scales.push_back(Eigen::Vector3f::Constant(now ? 1.0f : 0.0f));
+  add_channel(node, "scale", buffer_.add_points(scales, false), "STEP");
 }
 
 void GltfExporter::add_body(std::size_t i) {
@@ -159,8 +180,10 @@ void GltfExporter::add_body(std::size_t i) {
     for (std::size_t f = 1; f < frames; ++f) weights += f == 1 ? "0" : ",0";
     weights = ",\"weights\":[" + weights + "]";
   }
-  nodes_.push_back(fmt::format("{{\"name\":\"{}\",\"mesh\":{},\"translation\":[{},{},{}],\"rotation\":[{},{},{},{}]}}",
-                               body.name, meshes_.size(), x.x(), x.y(), x.z(), q.x(), q.y(), q.z(), q.w()));
+  nodes_.push_back(
+      fmt::format("{{\"name\":\"{}\",\"mesh\":{},\"translation\":[{},{},{}],\"rotation\":[{},{},{},{}]{}}}", body.name,
+                  meshes_.size(), x.x(), x.y(), x.z(), q.x(), q.y(), q.z(), q.w(),
+                  track.is_there.front() ? "" : ",\"scale\":[0,0,0]"));
   meshes_.push_back(fmt::format(
       "{{\"name\":\"{}\",\"primitives\":[{{\"attributes\":{{\"POSITION\":{}}},\"indices\":{},\"material\":{}"
       "{}}}]{}}}",
@@ -176,6 +199,8 @@ void GltfExporter::add_body(std::size_t i) {
     add_channel(node, "translation", buffer_.add_points(singles(track.position), false));
     add_channel(node, "rotation", buffer_.add_quaternions(rotations));
   }
+  if (std::find(track.is_there.begin(), track.is_there.end(), !track.is_there.front()) != track.is_there.end())
+    add_scale(node, track.is_there);
 }
 
 void GltfExporter::finish() {

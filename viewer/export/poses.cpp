@@ -1,7 +1,7 @@
 // The motion of bodies that have a pose, as a table or as JSON. Where a body stands is where its file's (or its
 // shape's) origin stands: x_world = R(quaternion)·(scale·x_file) + position, as in a scene file; velocities are those
 // of its centre of mass. Bodies that never move are there once, with the first frame; planes and deformable bodies,
-// which have no pose, are not.
+// which have no pose, are not. While a body is not added yet, or deleted, the table has no row of it and the JSON null.
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
@@ -19,25 +19,30 @@ namespace impinge {
 namespace {
 
 struct Posed {
-  const BodyRecord* body;
+  const BodyRecord* body;  ///< null: not there
   Quat rotation;
 };
 
 class PosesExporter : public Exporter {
  public:
-  void begin(const ExportJob& job, const StepRecord&) override {
+  void begin(const ExportJob& job, const StepRecord& start) override {
     path_ = job.folder / name_;
     frame_time_ = job.frame_time;
+    all_ = start.bodies;
   }
 
   void add(const StepRecord& record) override {
     const bool is_first = file_ == nullptr;
     std::vector<Posed> moving, fixed;
-    for (std::size_t i = 0; i < record.bodies.size(); ++i) {
-      const BodyRecord& body = record.bodies[i];
-      if (body.deformable != nullptr || body.shape->as<Plane>() != nullptr) continue;
-      const bool moves = body.kind != BodyKind::fixed;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (all_[i].deformable != nullptr || all_[i].shape->as<Plane>() != nullptr) continue;
+      const bool moves = all_[i].kind != BodyKind::fixed;
       if (!moves && !is_first) continue;
+      if (i >= record.bodies.size() || record.bodies[i].deleted) {
+        if (moves) moving.push_back({nullptr, Quat::Identity()});
+        continue;
+      }
+      const BodyRecord& body = record.bodies[i];
       const auto before = rotations_.find(i);
       const Quat rotation = quaternion_of(body.file_pose.rotation,
                                           before == rotations_.end() ? std::nullopt : std::optional(before->second));
@@ -47,7 +52,11 @@ class PosesExporter : public Exporter {
     std::string text;
     if (is_first) {
       file_ = std::make_unique<NewFile>(path_);
-      text = head(fixed, moving, record);
+      std::vector<Posed> all;
+      for (const BodyRecord& body : all_)
+        if (body.deformable == nullptr && body.shape->as<Plane>() == nullptr && body.kind != BodyKind::fixed)
+          all.push_back({&body, Quat::Identity()});
+      text = head(fixed, all, record);
     }
     text += frame(moving, record, is_first);
     file_->append(text);
@@ -65,6 +74,7 @@ class PosesExporter : public Exporter {
 
  protected:
   explicit PosesExporter(const char* name) : name_(name) {}
+  /// `moving`: all that there are or will be, as loaded.
   virtual std::string head(const std::vector<Posed>& fixed, const std::vector<Posed>& moving,
                            const StepRecord& record) const = 0;
   virtual std::string frame(const std::vector<Posed>& moving, const StepRecord& record, bool is_first) const = 0;
@@ -76,6 +86,7 @@ class PosesExporter : public Exporter {
   const char* name_;
   std::filesystem::path path_;
   std::unique_ptr<NewFile> file_;
+  std::vector<BodyRecord> all_;            // as loaded
   std::map<std::size_t, Quat> rotations_;  // of the frame before, by body
 };
 
@@ -86,6 +97,7 @@ class PosesCsv final : public PosesExporter {
  private:
   static void rows(std::string& text, const std::vector<Posed>& bodies, const FrameStats& stats) {
     for (const auto& [body, q] : bodies) {
+      if (body == nullptr) continue;
       const Vec3 &x = body->file_pose.position, &c = body->pose.position, &v = body->velocity,
                  &w = body->angular_velocity;
       fmt::format_to(std::back_inserter(text),
@@ -144,9 +156,12 @@ class PosesJson final : public PosesExporter {
                                    record.stats.frame, record.stats.time);
     const char* comma = "\n    ";
     for (const Posed& p : moving)
-      text += fmt::format(FMT_COMPILE("{}{{{}, \"velocity\": {}, \"angular_velocity\": {}}}"),
-                          std::exchange(comma, ",\n    "), pose(p), vector(p.body->velocity),
-                          vector(p.body->angular_velocity));
+      if (p.body == nullptr)
+        text += std::string(std::exchange(comma, ",\n    ")) + "null";
+      else
+        text += fmt::format(FMT_COMPILE("{}{{{}, \"velocity\": {}, \"angular_velocity\": {}}}"),
+                            std::exchange(comma, ",\n    "), pose(p), vector(p.body->velocity),
+                            vector(p.body->angular_velocity));
     return text + "]}";
   }
   std::string tail() const override { return "]}\n"; }

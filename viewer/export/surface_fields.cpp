@@ -27,7 +27,8 @@ std::vector<ContactField> ContactFields::find(const std::vector<ExportBody>& bod
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     fields[i].impulse.assign(vertices[i].size(), Vec3::Zero());
     fields[i].gap.assign(vertices[i].size(), std::numeric_limits<double>::quiet_NaN());
-    place[static_cast<std::size_t>(bodies[i].body.value())] = static_cast<int>(i);
+    if (there(bodies[i], record) != nullptr)
+      place[static_cast<std::size_t>(bodies[i].body.value())] = static_cast<int>(i);
   }
   const auto put = [&](BodyIndex of, TriangleIndex named, const Vec3& point, const Vec3& impulse, double gap) {
     const int at = place[static_cast<std::size_t>(of.value())];

@@ -16,7 +16,7 @@ void SurfaceSequence::add(const StepRecord& record) {
   last_ = record.stats.frame;
   if (first_ < 0) first_ = last_;
   for (const ExportBody& body : bodies_) {
-    if ((body.is_static() && has_static_) || record.bodies[body.body].deleted) continue;
+    if ((body.is_static() && has_static_) || there(body, record) == nullptr) continue;
     write(body.is_static() ? files_.of_all(body.name) : files_.of_frame(body.name, last_), world_surface(body, record),
           body.surface->triangles);
   }

@@ -62,6 +62,7 @@ std::string points_attributes(std::span<const Vec3> points, const std::string& i
 }
 
 struct Sample {
+  double code = 0.0;
   Vec3 position;
   Quat rotation;
 };
@@ -71,6 +72,7 @@ struct Track {
   std::string prim;                          // its name there
   std::vector<Sample> samples;               // of what has a pose
   std::unique_ptr<NewFile> points, extents;  // of a deformable body: its time samples
+  std::vector<bool> is_there;                // by frame: added by now, and not deleted
 };
 
 class UsdaExporter final : public Exporter {
@@ -85,7 +87,8 @@ class UsdaExporter final : public Exporter {
   std::string head() const;
   void write_shared(NewFile& file) const;
   void write_body(NewFile& file, std::size_t i) const;
-  std::string transform(const Track& track) const;
+  std::string transform(const ExportBody& body, const Track& track) const;
+  std::string visibility(const Track& track) const;
 
   std::filesystem::path path_;
   std::string name_;
@@ -122,6 +125,8 @@ void UsdaExporter::add(const StepRecord& record) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const ExportBody& body = bodies_[i];
     Track& track = tracks_[i];
+    track.is_there.push_back(there(body, record) != nullptr);
+    if (!track.is_there.back()) continue;
     if (body.is_deformable()) {
       if (track.points == nullptr) {
         track.points = std::make_unique<NewFile>(path_.parent_path() / (body.name + ".points"));
@@ -135,7 +140,7 @@ void UsdaExporter::add(const StepRecord& record) {
     const Pose pose = local_pose(body, record);
     const Quat rotation = quaternion_of(
         pose.rotation, track.samples.empty() ? std::nullopt : std::optional(track.samples.back().rotation));
-    track.samples.push_back({pose.position, rotation});
+    track.samples.push_back({code, pose.position, rotation});
   }
 }
 
@@ -159,7 +164,19 @@ void UsdaExporter::write_shared(NewFile& file) const {
   }
 }
 
-std::string UsdaExporter::transform(const Track& track) const {
+/// Only where it isn't there all the time.
+std::string UsdaExporter::visibility(const Track& track) const {
+  const auto word = [](bool is_there) { return is_there ? "inherited" : "invisible"; };
+  const std::vector<bool>& all = track.is_there;
+  if (std::find(all.begin(), all.end(), !all.front()) == all.end())
+    return all.front() ? "" : "        token visibility = \"invisible\"\n";
+  std::string samples;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (k == 0 || all[k] != all[k - 1]) samples += fmt::format("            {}: \"{}\",\n", codes_[k], word(all[k]));
+  return fmt::format("        token visibility.timeSamples = {{\n{}        }}\n", samples);
+}
+
+std::string UsdaExporter::transform(const ExportBody& body, const Track& track) const {
   const auto of_position = [](const Sample& s) {
     return fmt::format(FMT_COMPILE("({}, {}, {})"), s.position.x(), s.position.y(), s.position.z());
   };
@@ -167,13 +184,16 @@ std::string UsdaExporter::transform(const Track& track) const {
     return fmt::format(FMT_COMPILE("({}, {}, {}, {})"), s.rotation.w(), s.rotation.x(), s.rotation.y(), s.rotation.z());
   };
   const auto attribute = [&](const std::string& name, const auto& text) {
-    const std::string first = text(track.samples.front());
+    const Pose start = start_pose(body);
+    const std::string first =
+        text(track.samples.empty() ? Sample{0.0, start.position, quaternion_of(start.rotation, std::nullopt)}
+                                   : track.samples.front());
     std::string samples;
     bool moves = false;
     for (std::size_t k = 0; k < track.samples.size(); ++k) {
       const std::string now = text(track.samples[k]);
       moves = moves || now != first;
-      samples += fmt::format("            {}: {},\n", codes_[k], now);
+      samples += fmt::format("            {}: {},\n", track.samples[k].code, now);
     }
     return moves ? fmt::format("        {}.timeSamples = {{\n{}        }}\n", name, samples)
                  : fmt::format("        {} = {}\n", name, first);
@@ -213,7 +233,7 @@ void UsdaExporter::write_body(NewFile& file, std::size_t i) const {
   const Vec3 color = linear_color(body.color);
   file.append(fmt::format("{}color3f[] primvars:displayColor = [({:.5f}, {:.5f}, {:.5f})]\n", indent, color.x(),
                           color.y(), color.z()) +
-              transform(track) + "    }\n");
+              visibility(track) + transform(body, track) + "    }\n");
 }
 
 void UsdaExporter::finish() {

@@ -91,6 +91,7 @@ class VtuExporter final : public Exporter {
   std::vector<ExportBody> moving_, static_;
   std::vector<std::vector<Vec3>> start_;  // vertices of the moving ones, as loaded
   std::map<int, VecX> start_nodes_;       // by body
+  std::string names_;                     // bodies.csv
   ContactFields contact_fields_;
   bool is_first_ = true;
 };
@@ -105,24 +106,26 @@ void VtuExporter::begin(const ExportJob& job, const StepRecord& start) {
     if (!body.is_static()) start_.push_back(world_surface(body, start));
     (body.is_static() ? static_ : moving_).push_back(std::move(body));
   }
+  names_ = "body,name,kind\n";
+  for (std::size_t i = 0; i < start.bodies.size(); ++i)
+    names_ += fmt::format("{},{},{}\n", i, start.bodies[i].name, kind_name(start.bodies[i].kind));
   for (const ExportBody& body : moving_)
     if (body.is_deformable()) start_nodes_[body.body] = of(start, body).deformable->position;
 }
 
 void VtuExporter::write_once(const StepRecord& record) {
-  std::string names = "body,name,kind\n";
-  for (std::size_t i = 0; i < record.bodies.size(); ++i)
-    names += fmt::format("{},{},{}\n", i, record.bodies[i].name, kind_name(record.bodies[i].kind));
-  write_file(folder_ / "bodies.csv", names);
+  write_file(folder_ / "bodies.csv", names_);
   if (static_.empty()) return;
   SurfaceGrid part;
-  for (const ExportBody& body : static_) part.add(body, world_surface(body, record));
+  for (const ExportBody& body : static_)
+    if (there(body, record) != nullptr) part.add(body, world_surface(body, record));
   part.write(files_.of_all("static"));
 }
 
 void VtuExporter::add_surfaces(const StepRecord& record) {
   std::vector<std::vector<Vec3>> vertices;
-  for (const ExportBody& body : moving_) vertices.push_back(world_surface(body, record));
+  for (const ExportBody& body : moving_)
+    vertices.push_back(there(body, record) != nullptr ? world_surface(body, record) : std::vector<Vec3>());
   const std::vector<ContactField> contacts = contact_fields_.find(moving_, vertices, record);
   int part = 0;
   const double time = record.stats.time;
@@ -132,8 +135,8 @@ void VtuExporter::add_surfaces(const StepRecord& record) {
     std::vector<double> gap, stress, strain;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
       if (moving_[i].is_deformable() != deformable) continue;
+      if (there(moving_[i], record) == nullptr) continue;
       const BodyRecord& body = of(record, moving_[i]);
-      if (body.deleted) continue;
       surface.add(moving_[i], vertices[i]);
       for (std::size_t v = 0; v < vertices[i].size(); ++v) displacement.push_back(vertices[i][v] - start_[i][v]);
       append(velocity, surface_velocity(body, vertices[i]));
@@ -165,7 +168,7 @@ void VtuExporter::add_tetrahedra(const StepRecord& record) {
   std::vector<double> stress, mises, strain, ratio;
   std::vector<int> held, bodies;
   for (const auto& [index, start] : start_nodes_) {
-    if (record.bodies[static_cast<std::size_t>(index)].deleted) continue;
+    if (index >= std::ssize(record.bodies) || record.bodies[static_cast<std::size_t>(index)].deleted) continue;
     const DeformableBody& body = *record.bodies[static_cast<std::size_t>(index)].deformable;
     const auto first = static_cast<std::int64_t>(grid.points.size());
     for (int n = 0; n < body.nodes(); ++n) {

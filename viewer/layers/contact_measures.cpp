@@ -48,6 +48,8 @@ double measure_of(const StepRecord& record, const ContactRecord& contact, Contac
       return std::max(0.0, -contact.gap);
     case ContactMeasure::impulse:
       return contact.lambda.x();
+    case ContactMeasure::residual:
+      return contact.residual;
     default:
       return slip_speed(record, contact);
   }
@@ -57,7 +59,7 @@ ColorBar bar_of(ContactMeasure what, const ColorScale& scale, ColorMap map) {
   struct Words {
     const char *title, *unit;
   };
-  constexpr Words kWords[] = {{"overlap", "m"}, {"normal impulse", "N s"}, {"slip", "m/s"}};
+  constexpr Words kWords[] = {{"overlap", "m"}, {"normal impulse", "N s"}, {"slip", "m/s"}, {"residual", ""}};
   const Words& words = kWords[static_cast<std::size_t>(what)];
   return make_color_bar(words.title, words.unit, scale, map);
 }

@@ -6,9 +6,10 @@
 
 namespace impinge {
 
-enum class ContactMeasure { overlap, impulse, slip };
+enum class ContactMeasure { overlap, impulse, slip, residual };
 
-/// How deep the bodies overlap there, m; the normal impulse, N s; how fast the two points slide along each other, m/s.
+/// How deep the bodies overlap there, m; the normal impulse, N s; how fast the two points slide along each other, m/s;
+/// how far the answer is from Coulomb's law, relative (ContactRecord::residual).
 double measure_of(const StepRecord& record, const ContactRecord& contact, ContactMeasure what);
 
 /// Its colours, with numbers in the prefix that the upper end has few figures in.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kLeastSize = 0.35f, kMostSize = 3.0f;  // times view.point_size
 
-enum class Shown { state, gap, impulse, slip };
+enum class Shown { state, gap, impulse, slip, residual };
 enum class Size { same, force };
 
 struct Settings {
@@ -25,10 +25,16 @@ struct Settings {
     rows.add("of_selected", of_selected, "Only contacts of the bodies selected in the debugger, if any are.");
     rows.add("size", size, {{Size::same, "same"}, {Size::force, "force"}},
              "Discs of one size, or with areas like their normal forces: view.point_size is the mean one's.");
-    rows.add("color", color,
-             {{Shown::state, "state"}, {Shown::gap, "gap"}, {Shown::impulse, "impulse"}, {Shown::slip, "slip"}},
-             "What colours mean: the state; how deep the bodies overlap (m); the normal impulse (N s); the speed at "
-             "which the two points slide along each other (m/s).");
+    rows.add(
+        "color", color,
+        {{Shown::state, "state"},
+         {Shown::gap, "gap"},
+         {Shown::impulse, "impulse"},
+         {Shown::slip, "slip"},
+         {Shown::residual, "residual"}},
+        "What colours mean: the state; how deep the bodies overlap (m); the normal impulse (N s); the speed at "
+        "which the two points slide along each other (m/s); how far the answer is from Coulomb's law (relative, as "
+        "residual_coulomb).");
     colors.declare(rows, 1e15, "");
   }
 };
@@ -46,6 +52,7 @@ Color color_of(ContactState state) {
 
 ContactMeasure measure_of(Shown what) {
   if (what == Shown::gap) return ContactMeasure::overlap;
+  if (what == Shown::residual) return ContactMeasure::residual;
   return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
 }
 

@@ -12,17 +12,23 @@ namespace {
 
 constexpr double kReach = 0.1;  // of the smaller body of a contact, to where its colour fades
 
-enum class Shown { speed, overlap, impulse, slip };
+enum class Shown { speed, overlap, impulse, slip, residual };
 
 struct Settings {
   Shown of = Shown::speed;
   ScaleSettings colors;
 
   void declare(const Rows& rows) {
-    rows.add("of", of,
-             {{Shown::speed, "speed"}, {Shown::overlap, "overlap"}, {Shown::impulse, "impulse"}, {Shown::slip, "slip"}},
-             "What colours mean: the speed of the material (m/s); at contacts how deep the bodies overlap (m), the "
-             "normal impulse (N s), the speed at which the two points slide along each other (m/s).");
+    rows.add(
+        "of", of,
+        {{Shown::speed, "speed"},
+         {Shown::overlap, "overlap"},
+         {Shown::impulse, "impulse"},
+         {Shown::slip, "slip"},
+         {Shown::residual, "residual"}},
+        "What colours mean: the speed of the material (m/s); at contacts how deep the bodies overlap (m), the "
+        "normal impulse (N s), the speed at which the two points slide along each other (m/s), or how far the answer "
+        "is from Coulomb's law, as the judge measures it: relative, no more than residual_coulomb.");
     colors.declare(rows, 1e15, "");
   }
 };
@@ -87,6 +93,7 @@ std::vector<double> by_contacts(const DrawSurface& item, std::size_t own, const 
 std::optional<ContactMeasure> measure_of(Shown what) {
   if (what == Shown::speed) return std::nullopt;
   if (what == Shown::overlap) return ContactMeasure::overlap;
+  if (what == Shown::residual) return ContactMeasure::residual;
   return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
 }
 
@@ -128,7 +135,8 @@ void draw(const LayerContext& context, DrawList& list) {
 
 Layer heat_layer() {
   return {"heat",
-          "Surfaces coloured by speed, or by overlap, impulse or slip of their contacts (view.heat.of); the colour bar "
+          "Surfaces coloured by speed, or by overlap, impulse, slip or residual of their contacts (view.heat.of); the "
+          "colour bar "
           "gives its range.",
           false,
           draw,

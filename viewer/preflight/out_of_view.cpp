@@ -52,7 +52,7 @@ class OutOfView : public ViewWarning {
     std::vector<Finding> found;
     for (const Body& body : start.world.bodies()) {
       const Aabb box = body.bounds();
-      if (body.kind() == BodyKind::fixed || box.is_empty() || !box.extent().allFinite()) continue;
+      if (body.absent || body.kind() == BodyKind::fixed || box.is_empty() || !box.extent().allFinite()) continue;
       const Seen at_first = seen(box, start);
       Seen s = at_first;
       Vec3 last = Vec3::Zero();

@@ -13,6 +13,7 @@ namespace {
 constexpr Color kSelected = hex(0xfff2a8);
 constexpr Color kAgainst = hex(0xff4fd8);  // bodies of what is made beside the scene
 constexpr float kTrailWidth = 1.6f;
+constexpr double kKept = 1e-6;  // of a body's size: what places that are kept in single precision may be off by
 constexpr double kAsked = 0.6;  // of the size of a pull that acts
 
 std::vector<BodyIndex> trailed(const DebugModel& model) {
@@ -102,30 +103,72 @@ void draw_trails(const DebugModel& model, DrawList& list) {
   }
 }
 
+namespace {
+
+DrawSurface ghost_of(const DrawSurface& item, Color color) {
+  DrawSurface ghost = item;
+  ghost.see_through = true;
+  ghost.faintness = 0.75f;
+  ghost.color = color;
+  ghost.heat = nullptr;
+  ghost.pick = 0;
+  return ghost;
+}
+
+/// Of what is made beside it a body, where that is elsewhere.
+void draw_against(const DebugModel& model, std::size_t item, BodyIndex body, DrawList& list) {
+  const DrawSurface& drawn = list.surfaces[item];
+  const BodyRecord& now = model.record->bodies[static_cast<std::size_t>(body.value())];
+  const std::optional<Pose> there = model.against->pose(model.frame, body);
+  if (!there) return;
+  DrawSurface ghost = ghost_of(drawn, kAgainst);
+  if (drawn.moved == nullptr) {
+    if (there->position == now.pose.position && there->rotation == now.pose.rotation) return;
+    ghost.pose = *there;
+  } else {
+    const std::vector<Vec3> vertices = model.against->surface(model.frame, body);
+    const double kept = kKept * now.bounds.extent().norm();
+    const auto is_same = [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= kept; };
+    if (vertices.size() != now.vertices.size() ||
+        std::equal(vertices.begin(), vertices.end(), now.vertices.begin(), is_same))
+      return;
+    ghost.moved = std::make_shared<const MovedSurface>(move_surface(*drawn.surface, vertices, false));
+  }
+  list.surfaces.push_back(std::move(ghost));
+}
+
+}  // namespace
+
+void draw_coming(const DebugModel& model, DrawList& list) {
+  const std::size_t surfaces = list.surfaces.size();
+  for (const DebugModel::Coming& coming : model.coming)
+    for (std::size_t i = 0; i < surfaces; ++i) {
+      const DrawSurface& item = list.surfaces[i];
+      if (item.pick == 0 || item.pick > model.record->bodies.size()) continue;
+      if (model.record->bodies[item.pick - 1].name != coming.like) continue;
+      DrawSurface ghost = ghost_of(item, item.color);
+      ghost.pose = coming.body.pose;
+      if (item.moved != nullptr)
+        ghost.moved = std::make_shared<const MovedSurface>(move_surface(*item.surface, coming.body.vertices, false));
+      list.surfaces.push_back(std::move(ghost));
+    }
+}
+
 void draw_ghost(const DebugModel& model, DrawList& list) {
   const std::size_t surfaces = list.surfaces.size();
-  const auto add = [&](std::size_t i, const std::optional<Pose>& pose, Color color) {
-    if (!pose) return;
-    DrawSurface ghost = list.surfaces[i];
-    ghost.pose = *pose;
-    ghost.see_through = true;
-    ghost.faintness = 0.75f;
-    ghost.color = color;
-    ghost.heat = nullptr;
-    ghost.pick = 0;
-    list.surfaces.push_back(std::move(ghost));
-  };
   for (std::size_t i = 0; i < surfaces; ++i) {
     const DrawSurface& item = list.surfaces[i];
-    if (item.pick == 0 || item.pick > model.record->bodies.size() || item.moved != nullptr) continue;
+    if (item.pick == 0 || item.pick > model.record->bodies.size()) continue;
     const BodyIndex body(item.pick - 1);
-    const BodyRecord& now = model.record->bodies[item.pick - 1];
-    if (now.kind == BodyKind::fixed) continue;
-    if (model.state.ghost >= 0) add(i, model.tracks->pose(model.state.ghost, body), item.color);
-    if (model.against == nullptr) continue;
-    const std::optional<Pose> there = model.against->pose(model.frame, body);
-    if (there && (there->position != now.pose.position || there->rotation != now.pose.rotation))
-      add(i, there, kAgainst);
+    if (model.record->bodies[item.pick - 1].kind == BodyKind::fixed) continue;
+    const std::optional<Pose> before =
+        model.state.ghost >= 0 && item.moved == nullptr ? model.tracks->pose(model.state.ghost, body) : std::nullopt;
+    if (before) {
+      DrawSurface ghost = ghost_of(item, item.color);
+      ghost.pose = *before;
+      list.surfaces.push_back(std::move(ghost));
+    }
+    if (model.against != nullptr) draw_against(model, i, body, list);
   }
 }
 

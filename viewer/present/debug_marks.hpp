@@ -12,8 +12,11 @@ void mark_selection(const DebugModel& model, DrawList& list);
 void draw_trails(const DebugModel& model, DrawList& list);
 /// Pulls that were asked for, and act from the next frame on; and those that act, where their layer is off.
 void mark_pulls(const DebugModel& model, DrawList& list);
-/// Rigid bodies where they were in another frame, see-through, as far as that frame was seen.
+/// Rigid bodies where they were in another frame, and all where they are in what is made beside them; see-through, as far
+/// as that was seen.
 void draw_ghost(const DebugModel& model, DrawList& list);
+/// Bodies that are added with the next frame, see-through, where their pattern is in the picture.
+void draw_coming(const DebugModel& model, DrawList& list);
 /// World box of what is selected; empty of nothing, and of a plane.
 Aabb bounds_of_selection(const DebugModel& model);
 

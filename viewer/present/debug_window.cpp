@@ -37,6 +37,9 @@ std::string DebugWindow::scene_key(const DebugModel& model) const {
   std::string asked;
   for (const Act& act : model.asked)
     if (act.verb == Act::pull) asked += fmt::format("{} {} {} ", act.body, words_of(*act.point), words_of(act.vector));
+  for (const DebugModel::Coming& coming : model.coming)
+    asked +=
+        fmt::format("{} {} {} ", coming.like, words_of(coming.body.pose.position), coming.body.pose.rotation(0, 0));
   std::string key =
       asked + fmt::format("{} {:016x} {} {} {} {} {} {}", model.frame, model.record->stats.state_hash,
                           static_cast<int>(model.selection.kind), model.selection.index, model.selection.triangle,
@@ -60,6 +63,7 @@ CommandLines DebugWindow::paint(const DebugModel& model, bool quick) {
   if (is_new) {
     scene_.paint(*model.record, settings, [&](DrawList& list) {
       draw_ghost(model, list);
+      draw_coming(model, list);
       draw_trails(model, list);
       mark_pulls(model, list);
       mark_selection(model, list);

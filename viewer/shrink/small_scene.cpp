@@ -91,6 +91,12 @@ int last_frame_of(const std::string& line) {
   return std::stoi(std::string(words[words[0].text == "at" ? 1 : 3].text));
 }
 
+/// Whether it adds a body.
+bool is_addition(const std::string& line) {
+  const std::vector<PlacedText> words = words_of(line);
+  return words.size() > 3 && words[0].text == "at" && words[2].text == "add";
+}
+
 /// Whether what it does to a body is in the poses and velocities that bodies have after the frame.
 bool is_in_motion(const std::string& line, int frame) {
   const std::vector<PlacedText> words = words_of(line);
@@ -113,16 +119,6 @@ std::string sooner(const std::string& line, int frames) {
 }
 
 }  // namespace
-
-bool names_one_of(const std::string& line, const std::set<std::string>& bodies) {
-  constexpr std::string_view kNameLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  for (std::size_t begin = line.find_first_of(kNameLetters); begin != std::string::npos;) {
-    const std::size_t end = std::min(line.find_first_not_of(kNameLetters, begin), line.size());
-    if (bodies.contains(line.substr(begin, end - begin))) return true;
-    begin = line.find_first_of(kNameLetters, end);
-  }
-  return false;
-}
 
 SmallScene::SmallScene(const Session& session)
     : scene(session.scene()), run(session.run_record()), rows(values_of(session.rows())) {
@@ -149,6 +145,12 @@ SmallScene SmallScene::with_bodies(const std::vector<std::string>& names) const 
   std::erase_if(less.scene.bodies, [&](const TomlNode& body) { return is_gone(text_of(body, "name")); });
   std::erase_if(less.scene.attachments,
                 [&](const TomlNode& a) { return is_gone(text_of(a, "body_a")) || is_gone(text_of(a, "body_b")); });
+  // a body that a line adds goes with what it is a copy of
+  for (std::size_t before = 0; before != less.gone.size();) {
+    before = less.gone.size();
+    for (const std::string& line : less.run.script)
+      if (is_addition(line) && names_one_of(line, less.gone)) less.gone.emplace(words_of(line)[3].text);
+  }
   std::erase_if(less.run.script, [&](const std::string& line) { return names_one_of(line, less.gone); });
   // the view may name some
   ParameterSet rows_left;
@@ -183,6 +185,7 @@ SmallScene SmallScene::with_lines(const std::vector<std::string>& lines) const {
 
 std::optional<SmallScene> SmallScene::begun_at(int frame, const StepRecord& record,
                                                const std::vector<Pose>& start) const {
+  if (record.bodies.size() > scene.bodies.size()) return std::nullopt;  // it has bodies that the scene only copies
   SmallScene later = *this;
   std::map<std::string, Pose> moved;  // by body, from the start on
   for (std::size_t i = 0; i < record.bodies.size(); ++i) {
@@ -213,6 +216,13 @@ std::optional<SmallScene> SmallScene::begun_with(int frame, const std::string& s
   SmallScene later = *this;
   later.run.start = state;
   later.run.script.clear();
+  // what the state has of bodies that were added is no more than that
+  std::vector<std::string> added;
+  std::copy_if(run.script.begin(), run.script.end(), std::back_inserter(added),
+               [&](const std::string& line) { return is_addition(line) && last_frame_of(line) <= frame; });
+  std::stable_sort(added.begin(), added.end(),
+                   [](const std::string& l, const std::string& r) { return last_frame_of(l) < last_frame_of(r); });
+  for (const std::string& line : added) later.run.script.push_back(sooner(line, frame));
   for (const std::string& line : run.script) {
     const std::string moved = sooner(line, frame);
     if (moved.empty()) return std::nullopt;

@@ -32,7 +32,4 @@ struct SmallScene {
   SmallScene with_surface(const std::string& name, const std::string& other) const;
 };
 
-/// Whether a line of a script, or of the debugger, names one of them.
-bool names_one_of(const std::string& line, const std::set<std::string>& bodies);
-
 }  // namespace impinge

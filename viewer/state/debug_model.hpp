@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -23,7 +24,8 @@ namespace impinge {
 struct Selection {
   enum Kind { none, body, contact };
   Kind kind = none;
-  int index = -1;             ///< of the body or contact in the record
+  int index = -1;             ///< of the body or contact in the record, -1: not there in this frame
+  int place = -1;             ///< of a body, among all that there are or will be
   int triangle = -1;          ///< of a body's surface, -1: none
   std::uint64_t pair_id = 0;  ///< of a contact
   bool is_there() const { return kind != none && index >= 0; }
@@ -64,6 +66,7 @@ struct ConsoleLine {
 struct DebugModel {
   const StepRecord* record = nullptr;
   const ParameterSet* rows = nullptr;
+  std::size_t rows_present = 0;  ///< of them, but for those of bodies that are still to be added, which come last
   const ViewSettings* view = nullptr;
   std::string scene;
   int frame = 0, known_last = 0;
@@ -75,10 +78,16 @@ struct DebugModel {
   const std::vector<std::string>* figure_names = nullptr;
   const std::vector<std::vector<double>>* history = nullptr;  ///< figures by frame
   const Tracks* tracks = nullptr;
-  const AgainstModel* against = nullptr;          ///< what is made beside it; null: nothing
-  const std::set<int>* changed_frames = nullptr;  ///< with commands by hand
+  const AgainstModel* against = nullptr;                           ///< what is made beside it; null: nothing
+  const std::set<int>* changed_frames = nullptr;                   ///< with commands
+  std::function<std::vector<std::string>(int frame)> commands_of;  ///< which
   std::size_t snapshots = 0, snapshot_bytes = 0, most_snapshot_bytes = 0;
   std::vector<Act> asked;  ///< of bodies by hand, for the next frame
+  struct Coming {
+    BodyRecord body;   ///< as it will begin
+    std::string like;  ///< the body that it is a copy of
+  };
+  std::vector<Coming> coming;  ///< bodies that are added then
   Selection selection;
   PanelState state;
   std::vector<ConsoleLine> console;

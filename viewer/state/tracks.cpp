@@ -73,14 +73,21 @@ void Tracks::Touch::take(const ContactRecord& contact) {
 
 std::size_t Tracks::Frame::bytes() const {
   constexpr std::size_t kNode = 48;  // what a map adds to each
-  return bodies.size() * sizeof(OfBody) + (ledger ? ledger->bodies.size() * sizeof(BodyLedger) : 0) +
+  std::size_t vertices = 0;
+  for (const OfBody& body : bodies) vertices += body.surface.size();
+  return vertices * sizeof(Eigen::Vector3f) + bodies.size() * sizeof(OfBody) +
+         (ledger ? ledger->bodies.size() * sizeof(BodyLedger) : 0) +
          (touched.size() + pairs.size()) * (sizeof(Touch) + kNode);
 }
 
 void Tracks::note(const StepRecord& record) {
   Frame frame;
   frame.substep_time = record.stats.substeps > 0 ? record.frame_time / record.stats.substeps : 0.0;
-  for (const BodyRecord& body : record.bodies) frame.bodies.push_back({body.pose, body.velocity.norm()});
+  for (const BodyRecord& body : record.bodies) {
+    OfBody& own = frame.bodies.emplace_back(OfBody{body.pose, body.velocity.norm(), !body.deleted, body.asleep, {}});
+    if (!keeps_surfaces_ || body.deformable == nullptr) continue;
+    for (const Vec3& x : body.vertices) own.surface.push_back((x - body.pose.position).cast<float>());
+  }
   for (const ContactRecord& c : record.contacts) {
     frame.touched[c.body_a].take(c);
     if (c.body_a != c.body_b) frame.touched[c.body_b].take(c);
@@ -110,7 +117,8 @@ double Tracks::value(int number, const Quantity& quantity) const {
   const Frame& frame = it->second;
   if (quantity.what == Quantity::energy_from)
     return impinge::energy_from(frame.ledger.get(), quantity.source, quantity.a.value());
-  if (quantity.what == Quantity::speed) return frame.bodies[static_cast<std::size_t>(quantity.a.value())].speed;
+  const auto body = static_cast<std::size_t>(quantity.a.value());
+  if (quantity.what == Quantity::speed) return frame.has(quantity.a) ? frame.bodies[body].speed : kNone;
   const Touch* touch = nullptr;
   if (quantity.b.is_none()) {
     if (const auto of = frame.touched.find(quantity.a); of != frame.touched.end()) touch = &of->second;
@@ -149,8 +157,25 @@ const Tracks::LedgerSum& Tracks::ledger_sum(int frame) const {
 
 std::optional<Pose> Tracks::pose(int frame, BodyIndex body) const {
   const auto it = frames_.find(frame);
-  if (it == frames_.end()) return std::nullopt;
+  if (it == frames_.end() || !it->second.has(body)) return std::nullopt;
   return it->second.bodies[static_cast<std::size_t>(body.value())].pose;
+}
+
+int Tracks::asleep_since(int frame, BodyIndex body) const {
+  const auto i = static_cast<std::size_t>(body.value());
+  for (auto it = frames_.find(frame - 1); it != frames_.end() && it->second.has(body) && it->second.bodies[i].asleep;
+       it = frames_.find(frame - 1))
+    --frame;
+  return frame;
+}
+
+std::vector<Vec3> Tracks::surface(int frame, BodyIndex body) const {
+  std::vector<Vec3> vertices;
+  const auto it = frames_.find(frame);
+  if (it == frames_.end() || !it->second.has(body)) return vertices;
+  const OfBody& own = it->second.bodies[static_cast<std::size_t>(body.value())];
+  for (const Eigen::Vector3f& x : own.surface) vertices.push_back(own.pose.position + x.cast<double>());
+  return vertices;
 }
 
 }  // namespace impinge

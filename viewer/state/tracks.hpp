@@ -31,6 +31,9 @@ std::optional<Quantity> parse_quantity(std::string_view text, const std::vector<
 
 class Tracks {
  public:
+  /// `keeps_surfaces`: also where the vertices of deformable bodies were.
+  explicit Tracks(bool keeps_surfaces = false) : keeps_surfaces_(keeps_surfaces) {}
+
   /// Takes what the record's frame had. The oldest frames go where there are too many.
   void note(const StepRecord& record);
   void forget_after(int frame);
@@ -46,12 +49,19 @@ class Tracks {
     int frames = 0, last = -1;
   };
   const LedgerSum& ledger_sum(int frame) const;
+  /// From which frame on a body that sleeps in this one has slept, as far back as frames were seen without a gap.
+  int asleep_since(int frame, BodyIndex body) const;
+  /// Of a deformable body, in the world; empty where that was not seen or kept.
+  std::vector<Vec3> surface(int frame, BodyIndex body) const;
   int first() const { return frames_.empty() ? 0 : frames_.begin()->first; }
 
  private:
   struct OfBody {
     Pose pose;
     double speed = 0.0;
+    bool is_there = true;  // not deleted
+    bool asleep = false;
+    std::vector<Eigen::Vector3f> surface;  // from the pose's position, where surfaces are kept
   };
   struct Touch {  // of a body, or of a pair
     int contacts = 0;
@@ -60,13 +70,18 @@ class Tracks {
   };
   struct Frame {
     double substep_time = 0.0;
-    std::vector<OfBody> bodies;
+    std::vector<OfBody> bodies;  // but for those that were added later
     std::shared_ptr<const FrameLedger> ledger;
     std::map<BodyIndex, Touch> touched;
     std::map<std::pair<BodyIndex, BodyIndex>, Touch> pairs;
+    bool has(BodyIndex body) const {
+      const auto i = static_cast<std::size_t>(body.value());
+      return i < bodies.size() && bodies[i].is_there;
+    }
     std::size_t bytes() const;
   };
 
+  bool keeps_surfaces_;
   std::map<int, Frame> frames_;
   std::size_t bytes_ = 0;
   mutable LedgerSum sum_;  // of the frame asked for last: the next one is soon found from it

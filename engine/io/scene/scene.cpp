@@ -151,7 +151,8 @@ Scene load_scene(const fs::path& path, const std::vector<std::string>& overrides
     if (const TomlEntry* allow = table->value.find("allow_outside_files"))
       scene.allow_outside_files = scene_flag(allow->value, "scene.allow_outside_files");
   }
-  SurfaceFiles surfaces(scene.folder, scene.allow_outside_files);
+  scene.files = std::make_shared<SurfaceFiles>(scene.folder, scene.allow_outside_files);
+  SurfaceFiles& surfaces = *scene.files;
   if (TomlEntry* bodies = root.find("body")) read_bodies(bodies->value, scene, surfaces, world);
   if (TomlEntry* attachments = root.find("attachment")) read_attachments(attachments->value, scene, world);
   scene.surfaces = surfaces.files();

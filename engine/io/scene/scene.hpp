@@ -30,7 +30,8 @@ struct Scene {
   std::vector<TomlNode> bodies;       ///< as given, overrides applied
   std::vector<TomlNode> attachments;  ///< as given
   std::vector<SurfaceFile> surfaces;
-  std::vector<std::string> given;  ///< paths of the parameters that the file or an override names
+  std::shared_ptr<SurfaceFiles> files;  ///< that have read them, for copies of its bodies
+  std::vector<std::string> given;       ///< paths of the parameters that the file or an override names
   /// Former paths of parameters that the file or an override names, as often as they do.
   std::vector<std::string> former_paths;
   std::optional<RunRecord> run;  ///< of a run.toml

@@ -167,15 +167,21 @@ std::optional<double> read_coefficient(const TomlNode& node, const std::string& 
   return scene_real(node, what, key.range);
 }
 
-void check_name(const TomlNode& node, const std::string& name, const char* whose) {
+std::string fault_of_name(std::string_view name, const char* whose) {
   const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
   const auto may_follow = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
   if (name.empty() || !is_letter(name[0]) || !std::all_of(name.begin(), name.end(), may_follow))
-    refuse(node.place, fmt::format("{} as {}'s name", toml_string(shortened(name, 60)), whose),
-           "letters, digits, _ and - are allowed, a letter or _ first", "rename it");
+    return fmt::format("{} as {}'s name; letters, digits, _ and - are allowed, a letter or _ first; rename it",
+                       toml_string(shortened(std::string(name), 60)), whose);
   if (name.size() > kMostNameLetters)
-    refuse(node.place, fmt::format("{}'s name of {} letters", whose, name.size()),
-           fmt::format("at most {} are allowed, since files are named after it", kMostNameLetters), "shorten it");
+    return fmt::format("{}'s name of {} letters; at most {} are allowed, since files are named after it; shorten it",
+                       whose, name.size(), kMostNameLetters);
+  return "";
+}
+
+void check_name(const TomlNode& node, const std::string& name, const char* whose) {
+  if (const std::string fault = fault_of_name(name, whose); !fault.empty())
+    throw InputError(fmt::format("{}: {}", node.place, fault));
 }
 
 BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
+#include "engine/geometry/rotation.hpp"
+#include "engine/io/scene/scene_body.hpp"
 #include "engine/io/scene/scene_values.hpp"
 
 namespace impinge {
@@ -88,6 +91,34 @@ std::vector<TomlNode> placements_of(const TomlNode& node, const TomlNode& body, 
   return node.items;
 }
 
+/// Regions are places in the world: a copy elsewhere is held at the same nodes.
+std::shared_ptr<const DeformableDescription> held_at_nodes(const BodyDescription& pattern) {
+  auto own = std::make_shared<DeformableDescription>(*pattern.deformable);
+  const Pose file{rotation_from_degrees(pattern.rotation), pattern.position};
+  for (NodeRegion& region : own->fixed) {
+    if (!region.motion.empty())
+      throw InputError(
+          fmt::format("a copy of '{}', whose held nodes move on a path of their own; a body whose nodes are held where "
+                      "they are, or free, is wanted; name another one",
+                      pattern.name));
+    NodeRegion nodes;
+    nodes.kind = NodeRegion::list;
+    for (std::size_t i = 0; i < own->mesh.vertices.size(); ++i)
+      if (region.contains(static_cast<int>(i), file.apply(own->mesh.vertices[i])))
+        nodes.nodes.push_back(static_cast<int>(i));
+    region = std::move(nodes);
+  }
+  return own;
+}
+
+BodyDescription pattern_of(const Scene& scene, std::span<const Act> before, const std::string& name) {
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (before[i].body == name) return describe_added(scene, before.first(i), before[i]);
+  for (const TomlNode& table : scene.bodies)
+    if (table.find("name")->value.string == name) return read_body(table, *scene.files);
+  throw InternalError("no body to copy: " + name);
+}
+
 }  // namespace
 
 void expand_copies(TomlNode& root) {
@@ -114,6 +145,17 @@ void expand_copies(TomlNode& root) {
     }
   }
   bodies->value.items = std::move(all);
+}
+
+BodyDescription describe_added(const Scene& scene, std::span<const Act> before, const Act& act) {
+  BodyDescription body = pattern_of(scene, before, act.like);
+  if (body.deformable && !body.deformable->fixed.empty()) body.deformable = held_at_nodes(body);
+  body.name = act.body;
+  body.position = act.vector;
+  if (act.axis.norm() > 0.0) body.rotation = degrees_from_rotation(turn_of(act) * rotation_from_degrees(body.rotation));
+  body.velocity = act.velocity;
+  body.angular_velocity.setZero();
+  return body;
 }
 
 }  // namespace impinge

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 #include <catch2/catch.hpp>
+#include <map>
 #include <set>
 
 #include "engine/core/types.hpp"
@@ -34,7 +35,7 @@ class Glb {
     REQUIRE(model_.animations.size() == 1);
     for (const auto& channel : model_.animations[0].channels) {
       const auto& sampler = model_.animations[0].samplers.at(static_cast<std::size_t>(channel.sampler));
-      CHECK(sampler.interpolation == "LINEAR");
+      CHECK(sampler.interpolation == (channel.target_path == "scale" ? "STEP" : "LINEAR"));
       times = numbers(sampler.input);
     }
   }
@@ -65,6 +66,7 @@ class Glb {
     std::vector<double> weights = mesh(n).weights;
     Vec3 place = vector(node(n).translation);
     Quat turn = quaternion(node(n).rotation);
+    Vec3 scale = node(n).scale.empty() ? Vec3(1, 1, 1) : vector(node(n).scale);
     for (const auto& [path, output] : channels(n)) {
       const std::vector<float> values = numbers(output);
       const std::size_t width = values.size() / times.size();
@@ -74,6 +76,7 @@ class Glb {
       if (path == "translation") place = vector(now);
       if (path == "rotation") turn = quaternion(now);
       if (path == "weights") weights = now;
+      if (path == "scale") scale = vector(now);
     }
     REQUIRE(weights.size() == shape.targets.size());
     for (std::size_t t = 0; t < weights.size(); ++t) {
@@ -82,7 +85,7 @@ class Glb {
       for (std::size_t v = 0; v < points.size(); ++v) points[v] += weights[t] * moved[v];
     }
     CHECK(std::abs(turn.norm() - 1.0) < 1e-6);
-    for (Vec3& x : points) x = vector(root().translation) + place + turn.normalized() * x;
+    for (Vec3& x : points) x = vector(root().translation) + place + turn.normalized() * scale.cwiseProduct(x);
     return points;
   }
 
@@ -192,6 +195,43 @@ TEST_CASE("a glTF shows the run's surfaces at the run's times, to 1e-6 of the sc
   CHECK(glb.is_animated("jelly"));
   // one mesh, two bodies: its numbers are there once
   CHECK(glb.vertices_of("tetra-1") == glb.vertices_of("tetra_1"));
+}
+
+TEST_CASE("a body that is added or deleted has no size in a glTF while it isn't there") {
+  const TempFolder folder;
+  folder.write("change.script",
+               "at 4 add jelly_2 like jelly at 0.1 2 0.3\nat 5 add ball_2 like ball at 2 2 0\nat 6 delete ball\n"
+               "at 9 delete jelly\nat 10 delete ball_2\nat 3 delete wall\n");
+  REQUIRE(export_run(folder, export_scene(), {"--script", "change.script"}, 12).code == 0);
+  REQUIRE(impinge_run(folder.path(), {"export", "out", "--format", "gltf"}).code == 0);
+  const Glb glb(folder / "out/export/s.glb");
+  CHECK(glb.bodies().size() == 9);
+  std::map<std::string, int> shown;
+  for (std::size_t frame = 0; frame <= 12; ++frame)
+    for (const std::string& name : glb.bodies()) {
+      const fs::path truth = folder / fmt::format("out/surfaces/{:06}/{}.ply", frame, name);
+      Aabb box;
+      const std::vector<Vec3> points = glb.surface(name, frame);
+      for (const Vec3& x : points) box.include(x);
+      CAPTURE(frame, name);
+      CHECK((box.extent().norm() > 0.0) == fs::exists(truth));
+      if (!fs::exists(truth)) continue;
+      ++shown[name];
+      const TriangleMesh surface = read_mesh(truth);
+      double worst = 0.0;
+      for (std::size_t v = 0; v < points.size(); ++v)
+        worst = std::max(worst, (points[v] - surface.vertices[v]).cwiseAbs().maxCoeff());
+      CHECK(worst < 1e-5);
+    }
+  CHECK(shown == std::map<std::string, int>{{"ball", 6},
+                                            {"ball_2", 5},
+                                            {"drop", 13},
+                                            {"jelly", 9},
+                                            {"jelly_2", 9},
+                                            {"paddle", 13},
+                                            {"tetra-1", 13},
+                                            {"tetra_1", 13},
+                                            {"wall", 3}});
 }
 
 TEST_CASE("a glTF of one frame has no animation") {

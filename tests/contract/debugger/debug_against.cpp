@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
 
 #include "tests/support/program/debug_session.hpp"
 #include "viewer/image/png.hpp"
@@ -114,4 +115,100 @@ TEST_CASE("what B can't be is refused with its place") {
     CHECK(outcome.code == 2);
     CHECK(outcome.error_lines() == 1);
   }
+}
+
+TEST_CASE("a deformable body of B is seen through where it is elsewhere, and not where it is the same") {
+  const TempFolder folder;
+  folder.write("s.toml", R"([simulation]
+substeps = 2
+[[body]]
+name = "floor"
+kind = "static"
+shape = { plane = { normal = [0, 1, 0], offset = 0 } }
+[[body]]
+name = "jelly"
+kind = "deformable"
+shape = { box = { size = [0.6, 0.6, 0.6] } }
+volume = { lattice = { cells = 3 } }
+material = { young = 2e4, density = 400 }
+position = [0, 0.5, 0]
+[view]
+backdrop = "flat"
+[view.camera]
+eye = [0, 0.7, 3]
+target = [0, 0.3, 0]
+)");
+  folder.write("a.script",
+               "step 3\nshot early.png\nstep 27\nshot late.png\nback 27\nshot again.png\nseek 30\nshot end.png\n");
+  REQUIRE(debug(folder, "s.toml", "a.script", {"--out", "one"}).code == 0);
+  REQUIRE(debug(folder, "s.toml", "a.script", {"--out", "two", "--against", "body.jelly.material.young=5e3"}).code ==
+          0);
+  const auto magenta = [&](const char* name) {
+    const Image whole = read_png(folder.path() / name);
+    int count = 0;
+    for (int y = 0; y < 400; ++y)
+      for (int x = 240; x < whole.width - 280; ++x) {
+        const std::uint8_t* p = whole.pixel(x, y);
+        count += p[0] > p[1] + 40 && p[2] > p[1] + 40;
+      }
+    return count;
+  };
+  CHECK(magenta("one/late.png") == 0);
+  CHECK(magenta("two/early.png") == 0);  // it falls: both are the same
+  CHECK(magenta("two/late.png") > 200);
+  CHECK(magenta("two/again.png") == 0);
+  CHECK(magenta("two/end.png") == magenta("two/late.png"));
+}
+
+TEST_CASE("where the first difference is of no position, the first frame with one is told too") {
+  const TempFolder folder;
+  folder.write("s.toml", R"([[body]]
+name = "floor"
+kind = "static"
+shape = { plane = { normal = [0, 1, 0], offset = 0 } }
+[[body]]
+name = "crate"
+kind = "dynamic"
+shape = { box = { size = [1, 0.5, 1] } }
+position = [0, 0.25, 0]
+[[body]]
+name = "ball"
+kind = "dynamic"
+shape = { sphere = { radius = 0.3 } }
+position = [0.2, 4, 0.1]
+)");
+  // how long something has been at rest is kept in a state; where it is, is another matter until it sleeps
+  folder.write("a.script", "step 90\n");
+  const Outcome both =
+      debug(folder, "s.toml", "a.script",
+            {"--against", "simulation.sleeping=false", "--set", "simulation.sleeping=true", "--answers"});
+  CAPTURE(both.out);
+  REQUIRE(both.code == 0);
+  const std::size_t first = both.out.find("differ from frame "), apart = both.out.find("positions differ from frame ");
+  REQUIRE(first != std::string::npos);
+  CHECK(both.out.find("no position or velocity yet") != std::string::npos);
+  REQUIRE(apart != std::string::npos);
+  const int frame = std::stoi(both.out.substr(apart + 28));
+  CHECK(frame > std::stoi(both.out.substr(first + 18)));
+  // the first: told by two runs' poses
+  const auto pose_rows = [&](const std::string& sleeping) {
+    REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--out", "o", "--frames", "90", "--no-images", "--force",
+                                        "--set", "simulation.sleeping=" + sleeping, "--export", "poses.csv"})
+                .code == 0);
+    std::map<int, std::string> by_frame;
+    std::istringstream rows(slurp(folder / "o/export/poses.csv"));
+    std::string line;
+    std::getline(rows, line);
+    while (std::getline(rows, line)) {
+      std::vector<std::string> cells;
+      std::istringstream in(line);
+      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+      by_frame[std::stoi(cells[0])] += cells[16] + cells[17] + cells[18] + " ";  // the centre
+    }
+    return by_frame;
+  };
+  const auto with = pose_rows("true"), without = pose_rows("false");
+  int wanted = 0;
+  while (with.at(wanted) == without.at(wanted)) ++wanted;
+  CHECK(frame == wanted);
 }

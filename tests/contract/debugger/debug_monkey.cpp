@@ -59,6 +59,11 @@ std::string words(Random& random) {
                                                   "move ball 0 0",
                                                   "delete crate",
                                                   "delete floor",
+                                                  "add ball_2 like ball at 0 2 0",
+                                                  "add crate_2 like crate at 0.3 1.5 0 turn 1 0 0 30",
+                                                  "add ball_3 like ball_2 at 0 9 nan",
+                                                  "push ball_2 10 0 0",
+                                                  "delete ball_2",
                                                   "ghost"};
   if (random.below(3) > 0) return one_of(random, kLines);
   std::string noise;

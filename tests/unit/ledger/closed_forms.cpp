@@ -190,6 +190,19 @@ TEST_CASE("ledger: what is moved or deleted takes its energy from the script, an
   CHECK(books.figure(script) == Approx(-before.kinetic - before.potential).epsilon(1e-12));
   check_books(books);
 
+  // what comes brings its own: 1/2 m v^2 and m g h
+  World joined;
+  joined.parameters.record.ledger = true;
+  joined.add_body(cube("a", 0.2, {0, 1, 0}));
+  BodyDescription late = cube("late", 0.2, {1, 3, 0});
+  late.velocity = Vec3(0.0, 2.0, 0.0);
+  joined.add_absent_body(late);
+  joined.start();
+  joined.act({Act::add, "late"});
+  books = keep_books(joined, 1);
+  CHECK(books.figure(script) == Approx(m * (0.5 * 4.0 + kGravity * 3.0)).epsilon(1e-12));
+  check_books(books);
+
   World pulled;
   pulled.parameters.simulation.gravity.setZero();
   pulled.add_body(cube("a", 0.2, Vec3::Zero()));

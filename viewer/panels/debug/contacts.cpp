@@ -10,7 +10,7 @@
 namespace impinge {
 namespace {
 
-constexpr std::size_t kColumns = 12;
+constexpr std::size_t kColumns = 13;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Color state_color(ContactState state) {
@@ -35,6 +35,7 @@ std::vector<double> numbers_of(const StepRecord& record) {
                                   most > 0.0 ? 100.0 * friction / most : kNone,
                                   static_cast<double>(c.friction),
                                   c.group.is_none() ? kNone : static_cast<double>(c.group.value()),
+                                  c.residual,
                                   static_cast<double>(c.state)};
     numbers.insert(numbers.end(), std::begin(row), std::end(row));
   }
@@ -94,6 +95,8 @@ const Table& contacts_table() {
        {"used", "used %", "", C::number, 0, false, "friction impulse by the most that friction may be"},
        {"coefficient", "mu", "", C::number, 0, false, "coefficient of friction"},
        {"group", "group", "", C::whole, 4, false, "its collision group"},
+       {"residual", "resid.", "", C::number, 0, false,
+        "how far the last sub-step's answer is from Coulomb's law here: relative, no more than residual_coulomb"},
        {"state", "", "", C::words, 2, true, "green: sticks, orange: slips, white: open"}}};
   return table;
 }

@@ -5,7 +5,7 @@
 
 #include "viewer/draw/number_text.hpp"
 #include "viewer/layers/contact_measures.hpp"
-#include "viewer/panels/debug/widgets.hpp"
+#include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
 namespace {
@@ -33,7 +33,7 @@ void row(const char* name, double value, std::string_view unit, const std::strin
 void body_rows(const DebugModel& model, const Selection& s) {
   const BodyRecord& b = model.record->bodies[static_cast<std::size_t>(s.index)];
   row("body", std::string(b.name));
-  row("kind", fmt::format("{}{}", kind_name(b.kind), b.deleted ? ", deleted" : b.asleep ? ", asleep" : ""));
+  row("kind", fmt::format("{}{}", kind_name(b.kind), b.deleted ? ", deleted" : sleep_words(model, BodyIndex(s.index))));
   if (b.deleted) return;
   if (b.mass > 0.0) row("mass", b.mass, "kg");
   row("place", vector_text(b.pose.position, "m"));

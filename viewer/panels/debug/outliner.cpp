@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "viewer/draw/body_color.hpp"
 
@@ -49,6 +50,49 @@ class ButtonRow {
   float room_, used_ = 0.0f;
 };
 
+const BodyRecord& record_of(const DebugModel& model, const std::string& name) {
+  return *std::find_if(model.record->bodies.begin(), model.record->bodies.end(),
+                       [&](const BodyRecord& body) { return body.name == name; });
+}
+
+bool can_be_copied(const DebugModel& model, const std::string& name) {
+  const BodyRecord& body = record_of(model, name);
+  return !body.deleted && (body.kind == BodyKind::dynamic || body.kind == BodyKind::deformable);
+}
+
+/// NAME_2, NAME_3, ...: the first that no body has, nor will have.
+std::string free_name(const DebugModel& model, const std::string& name) {
+  std::string stem = name;
+  if (const std::size_t end = stem.find_last_not_of("0123456789"); end != std::string::npos && stem[end] == '_')
+    stem = stem.substr(0, end);  // of a copy another copy
+  for (int k = 2;; ++k)
+    if (const std::string free = fmt::format("{}_{}", stem, k);
+        model.rows->find("body." + free + ".friction") == nullptr)
+      return free;
+}
+
+/// As the scene has it, as high above where it is now that the two don't touch.
+std::string copy_line(const DebugModel& model, const std::string& name) {
+  const BodyRecord& body = record_of(model, name);
+  const Vec3 up = model.record->gravity.norm() > 0.0 ? Vec3(-model.record->gravity.normalized()) : Vec3(Vec3::UnitY());
+  Vec3 origin = body.file_pose.position;
+  if (body.deformable != nullptr) {
+    const DeformableBody& soft = *body.deformable;
+    Vec3 center = Vec3::Zero();
+    for (int i = 0; i < soft.nodes(); ++i) center += soft.fem.node_mass()[i] * soft.rest_position(i);
+    origin = body.pose.position - soft.placed.rotation * center / soft.fem.total_mass();
+  }
+  // the box round it as it lies may be smaller than the one round the copy, which is turned as at the start
+  const double size = body.bounds.extent().norm();
+  const Vec3 at = origin + 1.05 * size * up;
+  const auto number = [&](double x) {  // to a thousandth of its size
+    const double unit = std::pow(10.0, std::floor(std::log10(size)) - 3.0);
+    return fmt::format("{:.{}g}", std::round(x / unit) * unit + 0.0, 12);
+  };
+  return fmt::format("add {} like {} at {} {} {}", free_name(model, name), name, number(at.x()), number(at.y()),
+                     number(at.z()));
+}
+
 /// Colours to choose from for bodies, in a list that is open: the palette's and strong ones.
 void draw_swatches(Ui& ui, const std::string& names, CommandLines& lines) {
   constexpr int kOfPalette = 7, kInRow = 8;
@@ -89,6 +133,9 @@ void draw_deeds(Ui& ui, const DebugModel& model, CommandLines& lines) {
     close_on_escape(ui);
     ImGui::EndPopup();
   }
+  if (row.add("copy", "outliner/copy", "one more of the selected body, above it, from the next frame on (add)",
+              is_some && can_be_copied(model, names.front())))
+    lines.push_back(copy_line(model, names.front()));
   if (row.add("show all", "outliner/show_all", "nothing is hidden (ctrl h)", !model.view->hidden.empty()))
     lines.push_back("show all");
 }

@@ -17,6 +17,8 @@ bool is_sought(const DebugModel& model, std::string_view name);
 std::string name_of(const DebugModel& model, BodyIndex body);
 /// Bodies that the selection means: the one, or a contact's two.
 std::vector<BodyIndex> selected_bodies(const DebugModel& model);
+/// ", asleep since frame 12", or "" of one that is awake.
+std::string sleep_words(const DebugModel& model, BodyIndex body);
 /// Seconds of a sub-step, 0 of a frame without.
 double substep_time(const StepRecord& record);
 

@@ -141,6 +141,11 @@ void draw_icons(Ui& ui, const DebugModel& model, CommandLines& lines, const std:
 
 }  // namespace
 
+std::string sleep_words(const DebugModel& model, BodyIndex body) {
+  if (!model.record->bodies[static_cast<std::size_t>(body.value())].asleep) return "";
+  return fmt::format(", asleep since frame {}", model.tracks->asleep_since(model.frame, body));
+}
+
 const Table& bodies_table() {
   using C = TableColumn;
   static const Table table = {
@@ -173,7 +178,8 @@ TableRows body_rows(Ui& ui, const DebugModel& model, CommandLines& lines) {
   rows.select = [&](std::size_t row) { return "select body " + name_of(model, BodyIndex(row)); };
   rows.tip = [&](std::size_t row) {
     const BodyRecord& b = model.record->bodies[row];
-    return fmt::format("{}, {}{}", b.name, kind_name(b.kind), b.deleted ? ", deleted" : b.asleep ? ", asleep" : "");
+    return fmt::format("{}, {}{}", b.name, kind_name(b.kind),
+                       b.deleted ? ", deleted" : sleep_words(model, BodyIndex(row)));
   };
   const std::vector<BodyIndex> selected = selected_bodies(model);
   rows.is_selected = [selected](std::size_t row) {

@@ -145,7 +145,8 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const float label = 0.53f * ImGui::GetContentRegionAvail().x;
   std::string group;
   bool open = false;
-  for (const Parameter& row : model.rows->all()) {
+  for (std::size_t i = 0; i < model.rows_present; ++i) {
+    const Parameter& row = model.rows->all()[i];
     // panels and mouse of their own
     if (row.path.starts_with("view.layer") || row.path.starts_with("view.camera")) continue;
     if (!word.empty() && row.path.find(word) == std::string::npos) continue;

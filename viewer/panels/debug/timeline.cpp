@@ -158,6 +158,9 @@ void draw_chooser(Ui& ui, const DebugModel& model, CommandLines& lines) {
 
 void draw_header(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::TextColored({0.55f, 0.78f, 0.95f, 1.0f}, "timeline");
+  tooltip(
+      "white: where it stands; orange ticks: frames that lines change, which the pointer over them tells;\nblue ticks: "
+      "sub-steps of the frame that it is in");
   ImGui::SameLine();
   draw_chooser(ui, model, lines);
   ImGui::SameLine();
@@ -167,8 +170,26 @@ void draw_header(Ui& ui, const DebugModel& model, CommandLines& lines) {
   tooltip("by powers of ten; what is not positive is at the bottom");
 }
 
-void draw_hovered(const std::vector<Series>& all, int frame) {
+constexpr float kNear = 4.0f;         // pixels of the smallest size: a tick is hit
+constexpr std::size_t kMostTold = 8;  // commands of a frame
+
+/// The frame of the tick that is under the pointer, else the frame itself.
+int ticked(const DebugModel& model, const Axis& axis, float x, int frame, float unit) {
+  int nearest = frame;
+  float best = kNear * unit;
+  const auto from = model.changed_frames->lower_bound(axis.frame(x - best) - 1);
+  for (auto it = from; it != model.changed_frames->end() && axis.x(*it) <= x + kNear * unit; ++it)
+    if (const float way = std::abs(axis.x(*it) - x); way <= best) best = way, nearest = *it;
+  return nearest;
+}
+
+void draw_hovered(const DebugModel& model, const std::vector<Series>& all, int frame) {
   std::string text = fmt::format("frame {}", frame);
+  if (model.changed_frames->contains(frame)) {
+    const std::vector<std::string> commands = model.commands_of(frame);
+    for (std::size_t i = 0; i < std::min(commands.size(), kMostTold); ++i) text += "\nchanged: " + commands[i];
+    if (commands.size() > kMostTold) text += fmt::format("\nand {} more", commands.size() - kMostTold);
+  }
   for (const Series& series : all)
     text += fmt::format("\n{} {}", series.name, series.text(series.value(frame)).whole());
   tooltip(text);
@@ -211,7 +232,7 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
     const int to = std::clamp(at, 0, model.known_last);
     if (to != model.frame) lines.push_back(fmt::format("seek {}", to));
   } else if (ImGui::IsItemHovered() && at >= 0 && at <= model.known_last) {
-    draw_hovered(all, at);
+    draw_hovered(model, all, std::clamp(ticked(model, axis, ui.mouse_x(), at, u), 0, model.known_last));
   }
 }
 

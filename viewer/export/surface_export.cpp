@@ -1,4 +1,4 @@
-#include "viewer/controller/surface_export.hpp"
+#include "viewer/export/surface_export.hpp"
 
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -7,7 +7,7 @@ namespace impinge {
 
 void export_surfaces(const std::filesystem::path& folder, const StepRecord& record) {
   for (const BodyRecord& body : record.bodies) {
-    if (body.shape->as<Plane>() != nullptr) continue;  // without end
+    if (body.deleted || body.shape->as<Plane>() != nullptr) continue;  // a plane is without end
     const std::filesystem::path path = folder / (std::string(body.name) + ".ply");
     if (const SurfaceMesh* mesh = body.shape->mesh(); mesh != nullptr && mesh->full == nullptr) {
       write_ply(path, body.vertices, mesh->mesh.triangles);
