@@ -347,7 +347,7 @@ LedgerEntry Ledger::pushed(Body& body, const Act& act, const std::function<void(
 void Ledger::act(Bodies& bodies, const Act& act, const Vec3& gravity, const std::function<void()>& doing) {
   gravity_ = gravity;
   const BodyIndex index = bodies.find(act.body);
-  if (index.is_none() || !bodies[index].has_freedom()) return doing();
+  if (index.is_none() || (act.verb != Act::add && !bodies[index].has_freedom())) return doing();
   acts_.resize(static_cast<std::size_t>(bodies.size().value()));
   Body& body = bodies[index];
   const Balance before = measured(body);

@@ -1,6 +1,6 @@
 // The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a frame of it
 // costs, from the mouse's move to the pixels, and what of that is the scene and what the panels. Everything is drawn by
-// the processor.
+// the processor. Then while a frame of a minute is computed: how long after a move its pixels are there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,8 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/program/temp_folder.hpp"
-#include "viewer/debugger/loop.hpp"
+#include "tests/support/program/slow_scenes.hpp"
+#include "viewer/debugger/window_loop.hpp"
 
 using namespace impinge;
 
@@ -81,6 +82,63 @@ void measure(int dragons) {
              median(read), 1e3 / whole);
 }
 
+/// A hand that moves the mouse some time after it saw what the last move did.
+class Hand : public Screen {
+ public:
+  explicit Hand(int moves) : moves_(moves) {}
+  bool take_input(Ui& ui, int) override {
+    if (!has_begun_) {
+      has_begun_ = true;
+      ui.add({UiEvent::move, 640.0f, 270.0f});
+      ui.add({UiEvent::press});
+      next_ = now_ms() + kStart;
+    }
+    if (!waits_ && now_ms() >= next_) {
+      ui.add({UiEvent::move, 640.0f + 3.0f * static_cast<float>(waited_.size() + 1), 270.0f});
+      waits_ = true;
+    }
+    return static_cast<int>(waited_.size()) < moves_;
+  }
+  bool is_exposed() const override { return false; }
+  void show(const Image&) override {
+    if (!waits_) return;
+    waits_ = false;
+    waited_.push_back(now_ms() - next_);
+    next_ = now_ms() + kBetween;
+  }
+  const std::vector<double>& waited() const { return waited_; }
+
+ private:
+  static constexpr double kStart = 2000.0, kBetween = 30.0;
+  int moves_;
+  bool has_begun_ = false, waits_ = false;
+  double next_ = 0.0;
+  std::vector<double> waited_;  // ms, by move
+};
+
+void measure_meanwhile(const char* name, const std::string& scene) {
+  const test::TempFolder folder;
+  folder.write("scene.toml", scene);
+  DebugWindow window(kWidth, kHeight);
+  DebuggerOptions options;
+  options.session.height = kHeight;
+  options.session.width = static_cast<int>(kHeight * window.view_aspect());
+  Debugger debugger(folder / "scene.toml", {}, {}, options);
+  DebugLoop loop(debugger, window, folder.path());
+  static const std::string kBench = "bench";
+  loop.run_line({"play", &kBench, 1, 1});
+  std::vector<std::unique_ptr<Screen>> screens;
+  screens.push_back(std::make_unique<Hand>(200));
+  const std::atomic<bool> interrupted = false;
+  const double start = now_ms();
+  show_on_screens(loop, window, screens, interrupted, [] {});
+  std::vector<double> waited = dynamic_cast<const Hand&>(*screens[0]).waited();
+  std::sort(waited.begin(), waited.end());
+  fmt::print("{:<28} | {:>5} | {:>6.1f} | {:>6.1f} | {:>6.1f} | {:>6}\n", name, waited.size(), median(waited),
+             waited[waited.size() * 95 / 100], waited.back(), loop.frame());
+  fmt::print("  {:.0f} s\n", 1e-3 * (now_ms() - start));
+}
+
 }  // namespace
 
 int main() {
@@ -90,4 +148,8 @@ int main() {
   }
   fmt::print("triangles | contacts | orbit, ms | of it scene | panels | read | frames/s\n");
   for (const int dragons : {2, 14, 40}) measure(dragons);
+  fmt::print("while a frame is computed     | moves | median, ms | 95 % | largest | frames made\n");
+  measure_meanwhile("200 boxes in each other", test::overlapping_boxes(200));
+  measure_meanwhile("a soft ball against itself", test::self_contact(24));
+  measure_meanwhile("a soft block, 90,000 unknowns", test::soft_block(30));
 }
