@@ -16,15 +16,20 @@
 namespace impinge {
 namespace {
 
-constexpr int kMostPieces = 64;       // of a sub-step
-constexpr int kMostMotions = 32;      // tried for a piece
-constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be, and tell by their
-constexpr double kGrowth = 2.0;       // length how long the next may be
+constexpr int kMostPieces = 64;   // of a sub-step
+constexpr int kMostMotions = 32;  // tried for a piece
+constexpr int kPatience = 4;      // motions after which pieces are cut shorter than they need be; what then had rows
+constexpr double kGrowth = 2.0;   // for what hangs in one another tells how long the next piece may be
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
 constexpr double kSelfDepth = 1e-6;   // the same of a body with itself, whose contacts keep it apart by more than that
 constexpr double kReach = 0.1;        // of the activation distance: paths are straight to this
+
+/// Of two bodies, metres.
+auto activation_by(const ContactSettings& contact) {
+  return [&contact](const Body& a, const Body& b) { return contact.activation_distance.at(pair_size(a, b)); };
+}
 
 /// Of a pair, metres.
 using PairLength = std::function<double(const UnsafeMotion::Pair&)>;
@@ -95,15 +100,43 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
   return is_new;
 }
 
+/// Rows before anything is cut: whether the sub-step may have some, and the piece has.
+struct Asking {
+  bool may = true, has = false;
+  /// Takes them back where a solve with them has no answer: it is cut then.
+  bool is_refused(SubStep& step) {
+    if (!has || is_answered(step)) return false;
+    may = has = false;
+    step.asked.clear();
+    return true;
+  }
+};
+
 /// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
 double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
-                  bool& has_asked, std::vector<Collision>& asked) {
-  if (ask_for(motion, seen, asked)) return has_asked = true, 1.0;
+                  Asking& asking, std::vector<Collision>& asked) {
+  if (asking.may && ask_for(motion, seen, asked)) return asking.has = true, 1.0;
   if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
   return ask_for(
              motion, [](const UnsafeMotion::Pair&) { return INFINITY; }, asked)
              ? 1.0
              : 0.5;
+}
+
+/// The share with which a motion is made anew, so that it ends at its first impact, or what is left of impacts is solved as
+/// one; none: it may stand.
+std::optional<double> share_for_impacts(const Bodies& bodies, SubStep& step, const ContactSettings& contact,
+                                        double gravity, int& impacts, StepWatcher* watcher) {
+  if (impacts < contact.successive_impacts) {
+    const auto before = share_to_first_impact(bodies, step, contact, gravity);
+    if (!before) return std::nullopt;
+    ++impacts;
+    if (watcher != nullptr) watcher->struck(bodies, step, *before);
+    return *before;
+  }
+  if (impacts == 0 || !step.rebounds || !wins_energy(bodies, step)) return std::nullopt;
+  step.rebounds = false;
+  return 1.0;
 }
 
 /// Adds the bodies of pairs that pass to those that stay, and takes out the pairs of which one is new there. A body that
@@ -164,9 +197,7 @@ void World::note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cau
 
 void World::substep(double h, int left, FrozenStep* frozen) {
   const Continuous which = watching(parameters);
-  const auto activation = [&](const Body& a, const Body& b) {
-    return parameters.contact.activation_distance.at(pair_size(a, b));
-  };
+  const auto activation = activation_by(parameters.contact);
   const int substep = parameters.simulation.substeps - left + 1;
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
@@ -174,14 +205,13 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation, is_kept);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
-  const PairLength no_reach = [](const UnsafeMotion::Pair&) { return 0.0; };
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
-  double rest = 1.0;         // of the sub-step
-  double next = 1.0;         // the same, of the piece that is tried
-  bool may_ask = true;       // for rows before anything is cut; not once such a solve had no answer
+  double rest = 1.0;  // of the sub-step
+  double next = 1.0;  // the same, of the piece that is tried
+  Asking asking;
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
@@ -190,32 +220,24 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     sub_step_->rebounds = true;
     guard_.open(bodies_);
     double share = std::min(rest, next);
-    bool has_asked = false;
+    asking.has = false;
     int motion = 1;
     for (;; ++motion) {
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && share == rest);
-      if (has_asked && !is_answered(*sub_step_)) {  // rows that can't be had: it is cut instead
-        has_asked = may_ask = false;
-        sub_step_->asked.clear();
+      if (asking.is_refused(*sub_step_)) {
         start->bring_back(bodies_, sleeping_);
         continue;
       }
       const auto hold_back = [&] {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
       };
-      const bool may_rebound = rebounds && motion < kMostMotions;
-      if (may_rebound && impacts < parameters.contact.successive_impacts) {
-        if (const auto before = share_to_first_impact(bodies_, *sub_step_, parameters.contact, gravity)) {
-          ++impacts, share *= *before;
-          if (watcher_ != nullptr) watcher_->struck(bodies_, *sub_step_, *before);
+      if (rebounds && motion < kMostMotions)
+        if (const auto before =
+                share_for_impacts(bodies_, *sub_step_, parameters.contact, gravity, impacts, watcher_)) {
+          share *= *before;
           start->bring_back(bodies_, sleeping_);
           continue;
         }
-      } else if (may_rebound && impacts > 0 && sub_step_->rebounds && wins_energy(bodies_, *sub_step_)) {
-        sub_step_->rebounds = false;  // the impacts that are left are solved as one
-        start->bring_back(bodies_, sleeping_);
-        continue;
-      }
       hold_back();
       std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
@@ -235,11 +257,10 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      share *=
-          ask_or_cut(*unsafe, may_ask ? seen : no_reach, of_pair, motion <= kPatience, has_asked, sub_step_->asked);
+      share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->bring_back(bodies_, sleeping_);
     }
-    next = motion > kPatience ? kGrowth * share : 1.0;
+    next = asking.has && motion > kPatience ? kGrowth * share : 1.0;
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }

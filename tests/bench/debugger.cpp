@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "engine/core/parallel.hpp"
-#include "tests/support/program/temp_folder.hpp"
 #include "tests/support/program/slow_scenes.hpp"
+#include "tests/support/program/temp_folder.hpp"
 #include "viewer/debugger/window_loop.hpp"
 
 using namespace impinge;

@@ -426,10 +426,9 @@ const DebugModel& Debugger::model() {
   if (const auto it = by_hand_.find(session_.frame() + 1); it != by_hand_.end() && !within_)
     for (const Command& command : it->second)
       if (const auto* act = std::get_if<Act>(&command)) model_.asked.push_back(*act);
-  for (const Act& act : model_.asked) {
-    const Bodies& bodies = session_.world().bodies();
+  const Bodies& bodies = session_.world().bodies();
+  for (const Act& act : model_.asked)
     if (act.verb == Act::add) model_.coming.push_back({record_of(bodies[bodies.find(act.body)]), act.like});
-  }
   model_.history = &history_;
   model_.tracks = &tracks_;
   model_.against = against_ ? &against_->model() : nullptr;

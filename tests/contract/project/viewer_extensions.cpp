@@ -36,9 +36,8 @@ TEST_CASE("a panel of the debugger is a file and a line") {
   CHECK(slurp(folder / "r.script").find("\nselect body crate\n") != std::string::npos);
   folder.write("a.script", "panel scroll nowhere 0\n");
   CHECK(program.run(folder.path(), {"debug", "s.toml", "--headless", "--script", "a.script"})
-            .err.find(
-                "layers, parameters, outliner, inspector, contacts, stages, transport, timeline, console, groups") !=
-        std::string::npos);
+            .err.find("layers, parameters, outliner, inspector, contacts, ledger, stages, transport, timeline, "
+                      "console, groups") != std::string::npos);
 }
 
 TEST_CASE("a command with an option is a file and a line") {

@@ -200,7 +200,7 @@ TEST_CASE("ledger: what is moved or deleted takes its energy from the script, an
   joined.start();
   joined.act({Act::add, "late"});
   books = keep_books(joined, 1);
-  CHECK(books.figure(script) == Approx(m * (0.5 * 4.0 + kGravity * 3.0)).epsilon(1e-12));
+  CHECK(books.figure(script, 1) == Approx(m * (0.5 * 4.0 + kGravity * 3.0)).epsilon(1e-12));
   check_books(books);
 
   World pulled;
