@@ -12,6 +12,7 @@
 
 #include "engine/algebra/serial_openmp.hpp"
 #include "engine/algebra/supernodal_gram.hpp"
+#include "engine/core/apart.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
 
@@ -34,8 +35,10 @@ class Cholmod : public LinearSolver {
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
-    const Turn turn;
-    llt_.analyzePattern(lower_->matrix());
+    run_apart([&] {
+      const Turn turn;
+      llt_.analyzePattern(lower_->matrix());
+    });
     factored_ = is_taken_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
@@ -52,8 +55,10 @@ class Cholmod : public LinearSolver {
                    8.0 * static_cast<double>(llt_.factor().xsize),
                    "use fewer elements, or simulation.linear_solver = \"conjugate_gradient\"");
     is_taken_ = true;
-    const Turn turn;
-    llt_.factorize(lower_->matrix());
+    run_apart([&] {
+      const Turn turn;
+      llt_.factorize(lower_->matrix());
+    });
     factored_ = true;
     ++factorizations;
     return status_ = llt_.info() == Eigen::Success ? SolveStatus::ok : SolveStatus::not_positive_definite;
@@ -66,14 +71,18 @@ class Cholmod : public LinearSolver {
   }
   SolveReport solve_many(const MatX& b, MatX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    const Turn turn;
-    x = llt_.solve(b);
+    run_apart([&] {
+      const Turn turn;
+      x = llt_.solve(b);
+    });
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
   SolveReport gram(const SparseColumns& b, MatX& w) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    const Turn turn;
-    supernodal_gram(llt_.factor(), b, w);
+    run_apart([&] {
+      const Turn turn;
+      supernodal_gram(llt_.factor(), b, w);
+    });
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
 

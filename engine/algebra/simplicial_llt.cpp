@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/algebra/linear_solver.hpp"
+#include "engine/core/apart.hpp"
 #include "engine/core/error.hpp"
 
 namespace impinge {
@@ -13,7 +14,7 @@ class SimplicialLlt : public LinearSolver {
  public:
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
-    llt_.analyzePattern(lower_->matrix());
+    run_apart([&] { llt_.analyzePattern(lower_->matrix()); });
     factored_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
@@ -23,7 +24,7 @@ class SimplicialLlt : public LinearSolver {
       return status_ = SolveStatus::not_finite;
     }
     if (!lower_->refill(a) && factored_) return status_;
-    llt_.factorize(lower_->matrix());
+    run_apart([&] { llt_.factorize(lower_->matrix()); });
     factored_ = true;
     ++factorizations;
     return status_ = llt_.info() == Eigen::Success ? SolveStatus::ok : SolveStatus::not_positive_definite;

@@ -1,6 +1,7 @@
 // The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a frame of it
 // costs, from the mouse's move to the pixels, and what of that is the scene and what the panels. Everything is drawn by
 // the processor. Then while a frame of a minute is computed: how long after a move its pixels are there.
+// usage: bench_debugger [boxes|few|self|block]: of the latter one alone
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -141,15 +142,18 @@ void measure_meanwhile(const char* name, const std::string& scene) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  const std::string only = argc > 1 ? argv[1] : "";
   {
     const DebugWindow window(kWidth, kHeight);
     fmt::print("renderer: {}, {} threads\n", window.renderer_name(), thread_count());
   }
   fmt::print("triangles | contacts | orbit, ms | of it scene | panels | read | frames/s\n");
-  for (const int dragons : {2, 14, 40}) measure(dragons);
+  if (only.empty())
+    for (const int dragons : {2, 14, 40}) measure(dragons);
   fmt::print("while a frame is computed     | moves | median, ms | 95 % | largest | frames made\n");
-  measure_meanwhile("200 boxes in each other", test::overlapping_boxes(200));
-  measure_meanwhile("a soft ball against itself", test::self_contact(24));
-  measure_meanwhile("a soft block, 90,000 unknowns", test::soft_block(30));
+  if (only.empty() || only == "boxes") measure_meanwhile("200 boxes in each other", test::overlapping_boxes(200));
+  if (only.empty() || only == "few") measure_meanwhile("60 boxes in each other", test::overlapping_boxes(60));
+  if (only.empty() || only == "self") measure_meanwhile("a soft ball against itself", test::self_contact(24));
+  if (only.empty() || only == "block") measure_meanwhile("a soft block, 90,000 unknowns", test::soft_block(30));
 }
