@@ -35,10 +35,7 @@ class Cholmod : public LinearSolver {
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
-    run_apart([&] {
-      const Turn turn;
-      llt_.analyzePattern(lower_->matrix());
-    });
+    in_turn([&] { llt_.analyzePattern(lower_->matrix()); });
     factored_ = is_taken_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
@@ -55,10 +52,7 @@ class Cholmod : public LinearSolver {
                    8.0 * static_cast<double>(llt_.factor().xsize),
                    "use fewer elements, or simulation.linear_solver = \"conjugate_gradient\"");
     is_taken_ = true;
-    run_apart([&] {
-      const Turn turn;
-      llt_.factorize(lower_->matrix());
-    });
+    in_turn([&] { llt_.factorize(lower_->matrix()); });
     factored_ = true;
     ++factorizations;
     return status_ = llt_.info() == Eigen::Success ? SolveStatus::ok : SolveStatus::not_positive_definite;
@@ -71,22 +65,25 @@ class Cholmod : public LinearSolver {
   }
   SolveReport solve_many(const MatX& b, MatX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    run_apart([&] {
-      const Turn turn;
-      x = llt_.solve(b);
-    });
+    in_turn([&] { x = llt_.solve(b); });
     return {x.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
   SolveReport gram(const SparseColumns& b, MatX& w) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    run_apart([&] {
-      const Turn turn;
-      supernodal_gram(llt_.factor(), b, w);
-    });
+    in_turn([&] { supernodal_gram(llt_.factor(), b, w); });
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
 
  private:
+  /// What takes long; whoever wants to pause meanwhile may.
+  template <typename Work>
+  static void in_turn(Work&& work) {
+    run_apart([&] {
+      const Turn turn;
+      work();
+    });
+  }
+
   /// Eigen's wrapper, with a look at the factor itself.
   struct Factorization : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> {
     const cholmod_factor& factor() const { return *m_cholmodFactor; }

@@ -11,7 +11,8 @@
 // What Newton leaves of rigid bodies (tumbling piles) goes to alternating directions, which no local minimum holds, and
 // from there to Newton again. Before Newton they cost more than they save, except on tall stacks. Where Newton came near
 // it is only begun anew, without what it remembers, for a while: in heaps of 100 to 1,000 boxes a third of what is left
-// is solved so, and a thousand iterations would solve an eighth more. Some of the rest are solved by conjugate sweeps from there.
+// is solved so, and a thousand iterations would solve an eighth more. Some of the rest are solved by conjugate sweeps from
+// there.
 #include <algorithm>
 #include <cmath>
 #include <functional>

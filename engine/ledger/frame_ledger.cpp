@@ -15,7 +15,8 @@ const std::array<LedgerSourceInfo, kLedgerSources>& ledger_sources() {
       {friction, "friction", "Work of tangential impulses of contacts, against what they meet.", false},
       {attachment, "attachment", "Work of the impulses of attachments and slides.", false},
       {script, "script",
-       "Work of what is moved by a script, held nodes included, of pulls, and what pushes, moves and deletions did.",
+       "Work of what is moved by a script, held nodes included, of pulls, and what pushes, moves,"
+       " additions and deletions did.",
        false},
       {push_out, "push_out", "Recovery from overlap: bodies put elsewhere, with the turn of their spin.", false},
       {held_back, "held_back", "Bodies that stand still for the rest of a sub-step in which they would pass.", false},
@@ -39,9 +40,8 @@ LedgerEntry& LedgerEntry::operator+=(const LedgerEntry& more) {
   return *this;
 }
 
-double BodyLedger::figure(LedgerSource s) const {
-  const LedgerEntry& entry = (*this)[s];
-  return info_of(s).is_exchange ? entry.motion : entry.energy();
+double figure_of(LedgerSource source, const LedgerEntry& entry) {
+  return info_of(source).is_exchange ? entry.motion : entry.energy();
 }
 
 LedgerEntry BodyLedger::sum() const {
@@ -69,8 +69,11 @@ BodyLedger FrameLedger::world() const {
 }
 
 double energy_from(const FrameLedger* ledger, LedgerSource source, int body) {
-  if (ledger == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  return (body < 0 ? ledger->world() : ledger->bodies.at(static_cast<std::size_t>(body))).figure(source);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (ledger == nullptr) return kNone;
+  if (body < 0) return ledger->world().figure(source);
+  const auto index = static_cast<std::size_t>(body);  // of a body that was added later there is nothing to tell
+  return index < ledger->bodies.size() ? ledger->bodies[index].figure(source) : kNone;
 }
 
 std::optional<LargestRise> largest_rise(const FrameLedger& ledger) {

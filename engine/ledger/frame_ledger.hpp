@@ -59,6 +59,9 @@ struct LedgerEntry {
   LedgerEntry& operator+=(const LedgerEntry& more);
 };
 
+/// What is read of a source: of an exchange what it gave to the motion, else the energy that it made, J.
+double figure_of(LedgerSource source, const LedgerEntry& entry);
+
 /// Of one body, or of all of them.
 struct BodyLedger {
   std::array<LedgerEntry, kLedgerSources> of;
@@ -69,8 +72,7 @@ struct BodyLedger {
 
   LedgerEntry& operator[](LedgerSource s) { return of[static_cast<std::size_t>(s)]; }
   const LedgerEntry& operator[](LedgerSource s) const { return of[static_cast<std::size_t>(s)]; }
-  /// What is read of a source: of an exchange what it gave to the motion, else the energy that it made, J.
-  double figure(LedgerSource s) const;
+  double figure(LedgerSource s) const { return figure_of(s, (*this)[s]); }
   /// Σ over the sources.
   LedgerEntry sum() const;
   /// What the sources don't explain, J: of each of the two books, and of both.
@@ -92,7 +94,8 @@ struct FrameLedger {
   BodyLedger world() const;
 };
 
-/// What the source did in the frame to one body, or, with a negative index, to all, J; NaN without books.
+/// What the source did in the frame to one body, or, with a negative index, to all, J; NaN without books, or of
+/// a body that was not known then.
 double energy_from(const FrameLedger* ledger, LedgerSource source, int body);
 
 /// The entry that raised the energy most: its body (an index) and source.

@@ -33,8 +33,16 @@ VecX missing_of(DeformableBody& soft, const TimeIntegration& how, bool is_elsewh
   return again.a * again.v_star - again.b;
 }
 
-double figure_of(const LedgerEntry& entry, std::size_t source) {
-  return ledger_sources()[source].is_exchange ? entry.motion : entry.energy();
+/// Of impulses on nodes that stand at `places` and move at `mean`.
+LedgerEntry entry_of_nodes(const VecX& impulse, const VecX& mean, const VecX& places) {
+  LedgerEntry entry;
+  entry.motion = dot(impulse, mean);
+  for (Eigen::Index i = 0; i + 2 < impulse.size(); i += 3) {
+    const Vec3 p = impulse.segment<3>(i), x = places.segment<3>(i);
+    entry.momentum += p;
+    entry.angular_momentum += x.cross(p);
+  }
+  return entry;
 }
 
 }  // namespace
@@ -97,15 +105,7 @@ LedgerEntry Ledger::rigid_entry(BodyIndex index, const Vec3& impulse, const Vec3
 }
 
 LedgerEntry Ledger::node_entry(BodyIndex index, const VecX& impulse) const {
-  const Known& k = known_[index];
-  LedgerEntry entry;
-  entry.motion = dot(impulse, k.node_mean);
-  for (Eigen::Index i = 0; i + 2 < impulse.size(); i += 3) {
-    const Vec3 p = impulse.segment<3>(i), x = k.nodes.segment<3>(i);
-    entry.momentum += p;
-    entry.angular_momentum += x.cross(p);
-  }
-  return entry;
+  return entry_of_nodes(impulse, known_[index].node_mean, known_[index].nodes);
 }
 
 LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse) const {
@@ -269,26 +269,19 @@ void Ledger::kept(Bodies& bodies) {
     for (std::size_t s = 0; s < kLedgerSources; ++s) substep_[b][s] += motion_[b][s];
     motion_[b] = {};
     elastic_[b] = known_[b].elastic;
-    Motion& motion = before_rest_[b] = {};
-    motion.asleep = body.asleep;
+    BeforeRest& before = before_rest_[b] = {body.asleep, {}};
     if (!body.has_freedom() || body.asleep) return;
-    if (const RigidBody* rigid = body.as<RigidBody>()) {
-      motion.momentum = rigid->mass * rigid->velocity;
-      motion.kinetic = 0.5 * motion.momentum.dot(rigid->velocity) +
-                       spin_energy(*rigid, rigid->pose.rotation, rigid->angular_momentum);
-      motion.angular_momentum = rigid->pose.position.cross(motion.momentum) + rigid->angular_momentum;
-    } else if (const DeformableBody* soft = body.as<DeformableBody>()) {
-      motion.kinetic = soft->kinetic_energy();
-      motion.momentum = soft->momentum();
-      motion.angular_momentum = soft->angular_momentum();
-    }
+    if (const DeformableBody* soft = body.as<DeformableBody>())  // its elastic energy, which is dear, is not needed
+      before.balance = {soft->kinetic_energy(), 0.0, 0.0, soft->momentum(), soft->angular_momentum()};
+    else
+      before.balance = body.balance(gravity_);
   });
 }
 
 void Ledger::rested(const Bodies& bodies) {
   for (BodyIndex b(0); b < bodies.size(); ++b) {
-    const Motion& before = before_rest_[b];
-    if (!bodies[b].asleep || before.asleep) continue;
+    const auto& [asleep, before] = before_rest_[b];
+    if (!bodies[b].asleep || asleep) continue;
     of(substep_[b], LedgerSource::sleep) += {-before.kinetic, 0.0, -before.momentum, -before.angular_momentum};
   }
 }
@@ -297,7 +290,7 @@ void Ledger::close_substep(int substep) {
   for (std::size_t b = 0; b < substep_.size(); ++b) {
     for (std::size_t s = 0; s < kLedgerSources; ++s) {
       frame_.bodies[b].of[s] += substep_[b][s];
-      const double size = std::abs(figure_of(substep_[b][s], s));
+      const double size = std::abs(figure_of(static_cast<LedgerSource>(s), substep_[b][s]));
       if (size > largest_[b][s]) largest_[b][s] = size, frame_.bodies[b].substep[s] = substep;
     }
     substep_[b] = {};
@@ -334,14 +327,7 @@ LedgerEntry Ledger::pushed(Body& body, const Act& act, const std::function<void(
     for (const auto& [node, weight] : nodes)
       if (!soft.is_held(node)) momentum.segment<3>(3 * node) += weight * act.vector;
   }
-  LedgerEntry entry;
-  entry.motion = 0.5 * dot(momentum, before + soft.velocity);
-  for (int i = 0; i < soft.nodes(); ++i) {
-    const Vec3 p = momentum.segment<3>(3 * i);
-    entry.momentum += p;
-    entry.angular_momentum += Vec3(soft.position.segment<3>(3 * i)).cross(p);
-  }
-  return entry;
+  return entry_of_nodes(momentum, 0.5 * (before + soft.velocity), soft.position);
 }
 
 void Ledger::act(Bodies& bodies, const Act& act, const Vec3& gravity, const std::function<void()>& doing) {

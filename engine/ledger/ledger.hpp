@@ -92,10 +92,9 @@ class Ledger {
     Twist mean;      ///< v̄
     VecX node_mean;  ///< the same of a deformable one, over all nodes
   };
-  struct Motion {
-    double kinetic = 0.0;
-    Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+  struct BeforeRest {
     bool asleep = false;
+    Balance balance;  ///< of one that is awake
   };
 
   Balance measured(Body& body) const;
@@ -121,7 +120,7 @@ class Ledger {
   std::vector<Entries> motion_;                              // by body, of the open motion
   std::vector<Entries> substep_;                             // of its kept motions
   std::vector<std::array<double, kLedgerSources>> largest_;  // by body, of a sub-step of the frame, J
-  std::vector<Motion> before_rest_;
+  std::vector<BeforeRest> before_rest_;
 };
 
 }  // namespace impinge

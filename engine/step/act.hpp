@@ -36,8 +36,8 @@ class Bodies;
 class ContactCache;
 class Sleeping;
 
-/// Does it, if it is no add, to the body of that name, which is there; all but remove want one that has freedom (or had, and is deleted:
-/// nothing comes of it). Who sleeps and is touched by it wakes.
+/// Does it, if it is no add, to the body of that name, which is there; all but remove want one that has freedom (or had,
+/// and is deleted: nothing comes of it). Who sleeps and is touched by it wakes.
 void act_on(Bodies& bodies, const Act& act, double frame_time, Sleeping& sleeping, ContactCache& cache);
 
 }  // namespace impinge

@@ -105,7 +105,7 @@ double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).nor
 
 struct MotionGuard::Known {
   double thickness = 0.0;  // smallest side of its box at rest, metres; 0: not looked at
-  double wall = 0.0;       // what it is made of is as thick, metres
+  double wall = 0.0;       // what it is made of is as thick, metres; likewise
   MeshPointer made;        // the triangles of a shape that is no mesh
   std::unique_ptr<PathSurface> surface;
 };
@@ -130,14 +130,14 @@ double MotionGuard::safe_approach(const Body& body) {
 
 double MotionGuard::thickness_of(const Body& body) {
   Known& known = known_[body.shape.get()];
-  if (known.thickness == 0.0)
-    known.thickness = impinge::thickness_of(*body.shape), known.wall = impinge::wall_of(*body.shape);
+  if (known.thickness == 0.0) known.thickness = impinge::thickness_of(*body.shape);
   return known.thickness;
 }
 
 double MotionGuard::wall_of(const Body& body) {
-  thickness_of(body);
-  return known_[body.shape.get()].wall;
+  Known& known = known_[body.shape.get()];
+  if (known.wall == 0.0) known.wall = impinge::wall_of(*body.shape);
+  return known.wall;
 }
 
 void MotionGuard::open(const Bodies& bodies) {

@@ -16,10 +16,10 @@
 namespace impinge {
 namespace {
 
-constexpr int kMostPieces = 64;   // of a sub-step
-constexpr int kMostMotions = 32;  // tried for a piece
-constexpr int kPatience = 4;      // motions after which pieces are cut shorter than they need be; what then had rows
-constexpr double kGrowth = 2.0;   // for what hangs in one another tells how long the next piece may be
+constexpr int kMostPieces = 64;       // of a sub-step
+constexpr int kMostMotions = 32;      // tried for a piece
+constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
+constexpr double kGrowth = 2.0;       // of the next piece over one that had rows and took more motions than that
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
@@ -86,9 +86,10 @@ bool is_answered(const SubStep& step) {
 /// of this normal yet. False: each had one.
 bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
   bool is_new = false;
-  for (const UnsafeMotion::Pair& pair : motion.pairs)
+  for (const UnsafeMotion::Pair& pair : motion.pairs) {
+    const double farthest = reach(pair);
     for (const Passage& p : pair.passages) {
-      if ((p.point_a - p.point_b).norm() > reach(pair)) continue;
+      if ((p.point_a - p.point_b).norm() > farthest) continue;
       const auto same = std::find_if(asked.begin(), asked.end(), [&](const Collision& c) {
         return c.body_a == pair.a && c.body_b == pair.b && c.feature == p.feature;
       });
@@ -97,6 +98,7 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
       asked.push_back({pair.a, pair.b, p.triangle_a, p.triangle_b, p.point_a, p.point_b, p.normal, gap, {}, p.feature});
       is_new = true;
     }
+  }
   return is_new;
 }
 
@@ -117,10 +119,8 @@ double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const Pair
                   Asking& asking, std::vector<Collision>& asked) {
   if (asking.may && ask_for(motion, seen, asked)) return asking.has = true, 1.0;
   if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
-  return ask_for(
-             motion, [](const UnsafeMotion::Pair&) { return INFINITY; }, asked)
-             ? 1.0
-             : 0.5;
+  const PairLength any = [](const UnsafeMotion::Pair&) { return INFINITY; };
+  return ask_for(motion, any, asked) ? 1.0 : 0.5;
 }
 
 /// The share with which a motion is made anew, so that it ends at its first impact, or what is left of impacts is solved as

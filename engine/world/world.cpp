@@ -286,10 +286,10 @@ void World::act(const Act& act) {
 
 /// Of what only the model reads: a change of the view must not wake a sleeper, or pictures would change states. The first
 /// is of the parameters, one a body follows, 0 of an absent one.
-std::vector<std::uint64_t> World::settings() const {
+std::vector<std::uint64_t> World::settings() {
   ByteWriter all;
   ParameterSet rows;
-  const_cast<World*>(this)->parameters.bind_model(rows);
+  parameters.bind_model(rows);
   for (const Parameter& row : rows.all()) all.put(hash_bytes(format_value(row.get())));
   std::vector<std::uint64_t> hashes = {hash_bytes(all.bytes())};
   for (const Body& body : bodies_) {

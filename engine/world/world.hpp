@@ -99,7 +99,7 @@ class World {
   void take_results(FrozenStep* frozen);
   void keep_ledger();
   void bring_to_life(BodyIndex index);
-  std::vector<std::uint64_t> settings() const;
+  std::vector<std::uint64_t> settings();
   bool is_still() const;
   void repeat_still_frame();
   void save_state(ByteWriter& out) const;

@@ -43,20 +43,35 @@ std::string scene_of(int dragons) {
   return text;
 }
 
-void measure(int dragons) {
-  const test::TempFolder folder;
-  folder.write("scene.toml", scene_of(dragons));
-  DebugWindow window(kWidth, kHeight);
+DebuggerOptions options_of(const DebugWindow& window) {
   DebuggerOptions options;
   options.session.height = kHeight;
   options.session.width = static_cast<int>(kHeight * window.view_aspect());
-  Debugger debugger(folder / "scene.toml", {}, {}, options);
-  DebugLoop loop(debugger, window, folder.path());
-  static const std::string kBench = "bench";
-  const auto line = [&](const std::string& text) { loop.run_line({text, &kBench, 1, 1}); };
-  line("step 30");
-  line("ui move 640 270");
-  line("ui press left");
+  return options;
+}
+
+/// The debugger with its window, without a screen.
+struct Bench {
+  test::TempFolder folder;
+  DebugWindow window{kWidth, kHeight};
+  Debugger debugger;
+  DebugLoop loop{debugger, window, folder.path()};
+
+  explicit Bench(const std::string& scene)
+      : debugger((folder.write("scene.toml", scene), folder / "scene.toml"), {}, {}, options_of(window)) {}
+  void line(const std::string& text) {
+    static const std::string kBench = "bench";
+    loop.run_line({text, &kBench, 1, 1});
+  }
+};
+
+void measure(int dragons) {
+  Bench bench(scene_of(dragons));
+  DebugWindow& window = bench.window;
+  DebugLoop& loop = bench.loop;
+  bench.line("step 30");
+  bench.line("ui move 640 270");
+  bench.line("ui press left");
   Image pixels;
   std::vector<double> orbit, panels, read;
   for (int k = 0; k < kFrames; ++k) {
@@ -68,19 +83,19 @@ void measure(int dragons) {
     orbit.push_back(now_ms() - start);
     read.push_back(now_ms() - drawn);
   }
-  line("ui release left");
+  bench.line("ui release left");
   for (int k = 0; k < kFrames; ++k) {
     const double start = now_ms();
     loop.tick();  // nothing new in the scene
     panels.push_back(now_ms() - start);
   }
   std::size_t triangles = 0;
-  for (const BodyRecord& body : debugger.model().record->bodies)
+  for (const BodyRecord& body : bench.debugger.model().record->bodies)
     if (const SurfaceMesh* mesh = body.shape->mesh()) triangles += mesh->mesh.triangles.size();
   const double whole = median(orbit);
   fmt::print("{:>9} | {:>8} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f} | {:>5.1f}\n", triangles,
-             debugger.model().record->contacts.size(), whole, whole - median(panels) - median(read), median(panels),
-             median(read), 1e3 / whole);
+             bench.debugger.model().record->contacts.size(), whole, whole - median(panels) - median(read),
+             median(panels), median(read), 1e3 / whole);
 }
 
 /// A hand that moves the mouse some time after it saw what the last move did.
@@ -118,25 +133,17 @@ class Hand : public Screen {
 };
 
 void measure_meanwhile(const char* name, const std::string& scene) {
-  const test::TempFolder folder;
-  folder.write("scene.toml", scene);
-  DebugWindow window(kWidth, kHeight);
-  DebuggerOptions options;
-  options.session.height = kHeight;
-  options.session.width = static_cast<int>(kHeight * window.view_aspect());
-  Debugger debugger(folder / "scene.toml", {}, {}, options);
-  DebugLoop loop(debugger, window, folder.path());
-  static const std::string kBench = "bench";
-  loop.run_line({"play", &kBench, 1, 1});
+  Bench bench(scene);
+  bench.line("play");
   std::vector<std::unique_ptr<Screen>> screens;
   screens.push_back(std::make_unique<Hand>(200));
   const std::atomic<bool> interrupted = false;
   const double start = now_ms();
-  show_on_screens(loop, window, screens, interrupted, [] {});
+  show_on_screens(bench.loop, bench.window, screens, interrupted, [] {});
   std::vector<double> waited = dynamic_cast<const Hand&>(*screens[0]).waited();
   std::sort(waited.begin(), waited.end());
   fmt::print("{:<28} | {:>5} | {:>6.1f} | {:>6.1f} | {:>6.1f} | {:>6}\n", name, waited.size(), median(waited),
-             waited[waited.size() * 95 / 100], waited.back(), loop.frame());
+             waited[waited.size() * 95 / 100], waited.back(), bench.loop.frame());
   fmt::print("  {:.0f} s\n", 1e-3 * (now_ms() - start));
 }
 

@@ -124,6 +124,10 @@ std::string text_of(const Vec3& v) {
   return fmt::format("{} {} {}", shortest(v.x()), shortest(v.y()), shortest(v.z()));
 }
 
+std::string turn_text(const Act& act) {
+  return act.axis.norm() > 0.0 ? fmt::format(" turn {} {}", text_of(act.axis), shortest(act.degrees)) : "";
+}
+
 }  // namespace
 
 const std::vector<std::string>& act_verbs() {
@@ -197,12 +201,12 @@ std::string format_act(const Act& act) {
       break;
     case Act::move:
       line += " " + text_of(act.vector);
-      if (act.axis.norm() > 0.0) line += fmt::format(" turn {} {}", text_of(act.axis), shortest(act.degrees));
+      line += turn_text(act);
       break;
     case Act::add:
       line += fmt::format(" like {} at {}", act.like, text_of(act.vector));
       if (act.velocity != Vec3::Zero()) line += " velocity " + text_of(act.velocity);
-      if (act.axis.norm() > 0.0) line += fmt::format(" turn {} {}", text_of(act.axis), shortest(act.degrees));
+      line += turn_text(act);
       break;
     case Act::release:
     case Act::remove:

@@ -280,7 +280,6 @@ void Session::restore(ByteReader& in) {
     }
     if (row.set) row.set(value);  // else it is fixed with the scene
   }
-  world_.parameters_changed();
   // after the rows: setting a body's row derives state from it, and the snapshot's bits must stand
   world_.restore(in);
   if (rows != rows_present())

@@ -51,7 +51,9 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
   if (!run_folder_.empty()) read_run_folder();
   if (!options.against.scene.empty()) against_.emplace(options.against, options.session);
   session_.rows().find("view.panel.figures")->set(false);  // the panels say it
-  session_.rows().find("record.ledger")->set(true);        // a panel, plots and conditions are of it
+  // a panel, plots and conditions are of it
+  if (std::none_of(overrides.begin(), overrides.end(), [](const auto& o) { return o.starts_with("record.ledger"); }))
+    session_.rows().find("record.ledger")->set(true);
   if (const std::string note = note_of_former_paths(); !note.empty()) say(ConsoleLine::message, note);
   if (!advance()) return;
   first_ = values_of(session_.rows());
@@ -222,7 +224,7 @@ void Debugger::follow_selection() {
 
 void Debugger::do_panel(const PanelLine& line) { take(line, model_.state); }
 
-void Debugger::check(const PlacedText& line) const {
+void Debugger::check(const PlacedText& line) {
   if (line.text.starts_with("select contact")) return;  // how many there are depends on the frame
   // so does who is there of those that lines before this one add
   if (names_one_of(std::string(line.text), announced_)) return;
@@ -434,11 +436,8 @@ const DebugModel& Debugger::model() {
   model_.against = against_ ? &against_->model() : nullptr;
   model_.changed_frames = &changed_frames_;
   model_.commands_of = [this](int frame) {
-    std::vector<Command> commands = session_.script().commands_at(frame);
-    if (const auto it = by_hand_.find(frame); it != by_hand_.end())
-      commands.insert(commands.begin(), it->second.begin(), it->second.end());
     std::vector<std::string> lines;
-    for (const Command& command : commands) lines.push_back(format_command(command));
+    for (const Command& command : commands_at(frame)) lines.push_back(format_command(command));
     return lines;
   };
   model_.snapshots = ring_.count();

@@ -46,7 +46,7 @@ class Debugger {
            const std::filesystem::path& script, const DebuggerOptions& options);
 
   /// Throws InputError for a line that can't be done whatever the frame.
-  void check(const PlacedText& line) const;
+  void check(const PlacedText& line);
   /// Reads a line and does it, unless it is the window's to do: input, shots and quit are handed back. Throws
   /// InputError.
   std::optional<DebugLine> execute(const PlacedText& line);
@@ -98,6 +98,7 @@ class Debugger {
   void why(const WhyLine& line);
   void list_added();
   void check_added(const PlacedText& line, const DebugLine& parsed) const;
+  std::vector<Command> commands_at(int frame) const;
   void tell_of_overlap(int frame);
   bool do_by_hand(int frame);
   void show_by_hand();
@@ -159,7 +160,7 @@ class Debugger {
   ExpressionWords conditions_;
   Expectations expectations_;
   Breakpoints breaks_;
-  mutable std::set<std::string> announced_;  // bodies that lines which were checked will add
+  std::set<std::string> announced_;  // bodies that lines which were checked will add
   ConditionReader reader_;
   std::optional<Against> against_;
   std::optional<FrameStages> stages_;  // of the frame looked into last

@@ -126,12 +126,17 @@ void Debugger::check_added(const PlacedText& line, const DebugLine& parsed) cons
   }
 }
 
-/// A body may be added where others are.
-void Debugger::tell_of_overlap(int frame) {
+/// Of a frame, those by hand first.
+std::vector<Command> Debugger::commands_at(int frame) const {
   std::vector<Command> commands = session_.script().commands_at(frame);
   if (const auto it = by_hand_.find(frame); it != by_hand_.end())
-    commands.insert(commands.end(), it->second.begin(), it->second.end());
-  if (const std::string note = overlap_note(commands, session_.record()); !note.empty())
+    commands.insert(commands.begin(), it->second.begin(), it->second.end());
+  return commands;
+}
+
+/// A body may be added where others are.
+void Debugger::tell_of_overlap(int frame) {
+  if (const std::string note = overlap_note(commands_at(frame), session_.record()); !note.empty())
     say(ConsoleLine::message, note);
 }
 

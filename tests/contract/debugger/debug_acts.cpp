@@ -12,22 +12,6 @@ using namespace impinge::test;
 
 namespace {
 
-using End = std::pair<int, std::string>;
-
-/// The end of a session of these lines, which its recording has too.
-End end_of_lines(const TempFolder& folder, const std::string& lines, std::vector<std::string> more = {}) {
-  folder.write("a.script", lines);
-  std::vector<std::string> first = more;
-  first.insert(first.end(), {"--record", "made.script"});
-  const Outcome outcome = debug(folder, "s.toml", "a.script", first);
-  INFO(lines << outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(outcome.err.empty());
-  folder.write("b.script", slurp(folder / "made.script"));
-  CHECK(debug(folder, "s.toml", "b.script", more).out == outcome.out);
-  return end_of(outcome);
-}
-
 /// The state of the last frame of a run with a script.
 End end_of_run(const TempFolder& folder, const std::string& script, int frames, std::vector<std::string> more = {}) {
   folder.write("run.script", script);

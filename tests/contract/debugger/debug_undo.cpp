@@ -9,27 +9,6 @@
 using namespace impinge;
 using namespace impinge::test;
 
-namespace {
-
-/// The end of a session of these lines.
-std::pair<int, std::string> end_of_lines(const TempFolder& folder, const std::string& lines) {
-  folder.write("a.script", lines);
-  const Outcome outcome = debug(folder, "s.toml", "a.script", {"--record", "made.script"});
-  INFO(lines << outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(outcome.err.empty());
-  // as it was recorded, too
-  const std::string recorded = slurp(folder / "made.script");
-  folder.write("b.script", recorded);
-  const Outcome again = debug(folder, "s.toml", "b.script", {"--record", "again.script"});
-  CHECK(again.out == outcome.out);
-  CHECK(slurp(folder / "again.script").substr(slurp(folder / "again.script").find('\n')) ==
-        recorded.substr(recorded.find('\n')));
-  return end_of(outcome);
-}
-
-}  // namespace
-
 TEST_CASE("a change that is undone, wherever one stands by then, leaves no trace, and comes back by redo") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);

@@ -76,10 +76,8 @@ Scene build(const Shot& shot, World& world) {
   } else if (shot.target == "shell") {
     scene.is_shell = true;
     scene.thickness = kWall;
-    TriangleMesh mesh = icosphere(3, 0.2), inner = icosphere(3, 0.2 - kWall);
-    const int first = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
-    for (const Triangle& t : inner.triangles) mesh.triangles.push_back({first + t[0], first + t[2], first + t[1]});
+    TriangleMesh mesh = icosphere(3, 0.2);
+    append(mesh, inside_out(icosphere(3, 0.2 - kWall)));
     target.shape = mesh_shape(std::move(mesh));
     target.kind = BodyKind::dynamic;
     mover.velocity = shot.speed * random.direction();

@@ -48,13 +48,37 @@ inline Outcome debug(const TempFolder& folder, const std::string& scene, const s
   return impinge_run(folder.path(), words);
 }
 
+/// A frame and its state.
+using End = std::pair<int, std::string>;
+
 /// "frame 3, state 0123456789abcdef" of the program's last line.
-inline std::pair<int, std::string> end_of(const Outcome& outcome) {
+inline End end_of(const Outcome& outcome) {
   int frame = -1;
   char hash[32] = "";
   INFO(outcome.out << outcome.err);
   REQUIRE(std::sscanf(outcome.out.c_str(), "frame %d, state %16[0-9a-f]", &frame, hash) == 2);
   return {frame, hash};
+}
+
+/// The end of a session of these lines in s.toml; its recording ends there too, and makes the same recording.
+inline End end_of_lines(const TempFolder& folder, const std::string& lines, std::vector<std::string> more = {}) {
+  folder.write("a.script", lines);
+  const auto recorded = [&](const char* script, const char* into) {
+    std::vector<std::string> words = more;
+    words.insert(words.end(), {"--record", into});
+    return debug(folder, "s.toml", script, words);
+  };
+  const Outcome outcome = recorded("a.script", "made.script");
+  INFO(lines << outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(recorded("made.script", "again.script").out == outcome.out);
+  const auto lines_of = [&](const char* script) {  // the first line tells the command
+    const std::string text = slurp(folder / script);
+    return text.substr(text.find('\n'));
+  };
+  CHECK(lines_of("again.script") == lines_of("made.script"));
+  return end_of(outcome);
 }
 
 /// The state_hash of a frame in stats.csv, found by its column's name.

@@ -14,22 +14,15 @@ namespace {
 
 double wall_of_mesh(TriangleMesh mesh) { return wall_of(*SharedShape(surface(std::move(mesh)))); }
 
-/// A ball of this radius with another taken out of it.
-TriangleMesh shell(double radius, double wall) {
-  TriangleMesh mesh = icosphere(4, radius), inner = icosphere(4, radius - wall);
-  const int first = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
-  for (const Triangle& t : inner.triangles) mesh.triangles.push_back({first + t[0], first + t[2], first + t[1]});
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("a hollow body is as thick as its wall, a compact one as its smallest side", "[shapes]") {
   // 2 V / A of a shell: 2/3 (R³ - r³) / (R² + r²), which its flat triangles come near
   for (const double wall : {1e-4, 1e-3, 1e-2}) {
     const double r = 0.2 - wall, exact = 2.0 / 3.0 * (0.008 - r * r * r) / (0.04 + r * r);
-    CHECK(wall_of_mesh(shell(0.2, wall)) == Approx(exact).epsilon(0.01));
+    TriangleMesh shell = icosphere(4, 0.2);
+    append(shell, inside_out(icosphere(4, r)));
+    CHECK(wall_of_mesh(std::move(shell)) == Approx(exact).epsilon(0.01));
     CHECK(exact == Approx(wall).epsilon(0.06));
   }
   CHECK(wall_of_mesh(box(Vec3(0.5, 0.001, 0.4), {4, 1, 4})) == Approx(0.002).epsilon(1e-12));
