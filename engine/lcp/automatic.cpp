@@ -8,11 +8,9 @@
 // the best of 6, 2 and 0.5 on stacks, piles and deformable cubes. With more contacts than kMostDense (a W with factors,
 // whose sweeps cost n: kMostFactored) the sweeps are made conjugate instead.
 //
-// What Newton leaves of rigid bodies (tumbling piles) goes to alternating directions, which no local minimum holds, and
-// from there to Newton again. Before Newton they cost more than they save, except on tall stacks. Where Newton came near
-// it is only begun anew, without what it remembers, for a while: in heaps of 100 to 1,000 boxes a third of what is left
-// is solved so, and a thousand iterations would solve an eighth more. Some of the rest are solved by conjugate sweeps from
-// there.
+// What Newton leaves of rigid bodies goes to alternating directions, which no local minimum holds, and from there to
+// Newton again. Before Newton they cost more than they save, except on tall stacks. Where Newton came near, conjugate
+// sweeps go on from there.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -36,10 +34,8 @@ constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
 constexpr double kSweepsPerContact = 2.0;              // the price of Newton's method
 constexpr double kSweepsOfBodies = 20.0;               // and where all bodies are rigid
 constexpr double kSweepsOfConjugate = 50.0;            // what conjugate sweeps cost beside what they save
-constexpr int kFirstNewton = 200, kAlternating = 300;  // iterations, where all bodies are rigid
+constexpr int kAlternating = 300, kConjugate = 300;  // iterations, where all bodies are rigid and Newton ended
 constexpr double kNear = 1e-5;  // a relative residual below which ADMM, slow towards its end, betters one in fifty
-constexpr int kAgain = 150;     // of Newton begun anew there, half of whose successes come within 15
-constexpr int kLast = 300;      // of conjugate sweeps, where that got nowhere either
 
 class Automatic : public LcpSolver {
  public:
@@ -96,14 +92,11 @@ class Automatic : public LcpSolver {
   static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
                                 std::vector<Vec3>& lambda) {
     const Method newton = by_solver(semismooth_newton_solver());
-    LcpResult result = go_on(newton, problem, settings, sweeps, lambda, kFirstNewton);
+    LcpResult result = go_on(newton, problem, settings, sweeps, lambda);
     if (result.reason == StopReason::converged) return result;
-    const bool is_near = judge(problem, lambda).map.relative <= kNear;
-    if (is_near || !can_alternate_directions(problem)) {
-      result = go_on(newton, problem, settings, result.iterations, lambda, kAgain);
-      if (result.reason != StopReason::converged)
-        result = go_on(by_solver(nonsmooth_nonlinear_conjugate_gradient_solver()), problem, settings, result.iterations,
-                       lambda, kLast);
+    if (judge(problem, lambda).map.relative <= kNear || !can_alternate_directions(problem)) {
+      result = go_on(by_solver(nonsmooth_nonlinear_conjugate_gradient_solver()), problem, settings, result.iterations,
+                     lambda, kConjugate);
       if (result.reason == StopReason::iteration_cap && result.iterations < settings.max_iterations)
         result.reason = StopReason::stagnated;
       return result;

@@ -5,8 +5,11 @@
 // the difficulty.
 //
 // A step is halved until F has shrunk against the worst of the last few; if that fails α rises, and where even a large
-// α does not help, a few Gauss-Seidel sweeps move on. Cost of a step: one LU, of six rows a body where all bodies are
-// rigid, else of the rows in contact.
+// α does not help, a few Gauss-Seidel sweeps move on. F has kinks beside its zero (a contact whose λ and u are both
+// nearly 0) along which short steps creep without end. Where they do and nothing better was met for long, a whole step
+// is taken whatever it makes of F: the watchdog technique [Chamberlain82], without the way back, for going on from
+// where that leads ends far more often. Cost of a step: one LU, of six rows a body where all bodies are rigid, else of
+// the rows in contact.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -24,7 +27,12 @@ constexpr int kHalvings = 7;
 constexpr std::size_t kMemory = 10;                  // steps that a new one is compared with
 constexpr double kSmallest = 1e-12, kLargest = 1.0;  // α
 constexpr double kFirstFactor = 10.0;                // α over the relative residual
-constexpr int kPatience = 500;                       // steps without a better residual before giving up
+constexpr double kAfterLeap = 1.0;                   // the same, of a whole step
+constexpr int kLong = 40;                            // steps without 10 % gained after which it may leap
+constexpr int kLongPerContact = 20;                  // and one more for so many contacts, which settle in turn
+constexpr int kPatience = 4;                         // times as many without 1 % gained, and it gives up
+constexpr std::size_t kCourse = 10;                  // steps that shrink F by less than kCreeps creep
+constexpr double kCreeps = 0.9;
 constexpr std::size_t kMostContacts = 6000;          // W written out takes 2.6 GB then
 
 class Search {
@@ -53,8 +61,8 @@ class Search {
     while (iterations_ < std::min(kFirstSweeps, settings_.max_iterations))
       if (sweep()) return finish(StopReason::converged);
     while (iterations_ < settings_.max_iterations) {
-      if (iterations_ - best_at_ > kPatience) return finish(StopReason::stagnated);
-      if (step()) {
+      if (iterations_ - best_at_ > kPatience * long_) return finish(StopReason::stagnated);
+      if (creeps() ? leap() : step()) {
         ++iterations_;
         if (measure()) return finish(StopReason::converged);
         continue;
@@ -92,6 +100,7 @@ class Search {
     note(residual_);
     if (best_.empty() || residual_ < best_residual_) {
       if (best_.empty() || residual_ < 0.99 * best_residual_) best_at_ = iterations_;
+      if (best_.empty() || residual_ < 0.9 * gained_) gained_ = residual_, gained_at_ = iterations_;
       best_ = std::move(inside);
       best_residual_ = residual_;
     }
@@ -119,31 +128,34 @@ class Search {
     return sum;
   }
 
+  bool creeps() const {
+    return iterations_ - gained_at_ > long_ && course_.size() > kCourse && course_.back() > kCreeps * course_.front();
+  }
+
+  /// A whole step, wherever it leads.
+  bool leap() {
+    course_.clear();
+    merits_.clear();
+    factor_ = kAfterLeap;
+    problem_.w->begin(lambda_);
+    velocities(problem_, u_);
+    if (!find_direction()) return false;
+    for (std::size_t i = 0; i < n_; ++i) lambda_[i] += direction(i);
+    return true;
+  }
+
   /// One regularised Newton step with its line search; false if no length served (λ is as before).
   bool step() {
     const double now = merit(lambda_);
-    alpha_ = std::clamp(factor_ * residual_, kSmallest, kLargest);
-    VecX f(static_cast<Eigen::Index>(3 * n_)), d;
-    for (std::size_t i = 0; i < n_; ++i) {
-      const AlartCurnier e = alart_curnier(problem_, i, u_[i], lambda_[i], rho_[i]);
-      a_[i] = e.by_u;
-      b_[i] = e.by_lambda + alpha_ * scale_[i] * e.by_u;
-      kept_[i] = !e.open;
-      f.segment<3>(3 * static_cast<Eigen::Index>(i)) = -e.value;
-    }
-    system_->factorize(a_, b_, kept_);
-    system_->solve(f, d);
-    if (!d.allFinite()) return false;
+    if (!find_direction()) return false;
     double worst = now;
     for (const double m : merits_) worst = std::max(worst, m);
     double length = 1.0;
     for (int k = 0; k <= kHalvings; ++k, length *= 0.5) {
-      for (std::size_t i = 0; i < n_; ++i)
-        trial_[i] = lambda_[i] + length * d.segment<3>(3 * static_cast<Eigen::Index>(i));
+      for (std::size_t i = 0; i < n_; ++i) trial_[i] = lambda_[i] + length * direction(i);
       if (!(merit(trial_) <= (1.0 - 1e-4 * length) * worst)) continue;
       lambda_ = trial_;
-      merits_.push_back(now);
-      if (merits_.size() >= kMemory) merits_.pop_front();
+      remember(now);
       if (length > 0.4)
         factor_ = std::max(0.5 * factor_, 1e-3);
       else if (length < 0.2)
@@ -153,19 +165,48 @@ class Search {
     return false;
   }
 
+  /// A merit that was stepped from.
+  void remember(double merit) {
+    merits_.push_back(merit);
+    if (merits_.size() >= kMemory) merits_.pop_front();
+    course_.push_back(merit);
+    if (course_.size() > kCourse + 1) course_.pop_front();
+  }
+
+  Vec3 direction(std::size_t i) const { return direction_.segment<3>(3 * static_cast<Eigen::Index>(i)); }
+
+  /// Newton's, from the present λ and its u; false if there is none.
+  bool find_direction() {
+    alpha_ = std::clamp(factor_ * residual_, kSmallest, kLargest);
+    VecX f(static_cast<Eigen::Index>(3 * n_));
+    for (std::size_t i = 0; i < n_; ++i) {
+      const AlartCurnier e = alart_curnier(problem_, i, u_[i], lambda_[i], rho_[i]);
+      a_[i] = e.by_u;
+      b_[i] = e.by_lambda + alpha_ * scale_[i] * e.by_u;
+      kept_[i] = !e.open;
+      f.segment<3>(3 * static_cast<Eigen::Index>(i)) = -e.value;
+    }
+    system_->factorize(a_, b_, kept_);
+    system_->solve(f, direction_);
+    return direction_.allFinite();
+  }
+
   const ConeProblem& problem_;
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
+  const int long_ = kLong + static_cast<int>(n_) / kLongPerContact;
   std::unique_ptr<NewtonSystem> system_;
   std::vector<Vec2> rho_;
   std::vector<double> scale_;
   std::vector<Vec3> u_, trial_, best_;
   std::vector<Mat3> a_, b_;
   std::vector<char> kept_;
-  std::deque<double> merits_;
+  VecX direction_;
+  std::deque<double> merits_, course_;
   double residual_ = 0.0, best_residual_ = 0.0, alpha_ = 0.0, factor_ = kFirstFactor;
-  int iterations_ = 0, best_at_ = 0;
+  double gained_ = 0.0;
+  int iterations_ = 0, best_at_ = 0, gained_at_ = 0;
 };
 
 class SemismoothNewton : public LcpSolver {
