@@ -31,9 +31,9 @@ constexpr int kFirstSweeps = 30;    // before the rate is looked at
 constexpr int kFirstOfBodies = 10;  // where Newton is quick
 constexpr int kWindow = 10;         // of them that it is taken over
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
-constexpr double kSweepsPerContact = 2.0;              // the price of Newton's method
-constexpr double kSweepsOfBodies = 20.0;               // and where all bodies are rigid
-constexpr double kSweepsOfConjugate = 50.0;            // what conjugate sweeps cost beside what they save
+constexpr double kSweepsPerContact = 2.0;            // the price of Newton's method
+constexpr double kSweepsOfBodies = 20.0;             // and where all bodies are rigid
+constexpr double kSweepsOfConjugate = 50.0;          // what conjugate sweeps cost beside what they save
 constexpr int kAlternating = 300, kConjugate = 300;  // iterations, where all bodies are rigid and Newton ended
 constexpr double kNear = 1e-5;  // a relative residual below which ADMM, slow towards its end, betters one in fifty
 

@@ -6,11 +6,17 @@
 #include <algorithm>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
 
 namespace impinge {
 namespace {
 
 using Rows = std::array<BodySpace::Six, 3>;
+
+constexpr int kWidest = 8;         // columns of a panel
+constexpr double kZeros = 0.1;     // of a panel's entries at most
+constexpr int kFew = 6;            // rows below that are not worth a panel's packing
+constexpr std::size_t kGrain = 8;  // columns a task: some 100 µs where many are below
 
 /// G J.
 Rows weigh(const Mat3& g, const Rows& j) {
@@ -32,7 +38,15 @@ bool couples(const std::array<BodySpace::Side, 2>& sides) {
 
 BodyMatrix::BodyMatrix(const BodySpace& bodies) : bodies_(bodies) {
   find_order();
-  find_fill();
+  std::vector<std::vector<int>> below = find_fill();
+  put_panels_together(below);
+  find_panels(below);
+  start_.assign(1, 0);
+  for (const std::vector<int>& rows : below) {
+    row_.insert(row_.end(), rows.begin(), rows.end());
+    start_.push_back(static_cast<int>(row_.size()));
+  }
+  find_places();
 }
 
 /// Bodies that touch few others first (minimum degree).
@@ -53,29 +67,87 @@ void BodyMatrix::find_order() {
 }
 
 /// The pattern of L: a column has its own rows and those that the columns eliminated into it leave.
-void BodyMatrix::find_fill() {
+std::vector<std::vector<int>> BodyMatrix::find_fill() const {
   const std::size_t count = position_.size();
-  std::vector<std::vector<int>> below(count);
+  std::vector<std::vector<int>> rows(count);
   for (const auto& sides : bodies_.sides) {
     if (!couples(sides)) continue;
     const auto [low, high] = std::minmax(position_[sides[0].body], position_[sides[1].body]);
-    below[low].push_back(high);
+    rows[low].push_back(high);
   }
-  const auto make_set = [](std::vector<int>& v) {
-    std::sort(v.begin(), v.end());
-    v.erase(std::unique(v.begin(), v.end()), v.end());
-  };
-  start_.assign(1, 0);
   for (std::size_t k = 0; k < count; ++k) {
     check_interrupt();
-    make_set(below[k]);
-    row_.insert(row_.end(), below[k].begin(), below[k].end());
-    start_.push_back(static_cast<int>(row_.size()));
-    if (below[k].empty()) continue;
-    std::vector<int>& next = below[below[k].front()];
-    next.insert(next.end(), below[k].begin() + 1, below[k].end());
-    below[k] = {};
+    std::sort(rows[k].begin(), rows[k].end());
+    rows[k].erase(std::unique(rows[k].begin(), rows[k].end()), rows[k].end());
+    if (rows[k].empty()) continue;
+    std::vector<int>& next = rows[rows[k].front()];
+    next.insert(next.end(), rows[k].begin() + 1, rows[k].end());
   }
+  return rows;
+}
+
+/// Puts each column right after those that are eliminated into it (a postorder of the elimination tree): the same fill,
+/// and columns of like rows are neighbours.
+void BodyMatrix::put_panels_together(std::vector<std::vector<int>>& below) {
+  const int count = static_cast<int>(below.size());
+  std::vector<int> child(count, -1), sibling(count, -1), place(count), roots, path;
+  for (int k = count - 1; k >= 0; --k) {
+    if (below[k].empty()) {
+      roots.push_back(k);
+    } else {
+      const int parent = below[k].front();
+      sibling[k] = child[parent], child[parent] = k;
+    }
+  }
+  int next = 0;
+  for (const int root : roots) {
+    path.push_back(root);
+    while (!path.empty()) {
+      const int k = path.back(), first = child[k];
+      if (first >= 0) {
+        child[k] = sibling[first];
+        path.push_back(first);
+      } else {
+        place[k] = next++;
+        path.pop_back();
+      }
+    }
+  }
+  for (int& position : position_) position = place[position];
+  std::vector<std::vector<int>> moved(count);
+  for (int k = 0; k < count; ++k) {
+    for (int& row : below[k]) row = place[row];
+    std::sort(below[k].begin(), below[k].end());
+    moved[place[k]] = std::move(below[k]);
+  }
+  below = std::move(moved);
+}
+
+/// Neighbours of which each has nearly the rows of the next, and that one besides: they get all of them, zeros included.
+void BodyMatrix::find_panels(std::vector<std::vector<int>>& below) {
+  const int count = static_cast<int>(below.size());
+  for (int end = count; end > 0;) {
+    const std::size_t rest = below[end - 1].size();
+    int first = end - 1;
+    std::size_t entries = rest, zeros = 0;
+    for (; first > 0 && end - first < kWidest; --first) {
+      const std::vector<int>& rows = below[first - 1];
+      const std::size_t wanted = rest + static_cast<std::size_t>(end - first);
+      if (rows.empty() || rows.front() != first) break;
+      entries += wanted, zeros += wanted - rows.size();
+      if (static_cast<double>(zeros) > kZeros * static_cast<double>(entries)) break;
+      std::vector<int> all(below[end - 1]);
+      for (int k = end - 1; k >= first; --k) all.insert(all.begin(), k);
+      below[first - 1] = std::move(all);
+    }
+    panel_.push_back(first);
+    end = first;
+  }
+  std::reverse(panel_.begin(), panel_.end());
+  panel_.push_back(count);
+}
+
+void BodyMatrix::find_places() {
   for (const auto& sides : bodies_.sides) {
     Place place;
     if (couples(sides)) {
@@ -107,34 +179,68 @@ void BodyMatrix::assemble(std::span<const Mat3> g) {
       add_product(a.row, of_b, diagonal_[position_[a.body]]);
       add_product(b.row, of_a, diagonal_[position_[a.body]]);
     } else if (const Place& place = places_[i]; place.entry >= 0) {
-      Block& row_of_first = place.first_is_row ? lower_[place.entry] : upper_[place.entry];
-      Block& row_of_second = place.first_is_row ? upper_[place.entry] : lower_[place.entry];
-      add_product(a.row, of_b, row_of_first);
-      add_product(b.row, of_a, row_of_second);
+      Block& lower = lower_[place.entry];
+      Block& upper = upper_[place.entry];
+      add_product(place.first_is_row ? a.row : b.row, place.first_is_row ? of_b : of_a, lower);
+      add_product(place.first_is_row ? of_a : of_b, place.first_is_row ? b.row : a.row, upper);
     }
   }
 }
 
 void BodyMatrix::factorize(std::span<const Mat3> g) {
   assemble(g);
-  for (std::size_t k = 0; k < position_.size(); ++k) {
-    if (k % 64 == 0) check_interrupt();
-    diagonal_[k] = diagonal_[k].partialPivLu().inverse().eval();
-    const int end = start_[k + 1];
-    for (int p = start_[k]; p < end; ++p) {
-      const int i = row_[p];
-      lower_[p] = (lower_[p] * diagonal_[k]).eval();
-      diagonal_[i].noalias() -= lower_[p] * upper_[p];
-    }
-    for (int p = start_[k]; p < end; ++p) {
-      int at = start_[row_[p]];  // the rows after p are all in that column too, in the same order
-      for (int r = p + 1; r < end; ++r, ++at) {
-        while (row_[at] != row_[r]) ++at;
-        lower_[at].noalias() -= lower_[r] * upper_[p];
-        upper_[at].noalias() -= lower_[p] * upper_[r];
-      }
+  for (std::size_t i = 0; i + 1 < panel_.size(); ++i) {
+    check_interrupt();
+    const int first = panel_[i], end = panel_[i + 1];
+    const bool is_dense = start_[end] - start_[end - 1] >= kFew;
+    for (int k = first; k < end; ++k) eliminate(k, is_dense ? end : static_cast<int>(position_.size()));
+    if (is_dense) eliminate_panel(first, end);
+  }
+}
+
+/// Takes column k out of the columns before `end`.
+void BodyMatrix::eliminate(int k, int end) {
+  diagonal_[k] = diagonal_[k].partialPivLu().inverse().eval();
+  for (int p = start_[k]; p < start_[k + 1]; ++p) lower_[p] = (lower_[p] * diagonal_[k]).eval();
+  for (int p = start_[k]; p < start_[k + 1] && row_[p] < end; ++p) {
+    diagonal_[row_[p]].noalias() -= lower_[p] * upper_[p].transpose();
+    int at = start_[row_[p]];  // the rows after p are all in that column too, in the same order
+    for (int r = p + 1; r < start_[k + 1]; ++r, ++at) {
+      while (row_[at] != row_[r]) ++at;
+      lower_[at].noalias() -= lower_[r] * upper_[p].transpose();
+      upper_[at].noalias() -= upper_[r] * lower_[p].transpose();
     }
   }
+}
+
+/// Takes the columns [first, end) out of those after them at once: one dense product a column, of all that are below.
+void BodyMatrix::eliminate_panel(int first, int end) {
+  const int width = end - first, count = start_[end] - start_[end - 1];
+  const auto entry = [&](int k, int row) { return start_[first + k + 1] - count + row; };
+  packed_lower_.resize(6 * count, 6 * width);
+  packed_upper_.resize(6 * count, 6 * width);
+  for (int row = 0; row < count; ++row)
+    for (int k = 0; k < width; ++k)
+      for (int c = 0; c < 6; ++c)
+        for (int r = 0; r < 6; ++r) {
+          packed_lower_.at(6 * row + r, 6 * k + c) = lower_[entry(k, row)](r, c);
+          packed_upper_.at(6 * row + r, 6 * k + c) = upper_[entry(k, row)](r, c);
+        }
+  parallel_for(count, kGrain, [&](std::size_t task) {
+    const int column = static_cast<int>(task), target = row_[entry(0, column)];
+    std::array<Block, kWidest> of_lower, of_upper;
+    for (int k = 0; k < width; ++k) of_lower[k] = lower_[entry(k, column)], of_upper[k] = upper_[entry(k, column)];
+    MatX lower(packed_lower_.tiles() * kTileRows, 6), upper(packed_upper_.tiles() * kTileRows, 6);
+    tile_product(packed_lower_, 6 * column / kTileRows, of_upper[0].data(), lower.data());
+    tile_product(packed_upper_, 6 * column / kTileRows, of_lower[0].data(), upper.data());
+    diagonal_[target] -= lower.middleRows<6>(6 * column);
+    int at = start_[target];
+    for (int row = column + 1; row < count; ++row, ++at) {
+      while (row_[at] != row_[entry(0, row)]) ++at;
+      lower_[at] -= lower.middleRows<6>(6 * row);
+      upper_[at] -= upper.middleRows<6>(6 * row);
+    }
+  });
 }
 
 void BodyMatrix::solve(VecX& x) const {
@@ -145,7 +251,7 @@ void BodyMatrix::solve(VecX& x) const {
   for (int k = 0; k < count; ++k)
     for (int p = start_[k]; p < start_[k + 1]; ++p) y[row_[p]].noalias() -= lower_[p] * y[k];
   for (int k = count - 1; k >= 0; --k) {
-    for (int p = start_[k]; p < start_[k + 1]; ++p) y[k].noalias() -= upper_[p] * y[row_[p]];
+    for (int p = start_[k]; p < start_[k + 1]; ++p) y[k].noalias() -= upper_[p].transpose() * y[row_[p]];
     y[k] = (diagonal_[k] * y[k]).eval();
   }
   for (int b = 0; b < count; ++b) x.segment<6>(6 * b) = y[position_[b]];

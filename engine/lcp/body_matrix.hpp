@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "engine/algebra/tile_product.hpp"
 #include "engine/lcp/body_space.hpp"
 
 namespace impinge {
@@ -22,22 +23,29 @@ class BodyMatrix {
   void solve(VecX& x) const;
 
  private:
-  /// Where the blocks of a contact are: its bodies, and which entry of which triangle couples them.
+  /// Where the blocks of a contact are: its bodies, and which entry couples them.
   struct Place {
     int entry = -1;             ///< of lower_ and upper_; none: only one body, or twice the same
     bool first_is_row = false;  ///< whether the first body's row and the second's column lie in lower_
   };
 
   void find_order();
-  void find_fill();
+  std::vector<std::vector<int>> find_fill() const;
+  void put_panels_together(std::vector<std::vector<int>>& below);
+  void find_panels(std::vector<std::vector<int>>& below);
+  void find_places();
   void assemble(std::span<const Mat3> g);
+  void eliminate(int k, int end);
+  void eliminate_panel(int first, int end);
 
   const BodySpace& bodies_;
-  std::vector<int> position_;         // of each body in the order of elimination
-  std::vector<int> start_, row_;      // below the diagonal, column by column: the rows, ascending
-  std::vector<Place> places_;         // by contact
-  std::vector<Block> diagonal_;       // by position; factorized: its inverse
-  std::vector<Block> lower_, upper_;  // A(row, column) and A(column, row); factorized: L and U
+  std::vector<int> position_;             // of each body in the order of elimination
+  std::vector<int> start_, row_;          // below the diagonal, column by column: the rows, ascending
+  std::vector<int> panel_;                // where one begins, and the end
+  std::vector<Place> places_;             // by contact
+  std::vector<Block> diagonal_;           // by position; factorized: its inverse
+  std::vector<Block> lower_, upper_;      // A(row, column) and, transposed, A(column, row); factorized: L and U
+  TileRows packed_lower_, packed_upper_;  // of the panel that is eliminated
 };
 
 }  // namespace impinge

@@ -29,11 +29,11 @@ constexpr double kSmallest = 1e-12, kLargest = 1.0;  // α
 constexpr double kFirstFactor = 10.0;                // α over the relative residual
 constexpr double kAfterLeap = 1.0;                   // the same, of a whole step
 constexpr int kLong = 40;                            // steps without 10 % gained after which it may leap
-constexpr int kLongPerContact = 20;                  // and one more for so many contacts, which settle in turn
+constexpr int kLongPerContact = 60;                  // and one more for so many contacts, which settle in turn
 constexpr int kPatience = 4;                         // times as many without 1 % gained, and it gives up
 constexpr std::size_t kCourse = 10;                  // steps that shrink F by less than kCreeps creep
 constexpr double kCreeps = 0.9;
-constexpr std::size_t kMostContacts = 6000;          // W written out takes 2.6 GB then
+constexpr std::size_t kMostContacts = 6000;  // W written out takes 2.6 GB then
 
 class Search {
  public:

@@ -18,7 +18,8 @@ namespace {
 
 // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
 constexpr double kPushOutTolerance = 1e-3;
-constexpr double kWorthwhile = 0.9;  // of what turning took before another solve: more is no gain
+constexpr double kWorthwhile = 0.9;               // of what turning took before another solve: more is no gain
+constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
@@ -57,12 +58,13 @@ class GroupSolve {
     now_ = assemble(input_, group_);
   }
 
-  void solve() {
+  void solve() { solve(how_.context); }
+  void solve(const ResponseContext& context) {
     if (how_.freezes) result_.frozen = freeze(system());  // before a later Newton iteration takes A anew
     if (how_.watcher != nullptr) how_.watcher->solving(index_, now_, how_);
     const StageTimer timer(result_.response_ms);
     try {
-      result_.response = how_.response.solve(system(), how_.lcp, how_.context);
+      result_.response = how_.response.solve(system(), how_.lcp, context);
     } catch (const DivergenceError& error) {  // a response knows no names
       std::string names;
       for (const BodyIndex b : now_.deformable)
@@ -98,7 +100,7 @@ class GroupSolve {
   }
 
   /// Rigid bodies: the same rows, told how much nearer their points come because bodies turn on the way. An answer that
-  /// can't be had, or does no better than the one before, is not taken.
+  /// can't be had, or does no better than the one before, is not taken; what takes far longer than the one before can't.
   void follow_turns() {
     const int most = how_.contact.turning_solves;
     if (most == 0 || !now_.deformable.empty() || how_.response.is_approximate() || !result_.response.converged())
@@ -109,13 +111,16 @@ class GroupSolve {
     if (lost == 0.0) return;
     std::vector<double> bounds;
     for (const ContactRows& row : system().contacts) bounds.push_back(row.bound);
+    ResponseContext context = how_.context;
+    context.lcp.max_iterations =
+        std::min(context.lcp.max_iterations, kLonger * result_.response.iterations + kFewIterations);
     for (int i = 0; i < most && lost > 0.0; ++i) {
       check_interrupt();
       GroupSystem system_before = system();
       const ResponseResult response_before = result_.response;
       std::optional<FrozenGroup> frozen_before = result_.frozen;
       ask_for_turning(system(), gaps, bounds, how_.contact, input_.time_step);
-      solve();
+      solve(context);
       double now = INFINITY;
       if (result_.response.converged() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
       if (!(now < lost)) {
