@@ -8,9 +8,9 @@
 // the best of 6, 2 and 0.5 on stacks, piles and deformable cubes. With more contacts than kMostDense (a W with factors,
 // whose sweeps cost n: kMostFactored) the sweeps are made conjugate instead.
 //
-// What Newton leaves of rigid bodies goes to alternating directions, which no local minimum holds, and from there to
-// Newton again. Before Newton they cost more than they save, except on tall stacks. Where Newton came near, conjugate
-// sweeps go on from there.
+// What Newton leaves of rigid bodies it begins again from nothing. What it leaves then goes to conjugate sweeps, and what they leave far from an answer to alternating
+// directions, which no local minimum holds, and from there to Newton again. Before Newton both cost more than they save,
+// except on tall stacks.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -94,13 +94,17 @@ class Automatic : public LcpSolver {
     const Method newton = by_solver(semismooth_newton_solver());
     LcpResult result = go_on(newton, problem, settings, sweeps, lambda);
     if (result.reason == StopReason::converged) return result;
-    if (judge(problem, lambda).map.relative <= kNear || !can_alternate_directions(problem)) {
-      result = go_on(by_solver(nonsmooth_nonlinear_conjugate_gradient_solver()), problem, settings, result.iterations,
-                     lambda, kConjugate);
-      if (result.reason == StopReason::iteration_cap && result.iterations < settings.max_iterations)
-        result.reason = StopReason::stagnated;
+    std::vector<Vec3> other(lambda.size(), Vec3::Zero());
+    result = go_on(newton, problem, settings, result.iterations, other);
+    if (judge(problem, other).map.relative < judge(problem, lambda).map.relative) lambda = other;
+    if (result.reason == StopReason::converged) return result;
+    result = go_on(by_solver(nonsmooth_nonlinear_conjugate_gradient_solver()), problem, settings, result.iterations,
+                   lambda, kConjugate);
+    if (result.reason == StopReason::iteration_cap && result.iterations < settings.max_iterations)
+      result.reason = StopReason::stagnated;
+    if (result.reason == StopReason::converged || judge(problem, lambda).map.relative <= kNear ||
+        !can_alternate_directions(problem))
       return result;
-    }
     result = go_on(alternate_directions, problem, settings, result.iterations, lambda, kAlternating);
     if (result.reason == StopReason::converged) return result;
     return go_on(newton, problem, settings, result.iterations, lambda);

@@ -30,7 +30,8 @@ TEST_CASE("a product by tiles has the bits of sums in order, for any rows and de
         for (int j = 0; j < kTileColumns; ++j) {
           double sum = 0.0;
           for (int k = 0; k < depth; ++k)
-            if (r < static_cast<std::size_t>(rows)) sum += plain[r][k] * b[static_cast<std::size_t>(k) * kTileColumns + j];
+            if (r < static_cast<std::size_t>(rows))
+              sum += plain[r][k] * b[static_cast<std::size_t>(k) * kTileColumns + j];
           const bool is_untouched = r < static_cast<std::size_t>(first) * kTileRows;
           CHECK(t[static_cast<std::size_t>(j) * stride + r] == (is_untouched ? -7.0 : sum));
         }
