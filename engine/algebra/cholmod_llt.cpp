@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "engine/algebra/factor_work.hpp"
 #include "engine/algebra/serial_openmp.hpp"
 #include "engine/algebra/supernodal_gram.hpp"
 #include "engine/core/apart.hpp"
@@ -30,7 +31,7 @@ class Turn {
   const SerialOpenMp serial_;
 };
 
-class Cholmod : public LinearSolver {
+class Cholmod : public LinearSolver, public FactorWork {
  public:
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {
@@ -38,6 +39,7 @@ class Cholmod : public LinearSolver {
     run_apart([&] {
       const Turn turn;
       llt_.analyzePattern(lower_->matrix());
+      work_ = llt_.cholmod().fl;
     });
     factored_ = is_taken_ = false;
   }
@@ -86,6 +88,8 @@ class Cholmod : public LinearSolver {
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
 
+  double factor_work() const override { return work_; }
+
  private:
   /// Eigen's wrapper, with a look at the factor itself.
   struct Factorization : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> {
@@ -95,6 +99,7 @@ class Cholmod : public LinearSolver {
   std::optional<LowerTriangle> lower_;
   Factorization llt_;
   SolveStatus status_ = SolveStatus::ok;
+  double work_ = 0.0;
   bool factored_ = false, is_taken_ = false;  // is_taken_: the factor's numbers have their place
 };
 
