@@ -1,16 +1,18 @@
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <limits>
 
+#include "engine/algebra/dense_lu.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/lcp/newton_system.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr Eigen::Index kSparseRows = 300;  // below this a dense factorization is quicker whatever the pattern
-constexpr double kSparseFill = 0.15;       // share of W that is not 0
+constexpr std::size_t kColumnsPerTask = 64;
+constexpr double kSparseFill = 0.15;  // share of W that is not 0
 
 class SystemOfRows : public NewtonSystem {
  public:
@@ -34,11 +36,11 @@ class SystemOfRows : public NewtonSystem {
     };
     if (!sparse_) {
       MatX m(n, n);
-      for (Eigen::Index c = 0; c < n; ++c) {
-        check_interrupt();
-        for (Eigen::Index r = 0; r < n; ++r) m(r, c) = value(kept_[r], kept_[c]);
-      }
-      dense_lu_.compute(m);
+      parallel_for(static_cast<std::size_t>(n), kColumnsPerTask, [&](std::size_t c) {
+        const auto column = static_cast<Eigen::Index>(c);
+        for (Eigen::Index r = 0; r < n; ++r) m(r, column) = value(kept_[r], kept_[column]);
+      });
+      dense_lu_.compute(std::move(m));
       return;
     }
     std::vector<Eigen::Triplet<double>> entries;
@@ -60,7 +62,9 @@ class SystemOfRows : public NewtonSystem {
     const auto n = static_cast<Eigen::Index>(kept_.size());
     if (n == 0) return;
     VecX rest(n);
-    const VecX carried = known_.empty() ? VecX() : VecX(w_ * x);
+    VecX carried = VecX::Zero(b.size());
+    for (const int row : known_)
+      if (x[row] != 0.0) carried += x[row] * w_.col(row);
     for (Eigen::Index r = 0; r < n; ++r) {
       const int row = kept_[r], i = row / 3;
       rest[r] = b[row];
@@ -83,7 +87,7 @@ class SystemOfRows : public NewtonSystem {
   std::vector<Mat3> a_;
   std::vector<int> kept_, known_;  // scalar rows
   bool sparse_ = false, singular_ = false;
-  Eigen::PartialPivLU<MatX> dense_lu_;
+  DenseLu dense_lu_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> sparse_lu_;
 };
 
