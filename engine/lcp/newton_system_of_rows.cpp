@@ -28,27 +28,31 @@ class SystemOfRows : public NewtonSystem {
     const auto n = static_cast<Eigen::Index>(kept_.size());
     if (n == 0) return;
     // row r of A W + B: A_i mixes the rows of its own contact only
-    const auto value = [&](int r, int c) {
-      const int i = r / 3;
-      double sum = r / 3 == c / 3 ? b[i](r % 3, c % 3) : 0.0;
-      for (int k = 0; k < 3; ++k) sum += a[i](r % 3, k) * w_(3 * i + k, c);
-      return sum;
+    const auto column_of = [&](int c, double* out) {
+      for (std::size_t k = 0; k < kept_.size();) {
+        const int i = kept_[k] / 3;
+        const Vec3 w = w_.col(c).segment<3>(3 * i);
+        for (; k < kept_.size() && kept_[k] / 3 == i; ++k) {
+          const int row = kept_[k] % 3;
+          *out++ = a[i](row, 0) * w.x() + a[i](row, 1) * w.y() + a[i](row, 2) * w.z() +
+                   (i == c / 3 ? b[i](row, c % 3) : 0.0);
+        }
+      }
     };
     if (!sparse_) {
       MatX m(n, n);
-      parallel_for(static_cast<std::size_t>(n), kColumnsPerTask, [&](std::size_t c) {
-        const auto column = static_cast<Eigen::Index>(c);
-        for (Eigen::Index r = 0; r < n; ++r) m(r, column) = value(kept_[r], kept_[column]);
-      });
+      parallel_for(static_cast<std::size_t>(n), kColumnsPerTask,
+                   [&](std::size_t c) { column_of(kept_[c], m.col(static_cast<Eigen::Index>(c)).data()); });
       dense_lu_.compute(std::move(m));
       return;
     }
     std::vector<Eigen::Triplet<double>> entries;
+    VecX column(n);
     for (Eigen::Index c = 0; c < n; ++c) {
       check_interrupt();
+      column_of(kept_[static_cast<std::size_t>(c)], column.data());
       for (Eigen::Index r = 0; r < n; ++r)
-        if (const double v = value(kept_[r], kept_[c]); v != 0.0)
-          entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
+        if (column[r] != 0.0) entries.emplace_back(static_cast<int>(r), static_cast<int>(c), column[r]);
     }
     Eigen::SparseMatrix<double> m(n, n);
     m.setFromTriplets(entries.begin(), entries.end());

@@ -47,7 +47,8 @@ constexpr std::size_t kStalled = 100, kStalledOfContact = 2;
 constexpr double kBetter = 0.5;
 // contacts up to which W is written out then: what that and its solve take is known to be less than what is left here
 constexpr std::size_t kMostDense = 1500;
-constexpr int kFreshRigid = 32;  // steps after which rigid Δv is summed up afresh, lest rounding gathers
+constexpr int kMostIterations = 1000;  // of that solve
+constexpr int kFreshRigid = 32;        // steps after which rigid Δv is summed up afresh, lest rounding gathers
 
 using Vectors = std::vector<VecX>;
 
@@ -144,7 +145,10 @@ class Solver {
     ConeProblem problem = base_;
     problem.w = &w;
     std::vector<Vec3> lambda = start_;
-    const LcpResult solve = solver_.solve(problem, context_.lcp, lambda);
+    LcpSettings settings = context_.lcp;
+    settings.max_iterations = std::min(settings.max_iterations, kMostIterations);
+    // not the one that was chosen for problems of another kind
+    const LcpResult solve = find_entry(lcp_solvers(), "automatic")->make()->solve(problem, settings, lambda);
     result.iterations += solve.iterations;
     if (!solve.solved()) return false;
     group_.lambda = std::move(lambda);
