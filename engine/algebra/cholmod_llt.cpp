@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "engine/algebra/factor_work.hpp"
 #include "engine/algebra/serial_openmp.hpp"
 #include "engine/algebra/supernodal_gram.hpp"
 #include "engine/core/apart.hpp"
@@ -30,12 +31,15 @@ class Turn {
   const SerialOpenMp serial_;
 };
 
-class Cholmod : public LinearSolver {
+class Cholmod : public LinearSolver, public FactorWork {
  public:
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {
     lower_.emplace(pattern);
-    in_turn([&] { llt_.analyzePattern(lower_->matrix()); });
+    in_turn([&] {
+      llt_.analyzePattern(lower_->matrix());
+      work_ = llt_.cholmod().fl;
+    });
     factored_ = is_taken_ = false;
   }
   SolveStatus factorize(const BlockMatrix& a) override {
@@ -74,6 +78,8 @@ class Cholmod : public LinearSolver {
     return {w.allFinite() ? SolveStatus::ok : SolveStatus::not_finite, 0, 0.0};
   }
 
+  double factor_work() const override { return work_; }
+
  private:
   /// What takes long; whoever wants to pause meanwhile may.
   template <typename Work>
@@ -92,6 +98,7 @@ class Cholmod : public LinearSolver {
   std::optional<LowerTriangle> lower_;
   Factorization llt_;
   SolveStatus status_ = SolveStatus::ok;
+  double work_ = 0.0;
   bool factored_ = false, is_taken_ = false;  // is_taken_: the factor's numbers have their place
 };
 

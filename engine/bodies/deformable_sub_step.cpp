@@ -1,6 +1,7 @@
 // A deformable body's part in a sub-step: its open system A v = b, the solvers of A, and what follows from v.
 #include <fmt/format.h>
 
+#include "engine/algebra/thrifty_solver.hpp"
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/time_integration.hpp"
 #include "engine/core/error.hpp"
@@ -48,7 +49,8 @@ void DeformableBody::find_free_velocity(const TimeIntegration& how) {
   touched_ = false;
   is_explicit_ = how.integrator.is_explicit();
   how.integrator.begin(*this, how.gravity, how.time_step, step_);
-  how.integrator.free_velocity(*this, step_, *solvers_.iterative);
+  ThriftySolver thrifty(*solvers_.iterative, *solvers_.direct);
+  how.integrator.free_velocity(*this, step_, thrifty);
   check_solved();
   find_displacement_velocity();
   interpolate(embedding, fem.rest(), displacement_velocity_, surface_velocity_);
@@ -72,9 +74,9 @@ double DeformableBody::relinearize(const DeformableIntegrator& integrator, const
 }
 
 void DeformableBody::solve_again() {
-  step_.linear_status = solvers_.iterative->factorize(step_.a);
-  if (step_.linear_status == SolveStatus::ok)
-    step_.linear_status = solvers_.iterative->solve(step_.b, step_.v_star).status;
+  ThriftySolver thrifty(*solvers_.iterative, *solvers_.direct);
+  step_.linear_status = thrifty.factorize(step_.a);
+  if (step_.linear_status == SolveStatus::ok) step_.linear_status = thrifty.solve(step_.b, step_.v_star).status;
   check_solved();
   find_displacement_velocity();
 }

@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 
+#include "engine/algebra/dense_product.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 
@@ -13,10 +14,10 @@ namespace {
 
 using Rows = std::array<BodySpace::Six, 3>;
 
-constexpr int kWidest = 8;         // columns of a panel
-constexpr double kZeros = 0.1;     // of a panel's entries at most
-constexpr int kFew = 6;            // rows below that are not worth a panel's packing
-constexpr std::size_t kGrain = 8;  // columns a task: some 100 µs where many are below
+constexpr int kWidest = 8;      // columns of a panel
+constexpr double kZeros = 0.1;  // of a panel's entries at most
+constexpr int kFew = 6;         // rows below that are not worth a panel's packing
+constexpr int kStrip = 8;       // bodies' columns a task: some 100 µs where many are below
 
 /// G J.
 Rows weigh(const Mat3& g, const Rows& j) {
@@ -213,32 +214,35 @@ void BodyMatrix::eliminate(int k, int end) {
   }
 }
 
-/// Takes the columns [first, end) out of those after them at once: one dense product a column, of all that are below.
+/// Takes the columns [first, end) out of those after them at once, by dense products of kStrip columns.
 void BodyMatrix::eliminate_panel(int first, int end) {
-  const int width = end - first, count = start_[end] - start_[end - 1];
+  const int width = 6 * (end - first), count = start_[end] - start_[end - 1];
   const auto entry = [&](int k, int row) { return start_[first + k + 1] - count + row; };
-  packed_lower_.resize(6 * count, 6 * width);
-  packed_upper_.resize(6 * count, 6 * width);
+  MatX lower(6 * count, width), upper(6 * count, width);  // upper: transposed, as upper_ is
   for (int row = 0; row < count; ++row)
-    for (int k = 0; k < width; ++k)
-      for (int c = 0; c < 6; ++c)
-        for (int r = 0; r < 6; ++r) {
-          packed_lower_.at(6 * row + r, 6 * k + c) = lower_[entry(k, row)](r, c);
-          packed_upper_.at(6 * row + r, 6 * k + c) = upper_[entry(k, row)](r, c);
-        }
-  parallel_for(count, kGrain, [&](std::size_t task) {
-    const int column = static_cast<int>(task), target = row_[entry(0, column)];
-    std::array<Block, kWidest> of_lower, of_upper;
-    for (int k = 0; k < width; ++k) of_lower[k] = lower_[entry(k, column)], of_upper[k] = upper_[entry(k, column)];
-    MatX lower(packed_lower_.tiles() * kTileRows, 6), upper(packed_upper_.tiles() * kTileRows, 6);
-    tile_product(packed_lower_, 6 * column / kTileRows, of_upper[0].data(), lower.data());
-    tile_product(packed_upper_, 6 * column / kTileRows, of_lower[0].data(), upper.data());
-    diagonal_[target] -= lower.middleRows<6>(6 * column);
-    int at = start_[target];
-    for (int row = column + 1; row < count; ++row, ++at) {
-      while (row_[at] != row_[entry(0, row)]) ++at;
-      lower_[at] -= lower.middleRows<6>(6 * row);
-      upper_[at] -= upper.middleRows<6>(6 * row);
+    for (int k = 0; k < end - first; ++k) {
+      lower.block<6, 6>(6 * row, 6 * k) = lower_[entry(k, row)];
+      upper.block<6, 6>(6 * row, 6 * k) = upper_[entry(k, row)];
+    }
+  parallel_for((count + kStrip - 1) / kStrip, 1, [&](std::size_t strip) {
+    const int left = kStrip * static_cast<int>(strip), columns = std::min(kStrip, count - left), rows = count - left;
+    const auto less = [&](const MatX& a, const MatX& b) {
+      const MatX right = b.middleRows(6 * left, 6 * columns).transpose();
+      MatX change = MatX::Zero(6 * rows, 6 * columns);
+      subtract_product({&a(6 * left, 0), 6 * count}, {right.data(), width}, change.data(), 6 * rows, 6 * rows,
+                       6 * columns, width);
+      return change;
+    };
+    const MatX of_lower = less(lower, upper), of_upper = less(upper, lower);
+    for (int c = 0; c < columns; ++c) {
+      const int target = row_[entry(0, left + c)];
+      diagonal_[target] += of_lower.block<6, 6>(6 * c, 6 * c);
+      int at = start_[target];
+      for (int row = c + 1; row < rows; ++row, ++at) {
+        while (row_[at] != row_[entry(0, left + row)]) ++at;
+        lower_[at] += of_lower.block<6, 6>(6 * row, 6 * c);
+        upper_[at] += of_upper.block<6, 6>(6 * row, 6 * c);
+      }
     }
   });
 }

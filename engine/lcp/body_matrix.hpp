@@ -5,7 +5,6 @@
 
 #include <span>
 
-#include "engine/algebra/tile_product.hpp"
 #include "engine/lcp/body_space.hpp"
 
 namespace impinge {
@@ -39,13 +38,12 @@ class BodyMatrix {
   void eliminate_panel(int first, int end);
 
   const BodySpace& bodies_;
-  std::vector<int> position_;             // of each body in the order of elimination
-  std::vector<int> start_, row_;          // below the diagonal, column by column: the rows, ascending
-  std::vector<int> panel_;                // where one begins, and the end
-  std::vector<Place> places_;             // by contact
-  std::vector<Block> diagonal_;           // by position; factorized: its inverse
-  std::vector<Block> lower_, upper_;      // A(row, column) and, transposed, A(column, row); factorized: L and U
-  TileRows packed_lower_, packed_upper_;  // of the panel that is eliminated
+  std::vector<int> position_;         // of each body in the order of elimination
+  std::vector<int> start_, row_;      // below the diagonal, column by column: the rows, ascending
+  std::vector<int> panel_;            // where one begins, and the end
+  std::vector<Place> places_;         // by contact
+  std::vector<Block> diagonal_;       // by position; factorized: its inverse
+  std::vector<Block> lower_, upper_;  // A(row, column) and, transposed, A(column, row); factorized: L and U
 };
 
 }  // namespace impinge

@@ -1,16 +1,18 @@
-#include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <limits>
 
+#include "engine/algebra/dense_lu.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/lcp/newton_system.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr Eigen::Index kSparseRows = 300;  // below this a dense factorization is quicker whatever the pattern
-constexpr double kSparseFill = 0.15;       // share of W that is not 0
+constexpr std::size_t kColumnsPerTask = 64;
+constexpr double kSparseFill = 0.15;  // share of W that is not 0
 
 class SystemOfRows : public NewtonSystem {
  public:
@@ -26,27 +28,31 @@ class SystemOfRows : public NewtonSystem {
     const auto n = static_cast<Eigen::Index>(kept_.size());
     if (n == 0) return;
     // row r of A W + B: A_i mixes the rows of its own contact only
-    const auto value = [&](int r, int c) {
-      const int i = r / 3;
-      double sum = r / 3 == c / 3 ? b[i](r % 3, c % 3) : 0.0;
-      for (int k = 0; k < 3; ++k) sum += a[i](r % 3, k) * w_(3 * i + k, c);
-      return sum;
+    const auto column_of = [&](int c, double* out) {
+      for (std::size_t k = 0; k < kept_.size();) {
+        const int i = kept_[k] / 3;
+        const Vec3 w = w_.col(c).segment<3>(3 * i);
+        for (; k < kept_.size() && kept_[k] / 3 == i; ++k) {
+          const int row = kept_[k] % 3;
+          *out++ = a[i](row, 0) * w.x() + a[i](row, 1) * w.y() + a[i](row, 2) * w.z() +
+                   (i == c / 3 ? b[i](row, c % 3) : 0.0);
+        }
+      }
     };
     if (!sparse_) {
       MatX m(n, n);
-      for (Eigen::Index c = 0; c < n; ++c) {
-        check_interrupt();
-        for (Eigen::Index r = 0; r < n; ++r) m(r, c) = value(kept_[r], kept_[c]);
-      }
-      dense_lu_.compute(m);
+      parallel_for(static_cast<std::size_t>(n), kColumnsPerTask,
+                   [&](std::size_t c) { column_of(kept_[c], m.col(static_cast<Eigen::Index>(c)).data()); });
+      dense_lu_.compute(std::move(m));
       return;
     }
     std::vector<Eigen::Triplet<double>> entries;
+    VecX column(n);
     for (Eigen::Index c = 0; c < n; ++c) {
       check_interrupt();
+      column_of(kept_[static_cast<std::size_t>(c)], column.data());
       for (Eigen::Index r = 0; r < n; ++r)
-        if (const double v = value(kept_[r], kept_[c]); v != 0.0)
-          entries.emplace_back(static_cast<int>(r), static_cast<int>(c), v);
+        if (column[r] != 0.0) entries.emplace_back(static_cast<int>(r), static_cast<int>(c), column[r]);
     }
     Eigen::SparseMatrix<double> m(n, n);
     m.setFromTriplets(entries.begin(), entries.end());
@@ -60,7 +66,9 @@ class SystemOfRows : public NewtonSystem {
     const auto n = static_cast<Eigen::Index>(kept_.size());
     if (n == 0) return;
     VecX rest(n);
-    const VecX carried = known_.empty() ? VecX() : VecX(w_ * x);
+    VecX carried = VecX::Zero(b.size());
+    for (const int row : known_)
+      if (x[row] != 0.0) carried += x[row] * w_.col(row);
     for (Eigen::Index r = 0; r < n; ++r) {
       const int row = kept_[r], i = row / 3;
       rest[r] = b[row];
@@ -83,7 +91,7 @@ class SystemOfRows : public NewtonSystem {
   std::vector<Mat3> a_;
   std::vector<int> kept_, known_;  // scalar rows
   bool sparse_ = false, singular_ = false;
-  Eigen::PartialPivLU<MatX> dense_lu_;
+  DenseLu dense_lu_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> sparse_lu_;
 };
 

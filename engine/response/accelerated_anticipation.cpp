@@ -11,8 +11,9 @@
 // without friction that is a majorise-minimise scheme on a convex problem. Two stacked 0.2 m cubes of 4³ and 3³ cells,
 // mu 0.5, 90 frames of 4 sub-steps, E = 1e4 / 1e5 / 1e6: 16 / 19 / 4.7 s, Nesterov's rule alone 39 / 50 / 46 s,
 // factorizations (constraint anticipation) 10 / 18 / 11 s. Where more rows meet than the surfaces have nodes, the
-// sweeps carry impulse along the null space of J: see follow_drift; where that stalls augmented_lagrangian.cpp ends it, or
-// where contacts are few delassus_columns.cpp.
+// sweeps carry impulse along the null space of J: see follow_drift; where that stalls W is written out and the cone solver
+// asked, as constraint anticipation does; where contacts are few delassus_columns.cpp ends it, and what none of these solves
+// augmented_lagrangian.cpp.
 //
 // The start is λ of the last sub-step and Δv = A⁻¹ J^T λ by conjugate gradients, as accurate as the contacts then hold:
 // a resting group is recognized, and no work is spent on a λ that is far off.
@@ -25,6 +26,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/response/augmented_lagrangian.hpp"
 #include "engine/response/delassus_columns.hpp"
+#include "engine/response/operators/assembled_delassus.hpp"
 #include "engine/response/operators/splitting_delassus.hpp"
 
 namespace impinge {
@@ -39,9 +41,14 @@ constexpr double kGrowth = 16.0;   // of |F|² over its least since the last res
 constexpr double kProgress = 0.5;  // of |F|², to count as progress
 constexpr int kPatience = 50;      // steps without progress before conjugate gradients are given up
 constexpr int kDrift = 10;         // steps in balance whose contacts don't hold, before λ is taken along its drift
-// steps in which neither the balance nor the contacts get better by a tenth: more are no use
-constexpr int kStalled = 300;
-constexpr int kFreshRigid = 32;  // steps after which rigid Δv is summed up afresh, lest rounding gathers
+// steps in which neither the balance nor the contacts get better by a half: more are no use. The more contacts, the
+// dearer is what ends it
+constexpr std::size_t kStalled = 100, kStalledOfContact = 2;
+constexpr double kBetter = 0.5;
+// contacts up to which W is written out then: what that and its solve take is known to be less than what is left here
+constexpr std::size_t kMostDense = 1500;
+constexpr int kMostIterations = 1000;  // of that solve
+constexpr int kFreshRigid = 32;        // steps after which rigid Δv is summed up afresh, lest rounding gathers
 
 using Vectors = std::vector<VecX>;
 
@@ -71,6 +78,7 @@ class Solver {
   ResponseResult run() {
     ResponseResult result;
     const double tolerance = context_.lcp.tolerance * scale_;
+    start_ = group_.lambda;
     rows_->move_rigid(group_.lambda);
     rows_->impulses(group_.lambda, f_);
     start(tolerance);
@@ -129,7 +137,29 @@ class Solver {
     return result;
   }
 
+  /// By constraint anticipation, from where this began: λ of the sweeps is spread over many contacts, of which Newton's
+  /// method drops few at a time.
+  bool solve_by_w(ResponseResult& result) {
+    if (group_.contacts.size() > kMostDense) return false;
+    AssembledDelassus w(group_);
+    ConeProblem problem = base_;
+    problem.w = &w;
+    std::vector<Vec3> lambda = start_;
+    LcpSettings settings = context_.lcp;
+    settings.max_iterations = std::min(settings.max_iterations, kMostIterations);
+    // not the one that was chosen for problems of another kind
+    const LcpResult solve = find_entry(lcp_solvers(), "automatic")->make()->solve(problem, settings, lambda);
+    result.iterations += solve.iterations;
+    if (!solve.solved()) return false;
+    group_.lambda = std::move(lambda);
+    apply_impulses(group_);
+    result.ended = StopReason::converged;
+    if (context_.observe) context_.observe(group_);
+    return true;
+  }
+
   ResponseResult finish_otherwise(ResponseResult result, double tolerance) {
+    if (rows_of(base_).size() > kFewRows && solve_by_w(result)) return result;
     finish(result);
     const GroupOperator a(group_);
     VecX x = a.load(group_);
@@ -193,11 +223,12 @@ class Solver {
   }
 
   bool is_stalled(double error, int iteration) {
-    if (least_error_ < 0.0 || error < 0.9 * least_error_) {
+    if (least_error_ < 0.0 || error < kBetter * least_error_) {
       least_error_ = error;
       least_error_at_ = iteration;
     }
-    return iteration - least_error_at_ > kStalled;
+    const std::size_t patience = std::max(kStalled, group_.contacts.size() / kStalledOfContact);
+    return iteration - least_error_at_ > static_cast<int>(patience);
   }
 
   /// Two contacts in nearly one place with bounds that differ a little: every sweep moves the same bit of impulse from
@@ -332,6 +363,7 @@ class Solver {
   std::unique_ptr<SplittingDelassus> rows_;
   Vectors x_, last_, y_, a_x_, a_last_, a_y_, f_, r_, step_;
   Vectors d_, a_d_;            // last step of y, and A times it
+  std::vector<Vec3> start_;    // λ as it came
   std::vector<Vec3> earlier_;  // λ before the last sweeps
   int drifting_ = 0;
   std::vector<char> acts_;     // contacts with an impulse

@@ -35,22 +35,6 @@ class ConstraintAnticipation : public Response {
     apply_impulses(group);
     return result_of(result);
   }
-
- private:
-  /// Δv = A⁻¹ J^T λ with the factorizations that W was made with.
-  static void apply_impulses(GroupSystem& group) {
-    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-      const Vec3 force = group.contacts[i].directions.transpose() * group.lambda[i];
-      for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)}) {
-        if (side->rigid < 0) continue;
-        const RigidBlock& block = group.rigid[side->rigid];
-        group.delta_velocity[side->rigid] += sign * block.inverse_mass * force;
-        group.delta_angular_velocity[side->rigid] += sign * (block.inverse_inertia * side->arm.cross(force));
-      }
-    }
-    for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s)
-      group.deformable[s].solver->solve(group.deformable_impulse(s, group.lambda), group.deformable_delta[s]);
-  }
 };
 
 }  // namespace

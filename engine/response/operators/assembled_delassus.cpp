@@ -4,9 +4,12 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
 
 namespace impinge {
 namespace {
+
+constexpr std::size_t kRowsPerTask = 1024;  // of W's product with a vector
 
 /// Which contacts a body takes part in, and on which side.
 struct Part {
@@ -132,23 +135,51 @@ std::shared_ptr<const MatX> assemble(const GroupSystem& group) {
 AssembledDelassus::AssembledDelassus(GroupSystem& group) {
   if (!group.assembled) group.assembled = assemble(group);
   w_ = group.assembled;
-  lambda_ = VecX::Zero(w_->rows());
+  product_ = VecX::Zero(w_->rows());
   IMPINGE_ASSERT(w_->rows() == static_cast<Eigen::Index>(3 * group.contacts.size()));
   for (Eigen::Index i = 0; i < w_->rows(); i += 3) diagonal_.push_back(w_->block<3, 3>(i, i));
 }
 
 void AssembledDelassus::begin(const std::vector<Vec3>& lambda) {
-  for (std::size_t i = 0; i < lambda.size(); ++i) lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) = lambda[i];
+  std::vector<std::size_t> act;  // most contacts that were found carry nothing
+  for (std::size_t i = 0; i < lambda.size(); ++i)
+    if (!lambda[i].isZero(0.0)) act.push_back(i);
+  product_.setZero(w_->rows());
+  const auto rows = static_cast<std::size_t>(w_->rows());
+  parallel_for((rows + kRowsPerTask - 1) / kRowsPerTask, 1, [&](std::size_t task) {
+    const auto first = static_cast<Eigen::Index>(task * kRowsPerTask);
+    const Eigen::Index count = std::min<Eigen::Index>(kRowsPerTask, w_->rows() - first);
+    for (const std::size_t i : act) add_columns(i, lambda[i], first, count);
+  });
+}
+
+/// Rows `first` … of W's columns of contact i times x.
+void AssembledDelassus::add_columns(std::size_t i, const Vec3& x, Eigen::Index first, Eigen::Index count) {
+  const auto columns = w_->block(first, 3 * static_cast<Eigen::Index>(i), count, 3);
+  product_.segment(first, count) += columns.col(0) * x.x() + columns.col(1) * x.y() + columns.col(2) * x.z();
 }
 
 Vec3 AssembledDelassus::row(std::size_t i, bool normal_only) const {
-  const auto at = static_cast<Eigen::Index>(3 * i);  // W is symmetric: columns lie together in memory, rows do not
-  if (normal_only) return {w_->col(at).dot(lambda_), 0.0, 0.0};
-  return w_->middleCols<3>(at).transpose() * lambda_;
+  const auto at = static_cast<Eigen::Index>(3 * i);
+  if (normal_only) return {product_[at], 0.0, 0.0};
+  return product_.segment<3>(at);
 }
 
-void AssembledDelassus::change(std::size_t i, const Vec3& delta, bool) {
-  lambda_.segment<3>(3 * static_cast<Eigen::Index>(i)) += delta;
+void AssembledDelassus::change(std::size_t i, const Vec3& delta, bool) { add_columns(i, delta, 0, w_->rows()); }
+
+void apply_impulses(GroupSystem& group) {
+  group.clear_delta();
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const Vec3 force = group.contacts[i].directions.transpose() * group.lambda[i];
+    for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)}) {
+      if (side->rigid < 0) continue;
+      const RigidBlock& block = group.rigid[side->rigid];
+      group.delta_velocity[side->rigid] += sign * block.inverse_mass * force;
+      group.delta_angular_velocity[side->rigid] += sign * (block.inverse_inertia * side->arm.cross(force));
+    }
+  }
+  for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s)
+    group.deformable[s].solver->solve(group.deformable_impulse(s, group.lambda), group.deformable_delta[s]);
 }
 
 }  // namespace impinge

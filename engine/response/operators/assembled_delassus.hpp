@@ -23,9 +23,14 @@ class AssembledDelassus : public Delassus {
   const MatX& matrix() const { return *w_; }
 
  private:
+  void add_columns(std::size_t i, const Vec3& x, Eigen::Index first, Eigen::Index count);
+
   std::shared_ptr<const MatX> w_;  // 3 contacts x 3 contacts, symmetric
-  VecX lambda_;
+  VecX product_;                   // W λ
   std::vector<Mat3> diagonal_;
 };
+
+/// Δv = A⁻¹ J^T λ of the group, with the factorizations that W was made with.
+void apply_impulses(GroupSystem& group);
 
 }  // namespace impinge

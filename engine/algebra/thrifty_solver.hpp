@@ -1,0 +1,26 @@
+// One right-hand side, and two solvers for it.
+#pragma once
+
+#include "engine/algebra/linear_solver.hpp"
+
+namespace impinge {
+
+/// Conjugate gradients as long as they cost less than a factorization, and from then on the factorization. Operations are
+/// counted, never time, and nothing is kept from one system to the next: the same system takes the same way everywhere.
+class ThriftySolver : public LinearSolver {
+ public:
+  /// Both analyzed with the same pattern; they outlive this. What `direct` factorizes stays with it for who asks next.
+  ThriftySolver(LinearSolver& iterative, LinearSolver& direct) : iterative_(iterative), direct_(direct) {}
+
+  void analyze(const BlockPattern&) override {}
+  SolveStatus factorize(const BlockMatrix& a) override;
+  SolveReport solve(const VecX& b, VecX& x) override;
+  SolveReport solve_many(const MatX& b, MatX& x) override;
+
+ private:
+  LinearSolver &iterative_, &direct_;
+  const BlockMatrix* a_ = nullptr;
+  int worth_ = 0;  // iterations that cost as much as a factorization; 0: not known
+};
+
+}  // namespace impinge

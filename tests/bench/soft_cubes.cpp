@@ -1,0 +1,131 @@
+// Two soft cubes, one falling on the other which lies on the ground: what Incremental Potential Contact is measured on in
+// PEERS §4 (1 m, E 1e5 Pa, ν 0.4, 1000 kg/m³, h 0.01 s, one sub-step, friction 0.1, neo-Hookean; 250, 1,458 and 4,394
+// nodes in all). Milliseconds a step in which the cubes touch, by stage; contacts, solves without an answer, Coulomb's
+// residual, the judge's overlap; `to IPC`: the median step over what is printed there. Clock time.
+// usage: bench_soft_cubes [frames = 60] [threads = all] [nodes a side = 5,9,13] [aligned] [response …]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "engine/core/parallel.hpp"
+#include "engine/world/judge.hpp"
+#include "tests/support/mechanics/deformable_bodies.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+struct Size {
+  int side;       // nodes
+  double ipc_ms;  // printed: a step
+};
+constexpr Size kSizes[] = {{5, 69}, {9, 348}, {13, 1890}};
+constexpr double kGap = 0.1;  // m, to fall
+
+struct Way {
+  int frames = 60;
+  bool is_aligned = false;  // node over node
+  std::string response;
+};
+
+double median(std::vector<double> v) {
+  if (v.empty()) return NAN;
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+double mean(const std::vector<double>& v) {
+  double sum = 0.0;
+  for (const double x : v) sum += x;
+  return v.empty() ? NAN : sum / static_cast<double>(v.size());
+}
+
+bool do_cubes_touch(const World& world) {
+  const std::vector<ContactRecord>& all = world.record().contacts;
+  return std::any_of(all.begin(), all.end(), [](const ContactRecord& c) { return c.body_a == 1 && c.body_b == 2; });
+}
+
+double run(const Size& size, const Way& way) {
+  World world;
+  world.parameters.simulation.frame_time = 0.01;
+  world.parameters.simulation.substeps = 1;
+  world.parameters.simulation.sleeping = false;
+  world.parameters.contact.friction = 0.1;
+  world.parameters.response.method = way.response;
+  world.add_body(fixed_plane("ground", Vec3::UnitY(), 0.0));
+  const SoftOptions soft{.damping_beta = 0.0, .model = "neo_hookean"};
+  const double aside = way.is_aligned ? 0.0 : 0.05;
+  world.add_body(soft_cube("lower", 1.0, size.side - 1, Vec3::Zero(), soft));
+  world.add_body(soft_cube("upper", 1.0, size.side - 1, Vec3(aside, 1.0 + kGap, aside), soft));
+  world.start();
+
+  std::vector<double> narrow, assemble, response, integrate, step, contacts;
+  double overlap = 0.0, residual = 0.0;
+  std::int64_t unconverged = 0, unsafe = 0;
+  bool is_finite = true;
+  for (int i = 0; i < way.frames; ++i) {
+    world.step();
+    const FrameStats& s = world.record().stats;
+    is_finite = is_finite && std::isfinite(s.kinetic + s.potential + s.elastic);
+    unconverged += s.unconverged;
+    unsafe += s.unsafe_motions;
+    residual = std::max(residual, s.residual_coulomb);
+    overlap = std::max(overlap, judge_overlap(world.bodies()).penetration);
+    if (!do_cubes_touch(world)) continue;
+    narrow.push_back(s.times.broad_ms + s.times.narrow_ms);
+    assemble.push_back(s.times.assemble_ms);
+    response.push_back(s.times.response_ms);
+    integrate.push_back(s.times.integrate_ms);
+    step.push_back(s.times.step_ms);
+    contacts.push_back(static_cast<double>(s.contacts));
+  }
+  std::printf("%-34s %6d %5zu", way.response.c_str(), 2 * size.side * size.side * size.side, step.size());
+  for (const auto* v : {&narrow, &assemble, &response, &integrate, &step})
+    std::printf(" %7.1f %7.1f", median(*v), mean(*v));
+  std::printf(" %7.0f %6.0f %7.2f %6ld %6ld %9.1e %9.1e %s\n", median(contacts),
+              contacts.empty() ? 0.0 : *std::max_element(contacts.begin(), contacts.end()), median(step) / size.ipc_ms,
+              static_cast<long>(unconverged), static_cast<long>(unsafe), residual, overlap,
+              is_finite ? "" : "energy is no number");
+  std::fflush(stdout);
+  return median(step);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Way way;
+  if (argc > 1) way.frames = std::atoi(argv[1]);
+  if (argc > 2) set_thread_count(std::atoi(argv[2]));
+  std::vector<Size> sizes(std::begin(kSizes), std::end(kSizes));
+  if (argc > 3) {
+    std::vector<Size> wanted;
+    std::stringstream sides(argv[3]);
+    for (std::string side; std::getline(sides, side, ',');)
+      for (const Size& size : sizes)
+        if (size.side == std::atoi(side.c_str())) wanted.push_back(size);
+    sizes = wanted;
+  }
+  std::vector<std::string> responses;
+  for (int i = 4; i < argc; ++i)
+    if (std::string(argv[i]) == "aligned")
+      way.is_aligned = true;
+    else
+      responses.emplace_back(argv[i]);
+  if (responses.empty()) responses = {"constraint_anticipation", "iterative_constraint_anticipation"};
+  std::printf(
+      "%d threads; ms a step in which the cubes touch: median, mean\n%-34s %6s %5s %15s %15s %15s %15s %15s %7s "
+      "%6s %7s %6s %6s %9s %9s\n",
+      thread_count(), "", "nodes", "steps", "detect", "assemble", "response", "integrate", "step", "contacts", "most",
+      "to IPC", "open", "unsafe", "residual", "overlap m");
+  for (const std::string& response : responses) {
+    way.response = response;
+    std::vector<double> ms;
+    for (const Size& size : sizes) ms.push_back(run(size, way));
+    for (std::size_t i = 1; i < ms.size(); ++i)
+      std::printf("  growth from %d to %d nodes a side: n^%.2f\n", sizes[i - 1].side, sizes[i].side,
+                  std::log(ms[i] / ms[i - 1]) / (3.0 * std::log(double(sizes[i].side) / sizes[i - 1].side)));
+  }
+}
