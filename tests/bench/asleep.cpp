@@ -1,0 +1,57 @@
+// What doesn't move: a plane of boxes that sleep, and the same with a ball that rolls beside them for ever. Milliseconds
+// a step, the middle one, by stage; sum of the stages is less than the step, whose rest is publishing and the look at
+// who moves. usage: bench_asleep [boxes = 10000] [steps = 200]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "engine/world/world.hpp"
+#include "tests/support/mechanics/worlds.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+double middle(std::vector<double> v) {
+  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+  return v[v.size() / 2];
+}
+
+void measure(int boxes, int steps, bool is_one_awake) {
+  World world;
+  world.parameters.simulation.substeps = 1;
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+  const int side = static_cast<int>(std::ceil(std::sqrt(boxes)));
+  for (int k = 0; k < boxes; ++k)
+    world.add_body(cube("box" + std::to_string(k), 0.5, Vec3(k % side, 0.25, k / side)));
+  if (is_one_awake) {
+    BodyDescription rolling = cube("slider", 0.5, Vec3(-5.0, 0.25, 0.0));
+    rolling.velocity = Vec3(0.0, 0.0, 1e3);  // far too fast to come to rest
+    world.add_body(rolling);
+  }
+  world.start();
+  int asleep = 0;
+  for (int i = 0; i < 200; ++i) world.step();
+  for (const Body& b : world.bodies()) asleep += b.asleep ? 1 : 0;
+  std::vector<double> step, broad, narrow, response, integrate;
+  for (int i = 0; i < steps; ++i) {
+    world.step();
+    const StageTimes& t = world.record().stats.times;
+    step.push_back(t.step_ms), broad.push_back(t.broad_ms), narrow.push_back(t.narrow_ms);
+    response.push_back(t.assemble_ms + t.response_ms), integrate.push_back(t.integrate_ms);
+  }
+  std::printf("%6d boxes, %6d asleep, %s: step %8.4f  broad %7.4f  narrow %7.4f  response %7.4f  integrate %7.4f\n",
+              boxes, asleep, is_one_awake ? "one awake" : "all      ", middle(step), middle(broad), middle(narrow),
+              middle(response), middle(integrate));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int boxes = argc > 1 ? std::atoi(argv[1]) : 10000, steps = argc > 2 ? std::atoi(argv[2]) : 200;
+  measure(boxes, steps, false);
+  measure(boxes, steps, true);
+}
