@@ -10,7 +10,6 @@
 #include <mutex>
 #include <optional>
 
-#include "engine/algebra/factor_work.hpp"
 #include "engine/algebra/serial_openmp.hpp"
 #include "engine/algebra/supernodal_gram.hpp"
 #include "engine/core/apart.hpp"
@@ -31,7 +30,7 @@ class Turn {
   const SerialOpenMp serial_;
 };
 
-class Cholmod : public LinearSolver, public FactorWork {
+class Cholmod : public LinearSolver {
  public:
   Cholmod() { llt_.cholmod().print = 0; }
   void analyze(const BlockPattern& pattern) override {

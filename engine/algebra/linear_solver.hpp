@@ -38,6 +38,8 @@ class LinearSolver {
   /// W = Bᵀ A⁻¹ B, exactly symmetric, for sparse columns (contacts: a few nodes each). A factorization needs half of a
   /// solve for each, and only where a column reaches; other solvers go by solve_many.
   virtual SolveReport gram(const SparseColumns& b, MatX& w);
+  /// Floating-point operations of one factorization, known once it is analyzed; 0 where there is none, or nobody tells.
+  virtual double factor_work() const { return 0.0; }
 
   /// ‖b − A x‖ <= tolerance ‖b‖ ends an iteration.
   double tolerance = 1e-8;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/algebra/factor_work.hpp"
 #include "engine/core/error.hpp"
 
 namespace impinge {
@@ -40,15 +39,16 @@ double stiffness_ratio(const BlockMatrix& a) {
 
 SolveStatus ThriftySolver::factorize(const BlockMatrix& a) {
   a_ = &a;
-  const auto* work = dynamic_cast<const FactorWork*>(&direct_);
-  worth_ =
-      work == nullptr ? 0 : static_cast<int>(kBesideWork + kOfWork * work->factor_work() / iteration_work(*a.pattern));
+  worth_ = 0;
+  if (iterative_.factor_work() > 0.0) return direct_.factorize(a);  // it was chosen to factorize: once is enough
+  if (const double work = direct_.factor_work(); work > 0.0)
+    worth_ = static_cast<int>(kBesideWork + kOfWork * work / iteration_work(*a.pattern));
   return iterative_.factorize(a);
 }
 
 SolveReport ThriftySolver::solve(const VecX& b, VecX& x) {
   IMPINGE_ASSERT(a_ != nullptr);
-  if (worth_ == 0) return iterative_.solve(b, x);
+  if (worth_ == 0) return chosen().solve(b, x);
   SolveReport report;
   if (kIterations * stiffness_ratio(*a_) < worth_) {
     const int most = iterative_.max_iterations;
@@ -65,6 +65,8 @@ SolveReport ThriftySolver::solve(const VecX& b, VecX& x) {
   return report;
 }
 
-SolveReport ThriftySolver::solve_many(const MatX& b, MatX& x) { return iterative_.solve_many(b, x); }
+SolveReport ThriftySolver::solve_many(const MatX& b, MatX& x) { return chosen().solve_many(b, x); }
+
+LinearSolver& ThriftySolver::chosen() const { return iterative_.factor_work() > 0.0 ? direct_ : iterative_; }
 
 }  // namespace impinge

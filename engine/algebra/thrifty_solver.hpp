@@ -18,9 +18,12 @@ class ThriftySolver : public LinearSolver {
   SolveReport solve_many(const MatX& b, MatX& x) override;
 
  private:
+  /// Where there is nothing to weigh.
+  LinearSolver& chosen() const;
+
   LinearSolver &iterative_, &direct_;
   const BlockMatrix* a_ = nullptr;
-  int worth_ = 0;  // iterations that cost as much as a factorization; 0: not known
+  int worth_ = 0;  // iterations that cost as much as a factorization; 0: nothing to weigh
 };
 
 }  // namespace impinge

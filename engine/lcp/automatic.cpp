@@ -29,10 +29,9 @@ Entry<LcpSolver> semismooth_newton_solver();
 
 namespace {
 
-constexpr int kFirstSweeps = 30;    // before the rate is looked at
-constexpr int kFirstOfBodies = 10;  // where Newton is quick
-constexpr int kFirstOfDense = 10;   // where W is dense: Newton then begins where they did
-constexpr int kWindow = 10;         // of them that it is taken over
+constexpr int kFirstSweeps = 30;  // before the rate is looked at
+constexpr int kFewSweeps = 10;    // the same where Newton is quick, or a W that is dense makes sweeps dear
+constexpr int kWindow = 10;       // of them that it is taken over
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
 constexpr double kSweepsPerContact = 2.0;            // the price of Newton's method
 constexpr double kSweepsOfBodies = 20.0;             // and where all bodies are rigid
@@ -53,13 +52,13 @@ class Automatic : public LcpSolver {
                          : newton ? kSweepsPerContact * static_cast<double>(n)
                                   : kSweepsOfConjugate;
     const bool dense = !problem.w->has_factors();
-    const int first = bodies ? kFirstOfBodies : dense ? kFirstOfDense : kFirstSweeps;
+    const int first = bodies || dense ? kFewSweeps : kFirstSweeps;
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
-    const std::vector<Vec3> start = lambda;
+    const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       const double change = gauss_seidel_sweep(problem, lambda);
       if (stop.solved(lambda, change)) return {sweep, StopReason::converged};

@@ -137,9 +137,9 @@ void BodyMatrix::find_panels(std::vector<std::vector<int>>& below) {
       if (rows.empty() || rows.front() != first) break;
       entries += wanted, zeros += wanted - rows.size();
       if (static_cast<double>(zeros) > kZeros * static_cast<double>(entries)) break;
-      std::vector<int> all(below[end - 1]);
-      for (int k = end - 1; k >= first; --k) all.insert(all.begin(), k);
-      below[first - 1] = std::move(all);
+      std::vector<int>& all = below[first - 1];
+      all.assign(1, first);
+      all.insert(all.end(), below[first].begin(), below[first].end());
     }
     panel_.push_back(first);
     end = first;

@@ -78,7 +78,7 @@ class Search {
         continue;
       }
       factor_ = kFirstFactor;
-      merits_.clear();
+      course_.clear();
       for (std::size_t i = 0; i < n_; ++i) lambda_[i] = problem_.nearest(i, lambda_[i]);
       for (int k = 0; k < kRescueSweeps && iterations_ < settings_.max_iterations; ++k)
         if (sweep()) return finish(StopReason::converged);
@@ -139,7 +139,6 @@ class Search {
   /// A whole step, wherever it leads.
   bool leap() {
     course_.clear();
-    merits_.clear();
     factor_ = kAfterLeap;
     problem_.w->begin(lambda_);
     velocities(problem_, u_);
@@ -153,13 +152,16 @@ class Search {
     const double now = merit(lambda_);
     if (!find_direction()) return false;
     double worst = now;
-    for (const double m : merits_) worst = std::max(worst, m);
+    const std::size_t compared = std::min(course_.size(), kMemory - 1);
+    for (auto m = course_.end() - static_cast<std::ptrdiff_t>(compared); m != course_.end(); ++m)
+      worst = std::max(worst, *m);
     double length = 1.0;
     for (int k = 0; k <= kHalvings; ++k, length *= 0.5) {
       for (std::size_t i = 0; i < n_; ++i) trial_[i] = lambda_[i] + length * direction(i);
       if (!(merit(trial_) <= (1.0 - 1e-4 * length) * worst)) continue;
       lambda_ = trial_;
-      remember(now);
+      course_.push_back(now);
+      if (course_.size() > kCourse + 1) course_.pop_front();
       if (length > 0.4)
         factor_ = std::max(0.5 * factor_, 1e-3);
       else if (length < 0.2)
@@ -167,14 +169,6 @@ class Search {
       return true;
     }
     return false;
-  }
-
-  /// A merit that was stepped from.
-  void remember(double merit) {
-    merits_.push_back(merit);
-    if (merits_.size() >= kMemory) merits_.pop_front();
-    course_.push_back(merit);
-    if (course_.size() > kCourse + 1) course_.pop_front();
   }
 
   Vec3 direction(std::size_t i) const { return direction_.segment<3>(3 * static_cast<Eigen::Index>(i)); }
@@ -207,7 +201,7 @@ class Search {
   std::vector<Mat3> a_, b_;
   std::vector<char> kept_;
   VecX direction_;
-  std::deque<double> merits_, course_;
+  std::deque<double> course_;  // merits that were stepped from
   double residual_ = 0.0, best_residual_ = 0.0, alpha_ = 0.0, factor_ = kFirstFactor;
   double gained_ = 0.0;
   int iterations_ = 0, best_at_ = 0, gained_at_ = 0;

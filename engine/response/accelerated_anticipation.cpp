@@ -148,7 +148,7 @@ class Solver {
     LcpSettings settings = context_.lcp;
     settings.max_iterations = std::min(settings.max_iterations, kMostIterations);
     // not the one that was chosen for problems of another kind
-    const LcpResult solve = find_entry(lcp_solvers(), "automatic")->make()->solve(problem, settings, lambda);
+    const LcpResult solve = make_named(lcp_solvers(), "automatic")->solve(problem, settings, lambda);
     result.iterations += solve.iterations;
     if (!solve.solved()) return false;
     group_.lambda = std::move(lambda);

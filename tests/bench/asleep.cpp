@@ -1,4 +1,4 @@
-// What doesn't move: a plane of boxes that sleep, and the same with a ball that rolls beside them for ever. Milliseconds
+// What doesn't move: a plane of boxes that sleep, and the same with one that slides beside them for ever. Milliseconds
 // a step, the middle one, by stage; sum of the stages is less than the step, whose rest is publishing and the look at
 // who moves. usage: bench_asleep [boxes = 10000] [steps = 200]
 #include <algorithm>
@@ -9,28 +9,23 @@
 
 #include "engine/world/world.hpp"
 #include "tests/support/mechanics/worlds.hpp"
+#include "tests/support/median.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
 
-double middle(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
-
 void measure(int boxes, int steps, bool is_one_awake) {
   World world;
   world.parameters.simulation.substeps = 1;
   world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
   const int side = static_cast<int>(std::ceil(std::sqrt(boxes)));
-  for (int k = 0; k < boxes; ++k)
-    world.add_body(cube("box" + std::to_string(k), 0.5, Vec3(k % side, 0.25, k / side)));
+  for (int k = 0; k < boxes; ++k) world.add_body(cube("box" + std::to_string(k), 0.5, Vec3(k % side, 0.25, k / side)));
   if (is_one_awake) {
-    BodyDescription rolling = cube("slider", 0.5, Vec3(-5.0, 0.25, 0.0));
-    rolling.velocity = Vec3(0.0, 0.0, 1e3);  // far too fast to come to rest
-    world.add_body(rolling);
+    BodyDescription sliding = cube("slider", 0.5, Vec3(-5.0, 0.25, 0.0));
+    sliding.velocity = Vec3(0.0, 0.0, 1e3);  // far too fast to come to rest
+    world.add_body(sliding);
   }
   world.start();
   int asleep = 0;
@@ -44,8 +39,8 @@ void measure(int boxes, int steps, bool is_one_awake) {
     response.push_back(t.assemble_ms + t.response_ms), integrate.push_back(t.integrate_ms);
   }
   std::printf("%6d boxes, %6d asleep, %s: step %8.4f  broad %7.4f  narrow %7.4f  response %7.4f  integrate %7.4f\n",
-              boxes, asleep, is_one_awake ? "one awake" : "all      ", middle(step), middle(broad), middle(narrow),
-              middle(response), middle(integrate));
+              boxes, asleep, is_one_awake ? "one awake" : "all      ", median(step), median(broad), median(narrow),
+              median(response), median(integrate));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "engine/detection/broadphase/broad_phase.hpp"
 #include "tests/support/geometry/moving_boxes.hpp"
+#include "tests/support/median.hpp"
 
 #ifdef IMPINGE_HAS_FCL
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -25,11 +26,6 @@ double milliseconds() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> times) {
-  std::nth_element(times.begin(), times.begin() + static_cast<long>(times.size() / 2), times.end());
-  return times[times.size() / 2];
 }
 
 struct Result {

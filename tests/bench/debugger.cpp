@@ -9,11 +9,13 @@
 #include <filesystem>
 
 #include "engine/core/parallel.hpp"
+#include "tests/support/median.hpp"
 #include "tests/support/program/slow_scenes.hpp"
 #include "tests/support/program/temp_folder.hpp"
 #include "viewer/debugger/window_loop.hpp"
 
 using namespace impinge;
+using impinge::test::median;
 
 namespace {
 
@@ -22,11 +24,6 @@ constexpr int kWidth = 1280, kHeight = 720, kFrames = 60;
 
 double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double median(std::vector<double> times) {
-  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-  return times[times.size() / 2];
 }
 
 /// Dragons of 4,998 triangles, fallen on a floor.

@@ -13,6 +13,7 @@
 #include "engine/world/judge.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/pile.hpp"
+#include "tests/support/median.hpp"
 
 #ifdef IMPINGE_HAS_BULLET
 #include <btBulletDynamicsCommon.h>
@@ -217,11 +218,6 @@ Run run_bullet(const std::string& scene, int bodies, int frames, int iterations,
 }
 #endif
 
-double median(std::vector<double> of) {
-  if (of.empty()) return 0.0;
-  std::nth_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2), of.end());
-  return of[of.size() / 2];
-}
 double mean(const std::vector<double>& of) {
   double sum = 0.0;
   for (const double v : of) sum += v;

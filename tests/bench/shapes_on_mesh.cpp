@@ -18,6 +18,7 @@
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/geometry/sample_shapes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
+#include "tests/support/median.hpp"
 
 #ifdef IMPINGE_HAS_BULLET
 #include <btBulletDynamicsCommon.h>
@@ -35,12 +36,6 @@ double process_ms() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-  if (x.empty()) return 0.0;
-  std::nth_element(x.begin(), x.begin() + static_cast<long>(x.size() / 2), x.end());
-  return x[x.size() / 2];
 }
 
 /// Of a hilly field of 4 m, at (x, z).

@@ -12,6 +12,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
+#include "tests/support/median.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -30,12 +31,6 @@ struct Way {
   bool is_aligned = false;  // node over node
   std::string response;
 };
-
-double median(std::vector<double> v) {
-  if (v.empty()) return NAN;
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
 
 double mean(const std::vector<double>& v) {
   double sum = 0.0;

@@ -20,6 +20,7 @@
 #include "engine/geometry/distance.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "tests/support/median.hpp"
 
 #ifdef IMPINGE_HAS_EMBREE
 #include <embree3/rtcore.h>
@@ -37,11 +38,6 @@ double process_ms() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + static_cast<long>(x.size() / 2), x.end());
-  return x[x.size() / 2];
 }
 
 using Pairs = std::vector<std::pair<int, int>>;
