@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/contact/contact_reduction.hpp"
+#include "engine/contact/fewest_carriers.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/step/end_pose.hpp"
@@ -173,7 +174,8 @@ void SecondLook::add(const ContactCache& carried) {
   exchange();
 }
 
-/// What came back takes the places of those that turned out not to carry: these wait in their turn.
+/// What came back takes the places of those that turned out not to carry: these wait in their turn. Where too many carry,
+/// those that others can carry for hand on what they have.
 void SecondLook::exchange() {
   const std::vector<Collision>& now = step_.collisions;
   const auto most = static_cast<std::size_t>(by_.contact.most_contacts);
@@ -184,26 +186,11 @@ void SecondLook::exchange() {
     if (last - first > most && is_awake_and_rigid(pair.a, pair.b)) crowded.emplace_back(&now[first], last - first);
   }
   if (crowded.empty()) return;
-  std::vector<ContactKey> resting;
-  for (const GroupResult& r : step_.results)
-    for (const ContactCache::Item& item : r.impulses)
-      if (item.impulse.isZero(0.0)) resting.push_back(item.key);
-  std::sort(resting.begin(), resting.end());
-  const auto is_asked = [&](const ContactKey& key) {
-    return std::any_of(step_.asked.begin(), step_.asked.end(), [&](const Collision& c) { return key_of(c) == key; });
-  };
+  std::map<ContactKey, Vec3*> impulses;
+  for (GroupResult& r : step_.results)
+    for (ContactCache::Item& item : r.impulses) impulses[item.key] = &item.impulse;
   std::vector<ContactKey> waiting;
-  for (const std::span<const Collision> of_pair : crowded) {
-    std::vector<std::pair<double, ContactKey>> idle;
-    for (const Collision& c : of_pair) {
-      const ContactKey key = key_of(c);
-      if (std::binary_search(resting.begin(), resting.end(), key) && !is_asked(key) && !ends_as_overlap(c))
-        idle.emplace_back(-end_gap(c), key);
-    }
-    std::sort(idle.begin(), idle.end());
-    idle.resize(std::min(idle.size(), of_pair.size() - most));
-    for (const auto& [gap, key] : idle) waiting.push_back(key);
-  }
+  for (const std::span<const Collision> of_pair : crowded) hand_on(of_pair, of_pair.size() - most, impulses, waiting);
   if (waiting.empty()) return;
   std::sort(waiting.begin(), waiting.end());
   const auto waits = [&](const Collision& c) { return std::binary_search(waiting.begin(), waiting.end(), key_of(c)); };
@@ -211,6 +198,36 @@ void SecondLook::exchange() {
   std::copy_if(now.begin(), now.end(), std::back_inserter(more), waits);
   std::erase_if(step_.collisions, waits);
   insert(std::move(more), step_.dropped);
+}
+
+/// Adds `count` contacts of a pair to those that wait, or as many as can.
+void SecondLook::hand_on(std::span<const Collision> of_pair, std::size_t count,
+                         const std::map<ContactKey, Vec3*>& impulses, std::vector<ContactKey>& waiting) const {
+  const auto is_asked = [&](const Collision& c) {
+    return std::any_of(step_.asked.begin(), step_.asked.end(),
+                       [&](const Collision& asked) { return key_of(asked) == key_of(c); });
+  };
+  std::vector<std::pair<double, ContactKey>> idle;
+  std::vector<CarriedImpulse> carried;
+  std::vector<ContactKey> carriers;
+  for (const Collision& c : of_pair) {
+    const auto known = impulses.find(key_of(c));
+    if (known == impulses.end() || is_asked(c) || ends_as_overlap(c)) continue;
+    if (known->second->isZero(0.0))
+      idle.emplace_back(-end_gap(c), known->first);
+    else
+      carried.push_back({0.5 * (c.point_a + c.point_b), *known->second}), carriers.push_back(known->first);
+  }
+  std::sort(idle.begin(), idle.end());
+  idle.resize(std::min(idle.size(), count));
+  for (const auto& [gap, key] : idle) waiting.push_back(key);
+  const std::size_t left = count - idle.size();
+  if (left == 0 || carried.size() <= left) return;
+  const std::vector<double> shares = fewer_carriers(carried, carried.size() - left);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    *impulses.at(carriers[i]) *= shares[i];
+    if (shares[i] == 0.0) waiting.push_back(carriers[i]);
+  }
 }
 
 bool SecondLook::is_awake_and_rigid(BodyIndex a, BodyIndex b) const {
@@ -262,7 +279,7 @@ int SolvedBefore::solve_changed(Bodies& bodies, std::span<const Attachment> atta
   const ContactList contacts = step.contacts(attachments);
   ContactCache last;
   std::vector<ContactCache::Item> items;
-  for (const GroupResult& r : results_) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
+  for (const GroupResult& r : step.results) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
   last.assign(std::move(items));
   step.start = remembered_impulses(last, contacts);
   step.groups = find_groups(bodies, contacts);

@@ -24,6 +24,8 @@ class SecondLook {
  private:
   void take_velocities();
   void exchange();
+  void hand_on(std::span<const Collision> of_pair, std::size_t count, const std::map<ContactKey, Vec3*>& impulses,
+               std::vector<ContactKey>& waiting) const;
   void find_dropped();
   void find_driven(StageTimes& times);
   bool is_anyone_driven() const;
@@ -54,7 +56,7 @@ class SolvedBefore {
   SolvedBefore(const SubStep& step, const ContactList& contacts);
 
   /// Groups and results of the step as it is now: each group whose contacts are no longer the same is solved again, from
-  /// the impulses that it had. Returns the iterations that this made.
+  /// the impulses in the step's results. Returns the iterations that this made.
   int solve_changed(Bodies& bodies, std::span<const Attachment> attachments, const Solving& how, SubStep& step,
                     StageTimes& times) const;
   /// Whether more groups had an answer.
