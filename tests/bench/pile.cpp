@@ -1,10 +1,12 @@
 // A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, the relative residual
 // (the largest and the middle one of all frames), solves without an answer, overlap, and the frame from which on every
 // speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s). usage: bench_pile [boxes = 1000] [frames = 60]
-// [response[:solver] …]
+// [response[:solver[:tolerance]] …]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
+#include <string>
 
 #include "engine/response/response.hpp"
 #include "tests/support/mechanics/pile.hpp"
@@ -26,8 +28,11 @@ int main(int argc, char** argv) {
     World world;
     world.parameters.simulation.sleeping = false;
     world.parameters.simulation.substeps = 1;
-    world.parameters.response.method = method.substr(0, method.find(':'));
-    if (method.find(':') != std::string::npos) world.parameters.lcp.method = method.substr(method.find(':') + 1);
+    std::istringstream words(method);
+    std::string word;
+    if (std::getline(words, word, ':')) world.parameters.response.method = word;
+    if (std::getline(words, word, ':')) world.parameters.lcp.method = word;
+    if (std::getline(words, word, ':')) world.parameters.lcp.tolerance = std::stod(word);
     world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
     Random random(4242);
     add_pile(world, random, boxes);
