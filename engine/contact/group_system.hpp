@@ -53,6 +53,8 @@ struct GroupSystem {
   /// nodes resets it. Velocities, bounds, kinds and friction are free to change; the solvers keep their factorizations
   /// with it.
   std::shared_ptr<const MatX> assembled;
+  /// The same of A⁻¹ between the nodes that contacts touch, by deformable body.
+  std::shared_ptr<const std::vector<MatX>> between_nodes;
 
   /// J v of contact i for the bodies' velocities, with or without the Δv.
   Vec3 contact_velocity(std::size_t i, bool with_delta) const;

@@ -36,7 +36,7 @@ bool is_finite(const GroupAnswer& answer) {
 FrozenGroup freeze(const GroupSystem& system) {
   FrozenGroup frozen;
   frozen.system = system;
-  frozen.system.assembled.reset();
+  frozen.system.assembled.reset(), frozen.system.between_nodes.reset();
   for (DeformableBlock& block : frozen.system.deformable) {
     frozen.matrices.push_back(*block.a);
     block.a = nullptr;

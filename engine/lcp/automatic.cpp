@@ -21,6 +21,7 @@
 
 #include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
+#include "engine/lcp/node_space.hpp"
 
 namespace impinge {
 
@@ -47,10 +48,12 @@ class Automatic : public LcpSolver {
     if (problem.q.empty()) return {};
     const std::size_t n = lambda.size();
     const bool bodies = problem.w->body_space() != nullptr;
-    const bool newton = bodies || n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
-    const double price = bodies   ? kSweepsOfBodies
-                         : newton ? kSweepsPerContact * static_cast<double>(n)
-                                  : kSweepsOfConjugate;
+    const NodeSpace* nodes = problem.w->node_space();
+    const bool newton = bodies || nodes != nullptr || n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
+    const double price = bodies ? kSweepsOfBodies
+                         : newton
+                             ? kSweepsPerContact * (nodes != nullptr ? of_nodes(*nodes, n) : static_cast<double>(n))
+                             : kSweepsOfConjugate;
     const bool dense = !problem.w->has_factors();
     const int first = bodies || dense ? kFewSweeps : kFirstSweeps;
     SweepStop stop(problem, settings);
@@ -77,6 +80,11 @@ class Automatic : public LcpSolver {
   }
 
  private:
+  /// A factorization goes by the cube of the nodes, a sweep by nodes times contacts.
+  static double of_nodes(const NodeSpace& space, std::size_t contacts) {
+    return static_cast<double>(space.touched) * space.touched / static_cast<double>(contacts);
+  }
+
   /// What the rate of the last sweeps says.
   static double sweeps_left(const std::vector<double>& changes, double goal) {
     const std::size_t window = std::min<std::size_t>(kWindow, changes.size() - 1);

@@ -1,6 +1,7 @@
 // The factors of a Delassus operator of rigid bodies, W = J M⁻¹ Jᵀ: six velocities a body, whatever the contacts are.
 #pragma once
 
+#include <Eigen/LU>
 #include <array>
 #include <vector>
 
@@ -36,6 +37,28 @@ struct BodySpace {
         for (int k = 0; k < 3; ++k) u[k] += side.row[k].dot(s.segment<6>(6 * side.body));
     return u;
   }
+};
+
+/// M⁻¹ of bodies whose inertias are inverted once.
+class InverseMasses {
+ public:
+  explicit InverseMasses(const BodySpace& bodies) : mass_(bodies.mass) {
+    for (const Mat3& inertia : bodies.inertia) inverse_inertia_.push_back(inertia.inverse());
+  }
+  BodySpace::Six of(int body, const BodySpace::Six& s) const {
+    BodySpace::Six v;
+    v << s.head<3>() / mass_[body], inverse_inertia_[body] * s.tail<3>();
+    return v;
+  }
+  /// s = M⁻¹ s, in its first six numbers a body.
+  void apply(VecX& s) const {
+    for (int body = 0; body < static_cast<int>(mass_.size()); ++body)
+      s.segment<6>(6 * body) = of(body, s.segment<6>(6 * body));
+  }
+
+ private:
+  std::vector<double> mass_;
+  std::vector<Mat3> inverse_inertia_;
 };
 
 }  // namespace impinge

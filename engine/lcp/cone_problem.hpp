@@ -11,6 +11,7 @@
 namespace impinge {
 
 struct BodySpace;
+struct NodeSpace;
 
 /// The Delassus operator W = J A⁻¹ J^T, symmetric positive semidefinite, in 3 x 3 blocks, 1/kg. It may be stored as a
 /// matrix or as factors; a Gauss-Seidel sweep needs rows and changes, so an operator keeps J A⁻¹ J^T λ up to date
@@ -34,6 +35,8 @@ class Delassus {
   virtual bool has_factors() const { return false; }
   /// The factors where all bodies are rigid, else null; they live as long as this.
   virtual const BodySpace* body_space() { return nullptr; }
+  /// The factors of a group with deformable bodies whose contacts touch few nodes, else null; as long.
+  virtual const NodeSpace* node_space() { return nullptr; }
   /// y = W x. The present λ becomes x.
   virtual void apply(const std::vector<Vec3>& x, std::vector<Vec3>& y);
   /// W written out, 3 contacts x 3 contacts. Changes the present λ.

@@ -1,11 +1,14 @@
-// The linear systems of Newton's methods here: (A W + B) x = b with A and B block diagonal by contact. There are two
-// ways: over the rows in contact, or, where all bodies are rigid, over the bodies' velocities.
+// The linear systems of Newton's methods here: (A W + B) x = b with A and B block diagonal by contact. There are
+// three ways: over the rows in contact, where all bodies are rigid over the bodies' velocities, and over these and those
+// of touched nodes.
 #pragma once
 
 #include <memory>
 #include <span>
 
+#include "engine/lcp/body_space.hpp"
 #include "engine/lcp/cone_problem.hpp"
+#include "engine/lcp/node_space.hpp"
 
 namespace impinge {
 
@@ -22,7 +25,13 @@ class NewtonSystem {
 /// where W is large and mostly zero, sparse. Changes the operator's present λ.
 std::unique_ptr<NewtonSystem> newton_system_of_rows(const ConeProblem& problem);
 
-/// x = B⁻¹ (b - A J s) with (M + Jᵀ B⁻¹ A J) s = Jᵀ B⁻¹ b: 6 rows a body. B must be regular where kept.
+/// Over velocities (system_of_velocities.hpp): 6 rows a body.
 std::unique_ptr<NewtonSystem> newton_system_of_bodies(const BodySpace& bodies);
+
+/// And 3 a touched node. Takes over a dense matrix of those.
+std::unique_ptr<NewtonSystem> newton_system_of_nodes(const NodeSpace& space);
+
+/// That of the problem's factors, of its rows where it has none.
+std::unique_ptr<NewtonSystem> newton_system(const ConeProblem& problem);
 
 }  // namespace impinge

@@ -101,4 +101,10 @@ std::unique_ptr<NewtonSystem> newton_system_of_rows(const ConeProblem& problem) 
   return std::make_unique<SystemOfRows>(problem);
 }
 
+std::unique_ptr<NewtonSystem> newton_system(const ConeProblem& problem) {
+  if (const BodySpace* bodies = problem.w->body_space()) return newton_system_of_bodies(*bodies);
+  if (const NodeSpace* nodes = problem.w->node_space()) return newton_system_of_nodes(*nodes);
+  return newton_system_of_rows(problem);
+}
+
 }  // namespace impinge

@@ -45,8 +45,7 @@ class Search {
         settings_(settings),
         lambda_(lambda),
         n_(lambda.size()),
-        system_(problem.w->body_space() != nullptr ? newton_system_of_bodies(*problem.w->body_space())
-                                                   : newton_system_of_rows(problem)),
+        system_(newton_system(problem)),
         u_(n_),
         trial_(n_),
         a_(n_),
@@ -216,7 +215,8 @@ class SemismoothNewton : public LcpSolver {
     return Search(problem, settings, lambda).run();
   }
   std::string applies(const ConeProblem& problem) const override {
-    if (problem.q.size() <= kMostContacts || (problem.w != nullptr && problem.w->body_space() != nullptr)) return "";
+    if (problem.q.size() <= kMostContacts) return "";
+    if (problem.w != nullptr && (problem.w->body_space() != nullptr || problem.w->node_space() != nullptr)) return "";
     return std::to_string(problem.q.size()) + " contacts; it writes W out, which is done up to " +
            std::to_string(kMostContacts);
   }

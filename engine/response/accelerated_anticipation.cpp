@@ -27,6 +27,7 @@
 #include "engine/response/augmented_lagrangian.hpp"
 #include "engine/response/delassus_columns.hpp"
 #include "engine/response/operators/assembled_delassus.hpp"
+#include "engine/response/operators/delassus_of.hpp"
 #include "engine/response/operators/splitting_delassus.hpp"
 
 namespace impinge {
@@ -141,9 +142,9 @@ class Solver {
   /// method drops few at a time.
   bool solve_by_w(ResponseResult& result) {
     if (group_.contacts.size() > kMostDense) return false;
-    AssembledDelassus w(group_);
+    const std::unique_ptr<Delassus> w = delassus_of(group_);
     ConeProblem problem = base_;
-    problem.w = &w;
+    problem.w = w.get();
     std::vector<Vec3> lambda = start_;
     LcpSettings settings = context_.lcp;
     settings.max_iterations = std::min(settings.max_iterations, kMostIterations);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/response/operators/assembled_delassus.hpp"
+#include "engine/response/operators/delassus_of.hpp"
 #include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/response.hpp"
 
@@ -29,8 +30,8 @@ class ConstraintAnticipation : public Response {
       w.begin(group.lambda);  // Δv afresh from λ: no rounding is carried over from the sweeps
       return result_of(result);
     }
-    AssembledDelassus w(group);
-    problem.w = &w;
+    const std::unique_ptr<Delassus> w = delassus_of(group);
+    problem.w = w.get();
     const LcpResult result = solver.solve(problem, context.lcp, group.lambda);
     apply_impulses(group);
     return result_of(result);

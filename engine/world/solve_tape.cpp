@@ -11,7 +11,7 @@ namespace {
 /// To be tried: what solvers keep beside W stays the original's.
 GroupSystem copy_of(const GroupSystem& system) {
   GroupSystem copy = system;
-  copy.assembled.reset();
+  copy.assembled.reset(), copy.between_nodes.reset();
   return copy;
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/response/operators/touched_nodes.hpp"
 
 namespace impinge {
 namespace {
@@ -50,14 +50,6 @@ void add_rigid(const GroupSystem& group, MatX& w) {
   }
 }
 
-MatX gram(const DeformableBlock& block, const SparseColumns& columns) {
-  MatX w;
-  const SolveStatus status = block.solver->gram(columns, w).status;
-  if (status == SolveStatus::not_finite || status == SolveStatus::not_positive_definite)
-    throw DivergenceError("the system matrix of a deformable body is not positive definite");
-  return w;
-}
-
 /// W by columns of J^T: three a contact.
 void add_by_contact(const GroupSystem& group, const DeformableBlock& block, const std::vector<Part>& parts, MatX& w) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -69,7 +61,7 @@ void add_by_contact(const GroupSystem& group, const DeformableBlock& block, cons
                                parts[j].sign * n.weight * group.contacts[parts[j].contact].directions(d, k));
   SparseColumns columns(block.velocity.size(), static_cast<Eigen::Index>(3 * parts.size()));
   columns.setFromTriplets(entries.begin(), entries.end());
-  const MatX part = gram(block, columns);
+  const MatX part = gram_of(block, columns);
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = 0; j < parts.size(); ++j)
       w.block<3, 3>(3 * parts[i].contact, 3 * parts[j].contact) +=
@@ -80,15 +72,9 @@ void add_by_contact(const GroupSystem& group, const DeformableBlock& block, cons
 void add_by_node(const GroupSystem& group, const DeformableBlock& block, const std::vector<Part>& parts,
                  const std::vector<int>& nodes, MatX& w) {
   std::vector<int> row(block.velocity.size() / 3, -1);
-  const auto m = static_cast<Eigen::Index>(3 * nodes.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    row[nodes[k]] = static_cast<int>(3 * k);
-    for (int d = 0; d < 3; ++d) entries.emplace_back(3 * nodes[k] + d, static_cast<int>(3 * k) + d, 1.0);
-  }
-  SparseColumns columns(block.velocity.size(), m);
-  columns.setFromTriplets(entries.begin(), entries.end());
-  const MatX inverse = gram(block, columns);  // A⁻¹ between touched nodes
+  for (std::size_t k = 0; k < nodes.size(); ++k) row[nodes[k]] = static_cast<int>(3 * k);
+  const MatX inverse = inverse_between(block, nodes);
+  const Eigen::Index m = inverse.rows();
   MatX sum(m, 3), column(m, 3);
   for (const Part& p : parts) {
     check_interrupt();
@@ -109,13 +95,8 @@ void add_soft(const GroupSystem& group, int body, MatX& w) {
       parts_of(group, [&](const ContactSide& s) { return s.deformable == body && !s.nodes.empty(); });
   if (parts.empty()) return;
   check_interrupt();
-  if (block.solver->factorize(*block.a) != SolveStatus::ok)
-    throw DivergenceError("the system matrix of a deformable body is not positive definite");
-  std::vector<int> nodes;
-  for (const Part& p : parts)
-    for (const NodeWeight& n : p.side->nodes) nodes.push_back(n.node);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  factorize(block);
+  const std::vector<int> nodes = touched_nodes(group, body);
   if (nodes.size() < parts.size())
     add_by_node(group, block, parts, nodes, w);
   else

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "engine/response/operators/rigid_space.hpp"
+
 namespace impinge {
 
 std::vector<std::vector<Mat3>> inverse_node_blocks(const GroupSystem& group) {
@@ -41,26 +43,7 @@ FactoredDelassus::FactoredDelassus(GroupSystem& group, const std::vector<std::ve
 
 const BodySpace* FactoredDelassus::body_space() {
   if (!group_.deformable.empty()) return nullptr;
-  if (body_space_ != nullptr) return body_space_.get();
-  body_space_ = std::make_unique<BodySpace>();
-  for (const RigidBlock& block : group_.rigid) {
-    body_space_->mass.push_back(1.0 / block.inverse_mass);
-    body_space_->inertia.push_back(block.inverse_inertia.inverse());
-  }
-  for (std::size_t i = 0; i < group_.contacts.size(); ++i) {
-    const ContactRows& rows = group_.contacts[i];
-    std::array<BodySpace::Side, 2> sides;
-    const ContactSide* of[2] = {&rows.a, &rows.b};
-    for (int s = 0; s < 2; ++s) {
-      if (of[s]->rigid < 0) continue;
-      sides[s].body = of[s]->rigid;
-      for (int k = 0; k < (rows.has_one_row() ? 1 : 3); ++k) {
-        sides[s].row[k].head<3>() = (s == 0 ? 1.0 : -1.0) * rows.directions.row(k);
-        sides[s].row[k].tail<3>() = sides_[i][s].arm.row(k);
-      }
-    }
-    body_space_->sides.push_back(sides);
-  }
+  if (body_space_ == nullptr) body_space_ = std::make_unique<BodySpace>(rigid_space(group_));
   return body_space_.get();
 }
 
