@@ -4,7 +4,7 @@
 
 namespace impinge {
 
-constexpr std::uint8_t kAsleep = 1, kPulled = 2, kDeleted = 4;  // in a saved state
+constexpr std::uint8_t kAsleep = 1, kPulled = 2, kDeleted = 4, kLags = 8;  // in a saved state
 
 Aabb Body::bounds() const { return shape->mesh() == nullptr ? shape->bounds(pose) : vertex_bounds_; }
 
@@ -57,9 +57,11 @@ void Body::save_frame(ByteWriter& out, const Vec3& velocity, const Vec3& angular
                       const Vec3& angular_velocity) const {
   out.put(pose.position), out.put(pose.rotation);
   out.put(velocity), out.put(angular_momentum), out.put(angular_velocity);
-  out.put<std::uint8_t>((asleep ? kAsleep : 0) | (pull ? kPulled : 0) | (deleted ? kDeleted : 0));
+  out.put<std::uint8_t>((asleep ? kAsleep : 0) | (pull ? kPulled : 0) | (deleted ? kDeleted : 0) |
+                        (lag != 0.0 ? kLags : 0));
   out.put(rest_time), out.put(island.value());
   if (pull) pull->save(out);
+  if (lag != 0.0) out.put(lag);
 }
 
 Body::Frame Body::restore_frame(ByteReader& in) {
@@ -71,6 +73,7 @@ Body::Frame Body::restore_frame(ByteReader& in) {
   rest_time = in.get<double>(), island = BodyIndex(in.get<int>());
   pull.reset();
   if ((marks & kPulled) != 0) pull = Pull::restore(in);
+  lag = (marks & kLags) != 0 ? in.get<double>() : 0.0;
   return frame;
 }
 

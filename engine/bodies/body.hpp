@@ -60,6 +60,10 @@ class Body {
   double rest_time = 0.0;  ///< seconds in a row below the sleeping speed
   BodyIndex island;        ///< of a sleeping body: the group it fell asleep with, named by its lowest body
 
+  // when its velocity is that of (VelocityTime, time_integration.hpp)
+  double lag = 0.0;   ///< by how much the velocity that moves it is older than its place, s
+  double kick = 0.0;  ///< for how long forces act in the open sub-step, s; no state
+
   // what somebody did to it (step/act.hpp)
   std::optional<Pull> pull;  ///< a force on it until it is let go
   bool deleted = false;      ///< it takes no part any more: a name without a body

@@ -116,6 +116,7 @@ double DeformableBody::smallest_volume_ratio() const {
 }
 
 void DeformableBody::come_to_rest() {
+  lag = 0.0, lead_.resize(0);
   velocity.setZero();
   center_velocity_.setZero();
 }
@@ -158,17 +159,22 @@ void DeformableBody::save(ByteWriter& out) const {
   for (const HeldRegion& region : held) out.put(region.displacement), out.put(region.wanted);
   for (const VecX* x : {&position, &velocity, &acceleration})
     for (Eigen::Index i = 0; i < x->size(); ++i) out.put((*x)[i]);
+  if (lag == 0.0) return;
+  out.put(lead_.size() > 0);
+  for (Eigen::Index i = 0; i < lead_.size(); ++i) out.put(lead_[i]);
 }
 
 void DeformableBody::stay(ByteReader& start) {
-  const VecX moved = position, v = velocity, a = acceleration;
+  const VecX moved = position, v = velocity, a = acceleration, lead = lead_;
+  const double late = lag;
   const bool is_known = acceleration_known;
   const std::vector<HeldRegion> regions = held;
   const Vec3 center = center_velocity_;
   restore(start);
   for (int node = 0; node < nodes(); ++node)
     if (is_held(node)) position.segment<3>(3 * node) = moved.segment<3>(3 * node);
-  velocity = v, acceleration = a, acceleration_known = is_known, held = regions, center_velocity_ = center;
+  velocity = v, lead_ = lead, lag = late, acceleration = a, acceleration_known = is_known, held = regions,
+  center_velocity_ = center;
   interpolate(embedding, fem.rest(), velocity, surface_velocity_);
 }
 
@@ -178,6 +184,8 @@ void DeformableBody::restore(ByteReader& in) {
   for (HeldRegion& region : held) region.displacement = in.get_vec3(), region.wanted = in.get_vec3();
   for (VecX* x : {&position, &velocity, &acceleration})
     for (Eigen::Index i = 0; i < x->size(); ++i) (*x)[i] = in.get<double>();
+  lead_.resize(lag != 0.0 && in.get<bool>() ? velocity.size() : 0);
+  for (Eigen::Index i = 0; i < lead_.size(); ++i) lead_[i] = in.get<double>();
   interpolate(embedding, fem.rest(), velocity, surface_velocity_);
 }
 

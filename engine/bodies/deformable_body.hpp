@@ -88,9 +88,10 @@ class DeformableBody final : public Body {
   void set_center_velocity(const Vec3& velocity);
 
   // a sub-step
+  const VecX& lead() const { return lead_; }  ///< over all nodes, as RigidBody::stagger says; empty: none
   const DeformableStep& open_step() const { return step_; }  ///< until the next find_free_velocity
   void drive(double time, double h, double share) override;
-  void open_sub_step() override {}
+  void open_sub_step() override;
   void find_free_velocity(const TimeIntegration& how) override;
   SystemBlock system_block() const override;
   CarriedPoint carry(const MaterialPoint& point, const Vec3& at) const override;
@@ -141,6 +142,7 @@ class DeformableBody final : public Body {
   void choose_solvers(const LinearSolverChoice& wanted);
   void check_solved() const;
   void find_displacement_velocity();
+  void lead_on();
   static MaterialPoint nearest_point(const Vec3& x, const TetMesh& mesh);
   std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
   Mat3 edges_of(int tet) const;
@@ -149,6 +151,8 @@ class DeformableBody final : public Body {
   std::shared_ptr<const BlockPattern> free_pattern_;
   VecX held_velocity_;
   Vec3 center_velocity_ = Vec3::Zero();  ///< m/s, at the end of the last sub-step
+
+  VecX lead_;  ///< of `velocity`, m/s, where it lags (stagger.hpp); empty: none
 
   // the open sub-step
   DeformableStep step_;

@@ -20,6 +20,7 @@ struct DeformableStep {
   double time_step = 0.0;  ///< h, s
   Vec3 gravity = Vec3::Zero();
   double tau = 0.0, s = 0.0;  ///< s
+  double kick = 0.0;          ///< for how long forces act, s; 0: h
   VecX start;                 ///< x₀ over all nodes, m
   VecX offset;                ///< d over all nodes, m; of held nodes: how far they are moved
   VecX v_hat;                 ///< over all nodes, m/s
@@ -37,6 +38,7 @@ struct DeformableStep {
   bool converged = true;
   SolveStatus linear_status = SolveStatus::ok;
 
+  double acting() const { return kick > 0.0 ? kick : time_step; }
   /// x₀ + s v + d over all nodes, m; v over all nodes too (DeformableBody::with_held).
   VecX position(const VecX& v) const { return start + s * v + offset; }
 };

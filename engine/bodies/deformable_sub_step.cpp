@@ -43,11 +43,28 @@ void DeformableBody::find_displacement_velocity() {
   displacement_velocity_ = (step_.s * with_held(step_.v_star) + step_.offset) / step_.time_step;
 }
 
+void DeformableBody::open_sub_step() {
+  if (lead_.size() > 0) velocity -= lead_;
+}
+
+/// Half a sub-step on, as forces have changed it. Where impulses took part nobody knows which of them go on.
+void DeformableBody::lead_on() {
+  lead_.resize(0);
+  if (lag == 0.0 || touched_) return;
+  lead_ = lag / kick * (velocity - velocity_before_);
+  for (int i = 0; i < nodes(); ++i)
+    if (is_held(i)) lead_.segment<3>(3 * i).setZero();
+  velocity += lead_;
+}
+
 void DeformableBody::find_free_velocity(const TimeIntegration& how) {
   choose_solvers(how.linear_solver);
   velocity_before_ = velocity;
   touched_ = false;
   is_explicit_ = how.integrator.is_explicit();
+  const bool staggers = how.integrator.may_stagger();
+  kick = staggers ? lag + how.ahead() : how.time_step;
+  step_.kick = kick;
   how.integrator.begin(*this, how.gravity, how.time_step, step_);
   ThriftySolver thrifty(*solvers_.iterative, *solvers_.direct);
   how.integrator.free_velocity(*this, step_, thrifty);
@@ -94,6 +111,8 @@ void DeformableBody::change_velocity(const BodyVector& change) {
 
 void DeformableBody::advance(const TimeIntegration& how, double /*end*/) {
   how.integrator.advance(*this, step_, step_.v_star);
+  lag = how.integrator.may_stagger() ? how.time_step - how.ahead() : 0.0;
+  lead_on();
   // Newmark's accelerations are those of the elastic forces alone: contact acts at the end of the step [Kane99], or a
   // body that lands would bounce back with the speed it came with; and so does a pull
   if (touched_ || pull) acceleration_known = false;

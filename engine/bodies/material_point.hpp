@@ -31,6 +31,7 @@ struct CarriedPoint {
   std::vector<NodeWeight> nodes;  ///< of what moves node by node: free nodes
   std::vector<Prescribed> prescribed;
   Vec3 velocity_before = Vec3::Zero();  ///< of the point before the sub-step, m/s
+  Vec3 lead = Vec3::Zero();             ///< what of that is lead (stagger.hpp)
 };
 
 }  // namespace impinge

@@ -18,7 +18,9 @@ struct Pull {
   Vec3 force(const Vec3& at, const Vec3& velocity) const { return stiffness * (target - at) - damping * velocity; }
   /// The change of its impulse over a sub-step of h seconds by a change of the point's velocity that lasts through it,
   /// kg. Whoever solves for the velocity at the end with this on the left is stable for any stiffness.
-  double mass(double h) const { return h * (damping + h * stiffness); }
+  double mass(double h) const { return mass(h, h); }
+  /// The same where its force acts for `kick` seconds of the h in which the point moves.
+  double mass(double kick, double h) const { return kick * (damping + h * stiffness); }
 
   void save(ByteWriter& out) const;
   static Pull restore(ByteReader& in);

@@ -4,10 +4,32 @@
 
 #include "engine/bodies/rigid_motion.hpp"
 #include "engine/bodies/time_integration.hpp"
+#include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/geometry/rotation.hpp"
 
 namespace impinge {
+namespace {
+
+constexpr double kCarries = 2.0;  // of gravity: an acceleration by impulses that is no blow
+constexpr double kStands = 1e-3;  // of what gravity makes of a speed in `lag`: a speed that is none
+
+}  // namespace
+
+Vec3 Stagger::agreed(const Vec3& last, const Vec3& now) {
+  if (last.dot(now) <= 0.0) return Vec3::Zero();
+  return last.squaredNorm() < now.squaredNorm() ? last : now;
+}
+
+void Stagger::save(ByteWriter& out) const {
+  for (const Vec3& v : {lead, spin_lead, rate, spin_rate}) out.put(v);
+}
+
+Stagger Stagger::restore(ByteReader& in) {
+  Stagger s;
+  for (Vec3* v : {&s.lead, &s.spin_lead, &s.rate, &s.spin_rate}) *v = in.get_vec3();
+  return s;
+}
 
 void RigidBody::set_inertia(const Mat3& about_center) {
   principal = principal_inertia(about_center);
@@ -15,9 +37,18 @@ void RigidBody::set_inertia(const Mat3& about_center) {
   inertia_inverse = principal.inverse();
 }
 
+void RigidBody::open_sub_step() {
+  Body::open_sub_step();
+  given_.setZero(), spin_given_.setZero();
+  if (lag == 0.0) return;
+  velocity -= stagger_.lead, angular_momentum -= stagger_.spin_lead;
+  lead_ = {stagger_.lead, world_inertia_inverse() * stagger_.spin_lead};
+}
+
 void RigidBody::find_free_velocity(const TimeIntegration& how) {
-  apply_gravity(*this, how.gravity, how.time_step);
-  if (pull) apply_pull(*this, *pull, how.time_step);
+  kick = lag + how.ahead();
+  apply_gravity(*this, how.gravity, kick);
+  if (pull) apply_pull(*this, *pull, kick, how.time_step);
 }
 
 SystemBlock RigidBody::system_block() const {
@@ -28,12 +59,14 @@ CarriedPoint RigidBody::carry(const MaterialPoint&, const Vec3& at) const {
   CarriedPoint carried;
   carried.arm = at - pose.position;
   carried.velocity_before = before_.linear + before_.angular.cross(carried.arm);
+  if (lag != 0.0) carried.lead = lead_.linear + lead_.angular.cross(carried.arm);
   return carried;
 }
 
 void RigidBody::change_velocity(const BodyVector& change) {
-  velocity += change.twist.linear;
-  angular_momentum += world_inertia() * change.twist.angular;
+  given_ = change.twist.linear, spin_given_ = world_inertia() * change.twist.angular;
+  velocity += given_;
+  angular_momentum += spin_given_;
 }
 
 void RigidBody::advance(const TimeIntegration& how, double /*end*/) {
@@ -43,6 +76,23 @@ void RigidBody::advance(const TimeIntegration& how, double /*end*/) {
     throw DivergenceError(
         fmt::format("body '{}': {}; use more sub-steps, or smaller velocities and forces", name, error.what()));
   }
+  lag = how.time_step - how.ahead();
+  if (lag != 0.0)
+    lead_on(how);
+  else
+    stagger_ = {};
+}
+
+/// By gravity and by impulses: those that carry a weight, and of larger ones what agrees with the sub-step before. What
+/// they have brought to a stand stays there.
+void RigidBody::lead_on(const TimeIntegration& how) {
+  const Vec3 rate = given_ / kick, spin_rate = spin_given_ / kick;
+  const bool carries = rate.norm() <= kCarries * how.gravity.norm();
+  const Vec3 lead = lag * (how.gravity + (carries ? rate : Stagger::agreed(stagger_.rate, rate))),
+             spin_lead = lag * (carries ? spin_rate : Stagger::agreed(stagger_.spin_rate, spin_rate));
+  const bool stands = !given_.isZero(0.0) && velocity.norm() <= kStands * lag * how.gravity.norm();
+  stagger_ = {stands ? Vec3(Vec3::Zero()) : lead, stands ? Vec3(Vec3::Zero()) : spin_lead, rate, spin_rate};
+  velocity += stagger_.lead, angular_momentum += stagger_.spin_lead;
 }
 
 void RigidBody::displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) {
@@ -51,7 +101,11 @@ void RigidBody::displace(const BodyVector& by, const std::optional<Vec3>& group_
   if (group_velocity) angular_momentum -= by.twist.linear.cross(mass * (velocity - *group_velocity));
 }
 
-void RigidBody::stay(ByteReader& start) { restore_frame(start); }
+void RigidBody::stay(ByteReader& start) {
+  const double late = lag;
+  restore_frame(start);
+  lag = late;
+}
 
 void RigidBody::check_finite() const {
   // a maximum alone may pass over NaN
@@ -66,6 +120,7 @@ void RigidBody::check_finite() const {
 }
 
 void RigidBody::come_to_rest() {
+  lag = 0.0, stagger_ = {};
   velocity.setZero();
   angular_momentum.setZero();
 }
@@ -92,10 +147,16 @@ Balance RigidBody::balance(const Vec3& gravity) {
   return own;
 }
 
+void RigidBody::save(ByteWriter& out) const {
+  save_frame(out, velocity, angular_momentum, Vec3::Zero());
+  if (lag != 0.0) stagger_.save(out);
+}
+
 void RigidBody::restore(ByteReader& in) {
   const Frame frame = restore_frame(in);
   velocity = frame.velocity;
   angular_momentum = frame.angular_momentum;
+  stagger_ = lag != 0.0 ? Stagger::restore(in) : Stagger();
 }
 
 }  // namespace impinge

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/bodies/body.hpp"
+#include "engine/bodies/stagger.hpp"
 #include "engine/geometry/mass_properties.hpp"
 
 namespace impinge {
@@ -29,6 +30,7 @@ class RigidBody final : public Body {
   Twist twist() const override { return {velocity, angular_velocity()}; }
   double fastest_point() const override { return velocity.norm() + angular_velocity().norm() * radius; }
 
+  void open_sub_step() override;
   void find_free_velocity(const TimeIntegration& how) override;
   SystemBlock system_block() const override;
   CarriedPoint carry(const MaterialPoint& point, const Vec3& at) const override;
@@ -43,8 +45,18 @@ class RigidBody final : public Body {
   void shift(const Vec3& by, const Mat3& turn) override;
 
   Balance balance(const Vec3& gravity) override;
-  void save(ByteWriter& out) const override { save_frame(out, velocity, angular_momentum, Vec3::Zero()); }
+  void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
+
+  /// Where its velocity lags: what of velocity and angular momentum is lead. Zero where it doesn't.
+  const Stagger& stagger() const { return stagger_; }
+
+ private:
+  void lead_on(const TimeIntegration& how);
+
+  Stagger stagger_;
+  Twist lead_;                                             // that was taken off when the sub-step began
+  Vec3 given_ = Vec3::Zero(), spin_given_ = Vec3::Zero();  // velocity and angular momentum, by impulses
 };
 
 }  // namespace impinge

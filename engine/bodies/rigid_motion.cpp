@@ -6,17 +6,17 @@
 #include "engine/rotation/free_rotation.hpp"
 
 namespace impinge {
-void apply_gravity(RigidBody& body, const Vec3& gravity, double time_step) { body.velocity += time_step * gravity; }
+void apply_gravity(RigidBody& body, const Vec3& gravity, double kick) { body.velocity += kick * gravity; }
 
-void apply_pull(RigidBody& body, const Pull& pull, double time_step) {
+void apply_pull(RigidBody& body, const Pull& pull, double kick, double time_step) {
   const Vec3 at = body.position_of(pull.point), arm = at - body.pose.position;
   Mat3 across;  // across * x = arm × x
   across << 0.0, -arm.z(), arm.y(), arm.z(), 0.0, -arm.x(), -arm.y(), arm.x(), 0.0;
   const Mat3 mobility = Mat3::Identity() / body.mass - across * body.world_inertia_inverse() * across;
   const Vec3 velocity = body.velocity + body.angular_velocity().cross(arm);
-  // p = Δt f(at + Δt v', v') with v' = velocity + mobility p
-  const double m = pull.mass(time_step);
-  const Vec3 explicit_impulse = time_step * pull.force(at + time_step * velocity, velocity);
+  // p = kick f(at + Δt v', v') with v' = velocity + mobility p
+  const double m = pull.mass(kick, time_step);
+  const Vec3 explicit_impulse = kick * pull.force(at + time_step * velocity, velocity);
   body.push((Mat3::Identity() + m * mobility).ldlt().solve(explicit_impulse), at);
 }
 

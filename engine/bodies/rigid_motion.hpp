@@ -5,12 +5,12 @@
 
 namespace impinge {
 
-/// v* = v + Δt g. The angular momentum does not change: gyroscopic torque does not enter A and b.
-void apply_gravity(RigidBody& body, const Vec3& gravity, double time_step);
+/// v* = v + kick g. The angular momentum does not change: gyroscopic torque does not enter A and b.
+void apply_gravity(RigidBody& body, const Vec3& gravity, double kick);
 
 /// The impulse of the pull in Δt, from the velocity that it leaves at the end: implicit, so it is stable, and wins no
-/// energy, for any stiffness and Δt. The point moves on a straight line meanwhile.
-void apply_pull(RigidBody& body, const Pull& pull, double time_step);
+/// energy, for any stiffness and Δt. The point moves on a straight line meanwhile. The force acts for `kick` seconds.
+void apply_pull(RigidBody& body, const Pull& pull, double kick, double time_step);
 
 /// Where the body would be after Δt with this velocity and angular momentum L: the centre moves by Δt v, the body turns
 /// as it turns freely, exactly (free_rotation.hpp). Throws DivergenceError, without frame and name, where the turn is so

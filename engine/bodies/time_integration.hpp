@@ -3,6 +3,7 @@
 
 #include "engine/algebra/linear_solver.hpp"
 #include "engine/core/method.hpp"
+#include "engine/core/types.hpp"
 
 namespace impinge {
 
@@ -38,6 +39,15 @@ class DeformableIntegrator : public Method {
   virtual const NewtonSettings* newton() const { return nullptr; }
   /// Whether A = M: with lumped mass its blocks stand alone.
   virtual bool is_explicit() const { return false; }
+  /// Whether its velocities may be those of the middle: x₁ = x₀ + Δt v₁, with forces that act for as long as
+  /// DeformableStep::acting says. One with positions of its own has velocities of the end.
+  virtual bool may_stagger() const { return true; }
+};
+
+/// What the velocities that a sub-step finds, v₁ of x₁ = x₀ + Δt v₁, are taken for.
+enum class VelocityTime : std::uint8_t {
+  end,    ///< those of its end: symplectic Euler
+  middle  ///< those of its middle: leapfrog; the first sub-step of a motion gives half of the forces
 };
 
 /// How a sub-step is integrated.
@@ -46,6 +56,10 @@ struct TimeIntegration {
   const LinearSolverChoice& linear_solver;  ///< of deformable bodies' systems
   Vec3 gravity = Vec3::Zero();              ///< m/s²
   double time_step = 0.0;                   ///< Δt, s
+  VelocityTime velocities = VelocityTime::end;
+
+  /// How late in the sub-step the velocities belong that it finds, s.
+  double ahead() const { return velocities == VelocityTime::middle ? 0.5 * time_step : time_step; }
 };
 
 }  // namespace impinge

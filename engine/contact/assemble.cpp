@@ -70,6 +70,7 @@ class Assembly {
     const MaterialPoint a = bodies_[c.body_a].surface_point(c.triangle_a, c.point_a),
                         b = bodies_[c.body_b].surface_point(c.triangle_b, c.point_b);
     Vec3 velocity_before = Vec3::Zero();
+    lead_.setZero();
     fill_side(c.body_a, a, common, 1.0, rows, rows.a, velocity_before);
     fill_side(c.body_b, b, common, -1.0, rows, rows.b, velocity_before);
     rows.gap = c.gap;
@@ -81,8 +82,10 @@ class Assembly {
     if (input_.rebounds) row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
-    row.bound = row_bound({row.gap, free_velocity, row.velocity_before, row.restitution, row.scale.speed},
-                          input_.settings, input_.time_step);
+    NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
+    if (input_.velocities == VelocityTime::middle && row.restitution > 0.0) find_impact(c, row, motion);
+    row.bound = row_bound(motion, input_.settings, input_.time_step);
+    if (!(row.bound > 0.0)) row.impact = 0.0;  // it is too slow to rebound
   }
 
   void add_attachment(ContactIndex index, const Attachment& attachment) {
@@ -125,6 +128,19 @@ class Assembly {
 
  private:
   GroupSystem& system() { return result_.system; }
+
+  /// When the gap of two rigid bodies closes, with the velocity that they have by then: what is given back is a part of
+  /// that one, and forces go on from there.
+  void find_impact(const Collision& c, ContactRows& row, NormalMotion& motion) const {
+    const Body &a = bodies_[c.body_a], &b = bodies_[c.body_b], &later = a.kick > b.kick ? a : b;
+    if (!(motion.gap + input_.time_step * motion.free_velocity < 0.0) || later.kick == 0.0) return;
+    if (a.kind() == BodyKind::deformable || b.kind() == BodyKind::deformable) return;
+    const double acceleration = (motion.free_velocity - motion.velocity_before + c.normal.dot(lead_)) / later.kick;
+    row.impact = std::max(motion.gap, 0.0) / -motion.free_velocity;
+    motion.velocity_before += acceleration * row.impact;
+    motion.after = acceleration * (later.kick - later.lag - row.impact);
+    row.velocity_before = motion.velocity_before;
+  }
 
   BlockIndex block_of(BodyIndex body) const {
     const auto at = std::lower_bound(group_.bodies.begin(), group_.bodies.end(), body);
@@ -173,7 +189,7 @@ class Assembly {
 
   /// And what prescribed motion adds to the rows, and the velocity of A's point against B's before the sub-step.
   void fill_side(BodyIndex body, const MaterialPoint& point, const Vec3& common, double sign, ContactRows& rows,
-                 ContactSide& side, Vec3& velocity_before) const {
+                 ContactSide& side, Vec3& velocity_before) {
     if (body.is_none()) return;
     CarriedPoint carried = bodies_[body].carry(point, common);
     const BlockIndex block = block_of(body);
@@ -184,6 +200,7 @@ class Assembly {
     for (const Prescribed& p : carried.prescribed) side.driven += p.weight * p.velocity;
     for (const Prescribed& p : carried.prescribed) rows.surface += sign * p.weight * rows.directions * p.velocity;
     velocity_before += sign * carried.velocity_before;
+    lead_ += sign * carried.lead;
   }
 
   /// Of a line the impulse of both rows: its normals are others in each sub-step.
@@ -214,6 +231,7 @@ class Assembly {
   const Bodies& bodies_;
   const CollisionGroup& group_;
   std::vector<BlockIndex> blocks_;  // by body of the group
+  Vec3 lead_ = Vec3::Zero();        // of A's point against B's in the row that is made
   AssembledGroup result_;
 };
 

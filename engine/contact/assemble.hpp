@@ -1,6 +1,7 @@
 // Stage 9 of a sub-step: the contacts of one group become A, J, v* and bounds.
 #pragma once
 
+#include "engine/bodies/time_integration.hpp"
 #include "engine/contact/collision_groups.hpp"
 #include "engine/contact/contact_settings.hpp"
 #include "engine/contact/group_system.hpp"
@@ -17,6 +18,7 @@ struct AssemblyInput {
   double time_step = 0.0;  ///< s
   double gravity = 0.0;    ///< that automatic thresholds go by, m/s²
   bool rebounds = true;    ///< false: no contact gives anything back
+  VelocityTime velocities = VelocityTime::end;
 };
 
 /// A group's system, and what its parts are in the scene.

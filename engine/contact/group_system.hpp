@@ -35,7 +35,9 @@ struct ContactRows {
   double friction = 0.0;         ///< 0: a contact without tangential rows
   double restitution = 0.0;      ///< e of the pair; where this is an impact the bound holds its bounce already
   double velocity_before = 0.0;  ///< J v along n before the sub-step, m/s: what a bounce is a part of
-  ContactScale scale;            ///< of the two bodies
+  /// How late in the sub-step an impact is that gives something back, s; 0: with velocities of the end nobody asks.
+  double impact = 0.0;
+  ContactScale scale;  ///< of the two bodies
   bool has_one_row() const { return kind == RowKind::sliding || (kind == RowKind::contact && friction == 0.0); }
 };
 

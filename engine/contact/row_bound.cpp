@@ -11,7 +11,7 @@ double row_bound(const NormalMotion& c, const ContactSettings& settings, double 
   const bool closes = c.gap + h * c.free_velocity < 0.0;
   if (!closes || c.restitution == 0.0 || c.velocity_before > -settings.restitution_threshold.at(c.speed_scale))
     return bound;
-  return std::max(bound, -c.restitution * c.velocity_before);
+  return std::max(bound, -c.restitution * c.velocity_before + c.after);
 }
 
 }  // namespace impinge

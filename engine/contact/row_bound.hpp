@@ -11,7 +11,8 @@ struct NormalMotion {
   double gap = 0.0;            ///< g0, metres
   double free_velocity = 0.0;  ///< J v*, m/s
   double velocity_before = 0.0;
-  double restitution = 0.0;                   ///< e of the pair
+  double restitution = 0.0;  ///< e of the pair
+  double after = 0.0;        ///< what forces add to a rebound until the time that velocities are those of, m/s
   double speed_scale = ContactScale().speed;  ///< of the pair, m/s: what automatic thresholds are parts of
 };
 

@@ -98,16 +98,16 @@ void OneStepScheme::advance(DeformableBody& body, const DeformableStep& step, co
 void applied_impulses(const DeformableBody& body, const DeformableStep& step, StepImpulses& out) {
   out.gravity.setZero(3 * body.nodes());
   for (int i = 0; i < body.nodes(); ++i)
-    out.gravity.segment<3>(3 * i) = step.time_step * body.fem.node_mass()[i] * step.gravity;
-  out.external = step.time_step * body.external_force;
+    out.gravity.segment<3>(3 * i) = step.acting() * body.fem.node_mass()[i] * step.gravity;
+  out.external = step.acting() * body.external_force;
   out.integrator.resize(0);
 }
 
 void OneStepScheme::impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const {
   applied_impulses(body, step, out);
   body.fem.forces(step.position(v), out.elastic);
-  out.elastic *= step.time_step;
-  out.damping = -step.time_step * damping_force(body, step, v);
+  out.elastic *= step.tau;
+  out.damping = -step.tau * damping_force(body, step, v);
   add_pull(body, step, v, 1.0, out.external);
 }
 

@@ -2,7 +2,7 @@
 //
 // Every implicit scheme here is the root of one residual, over the nodes that aren't held:
 //   g(v) = M (v − v̂) + τ (D v − f(x₀ + Δq(v)) − f_ext),   Δq(v) = s v + d,   D = α M + β K(x₀)
-// backward Euler:  v̂ = v₀,                 τ = h,   s = h,      d = 0
+// backward Euler:  v̂ = v₀,                 τ = h,   s = h,      d = 0     (τ: see DeformableStep::acting)
 // Newmark:         v̂ = v₀ + h (1 − γ) a₀,  τ = γ h, s = h β/γ,  d = (h − s) v₀ + h² (½ − β/γ) a₀
 // with the derivative A = M + τ D + τ s K(x₀ + Δq(v)), symmetric. A linear solve at v is A v' = b, b = A v − g(v).
 // Contact adds Jᵀλ to b and reads its gap from x₀ + Δq(v).
@@ -20,7 +20,7 @@ class OneStepScheme : public DeformableIntegrator {
   /// By Newton's method.
   void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override;
   void advance(DeformableBody& body, const DeformableStep& step, const VecX& v) const override;
-  /// Of a scheme with v̂ = v₀ and τ = h, its forces those of the end.
+  /// Of a scheme with v̂ = v₀ whose forces act for τ and are those of the end.
   void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const override;
 };
 
@@ -36,7 +36,7 @@ void fill_system(const DeformableBody& body, double mass, double start, double n
 VecX applied_force(const DeformableBody& body, const Vec3& gravity);
 /// D v = α M v + β K(x₀) v over all nodes, N.
 VecX damping_force(const DeformableBody& body, const DeformableStep& step, const VecX& v);
-/// Fills `gravity` with h m g, and `external` with h times the body's external force.
+/// Fills `gravity` and `external` with what gravity and the body's external force give in the time in which they act.
 void applied_impulses(const DeformableBody& body, const DeformableStep& step, StepImpulses& out);
 /// Solves step.a v* = step.b, starting from the body's velocity.
 void solve_free_velocity(const DeformableBody& body, DeformableStep& step, LinearSolver& solver);

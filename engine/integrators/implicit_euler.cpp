@@ -8,7 +8,8 @@ namespace {
 class ImplicitEuler : public OneStepScheme {
  public:
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
-    step.time_step = step.tau = step.s = h;
+    step.time_step = step.s = h;
+    step.tau = step.acting();
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;

@@ -10,7 +10,8 @@ namespace {
 class LinearlyImplicitEuler : public OneStepScheme {
  public:
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
-    step.time_step = step.tau = step.s = h;
+    step.time_step = step.s = h;
+    step.tau = step.acting();
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;
@@ -19,14 +20,14 @@ class LinearlyImplicitEuler : public OneStepScheme {
 
   /// A and b belong to x₀; the velocity they are asked for doesn't matter.
   void linearize(DeformableBody& body, const VecX&, DeformableStep& step) const override {
-    const double h = step.time_step;
+    const double tau = step.tau;
     const RayleighDamping& d = body.damping;
-    const double mass = 1.0 + h * d.alpha, stiffness = h * (d.beta + h);
+    const double mass = 1.0 + tau * d.alpha, stiffness = tau * (d.beta + step.s);
     fill_system(body, mass, stiffness, 0.0, nullptr, step);
     add_pull_to_system(body, step);
     VecX b;
     body.fem.multiply_mass(step.v_hat, b);
-    b += h * (step.force + applied_force(body, step.gravity));
+    b += tau * (step.force + applied_force(body, step.gravity));
     add_pull(body, step, body.held_velocity(), 1.0, b);
     if (!body.held_velocity().isZero(0.0)) {
       // columns of the held nodes, whose velocity is known
@@ -38,10 +39,10 @@ class LinearlyImplicitEuler : public OneStepScheme {
   }
 
   void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const override {
-    const double h = step.time_step;
+    const double tau = step.tau;
     applied_impulses(body, step, out);
-    out.elastic = h * step.force - h * h * (step.stiffness * v);
-    out.damping = -h * damping_force(body, step, v);
+    out.elastic = tau * step.force - tau * step.s * (step.stiffness * v);
+    out.damping = -tau * damping_force(body, step, v);
     add_pull(body, step, v, 1.0, out.external);
   }
 

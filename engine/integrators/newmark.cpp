@@ -52,6 +52,7 @@ class Newmark : public OneStepScheme {
     add_pull(body, step, v, 1.0, out.external);
   }
   const NewtonSettings* newton() const override { return &newton_; }
+  bool may_stagger() const override { return false; }
 
  private:
   struct Settings {

@@ -33,7 +33,7 @@ void scatter(const DeformableBody& body, const Vec3& at_point, VecX& all) {
 Vec3 add_pull(const DeformableBody& body, const DeformableStep& step, const VecX& v, double factor, VecX& impulse) {
   if (!body.pull) return Vec3::Zero();
   const PointMotion motion = motion_of(body, step, v);
-  const Vec3 own = step.time_step * body.pull->force(motion.at, motion.velocity);
+  const Vec3 own = step.acting() * body.pull->force(motion.at, motion.velocity);
   scatter(body, factor * own, impulse);
   return own;
 }
@@ -41,14 +41,14 @@ Vec3 add_pull(const DeformableBody& body, const DeformableStep& step, const VecX
 double pull_potential(const DeformableBody& body, const DeformableStep& step, const VecX& v) {
   if (!body.pull) return 0.0;
   const PointMotion motion = motion_of(body, step, v);
-  return 0.5 * step.time_step *
+  return 0.5 * step.acting() *
          (body.pull->stiffness / step.s * (body.pull->target - motion.at).squaredNorm() +
           body.pull->damping * motion.velocity.squaredNorm());
 }
 
 void add_pull_to_system(const DeformableBody& body, DeformableStep& step) {
   if (!body.pull) return;
-  const double mass = step.time_step * (body.pull->damping + step.s * body.pull->stiffness);
+  const double mass = step.acting() * (body.pull->damping + step.s * body.pull->stiffness);
   const std::array<NodeWeight, 4> nodes = body.nodes_of(body.pull->point);
   for (const auto& [i, weight_i] : nodes)
     for (const auto& [j, weight_j] : nodes) {
@@ -70,7 +70,7 @@ void add_limited_pull(const DeformableBody& body, const DeformableStep& step, Ve
     if (!body.is_held(node)) mobility += weight * weight / (kExplicit * mass_of(node));
   const PointMotion motion = motion_of(body, step, body.velocity);
   scatter(body,
-          step.time_step / (1.0 + body.pull->mass(step.time_step) * mobility) *
+          step.acting() / (1.0 + body.pull->mass(step.acting(), step.time_step) * mobility) *
               body.pull->force(motion.at, motion.velocity),
           impulse);
 }

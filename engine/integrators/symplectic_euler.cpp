@@ -9,7 +9,8 @@ namespace {
 class SymplecticEuler : public OneStepScheme {
  public:
   void begin(DeformableBody& body, const Vec3& gravity, double h, DeformableStep& step) const override {
-    step.time_step = step.tau = step.s = h;
+    step.time_step = step.s = h;
+    step.tau = step.acting();
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;
@@ -20,7 +21,7 @@ class SymplecticEuler : public OneStepScheme {
     fill_system(body, 1.0, 0.0, 0.0, nullptr, step);
     VecX b;
     body.fem.multiply_mass(step.v_hat - body.held_velocity(), b);
-    b += step.time_step * (step.force + applied_force(body, step.gravity) - damping_force(body, step, step.v_hat));
+    b += step.tau * (step.force + applied_force(body, step.gravity) - damping_force(body, step, step.v_hat));
     add_limited_pull(body, step, b);
     step.b = body.gather_free(b);
   }
@@ -34,8 +35,8 @@ class SymplecticEuler : public OneStepScheme {
   }
   void impulses(DeformableBody& body, const DeformableStep& step, const VecX&, StepImpulses& out) const override {
     applied_impulses(body, step, out);
-    out.elastic = step.time_step * step.force;
-    out.damping = -step.time_step * damping_force(body, step, step.v_hat);
+    out.elastic = step.tau * step.force;
+    out.damping = -step.tau * damping_force(body, step, step.v_hat);
     add_limited_pull(body, step, out.external);
   }
   bool is_explicit() const override { return true; }

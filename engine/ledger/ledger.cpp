@@ -45,6 +45,14 @@ LedgerEntry entry_of_nodes(const VecX& impulse, const VecX& mean, const VecX& pl
   return entry;
 }
 
+/// What a velocity gains, or loses again, by being led on: before the motion, at the nodes' places there.
+void take_lead(const DeformableBody& soft, double sign, LedgerEntry& entry) {
+  if (soft.lead().size() == 0) return;
+  VecX momentum;
+  soft.fem.multiply_mass(sign * soft.lead(), momentum);
+  entry += entry_of_nodes(momentum, soft.velocity - 0.5 * sign * soft.lead(), soft.open_step().start);
+}
+
 }  // namespace
 
 Balance Ledger::measured(Body& body) const { return body.has_freedom() ? body.balance(gravity_) : Balance(); }
@@ -94,7 +102,7 @@ void Ledger::freed(const Bodies& bodies, const TimeIntegration& how) {
     if (body == nullptr || !body->pull || body->deleted || body->asleep) continue;
     const Vec3 at = body->position_of(body->pull->point);
     const Vec3 velocity = body->velocity + body->angular_velocity().cross(at - body->pose.position);
-    pull_[b] = how.time_step * body->pull->force(at + how.time_step * velocity, velocity);
+    pull_[b] = body->kick * body->pull->force(at + how.time_step * velocity, velocity);
   }
 }
 
@@ -126,8 +134,10 @@ LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactS
 void Ledger::take_rigid(Body& body, BodyIndex b, const TimeIntegration& how) {
   const RigidBody& rigid = *body.as<RigidBody>();
   LedgerEntry& gravity = of(motion_[b], LedgerSource::gravity);
-  gravity += rigid_entry(b, how.time_step * rigid.mass * how.gravity, Vec3::Zero());
+  gravity += rigid_entry(b, rigid.kick * rigid.mass * how.gravity, Vec3::Zero());
   gravity.stored -= gravity.motion;
+  const Stagger& known_ahead = rigid.stagger();  // taken off at the sub-step's start
+  of(motion_[b], LedgerSource::integrator) += rigid_entry(b, -rigid.mass * known_ahead.lead, -known_ahead.spin_lead);
   if (!rigid.pull) return;
   const Vec3 arm = rigid.position_of(rigid.pull->point) - rigid.pose.position;
   of(motion_[b], LedgerSource::script) += rigid_entry(b, pull_[b], arm.cross(pull_[b]));
@@ -151,6 +161,8 @@ void Ledger::take_deformable(Body& body, BodyIndex b, const TimeIntegration& how
   of(entries, LedgerSource::damping) += node_entry(b, p.damping);
   of(entries, LedgerSource::script) += node_entry(b, p.external);
   if (p.integrator.size() > 0) of(entries, LedgerSource::integrator) += node_entry(b, p.integrator);
+
+  take_lead(soft, -1.0, of(entries, LedgerSource::integrator));
 
   VecX reaction;
   soft.fem.multiply_mass(after - soft.velocity, reaction);
@@ -210,7 +222,7 @@ void Ledger::solved(Bodies& bodies, const SubStep& step, const TimeIntegration& 
     const Twist now = body.twist();
     k.mean = {0.5 * (k.twist.linear + now.linear), 0.5 * (k.twist.angular + now.angular)};
     const RigidBody& rigid = *body.as<RigidBody>();
-    k.spin = rigid.angular_momentum;  // of the way that follows
+    k.spin = rigid.angular_momentum, k.twist.linear = now.linear;  // of the way that follows
     take_rigid(body, b, how);
     if (result == nullptr) return;
     const Twist &change = result->velocity[i].twist, &rows = result->row_impulse[i].twist;
@@ -229,6 +241,11 @@ void Ledger::take_move(Body& body, Known& known, LedgerEntry& entry) const {
       entry.motion += spin_energy(*rigid, rigid->pose.rotation, rigid->angular_momentum) -
                       spin_energy(*rigid, known.pose.rotation, known.spin);
     entry.angular_momentum += d.cross(rigid->mass * rigid->velocity) + rigid->angular_momentum - known.spin;
+    const Vec3 lead = rigid->velocity - known.twist.linear;
+    if (lead.isZero(0.0)) return know(body, known);
+    entry.motion += 0.5 * rigid->mass * (rigid->velocity.squaredNorm() - known.twist.linear.squaredNorm());
+    entry.momentum += rigid->mass * lead;
+    entry.angular_momentum += known.pose.position.cross(rigid->mass * lead);
   } else if (DeformableBody* soft = body.as<DeformableBody>()) {
     const VecX d = soft->position - known.nodes;
     if (d.isZero(0.0)) return;
@@ -255,6 +272,11 @@ void Ledger::take_moves(Bodies& bodies, LedgerSource source) {
 /// The work that gravity and elastic forces did on the way is gone from what is stored already: the rest of the change
 /// is the integrator's.
 void Ledger::advanced(Bodies& bodies) {
+  for_each_body(bodies, [&](BodyIndex b, Body& body) {
+    const DeformableBody* soft = body.as<DeformableBody>();
+    if (soft != nullptr && soft->has_freedom() && !soft->asleep)
+      take_lead(*soft, 1.0, of(motion_[b], LedgerSource::integrator));
+  });
   take_moves(bodies, LedgerSource::integrator);
   for (Entries& entries : motion_)
     of(entries, LedgerSource::integrator).stored -=

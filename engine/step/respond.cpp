@@ -10,6 +10,7 @@
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/response/least_violation.hpp"
+#include "engine/step/late_impacts.hpp"
 #include "engine/step/tasks.hpp"
 #include "engine/step/turning.hpp"
 
@@ -155,7 +156,8 @@ class GroupSolve {
     const GroupSystem& s = system();
     if (!s.position_velocity.empty())
       return displace(now_.by_body(group_, s.position_velocity, s.position_angular_velocity, {}), 1.0);
-    if (how_.response.lives_on_overlap() || !needs_push_out(s, how_.contact, input_.time_step)) return;
+    if (how_.response.lives_on_overlap()) return;
+    if (!needs_push_out(s, how_.contact, input_.time_step)) return follow_impacts();
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, how_.contact, input_.time_step);
     ResponseContext loose = how_.context;
@@ -172,6 +174,12 @@ class GroupSolve {
     const double share = share_of(result_.push_out);
     for (double& speed : result_.push_out) speed *= share;
     displace(std::move(velocity), share);
+  }
+
+  /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities.
+  void follow_impacts() {
+    const std::optional<LateImpacts> late = late_impacts(system(), input_.time_step);
+    if (late) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
   }
 
   void displace(std::vector<BodyVector> velocity, double share) {
@@ -297,7 +305,8 @@ GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const C
 void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
              std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
              std::vector<GroupResult>& results, StageTimes& times) {
-  const AssemblyInput input{bodies, contacts, start, how.contact, how.context.time_step, how.gravity, how.rebounds};
+  const AssemblyInput input{bodies,      contacts,     start,         how.contact, how.context.time_step,
+                            how.gravity, how.rebounds, how.velocities};
   results.resize(groups.size());
   std::vector<std::size_t> wanted;
   for (std::size_t g = 0; g < groups.size(); ++g)

@@ -14,7 +14,8 @@ struct Solving {
   ResponseContext context;
   const ContactSettings& contact;
   const DeformableIntegrator& integrator;
-  double gravity;           ///< that automatic thresholds go by, m/s²
+  double gravity;  ///< that automatic thresholds go by, m/s²
+  VelocityTime velocities = VelocityTime::end;
   bool rebounds = true;     ///< as SubStep has it
   bool freezes = false;     ///< the groups are wanted as they were handed to the response
   bool keeps_rows = false;  ///< what rows gave to bodies is wanted

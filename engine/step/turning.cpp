@@ -93,7 +93,7 @@ void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std:
     if (row.kind != RowKind::contact) continue;
     const double straight = row.gap + time_step * system.displacement_velocity(i).x();
     row.turning = std::min(end_gaps[i] - straight, 0.0);
-    const double at_rest = row_bound({row.gap, 0.0, 0.0, 0.0, row.scale.speed}, settings, time_step);
+    const double at_rest = row_bound({row.gap, 0.0, 0.0, 0.0, 0.0, row.scale.speed}, settings, time_step);
     row.bound = std::max(bounds[i], at_rest - row.turning / time_step);
   }
 }

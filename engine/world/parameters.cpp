@@ -7,6 +7,7 @@ namespace {
 
 const Words<Continuous> kContinuous = {
     {Continuous::when_needed, "auto"}, {Continuous::on, "on"}, {Continuous::off, "off"}};
+const Words<VelocityTime> kVelocities = {{VelocityTime::end, "end"}, {VelocityTime::middle, "middle"}};
 
 }  // namespace
 
@@ -26,6 +27,11 @@ void Parameters::bind_model(ParameterSet& set) {
   of_simulation.add("gravity", simulation.gravity, {-1e4, 1e4}, "m/s²", "Acceleration of every dynamic body.");
   of_simulation.add("integrator", simulation.integrator,
                     "Time integration of deformable bodies; all are alike for rigid ones, where A = M.");
+  of_simulation.add(
+      "velocities", simulation.velocities, kVelocities,
+      "What the velocities that a sub-step finds are taken for: those of its end (symplectic Euler, of "
+      "first order), or of its middle (leapfrog: rigid bodies, and deformable ones with symplectic_euler, "
+      "move to second order; the first sub-step gives half of the forces).");
   of_simulation.add("linear_solver", simulation.linear_solver,
                     "Solver of a deformable body's system; automatic: by size and right-hand sides.");
   of_simulation.add("sleeping", simulation.sleeping,
@@ -83,7 +89,8 @@ ResponseContext response_context(const Parameters& p) {
 }
 
 TimeIntegration time_integration(const Parameters& p) {
-  return {*p.simulation.integrator, p.simulation.linear_solver, p.simulation.gravity, p.simulation.time_step()};
+  return {*p.simulation.integrator, p.simulation.linear_solver, p.simulation.gravity, p.simulation.time_step(),
+          p.simulation.velocities};
 }
 
 Continuous watching(const Parameters& p) {
@@ -100,7 +107,8 @@ Detecting detecting(const Parameters& p) {
 Solving solving(const Parameters& p) {
   return {*p.response.method,       *p.lcp.method,
           response_context(p),      p.contact,
-          *p.simulation.integrator, scale_gravity(p.simulation.gravity)};
+          *p.simulation.integrator, scale_gravity(p.simulation.gravity),
+          p.simulation.velocities};
 }
 
 }  // namespace impinge

@@ -20,6 +20,7 @@ struct Parameters {
     int substeps = 4;
     Vec3 gravity{0.0, -9.81, 0.0};
     MethodSet<DeformableIntegrator> integrator{integrators()};
+    VelocityTime velocities = VelocityTime::end;
     bool sleeping = true;
     Threshold sleep_speed{4.9e-5};  ///< part of √(g·size) of a body
     Threshold sleep_time{2.4};      ///< part of √(size/g) of a body

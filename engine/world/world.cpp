@@ -301,6 +301,14 @@ std::vector<std::uint64_t> World::settings() {
 }
 
 void World::parameters_changed() {
+  const Response& response = *parameters.response.method;
+  if (parameters.simulation.velocities == VelocityTime::middle && response.is_approximate() &&
+      !response.lives_on_overlap())
+    throw InputError(
+        fmt::format("simulation.velocities is middle with response.method {}, which moves bodies in shorter steps of "
+                    "its own; middle "
+                    "is for the responses that move them once a sub-step; choose another one, or velocities = \"end\"",
+                    parameters.response.method.name()));
   was_still_ = false;
   std::vector<std::uint64_t> now = settings();
   const std::size_t both = std::min(now.size(), settings_seen_.size());
