@@ -117,7 +117,7 @@ double DeformableBody::smallest_volume_ratio() const {
 
 void DeformableBody::come_to_rest() {
   velocity.setZero();
-  center_velocity_.setZero();
+  set_center_velocity(Vec3::Zero());
 }
 
 void DeformableBody::push(const Vec3& impulse, const std::optional<Vec3>& at) {
