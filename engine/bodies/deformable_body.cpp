@@ -118,7 +118,7 @@ double DeformableBody::smallest_volume_ratio() const {
 void DeformableBody::come_to_rest() {
   lag = 0.0, lead_.resize(0);
   velocity.setZero();
-  center_velocity_.setZero();
+  set_center_velocity(Vec3::Zero());
 }
 
 void DeformableBody::push(const Vec3& impulse, const std::optional<Vec3>& at) {

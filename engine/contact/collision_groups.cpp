@@ -51,8 +51,10 @@ std::vector<CollisionGroup> find_groups(const Bodies& bodies, const ContactList&
     else
       ends.emplace_back();
   }
-  std::vector<char> joins;
-  for (const Body& body : bodies) joins.push_back(body.has_freedom());
+  std::vector<char> joins(static_cast<std::size_t>(bodies.size().value()), 0);
+  for (const auto& [a, b] : ends)
+    for (const BodyIndex body : {a, b})
+      if (!body.is_none()) joins[body] = bodies[body].has_freedom();
   return make_groups(ends, joins);
 }
 

@@ -1,7 +1,10 @@
-// Warm starting: a contact begins with the impulse that the same pair of features had in the last sub-step.
+// Warm starting: a contact begins with the impulse that the same pair of features had in the last sub-step. Contacts of
+// bodies at rest keep theirs, however many sub-steps go by, and are not touched meanwhile; copies share them.
 #pragma once
 
 #include <compare>
+#include <functional>
+#include <memory>
 #include <span>
 
 #include "engine/core/index.hpp"
@@ -31,14 +34,21 @@ class ContactCache {
   Vec3 find(const ContactKey& key) const;
   /// Replaces the contents. Items need not be sorted; of equal ones the first stays.
   void assign(std::vector<Item> items);
-  std::span<const Item> items() const { return items_; }
-  void clear() { items_.clear(); }
+  /// The same, but for items between bodies at rest, which stay. `rests`: of a body, which may be none; `woken`: those that
+  /// may rest no longer since this was asked last.
+  void renew(std::vector<Item> items, std::span<const BodyIndex> woken, const std::function<bool(BodyIndex)>& rests);
+  /// Sorted by key.
+  std::vector<Item> items() const;
 
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 
  private:
-  std::vector<Item> items_;  // sorted by key
+  void keep(std::vector<Item> resting);
+
+  std::vector<Item> fresh_;                           // sorted by key
+  std::shared_ptr<const std::vector<Item>> resting_;  // the same, other ones; null: none
+  std::vector<BodyIndex> at_rest_;                    // bodies of those, ascending
 };
 
 }  // namespace impinge

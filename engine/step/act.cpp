@@ -12,7 +12,8 @@ namespace {
 void leave_contacts(BodyIndex body, Bodies& bodies, Sleeping& sleeping, ContactCache& cache) {
   std::vector<ContactCache::Item> others;
   std::vector<BodyIndex> touching;
-  for (const ContactCache::Item& item : cache.items()) {
+  const std::vector<ContactCache::Item> items = cache.items();
+  for (const ContactCache::Item& item : items) {
     if (item.key.body_a != body && item.key.body_b != body) {
       others.push_back(item);
       continue;

@@ -44,7 +44,8 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
     {
       const StageTimer timer(times.broad_ms);
       make_colliders(bodies, step.colliders);
-      find_pairs(bodies, step.colliders, by.contact, step.time_step, by.broad_phase, step.pairs);
+      step.boxes.update(bodies, step.colliders, by.contact, step.time_step);
+      find_pairs(bodies, step.colliders, step.boxes.by_body, by.contact, step.time_step, by.broad_phase, step.pairs);
     }
     check_interrupt();
     {
@@ -53,13 +54,13 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
                       step.triangle_pairs, step.collisions);
       add_asked(step.asked, step.collisions);
     }
-    std::vector<BodyIndex> sleepers;
-    for (BodyIndex b(0); b < bodies.size(); ++b)
-      if (bodies[b].asleep) sleepers.push_back(b);
-    if (!sleeping.wake_touched(bodies, touching(bodies, step.contacts(attachments)))) return;
-    for (const BodyIndex b : sleepers)
-      if (!bodies[b].asleep) bodies[b].find_free_velocity(how);
+    const std::vector<BodyIndex> woken = sleeping.wake_touched(bodies, touching(bodies, step.contacts(attachments)));
+    if (woken.empty()) break;
+    for (const BodyIndex b : woken) bodies[b].find_free_velocity(how);
   }
+  const std::span<const BodyIndex> whose = bodies.to_renew(step.later.size() == step.colliders.size());
+  step.later.resize(step.colliders.size());
+  for (const BodyIndex b : whose) step.later[b] = step.colliders[b];
 }
 
 }  // namespace impinge

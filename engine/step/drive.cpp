@@ -3,8 +3,8 @@
 namespace impinge {
 
 void drive(Bodies& bodies, double time, double h, double share) {
-  for (Body& body : bodies)
-    if (!body.deleted) body.drive(time, h, share);
+  for (const BodyIndex b : bodies.active())
+    if (!bodies[b].deleted) bodies[b].drive(time, h, share);
 }
 
 void place(Bodies& bodies, double time) {

@@ -3,9 +3,29 @@
 #include <algorithm>
 
 #include "engine/contact/pair_scale.hpp"
+#include "engine/core/interrupt.hpp"
 
 namespace impinge {
 namespace {
+
+/// What moves is held against every box in less time than the broad phase takes if it is no more than this, and than a
+/// share of all.
+constexpr std::size_t kFew = 50, kShare = 8;
+
+void show(const Body& body, Collider& c) {
+  c.shape = body.shape.get();
+  c.pose = body.pose;
+  c.vertices = body.world_vertices;
+  c.bounds = body.bounds();
+  c.vertex_velocities = body.vertex_velocities();
+  const Twist twist = c.vertex_velocities.empty() ? body.twist() : Twist();
+  c.velocity = twist.linear;
+  c.angular_velocity = twist.angular;
+  c.self_collision = body.self_collision;
+  c.exempt_pairs = body.exempt_pairs.get();
+  c.mean_edge = body.mean_edge;
+  c.size = body.size;
+}
 
 /// The box a body fills during the sub-step, plus half the activation distance.
 Aabb swept_bounds(const Collider& collider, double radius, double activation, double time_step) {
@@ -30,38 +50,43 @@ Aabb common(const Aabb& a, const Aabb& b) { return {a.min.cwiseMax(b.min), a.max
 }  // namespace
 
 void make_colliders(const Bodies& bodies, std::vector<Collider>& colliders) {
-  colliders.resize(static_cast<std::size_t>(bodies.size().value()));
-  for (BodyIndex i(0); i < bodies.size(); ++i) {
-    const Body& body = bodies[i];
-    Collider& c = colliders[i];
-    c.shape = body.shape.get();
-    c.pose = body.pose;
-    c.vertices = body.world_vertices;
-    c.bounds = body.bounds();
-    c.vertex_velocities = body.vertex_velocities();
-    const Twist twist = c.vertex_velocities.empty() ? body.twist() : Twist();
-    c.velocity = twist.linear;
-    c.angular_velocity = twist.angular;
-    c.self_collision = body.self_collision;
-    c.exempt_pairs = body.exempt_pairs.get();
-    c.mean_edge = body.mean_edge;
-    c.size = body.size;
-  }
+  const std::size_t count = static_cast<std::size_t>(bodies.size().value());
+  const std::span<const BodyIndex> whose = bodies.to_renew(colliders.size() == count);
+  colliders.resize(count);
+  for (const BodyIndex b : whose) show(bodies[b], colliders[b]);
 }
 
-std::vector<Aabb> search_boxes(const Bodies& bodies, std::span<const Collider> colliders,
-                               const ContactSettings& settings, double time_step) {
+void SearchBoxes::update(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
+                         double time_step) {
+  const std::span<const BodyIndex> whose = bodies.to_renew(by_body.size() == colliders.size());
+  by_body.resize(colliders.size());
+  if (whose.size() == by_body.size()) {
+    largest = 0.0;
+    for (const Body& body : bodies)
+      if (body.has_freedom()) largest = std::max(largest, body.size);
+  }
   const bool proximity = settings.points == ContactPoints::proximity;
-  double largest = 0.0;  // of bodies that move freely: a pair is no larger
-  for (const Body& body : bodies)
-    if (body.has_freedom()) largest = std::max(largest, body.size);
-  std::vector<Aabb> boxes;
-  boxes.reserve(colliders.size());
-  for (BodyIndex i(0); i < bodies.size(); ++i)
-    boxes.push_back(proximity ? swept_bounds(colliders[i], bodies[i].radius,
-                                             settings.activation(std::min(bodies[i].size, largest)), time_step)
-                              : colliders[i].bounds);
-  return boxes;
+  for (const BodyIndex b : whose)
+    by_body[b] = proximity ? swept_bounds(colliders[b], bodies[b].radius,
+                                          settings.activation(std::min(bodies[b].size, largest)), time_step)
+                           : colliders[b].bounds;
+}
+
+void find_moving_pairs(const Bodies& bodies, std::span<const Aabb> boxes, BroadPhase& broad_phase,
+                       std::vector<BoxPair>& pairs) {
+  std::vector<BodyIndex> moving;
+  for (const BodyIndex b : bodies.active())
+    if (bodies[b].is_moving()) moving.push_back(b);
+  if (moving.size() > std::min(kFew, boxes.size() / kShare) || broad_phase.tests_every_pair())
+    return broad_phase.find(boxes, pairs);
+  pairs.clear();
+  const auto moves = [&](int i) { return std::binary_search(moving.begin(), moving.end(), BodyIndex(i)); };
+  for (const int i : moving) {
+    check_interrupt();
+    for (int j = 0; j < static_cast<int>(boxes.size()); ++j)
+      if (overlap(boxes[i], boxes[j]) && i != j && (i < j || !moves(j)))
+        pairs.emplace_back(std::min(i, j), std::max(i, j));
+  }
 }
 
 double approach(const Collider& a, double radius_a, const Collider& b, double radius_b, double time_step) {
@@ -93,14 +118,15 @@ double search_margin(const Bodies& bodies, std::span<const Collider> colliders, 
          std::min(reach, std::max(bodies[a].mean_edge, bodies[b].mean_edge));
 }
 
-void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, const ContactSettings& settings,
-                double time_step, BroadPhase& broad_phase, std::vector<BodyPair>& pairs) {
+void find_pairs(const Bodies& bodies, std::span<const Collider> colliders, std::span<const Aabb> boxes,
+                const ContactSettings& settings, double time_step, BroadPhase& broad_phase,
+                std::vector<BodyPair>& pairs) {
   std::vector<BoxPair> box_pairs;
-  broad_phase.find(search_boxes(bodies, colliders, settings, time_step), box_pairs);
+  find_moving_pairs(bodies, boxes, broad_phase, box_pairs);
 
   pairs.clear();
-  for (BodyIndex i(0); i < bodies.size(); ++i)
-    if (bodies[i].can_touch_itself() && !bodies[i].asleep) pairs.push_back({i, i, settings.activation(bodies[i].size)});
+  for (const BodyIndex b : bodies.active())
+    if (bodies[b].can_touch_itself() && !bodies[b].asleep) pairs.push_back({b, b, settings.activation(bodies[b].size)});
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(first), b(second);
     if (!may_respond(bodies, a, b)) continue;

@@ -5,7 +5,7 @@
 namespace impinge {
 
 void find_free_velocities(Bodies& bodies, const TimeIntegration& how) {
-  for_each_body(bodies, [&](BodyIndex, Body& body) {
+  for_each_active(bodies, [&](BodyIndex, Body& body) {
     body.open_sub_step();
     if (body.has_freedom() && !body.asleep) body.find_free_velocity(how);
   });

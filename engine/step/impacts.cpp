@@ -22,7 +22,7 @@ constexpr double kRising = 1e-3;      // of the threshold of rebounds: what part
 class Motion {
  public:
   Motion(const Bodies& bodies, const SubStep& step) : bodies_(bodies), step_(step), solved_(step.colliders.size()) {
-    for (BodyIndex b(0); b < bodies.size(); ++b)
+    for (const BodyIndex b : bodies.active())
       solved_[b] = {step.colliders[b].velocity, step.colliders[b].angular_velocity};
     for (std::size_t g = 0; g < step.groups.size(); ++g)
       for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i) {
@@ -69,7 +69,7 @@ class Motion {
 
   const Bodies& bodies_;
   const SubStep& step_;
-  std::vector<Twist> solved_;  // by body
+  std::vector<Twist> solved_;  // by body; zero of all that rest
 };
 
 bool is_worth_a_cut(double restitution) { return restitution * restitution >= kWorth; }

@@ -56,14 +56,14 @@ void change_velocities(Bodies& bodies, const SubStep& step) {
 
 void advance(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {
   const double end = step.time + step.time_step;
-  for_each_body(bodies, [&](BodyIndex b, Body& body) {
+  for_each_active(bodies, [&](BodyIndex b, Body& body) {
     if (!body.asleep && !body.deleted) naming_group(step, b, [&] { body.advance(how, end); });
   });
 }
 
 void push_out(Bodies& bodies, const SubStep& step) {
   displace(bodies, step);
-  for_each_body(bodies, [&](BodyIndex b, Body& body) {
+  for_each_active(bodies, [&](BodyIndex b, Body& body) {
     if (!body.has_freedom() || body.asleep) return;
     naming_group(step, b, [&] { body.check_finite(); });
     body.update_world_vertices();

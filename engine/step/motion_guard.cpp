@@ -29,40 +29,6 @@ constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a 
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
-/// The box round everything the body covers on its way, and how far a point of it moves at most.
-struct Sweep {
-  Aabb box;
-  Vec3 shift = Vec3::Zero();  // of the centre; of a deforming body: none, its points stand for themselves
-  double turn = 0.0;          // what its points do beside that, metres
-};
-
-Sweep sweep_of(const Body& body, const Pose& start, const std::vector<Pose>& turns, const std::vector<Vec3>& nodes) {
-  Sweep s;
-  s.box = body.bounds();
-  if (deforms(body)) {
-    for (const Vec3& x : nodes) s.box.include(x);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      s.turn = std::max(s.turn, (body.world_vertices[i] - nodes[i]).norm());
-    return s;
-  }
-  s.shift = body.pose.position - start.position;
-  if (s.shift.isZero(0.0) && body.pose.rotation == start.rotation) return s;
-  const bool is_ball = body.shape->as<Sphere>() != nullptr;  // whose turning moves none of its surface
-  double angle = 0.0;
-  Pose last = start;
-  const auto go = [&](const Pose& to) {
-    angle += rotation_log(to.rotation * last.rotation.transpose()).norm();
-    last = to;
-  };
-  for (const Pose& pose : turns) go(pose);
-  go(body.pose);
-  s.turn = is_ball ? 0.0 : angle * body.radius;
-  // about its centre it stays within its radius
-  for (const Vec3& at : {start.position, body.pose.position}) s.box.include(Aabb{at, at}.inflated(body.radius));
-  for (const Pose& pose : turns) s.box.include(Aabb{pose.position, pose.position}.inflated(body.radius));
-  return s;
-}
-
 bool is_plane(const Body& body) { return body.shape->as<Plane>() != nullptr; }
 
 /// How far two points of one deforming body can come towards each other, metres.
@@ -96,10 +62,6 @@ bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const
   if (core_b && a.shape->mesh() != nullptr) return stays_out(*core_b, of_b, of_a, depth);
   return stays_beside(of_a, of_b, depth);
 }
-
-double way_of(const Sweep& s) { return s.shift.norm() + s.turn; }
-
-double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).norm() + a.turn + b.turn; }
 
 }  // namespace
 
@@ -142,16 +104,27 @@ double MotionGuard::wall_of(const Body& body) {
 
 void MotionGuard::open(const Bodies& bodies) {
   const std::size_t count = static_cast<std::size_t>(bodies.size().value());
-  start_.resize(count), turns_.resize(count), nodes_.resize(count);
-  for (BodyIndex b(0); b < bodies.size(); ++b) {
+  start_.resize(count), turns_.resize(count), nodes_.resize(count), sweeps_.resize(count), boxes_.resize(count);
+  if (bodies.all_active()) look_at_all(bodies);
+  for (const BodyIndex b : bodies.active()) {
     start_[b] = bodies[b].pose;
     nodes_[b].clear();
     if (deforms(bodies[b])) nodes_[b] = bodies[b].world_vertices;
   }
 }
 
+void MotionGuard::look_at_all(const Bodies& bodies) {
+  least_ = INFINITY;
+  all_rigid_ = true;
+  for (const Body& body : bodies) {
+    if (body.deleted) continue;
+    if (!is_plane(body)) least_ = std::min(least_, safe_approach(body));
+    all_rigid_ = all_rigid_ && !deforms(body);
+  }
+}
+
 void MotionGuard::follow(Bodies& bodies, const TimeIntegration& how, double end) {
-  for (BodyIndex b(0); b < bodies.size(); ++b) {
+  for (const BodyIndex b : bodies.active()) {
     Body& body = bodies[b];
     turns_[b].clear();
     if (body.asleep || !body.is_moving() || deforms(body)) continue;
@@ -179,6 +152,36 @@ void MotionGuard::follow(Bodies& bodies, const TimeIntegration& how, double end)
   }
 }
 
+MotionGuard::Sweep MotionGuard::sweep_of(const Body& body, BodyIndex b) const {
+  const Pose& start = start_[b];
+  const std::vector<Pose>& turns = turns_[b];
+  const std::vector<Vec3>& nodes = nodes_[b];
+  Sweep s;
+  s.box = body.bounds();
+  if (deforms(body)) {
+    for (const Vec3& x : nodes) s.box.include(x);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      s.turn = std::max(s.turn, (body.world_vertices[i] - nodes[i]).norm());
+    return s;
+  }
+  s.shift = body.pose.position - start.position;
+  if (s.shift.isZero(0.0) && body.pose.rotation == start.rotation) return s;
+  const bool is_ball = body.shape->as<Sphere>() != nullptr;  // whose turning moves none of its surface
+  double angle = 0.0;
+  Pose last = start;
+  const auto go = [&](const Pose& to) {
+    angle += rotation_log(to.rotation * last.rotation.transpose()).norm();
+    last = to;
+  };
+  for (const Pose& pose : turns) go(pose);
+  go(body.pose);
+  s.turn = is_ball ? 0.0 : angle * body.radius;
+  // about its centre it stays within its radius
+  for (const Vec3& at : {start.position, body.pose.position}) s.box.include(Aabb{at, at}.inflated(body.radius));
+  for (const Pose& pose : turns) s.box.include(Aabb{pose.position, pose.position}.inflated(body.radius));
+  return s;
+}
+
 SurfacePath MotionGuard::path_of(const Body& body, BodyIndex b) {
   SurfacePath path;
   path.of = &surface_of(body);
@@ -196,7 +199,7 @@ SurfacePath MotionGuard::path_of(const Body& body, BodyIndex b) {
 /// A body's contacts with itself are found within the activation distance and no farther, and a crossing of its surface,
 /// however shallow, is one for good: it is looked at whenever it is told to keep off itself and moves.
 void MotionGuard::add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs) {
-  for (BodyIndex b(0); b < bodies.size(); ++b) {
+  for (const BodyIndex b : bodies.active()) {
     if (!bodies[b].can_touch_itself()) continue;
     const double both = self_approach(bodies[b], nodes_[b]), safe = safe_approach(bodies[b]);
     if (both > (which == Continuous::off ? safe : 0.0)) pairs.push_back({b, b, {}, 0.5 * both, 0.5 * both, both, safe});
@@ -204,13 +207,11 @@ void MotionGuard::add_self(const Bodies& bodies, Continuous which, std::vector<U
 }
 
 std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies, Continuous which, bool is_rough) {
-  std::vector<Sweep> sweeps;
   std::vector<double> far;
-  double least = INFINITY;  // of how far pairs may approach unseen
-  for (BodyIndex b(0); b < bodies.size(); ++b) {
-    sweeps.push_back(sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]));
-    far.push_back(way_of(sweeps.back()));
-    if (!is_plane(bodies[b]) && !bodies[b].deleted) least = std::min(least, safe_approach(bodies[b]));
+  for (const BodyIndex b : bodies.active()) {
+    sweeps_[b] = sweep_of(bodies[b], b);
+    boxes_[b] = sweeps_[b].box;
+    far.push_back(sweeps_[b].way());
   }
   // a pair approaches by no more than the two that move farthest: most scenes are done here
   const auto two = far.begin() + std::min<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(far.size()));
@@ -219,24 +220,19 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   std::vector<UnsafeMotion::Pair> pairs;
   add_self(bodies, which, pairs);
   const bool all = which == Continuous::on;
-  bool all_rigid = true;
-  for (const Body& body : bodies) all_rigid = all_rigid && (!deforms(body) || body.deleted);
-  const double seen = which == Continuous::off ? 1.0 : is_rough && all_rigid ? kRough : kSeen;
-  if (most == 0.0 || (!all && most <= seen * least)) return pairs;
+  const double seen = which == Continuous::off ? 1.0 : is_rough && all_rigid_ ? kRough : kSeen;
+  if (most == 0.0 || (!all && most <= seen * least_)) return pairs;
 
-  std::vector<Aabb> boxes;
-  boxes.reserve(sweeps.size());
-  for (const Sweep& s : sweeps) boxes.push_back(s.box);
   if (broad_phase_ == nullptr) broad_phase_ = broad_phases().front().make();
   std::vector<BoxPair> box_pairs;
-  broad_phase_->find(boxes, box_pairs);
+  find_moving_pairs(bodies, boxes_, *broad_phase_, box_pairs);
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
     if (!may_respond(bodies, a, b) || is_plane(of_a) || is_plane(of_b)) continue;
     const double safe = safe_for(of_a, kSafe * thickness_of(of_a), of_b, kSafe * thickness_of(of_b));
-    const double both = approach(sweeps[a], sweeps[b]);
-    if (all || both > seen * safe) pairs.push_back({a, b, {}, way_of(sweeps[a]), way_of(sweeps[b]), both, safe});
+    const double both = approach(sweeps_[a], sweeps_[b]);
+    if (all || both > seen * safe) pairs.push_back({a, b, {}, sweeps_[a].way(), sweeps_[b].way(), both, safe});
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const auto& l, const auto& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); });
@@ -272,9 +268,8 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
 }
 
 MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a, BodyIndex b) {
-  const Sweep of_a = sweep_of(bodies[a], start_[a], turns_[a], nodes_[a]),
-              of_b = sweep_of(bodies[b], start_[b], turns_[b], nodes_[b]);
-  PairMotion motion{is_plane(bodies[a]) || is_plane(bodies[b]), overlap(of_a.box, of_b.box), way_of(of_a), way_of(of_b),
+  const Sweep of_a = sweep_of(bodies[a], a), of_b = sweep_of(bodies[b], b);
+  PairMotion motion{is_plane(bodies[a]) || is_plane(bodies[b]), overlap(of_a.box, of_b.box), of_a.way(), of_b.way(),
                     approach(of_a, of_b)};
   motion.safe = safe_for(bodies[a], kSafe * thickness_of(bodies[a]), bodies[b], kSafe * thickness_of(bodies[b]));
   return motion;

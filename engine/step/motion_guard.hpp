@@ -66,6 +66,16 @@ class MotionGuard {
  private:
   enum class Depth { least, shallow, rough, safe };  // from which on a passage counts
   struct Known;
+  /// The box round everything the body covers on its way, and how far a point of it moves at most.
+  struct Sweep {
+    Aabb box;
+    Vec3 shift = Vec3::Zero();  // of the centre; of a deforming body: none, its points stand for themselves
+    double turn = 0.0;          // what its points do beside that, metres
+    double way() const { return shift.norm() + turn; }
+  };
+  Sweep sweep_of(const Body& body, BodyIndex b) const;
+  static double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).norm() + a.turn + b.turn; }
+  void look_at_all(const Bodies& bodies);
   const PathSurface& surface_of(const Body& body);
   double thickness_of(const Body& body);
   double wall_of(const Body& body);
@@ -78,6 +88,10 @@ class MotionGuard {
   std::vector<Pose> start_;               // by body
   std::vector<std::vector<Pose>> turns_;  // by body: poses on the way of what turns far; else empty
   std::vector<std::vector<Vec3>> nodes_;  // by body: where the vertices of deforming surfaces were
+  std::vector<Sweep> sweeps_;             // by body
+  std::vector<Aabb> boxes_;               // of the sweeps
+  double least_ = 0.0;                    // of how far pairs may approach unseen, metres
+  bool all_rigid_ = false;
   std::unique_ptr<BroadPhase> broad_phase_;
   std::map<const Shape*, Known> known_;
 };

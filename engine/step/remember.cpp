@@ -2,16 +2,13 @@
 
 namespace impinge {
 
-std::vector<ContactCache::Item> impulses_to_remember(const Bodies& bodies, const ContactCache& before,
-                                                     std::span<const GroupResult> results) {
-  const auto rests = [&](BodyIndex b) { return b.is_none() || bodies[b].asleep || !bodies[b].has_freedom(); };
+void remember_impulses(const Bodies& bodies, std::span<const GroupResult> results, ContactCache& cache) {
   std::vector<ContactCache::Item> items;
-  for (const ContactCache::Item& item : before.items())
-    if (rests(item.key.body_a) && rests(item.key.body_b)) items.push_back(item);
   for (const GroupResult& result : results)
     for (const ContactCache::Item& item : result.impulses)
       if (!item.impulse.isZero(0.0)) items.push_back(item);
-  return items;
+  cache.renew(std::move(items), bodies.active(),
+              [&](BodyIndex b) { return b.is_none() || bodies[b].asleep || !bodies[b].has_freedom(); });
 }
 
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results) {

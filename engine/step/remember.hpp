@@ -6,9 +6,8 @@
 
 namespace impinge {
 
-/// The impulses that the next sub-step starts from; sleepers keep theirs for the day they wake.
-std::vector<ContactCache::Item> impulses_to_remember(const Bodies& bodies, const ContactCache& before,
-                                                     std::span<const GroupResult> results);
+/// Keeps the impulses that the next sub-step starts from; sleepers keep theirs for the day they wake.
+void remember_impulses(const Bodies& bodies, std::span<const GroupResult> results, ContactCache& cache);
 
 /// (body, scripted body) of all contacts that were solved.
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results);

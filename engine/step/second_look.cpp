@@ -51,19 +51,17 @@ void insert(std::vector<Collision> more, std::vector<Collision>& all) {
 }  // namespace
 
 SecondLook::SecondLook(const Bodies& bodies, const Detecting& by, SubStep& step)
-    : bodies_(bodies), by_(by), step_(step) {}
+    : bodies_(bodies), by_(by), step_(step), colliders_(step.later) {}
 
 void SecondLook::take_velocities() {
-  changes_.assign(step_.colliders.size(), Twist());
-  colliders_ = step_.colliders;
+  for (const BodyIndex b : bodies_.active()) colliders_[b] = step_.colliders[b];
   for (std::size_t g = 0; g < step_.groups.size(); ++g)
-    for (std::size_t i = 0; i < step_.groups[g].bodies.size(); ++i)
-      changes_[step_.groups[g].bodies[i]] = step_.results[g].velocity[i].twist;
-  for (BodyIndex b(0); b < bodies_.size(); ++b) {
-    if (!is_rigid(bodies_[b])) continue;
-    colliders_[b].velocity += changes_[b].linear;
-    colliders_[b].angular_velocity += changes_[b].angular;
-  }
+    for (std::size_t i = 0; i < step_.groups[g].bodies.size(); ++i) {
+      const BodyIndex b = step_.groups[g].bodies[i];
+      if (!is_rigid(bodies_[b])) continue;
+      colliders_[b].velocity += step_.results[g].velocity[i].twist.linear;
+      colliders_[b].angular_velocity += step_.results[g].velocity[i].twist.angular;
+    }
 }
 
 bool SecondLook::find(StageTimes& times) {
@@ -96,21 +94,28 @@ void SecondLook::find_dropped() {
 /// Whether any two bodies could have been driven together by more than contacts see.
 bool SecondLook::is_anyone_driven() const {
   double first = 0.0, second = 0.0, least = INFINITY;
-  for (BodyIndex b(0); b < bodies_.size(); ++b) {
-    if (!is_rigid(bodies_[b]) || bodies_[b].asleep || bodies_[b].deleted) continue;
-    const double way = step_.time_step * (changes_[b].linear.norm() + changes_[b].angular.norm() * bodies_[b].radius);
-    second = std::max(second, std::min(first, way));
-    first = std::max(first, way);
-    if (bodies_[b].has_freedom()) least = std::min(least, by_.contact.activation(bodies_[b].size));
-  }
+  const auto counts = [](const Body& body) { return is_rigid(body) && !body.asleep && body.has_freedom(); };
+  for (std::size_t g = 0; g < step_.groups.size(); ++g)
+    for (std::size_t i = 0; i < step_.groups[g].bodies.size(); ++i) {
+      const Body& body = bodies_[step_.groups[g].bodies[i]];
+      const Twist& change = step_.results[g].velocity[i].twist;
+      if (!counts(body)) continue;
+      const double way = step_.time_step * (change.linear.norm() + change.angular.norm() * body.radius);
+      second = std::max(second, std::min(first, way));
+      first = std::max(first, way);
+    }
+  for (const BodyIndex b : bodies_.active())
+    if (counts(bodies_[b])) least = std::min(least, by_.contact.activation(bodies_[b].size));
   return first + second > least;
 }
 
 std::vector<BodyPair> SecondLook::driven_pairs() const {
-  std::vector<BoxPair> boxes;
-  by_.broad_phase.find(search_boxes(bodies_, colliders_, by_.contact, step_.time_step), boxes);
+  SearchBoxes boxes = step_.boxes;
+  boxes.update(bodies_, colliders_, by_.contact, step_.time_step);
+  std::vector<BoxPair> box_pairs;
+  find_moving_pairs(bodies_, boxes.by_body, by_.broad_phase, box_pairs);
   std::vector<BodyPair> pairs;
-  for (const auto& [first, second] : boxes) {
+  for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(first), b(second);
     if (is_driven(a, b))
       pairs.push_back({a, b, search_margin(bodies_, colliders_, a, b, by_.contact, step_.time_step)});

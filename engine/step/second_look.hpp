@@ -39,8 +39,7 @@ class SecondLook {
   const Bodies& bodies_;
   const Detecting& by_;
   SubStep& step_;
-  std::vector<Twist> changes_;                                // by body: Δv
-  std::vector<Collider> colliders_;                           // with the solved velocities
+  std::vector<Collider>& colliders_;                          // with the solved velocities: the step's later ones
   std::map<std::pair<BodyIndex, BodyIndex>, Twists> sought_;  // of pairs that a look has sought contacts of, with these
   std::vector<Collision> back_;                               // of those that were dropped
   std::vector<BodyPair> pairs_;                               // with something new

@@ -9,7 +9,7 @@ namespace impinge {
 
 void Sleeping::update(Bodies& bodies, std::span<const CollisionGroup> groups, std::span<const BodyEnds> supports,
                       std::span<const double> pushed, const RestThresholds& rest, double time_step) {
-  for (BodyIndex b(0); b < bodies.size(); ++b) {
+  for (const BodyIndex b : bodies.active()) {
     Body& body = bodies[b];
     if (!body.has_freedom() || body.asleep) continue;
     const double slow = rest.speed.at(speed_scale(rest.gravity, body.size));
@@ -33,16 +33,19 @@ void Sleeping::update(Bodies& bodies, std::span<const CollisionGroup> groups, st
   }
 }
 
-bool Sleeping::wake_island(Bodies& bodies, BodyIndex island) {
-  bool woke = false;
-  for (Body& body : bodies) {
-    if (!body.asleep || body.island != island) continue;
+std::vector<BodyIndex> Sleeping::wake_islands(Bodies& bodies, const std::set<BodyIndex>& islands) {
+  std::vector<BodyIndex> woken;
+  if (islands.empty()) return woken;
+  for (BodyIndex b = *islands.begin(); b < bodies.size(); ++b) {  // its lowest body gives an island its name
+    Body& body = bodies[b];
+    if (!body.asleep || !islands.contains(body.island)) continue;
     body.asleep = false;
     body.island = {};
     body.rest_time = 0.0;
-    woke = true;
+    woken.push_back(b);
   }
-  return woke;
+  bodies.activate(woken);
+  return woken;
 }
 
 void Sleeping::wake(Bodies& bodies, BodyIndex body) {
@@ -50,27 +53,26 @@ void Sleeping::wake(Bodies& bodies, BodyIndex body) {
   wake_touched(bodies, std::array{BodyEnds(body, body)});
 }
 
-bool Sleeping::wake_touched(Bodies& bodies, std::span<const BodyEnds> touching) {
-  bool woke = false;
+std::vector<BodyIndex> Sleeping::wake_touched(Bodies& bodies, std::span<const BodyEnds> touching) {
+  std::set<BodyIndex> islands;
   for (const auto& [first, second] : touching)
     for (const BodyIndex b : {first, second})
-      if (!b.is_none() && bodies[b].asleep) {
-        const BodyIndex island = bodies[b].island;
-        woke = wake_island(bodies, island) || woke;
-        std::erase_if(supports_, [&](const auto& s) { return s.first == island; });
-      }
-  return woke;
+      if (!b.is_none() && bodies[b].asleep) islands.insert(bodies[b].island);
+  std::erase_if(supports_, [&](const auto& s) { return islands.contains(s.first); });
+  return wake_islands(bodies, islands);
 }
 
-bool Sleeping::wake_moved_supports(Bodies& bodies) {
-  bool woke = false;
+std::vector<BodyIndex> Sleeping::wake_moved_supports(Bodies& bodies) {
+  std::set<BodyIndex> islands;
   for (const auto& [island, scripted] : supports_)
-    if (bodies[scripted].is_moving()) woke = wake_island(bodies, island) || woke;
-  if (woke) std::erase_if(supports_, [&](const auto& s) { return !bodies[s.first].asleep; });
-  return woke;
+    if (bodies[scripted].is_moving()) islands.insert(island);
+  std::vector<BodyIndex> woken = wake_islands(bodies, islands);
+  if (!woken.empty()) std::erase_if(supports_, [&](const auto& s) { return !bodies[s.first].asleep; });
+  return woken;
 }
 
 void Sleeping::wake_all(Bodies& bodies) {
+  bodies.activate_all();
   for (Body& body : bodies) {
     body.asleep = false;
     body.island = {};

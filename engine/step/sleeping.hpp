@@ -1,6 +1,7 @@
 // Groups at rest sleep: they keep their poses to the last bit and cost nothing until something touches or changes them.
 #pragma once
 
+#include <set>
 #include <span>
 
 #include "engine/bodies/bodies.hpp"
@@ -31,16 +32,17 @@ class Sleeping {
               std::span<const double> pushed, const RestThresholds& rest, double time_step);
   /// Wakes the body, with its island if it sleeps.
   void wake(Bodies& bodies, BodyIndex body);
-  /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. True if any woke.
-  bool wake_touched(Bodies& bodies, std::span<const BodyEnds> touching);
-  bool wake_moved_supports(Bodies& bodies);
+  /// Wakes the islands of sleeping bodies that a collision touches, or whose scripted support moves. Returns who woke,
+  /// ascending.
+  std::vector<BodyIndex> wake_touched(Bodies& bodies, std::span<const BodyEnds> touching);
+  std::vector<BodyIndex> wake_moved_supports(Bodies& bodies);
   void wake_all(Bodies& bodies);
 
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 
  private:
-  static bool wake_island(Bodies& bodies, BodyIndex island);
+  static std::vector<BodyIndex> wake_islands(Bodies& bodies, const std::set<BodyIndex>& islands);
   std::vector<BodyEnds> supports_;  // (island, scripted body)
 };
 

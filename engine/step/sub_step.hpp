@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/detection/collider.hpp"
+#include "engine/step/find_pairs.hpp"
 #include "engine/step/group_result.hpp"
 
 namespace impinge {
@@ -14,6 +15,7 @@ struct SubStep {
 
   // 5, 6: detection at the free velocities
   std::vector<Collider> colliders;           ///< by body
+  SearchBoxes boxes;                         ///< likewise
   std::vector<BodyPair> pairs;               ///< sorted
   std::vector<TrianglePair> triangle_pairs;  ///< sorted; of mesh-mesh pairs
   std::vector<Collision> collisions;         ///< in pair order
@@ -30,6 +32,9 @@ struct SubStep {
 
   // 9, 10: by group
   std::vector<GroupResult> results;
+
+  // 10, 12: the colliders later: with the velocities that the response gave to rigid bodies, and where the motion led
+  std::vector<Collider> later;
 
   ContactList contacts(std::span<const Attachment> attachments) const { return {collisions, attachments}; }
   /// None: nothing touches the body.

@@ -28,19 +28,30 @@ void for_each_in_tasks(std::size_t count, std::size_t enough, Size&& size, Work&
   });
 }
 
+// a task should last longer than it takes to wake a thread: some 20 µs
+constexpr std::size_t kEnoughOfBodies = 500;  // rigid bodies, or unknowns of deformable ones
+
+inline std::size_t task_size(const Body& body) {
+  const std::size_t surface = body.world_vertices.size() / 16;
+  if (body.asleep) return 0;
+  return std::max(surface, body.dofs() > 6 ? static_cast<std::size_t>(body.dofs()) : 1);
+}
+
 /// work(i, body) for every body.
 template <class BodyList, class Work>
 void for_each_body(BodyList& bodies, Work&& work) {
-  // a task should last longer than it takes to wake a thread: some 20 µs
-  constexpr std::size_t kEnough = 500;  // rigid bodies, or unknowns of deformable ones
-  const auto size = [&](std::size_t i) -> std::size_t {
-    const Body& body = bodies[i];
-    const std::size_t surface = body.world_vertices.size() / 16;
-    if (body.asleep) return 0;
-    return std::max(surface, body.dofs() > 6 ? static_cast<std::size_t>(body.dofs()) : 1);
-  };
-  for_each_in_tasks(static_cast<std::size_t>(bodies.size().value()), kEnough, size,
-                    [&](std::size_t i) { work(BodyIndex(i), bodies[i]); });
+  for_each_in_tasks(
+      static_cast<std::size_t>(bodies.size().value()), kEnoughOfBodies,
+      [&](std::size_t i) { return task_size(bodies[i]); }, [&](std::size_t i) { work(BodyIndex(i), bodies[i]); });
+}
+
+/// The same for every active one.
+template <class BodyList, class Work>
+void for_each_active(BodyList& bodies, Work&& work) {
+  const std::span<const BodyIndex> active = bodies.active();
+  for_each_in_tasks(
+      active.size(), kEnoughOfBodies, [&](std::size_t i) { return task_size(bodies[active[i]]); },
+      [&](std::size_t i) { work(active[i], bodies[active[i]]); });
 }
 
 }  // namespace impinge

@@ -145,7 +145,11 @@ void World::bind_bodies(ParameterSet& set) {
 }
 
 void World::bind_body(ParameterSet& set, Body& body) {
-  BodyRows(set, body, [this] { sleeping_.wake_all(bodies_); }).declare();
+  const auto wake = [this] {
+    sleeping_.wake_all(bodies_);
+    look_at_all();
+  };
+  BodyRows(set, body, wake).declare();
 }
 
 }  // namespace impinge

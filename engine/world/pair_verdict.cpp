@@ -53,8 +53,7 @@ class Report {
     v_.shape_a = a_.shape->name(), v_.shape_b = b_.shape->name();
     v_.kind_a = a_.kind(), v_.kind_b = b_.kind();
     v_.box_a = of_a_.bounds, v_.box_b = of_b_.bounds;
-    const std::vector<Aabb> boxes = search_boxes(world.bodies(), step.colliders, p.contact, step.time_step);
-    v_.swept_a = boxes[a], v_.swept_b = boxes[b];
+    v_.swept_a = step.boxes.by_body[a], v_.swept_b = step.boxes.by_body[b];
     for (const Collision& c : step.collisions)
       if (c.body_a == a && c.body_b == b) v_.contacts.push_back(c);
     v_.nearest = search.find(step.colliders, a, b, INFINITY);

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "engine/contact/pair_coefficients.hpp"
-#include "engine/core/archive.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
@@ -57,14 +56,14 @@ void show_overlaps(const Bodies& bodies, std::span<const Collider> colliders, st
   }
 }
 
-void show_overlaps_at_end(const Bodies& bodies, const SubStep& step, const Parameters& parameters, StepRecord& record) {
+void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters& parameters, StepRecord& record) {
   std::vector<BodyPair> mesh_pairs;
   for (const BodyPair& pair : step.pairs)
     if (bodies[pair.a].shape->mesh() != nullptr && bodies[pair.b].shape->mesh() != nullptr)
       mesh_pairs.push_back({pair.a, pair.b, 0.0});
   if (mesh_pairs.empty()) return;
-  std::vector<Collider> colliders;
-  make_colliders(bodies, colliders);
+  make_colliders(bodies, step.later);
+  const std::span<const Collider> colliders = step.later;
   // where motions are not kept short, triangles may meet that were out of reach when contacts were sought
   if (watching(parameters) == Continuous::off || parameters.response.method->lives_on_overlap()) {
     std::vector<TrianglePair> now;
@@ -72,6 +71,13 @@ void show_overlaps_at_end(const Bodies& bodies, const SubStep& step, const Param
     return show_overlaps(bodies, colliders, now, record);
   }
   show_overlaps(bodies, colliders, step.triangle_pairs, record);
+}
+
+/// Nothing of one that is deleted.
+BodyShare share_of(Body& body, const Vec3& gravity) {
+  if (body.deleted) return {};
+  return {1, body.dofs(), body.asleep ? 1 : 0, count_self_crossings(body, CrossingsOf::self_colliding),
+          body.balance(gravity)};
 }
 
 }  // namespace
@@ -112,20 +118,23 @@ void World::publish_solved() { publish(solved_contacts()); }
 void World::publish(std::span<const SolvedContact> contacts) {
   describe(contacts, stats_, next_record_);
   check_finite(next_record_, bodies_);
-  ByteWriter state(std::move(next_state_));
-  save_state(state);
-  next_state_ = state.take();
+  next_state_.take(frame_, time_, bodies_, cache_, sleeping_);
   std::swap(record_, next_record_);  // so that a frame that may not be published leaves the last one standing
   std::swap(state_, next_state_);
   hash_is_due_ = true;
+  is_published_ = true;
 }
 
 /// The bodies as they are, with figures to which those of the sub-steps made so far have been added.
 void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats, StepRecord& record) {
-  const SubStep& s = *sub_step_;
-  record.bodies.clear();
-  for (const Body& body : bodies_)
-    if (!body.absent) record.bodies.push_back(record_of(body));
+  SubStep& s = *sub_step_;
+  for (const std::vector<BodyIndex>& group : record.groups)
+    for (const BodyIndex b : group) record.bodies[b].group = {};
+  const std::size_t present = static_cast<std::size_t>(bodies_.present().value());
+  const std::span<const BodyIndex> changed = bodies_.to_renew(record.bodies.size() == present);
+  record.bodies.resize(present);
+  for (const BodyIndex b : changed)
+    if (b < present) record.bodies[b] = record_of(bodies_[b]);
   record.groups.clear();
   for (GroupIndex g(0); g < s.groups.size(); ++g) {
     record.groups.push_back(s.groups[g].bodies);
@@ -157,24 +166,18 @@ void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats,
   stats.frame = frame_;
   stats.time = time_;
   stats.substeps = parameters.simulation.substeps;
-  stats.bodies = stats.dofs = stats.asleep = 0;
-  Balance balance;
-  for (Body& body : bodies_) {
-    if (body.deleted) continue;
-    ++stats.bodies;
-    stats.dofs += body.dofs();
-    stats.asleep += body.asleep ? 1 : 0;
-    balance += body.balance(parameters.simulation.gravity);
-  }
+  const bool are_known = shares_.size() == static_cast<std::size_t>(bodies_.size().value());
+  shares_.resize(static_cast<std::size_t>(bodies_.size().value()));
+  for (const BodyIndex b : bodies_.to_renew(are_known))
+    shares_[b] = share_of(bodies_[b], parameters.simulation.gravity);
+  stats.take(shares_);
   stats.broad_pairs = static_cast<std::int64_t>(record.broad_pairs.size());
   stats.triangle_pairs = static_cast<std::int64_t>(record.triangle_pairs.size());
   stats.contacts = static_cast<std::int64_t>(record.contacts.size());
   stats.groups = static_cast<std::int64_t>(record.groups.size());
   stats.max_penetration = 0.0;
   for (const ContactRecord& c : record.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
-  stats.self_crossings = count_self_crossings(bodies_, CrossingsOf::self_colliding);
   stats.substep_penetration = std::max(stats.substep_penetration, stats.max_penetration);
-  stats.take(balance);
   record.stats = stats;
 }
 

@@ -123,14 +123,16 @@ class SelfSearch {
 
 }  // namespace
 
+std::int64_t count_self_crossings(const Body& body, CrossingsOf which) {
+  if (body.deleted || body.kind() != BodyKind::deformable || body.shape->mesh() == nullptr) return 0;
+  if (which == CrossingsOf::self_colliding && !body.can_touch_itself()) return 0;
+  check_interrupt();
+  return SelfSearch(*body.shape->mesh(), body.world_vertices, body.exempt_pairs.get()).count();
+}
+
 std::int64_t count_self_crossings(const Bodies& bodies, CrossingsOf which) {
   std::int64_t count = 0;
-  for (const Body& body : bodies) {
-    if (body.deleted || body.kind() != BodyKind::deformable || body.shape->mesh() == nullptr) continue;
-    if (which == CrossingsOf::self_colliding && !body.can_touch_itself()) continue;
-    check_interrupt();
-    count += SelfSearch(*body.shape->mesh(), body.world_vertices, body.exempt_pairs.get()).count();
-  }
+  for (const Body& body : bodies) count += count_self_crossings(body, which);
   return count;
 }
 

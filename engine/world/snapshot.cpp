@@ -1,5 +1,7 @@
 // The full state as bytes: what makes the next frame, and what the last one showed; nothing that can be derived from
 // these.
+#include "engine/world/snapshot.hpp"
+
 #include "engine/core/archive.hpp"
 #include "engine/ledger/ledger.hpp"
 #include "engine/step/sub_step.hpp"
@@ -8,16 +10,51 @@
 
 namespace impinge {
 
-void World::save_state(ByteWriter& out) const {
+void StateBytes::take(int frame, double time, const Bodies& bodies, const ContactCache& cache,
+                      const Sleeping& sleeping) {
+  frame_ = frame, time_ = time;
+  cache_ = cache, sleeping_ = sleeping;
+  const std::size_t present = static_cast<std::size_t>(bodies.present().value());
+  if (bodies.all_active() || begin_.size() != present + 1) {
+    ByteWriter out(std::move(bodies_));
+    begin_.assign(1, 0);
+    for (BodyIndex b(0); b < bodies.present(); ++b) bodies[b].save(out), begin_.push_back(out.bytes().size());
+    bodies_ = out.take();
+    return;
+  }
+  ByteWriter one;
+  for (const BodyIndex b : bodies.active()) {
+    if (b >= present) break;
+    one = ByteWriter(one.take());
+    bodies[b].save(one);
+    IMPINGE_ASSERT(one.bytes().size() == of(b).size());  // only who acts on a body changes that
+    bodies_.replace(begin_[b], one.bytes().size(), one.bytes());
+  }
+}
+
+std::string_view StateBytes::of(BodyIndex body) const {
+  return std::string_view(bodies_).substr(begin_[body], begin_[body + 1] - begin_[body]);
+}
+
+void StateBytes::write(ByteWriter& out) const {
   out.put(frame_);
   out.put(time_);
-  std::uint64_t present = 0;
-  for (const Body& body : bodies_) present += body.absent ? 0 : 1;
-  out.put(present);
-  for (const Body& body : bodies_)
-    if (!body.absent) body.save(out);
+  out.put(static_cast<std::uint64_t>(begin_.size() - 1));
+  out.put_bytes(bodies_.data(), bodies_.size());
   cache_.save(out);
   sleeping_.save(out);
+}
+
+std::uint64_t StateBytes::hash() const {
+  ByteWriter all;
+  write(all);
+  return hash_bytes(all.bytes());
+}
+
+void World::save_state(ByteWriter& out) const {
+  StateBytes now;
+  now.take(frame_, time_, bodies_, cache_, sleeping_);
+  now.write(out);
 }
 
 void World::save(ByteWriter& out) const {
@@ -38,13 +75,13 @@ void World::restore(ByteReader& in) {
     body.restore(in);
     body.update_world_vertices();
   }
+  look_at_all();
   cache_.restore(in);
   sleeping_.restore(in);
   stats_ = {};
   unsafe_.clear();
   *sub_step_ = {};  // the record says what was found
   publish_found();
-  was_still_ = false;
   if (ledger_) ledger_->forget_acts();
   settings_seen_ = settings();
   const std::uint64_t hash = record().stats.state_hash;

@@ -47,8 +47,7 @@ class Writer {
   void pairs() {
     r_.broad_pairs = step_.pairs;
     if (entry_.kind > StageKind::narrow_phase) return;
-    const std::vector<Aabb> boxes = search_boxes(bodies_, step_.colliders, world_.parameters.contact, step_.time_step);
-    for (BodyIndex b(0); b < bodies_.size(); ++b) r_.bodies[b].bounds = boxes[b];
+    for (std::size_t b = 0; b < r_.bodies.size(); ++b) r_.bodies[b].bounds = step_.boxes.by_body[b];
   }
 
   void groups() {

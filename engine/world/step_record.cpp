@@ -25,4 +25,15 @@ void FrameStats::take_unsolved(const UnsolvedGroups& cause, double residual) {
   count_unsolved(unsolved, cause);
 }
 
+void FrameStats::take(std::span<const BodyShare> shares) {
+  bodies = dofs = asleep = 0, self_crossings = 0;
+  Balance sum;
+  for (const BodyShare& share : shares) {
+    bodies += share.bodies, dofs += share.dofs, asleep += share.asleep;
+    self_crossings += share.self_crossings;
+    sum += share.balance;
+  }
+  take(sum);
+}
+
 }  // namespace impinge

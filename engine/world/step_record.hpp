@@ -107,6 +107,8 @@ struct Crossing {
   double share() const { return thickness > 0.0 ? depth / thickness : 0.0; }
 };
 
+struct BodyShare;
+
 /// A frame in numbers; what they mean: figures.cpp.
 struct FrameStats {
   int frame = 0;
@@ -129,6 +131,7 @@ struct FrameStats {
   void take_unsolved(const UnsolvedGroups& cause, double residual);
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+  void take(std::span<const BodyShare> shares);
   void take(const Balance& balance) {
     kinetic = balance.kinetic, potential = balance.potential, elastic = balance.elastic;
     momentum = balance.momentum, angular_momentum = balance.angular_momentum;
@@ -140,6 +143,14 @@ struct FrameStats {
   std::int64_t judged_intersections = 0;
   Crossing crossing;                          ///< the deepest by its share; of frames that this process made
   std::shared_ptr<const FrameLedger> ledger;  ///< with record.ledger; of frames that this process made
+};
+
+/// What a body adds to the figures of a frame. Of one that rests it stays the same; sums go over all in their order, so
+/// that they are the same to the last bit whoever rests.
+struct BodyShare {
+  int bodies = 0, dofs = 0, asleep = 0;
+  std::int64_t self_crossings = 0;
+  Balance balance;
 };
 
 struct StepRecord {

@@ -32,9 +32,15 @@ bool is_driven(const Body& body, double time) {
 }  // namespace
 
 bool World::is_still() const {
-  for (const Body& body : bodies_)
-    if (body.is_moving() || is_driven(body, time_)) return false;
-  return true;
+  return std::none_of(bodies_.active().begin(), bodies_.active().end(),
+                      [&](BodyIndex b) { return bodies_[b].is_moving() || is_driven(bodies_[b], time_); });
+}
+
+/// Frames in which a part of it doesn't move cost what the rest of it does.
+void World::let_rest() {
+  if (!is_published_) bodies_.activate_all();
+  is_published_ = false;
+  bodies_.let_rest([&](const Body& body) { return !body.is_moving() && !is_driven(body, time_); });
 }
 
 void World::repeat_still_frame() {
@@ -47,16 +53,13 @@ void World::repeat_still_frame() {
   }
   stats.frame = frame_;
   stats.time = time_;
-  // the state begins with these two (save_state)
-  ByteWriter begin;
-  begin.put(frame_), begin.put(time_);
-  state_.replace(0, begin.bytes().size(), begin.bytes());
+  state_.set_time(frame_, time_);
   hash_is_due_ = true;
 }
 
 const StepRecord& World::record() const {
   const std::lock_guard lock(hash_mutex_);
-  if (hash_is_due_) record_.stats.state_hash = hash_bytes(state_);
+  if (hash_is_due_) record_.stats.state_hash = state_.hash();
   hash_is_due_ = false;
   return record_;
 }

@@ -153,30 +153,40 @@ UnsafeMotion take_stoppable(const Bodies& bodies, UnsafeMotion& motion, std::set
   return taken;
 }
 
-/// The world's bodies at the start of a piece, one by one.
+/// The world's bodies at the start of a piece, one by one. Who wakes later stands until then as he was published.
 class PieceStart {
  public:
-  PieceStart(const Bodies& bodies, const Sleeping& sleeping) {
-    for (const Body& body : bodies) begin_.push_back(out_.bytes().size()), body.save(out_);
-    begin_.push_back(out_.bytes().size());
-    sleeping.save(out_);
+  PieceStart(const Bodies& bodies, const Sleeping& sleeping, const StateBytes& published)
+      : active_(bodies.active().begin(), bodies.active().end()), sleeping_(sleeping), published_(published) {
+    for (const BodyIndex b : active_) begin_.push_back(out_.bytes().size()), bodies[b].save(out_);
   }
   void bring_back(Bodies& bodies, Sleeping& sleeping) const {
-    ByteReader in(out_.bytes());
-    for (Body& body : bodies) body.restore(in), body.update_world_vertices();
-    sleeping.restore(in);
+    for (const BodyIndex b : bodies.active()) {
+      ByteReader in(of(b));
+      bodies[b].restore(in), bodies[b].update_world_vertices();
+    }
+    sleeping = sleeping_;
   }
   /// The body where it stood, as it is otherwise.
   void let_stay(Body& body, BodyIndex index) const {
-    ByteReader in(std::string_view(out_.bytes()).substr(begin_[static_cast<std::size_t>(index.value())]));
+    ByteReader in(of(index));
     const auto sleep = std::tuple(body.asleep, body.rest_time, body.island);
     body.stay(in), body.update_world_vertices();
     std::tie(body.asleep, body.rest_time, body.island) = sleep;
   }
 
  private:
+  std::string_view of(BodyIndex body) const {
+    const auto at = std::lower_bound(active_.begin(), active_.end(), body);
+    if (at == active_.end() || *at != body) return published_.of(body);
+    return std::string_view(out_.bytes()).substr(begin_[static_cast<std::size_t>(at - active_.begin())]);
+  }
+
+  std::vector<BodyIndex> active_;
+  Sleeping sleeping_;
+  const StateBytes& published_;
   ByteWriter out_;
-  std::vector<std::size_t> begin_;  // by body
+  std::vector<std::size_t> begin_;  // by active body
 };
 
 }  // namespace
@@ -206,7 +216,8 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const PassagesOf passages = passages_within(activation, is_kept);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
-  const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds(bodies_, parameters.contact);
+  if (bodies_.all_active()) has_rebounds_ = has_rebounds(bodies_, parameters.contact);
+  const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds_;
   const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
   double rest = 1.0;  // of the sub-step
@@ -215,7 +226,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
-    if (is_kept || rebounds) start.emplace(bodies_, sleeping_);
+    if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
     sub_step_->asked.clear();
     sub_step_->rebounds = true;
     guard_.open(bodies_);

@@ -33,7 +33,10 @@ UnsolvedGroups cause_of(const GroupResult& result) {
 World::World() : sub_step_(std::make_unique<SubStep>()) {}
 World::~World() = default;
 
-Body& World::add_body(const BodyDescription& description) { return bodies_.add(make_body(description)); }
+Body& World::add_body(const BodyDescription& description) {
+  was_still_ = false;
+  return bodies_.add(make_body(description));
+}
 
 Body& World::add_absent_body(const BodyDescription& description) {
   Body& body = add_body(description);
@@ -114,9 +117,10 @@ FrozenStep World::step_and_freeze() {
 }
 
 void World::advance(FrozenStep* frozen) {
+  if (was_still_ && frozen == nullptr && watcher_ == nullptr) return repeat_still_frame();
   const bool still = is_still();
-  if (still && was_still_ && frozen == nullptr && watcher_ == nullptr) return repeat_still_frame();
   was_still_ = false;
+  let_rest();
   stats_ = {};
   unsafe_.clear();
   ++frame_;
@@ -249,7 +253,7 @@ void World::look_again(const Solving& how) {
 
 void World::take_results(FrozenStep* frozen) {
   SubStep& s = *sub_step_;
-  cache_.assign(impulses_to_remember(bodies_, cache_, s.results));
+  remember_impulses(bodies_, s.results, cache_);
   for (GroupIndex g(0); g < s.groups.size(); ++g) {
     const GroupResult& result = s.results[g];
     s.groups[g].contacts = result.contacts;
@@ -273,7 +277,7 @@ void World::take_results(FrozenStep* frozen) {
 }
 
 void World::act(const Act& act) {
-  was_still_ = false;
+  look_at_all();
   keep_ledger();
   const auto doing = [&] {
     if (act.verb == Act::add)
@@ -309,7 +313,7 @@ void World::parameters_changed() {
                     "its own; middle "
                     "is for the responses that move them once a sub-step; choose another one, or velocities = \"end\"",
                     parameters.response.method.name()));
-  was_still_ = false;
+  look_at_all();
   std::vector<std::uint64_t> now = settings();
   const std::size_t both = std::min(now.size(), settings_seen_.size());
   bool is_changed = settings_seen_.empty();

@@ -11,6 +11,7 @@
 #include "engine/step/motion_guard.hpp"
 #include "engine/step/sleeping.hpp"
 #include "engine/world/parameters.hpp"
+#include "engine/world/snapshot.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
@@ -45,7 +46,11 @@ class World {
   void remove_absent_body();
   /// Joins two points after the bodies were added. Throws InputError (without a place) where it can't.
   void add_attachment(const AttachmentDescription& description);
-  Bodies& bodies() { return bodies_; }
+  /// Who asks for them so may change them: none of them is passed over in the frame that follows.
+  Bodies& bodies() {
+    look_at_all();
+    return bodies_;
+  }
   const Bodies& bodies() const { return bodies_; }
 
   /// Declares the rows `body.NAME.*` of the bodies there are. The set refers to this object.
@@ -101,6 +106,8 @@ class World {
   void bring_to_life(BodyIndex index);
   std::vector<std::uint64_t> settings();
   bool is_still() const;
+  void look_at_all() { bodies_.activate_all(), was_still_ = false; }
+  void let_rest();
   void repeat_still_frame();
   void save_state(ByteWriter& out) const;
   void reached(StepStage stage);
@@ -124,10 +131,13 @@ class World {
   std::map<BodyIndex, std::string> starts_;   // states with which absent bodies come to life
   mutable StepRecord record_;                 // the published one
   StepRecord next_record_;                    // the one of the frame being made
-  std::string state_, next_state_;            // the bytes that their hashes are of
+  StateBytes state_, next_state_;             // that their hashes are of
   mutable bool hash_is_due_ = false;
   mutable std::mutex hash_mutex_;
-  bool was_still_ = false;  // nothing moved in the last frame, nor was changed since
+  std::vector<BodyShare> shares_;  // by body: its part of the figures
+  bool has_rebounds_ = false;      // whether any two bodies rebound from each other
+  bool is_published_ = false;      // the last frame was made to its end
+  bool was_still_ = false;         // nothing moved in the last frame, nor was changed since
   int frame_ = 0;
   double time_ = 0.0;
 };

@@ -67,7 +67,12 @@ bool DebugLoop::tick_meanwhile(double seconds) {
 void DebugLoop::tick() {
   for (const std::string& line : std::exchange(waiting_, {})) obey(line);
   draw(window_.ui().has_events());  // all that will be seen for long is drawn well
-  if (debugger_.play_on()) fresh_ = true;
+  try {
+    if (debugger_.play_on()) fresh_ = true;
+  } catch (const InputError& error) {  // settings that don't go together
+    debugger_.say(ConsoleLine::problem, error.what());
+    obey("pause");
+  }
 }
 
 void DebugLoop::settle() {
