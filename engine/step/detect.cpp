@@ -58,9 +58,10 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
     if (woken.empty()) break;
     for (const BodyIndex b : woken) bodies[b].find_free_velocity(how);
   }
-  const std::span<const BodyIndex> whose = bodies.to_renew(step.later.size() == step.colliders.size());
-  step.later.resize(step.colliders.size());
-  for (const BodyIndex b : whose) step.later[b] = step.colliders[b];
+  if (bodies.all_active())
+    step.later.clear();  // who asks for it makes it of all
+  else
+    step.begin_later(bodies);
 }
 
 }  // namespace impinge

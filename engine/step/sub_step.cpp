@@ -10,4 +10,10 @@ GroupIndex SubStep::group_of(BodyIndex body) const {
   return {};
 }
 
+void SubStep::begin_later(const Bodies& bodies) {
+  const std::span<const BodyIndex> whose = bodies.to_renew(later.size() == colliders.size());
+  later.resize(colliders.size());
+  for (const BodyIndex b : whose) later[b] = colliders[b];
+}
+
 }  // namespace impinge

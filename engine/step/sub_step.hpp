@@ -36,6 +36,8 @@ struct SubStep {
   // 10, 12: the colliders later: with the velocities that the response gave to rigid bodies, and where the motion led
   std::vector<Collider> later;
 
+  /// `later` as `colliders` are: of active bodies, or of all where nothing is known of it.
+  void begin_later(const Bodies& bodies);
   ContactList contacts(std::span<const Attachment> attachments) const { return {collisions, attachments}; }
   /// None: nothing touches the body.
   GroupIndex group_of(BodyIndex body) const;

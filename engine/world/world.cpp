@@ -310,8 +310,8 @@ void World::parameters_changed() {
       !response.lives_on_overlap())
     throw InputError(
         fmt::format("simulation.velocities is middle with response.method {}, which moves bodies in shorter steps of "
-                    "its own; middle "
-                    "is for the responses that move them once a sub-step; choose another one, or velocities = \"end\"",
+                    "its own; middle is for the responses that move them once a sub-step; choose another one, or "
+                    "velocities = \"end\"",
                     parameters.response.method.name()));
   look_at_all();
   std::vector<std::uint64_t> now = settings();

@@ -96,7 +96,7 @@ void Against::compare(const std::vector<std::uint64_t>& hashes, int frame) {
 
 void Against::reach(const StepRecord& a, const std::vector<std::uint64_t>& hashes, int frame) {
   model_.bodies.clear();  // A may have others than before
-  for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.bodies().find(body.name));
+  for (const BodyRecord& body : a.bodies) model_.bodies.push_back(session_.world().bodies().find(body.name));
   compare(hashes, frame);
   while (model_.ended.empty() && session_.frame() < frame && advance()) compare(hashes, frame);
   if (session_.frame() == frame) compare_places(a, frame);

@@ -89,14 +89,13 @@ void add_by_node(const GroupSystem& group, const DeformableBlock& block, const s
   }
 }
 
-void add_soft(const GroupSystem& group, int body, MatX& w) {
+void add_soft(const GroupSystem& group, int body, const std::vector<int>& nodes, MatX& w) {
   const DeformableBlock& block = group.deformable[body];
   const std::vector<Part> parts =
       parts_of(group, [&](const ContactSide& s) { return s.deformable == body && !s.nodes.empty(); });
   if (parts.empty()) return;
   check_interrupt();
   factorize(block);
-  const std::vector<int> nodes = touched_nodes(group, body);
   if (nodes.size() < parts.size())
     add_by_node(group, block, parts, nodes, w);
   else
@@ -107,7 +106,8 @@ std::shared_ptr<const MatX> assemble(const GroupSystem& group) {
   const auto n = static_cast<Eigen::Index>(3 * group.contacts.size());
   MatX w = MatX::Zero(n, n);
   add_rigid(group, w);
-  for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s) add_soft(group, s, w);
+  const std::vector<std::vector<int>> nodes = touched_nodes(group);
+  for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s) add_soft(group, s, nodes[s], w);
   return std::make_shared<const MatX>(0.5 * (w + MatX(w.transpose())));
 }
 

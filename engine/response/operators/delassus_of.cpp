@@ -10,17 +10,16 @@ namespace {
 constexpr double kFew = 0.8;               // nodes a contact
 constexpr std::size_t kFewContacts = 100;  // whose W is small, whatever it is made of
 
-bool has_few_nodes(const GroupSystem& group) {
-  if (group.contacts.size() < kFewContacts) return false;
-  std::size_t nodes = 0;
-  for (int s = 0; s < static_cast<int>(group.deformable.size()); ++s) nodes += touched_nodes(group, s).size();
-  return static_cast<double>(nodes) < kFew * static_cast<double>(group.contacts.size());
-}
-
 }  // namespace
 
 std::unique_ptr<Delassus> delassus_of(GroupSystem& group) {
-  if (has_few_nodes(group)) return std::make_unique<NodeDelassus>(group);
+  if (group.contacts.size() >= kFewContacts) {
+    const std::vector<std::vector<int>> nodes = touched_nodes(group);
+    std::size_t count = 0;
+    for (const std::vector<int>& of_body : nodes) count += of_body.size();
+    if (static_cast<double>(count) < kFew * static_cast<double>(group.contacts.size()))
+      return std::make_unique<NodeDelassus>(group, nodes);
+  }
   return std::make_unique<AssembledDelassus>(group);
 }
 

@@ -7,47 +7,44 @@
 namespace impinge {
 namespace {
 
-int bodies_of(const GroupSystem& group) { return static_cast<int>(group.deformable.size()); }
-
-std::shared_ptr<const std::vector<MatX>> find_between_nodes(const GroupSystem& group) {
-  std::vector<MatX> between(group.deformable.size());
-  for (int s = 0; s < bodies_of(group); ++s) {
+std::shared_ptr<const std::vector<MatX>> find_between_nodes(const GroupSystem& group,
+                                                            const std::vector<std::vector<int>>& nodes) {
+  std::vector<MatX> between(nodes.size());
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
     check_interrupt();
-    const std::vector<int> nodes = touched_nodes(group, s);
-    if (nodes.empty()) continue;
+    if (nodes[s].empty()) continue;
     factorize(group.deformable[s]);
-    between[s] = inverse_between(group.deformable[s], nodes);
+    between[s] = inverse_between(group.deformable[s], nodes[s]);
   }
   return std::make_shared<const std::vector<MatX>>(std::move(between));
 }
 
 }  // namespace
 
-NodeDelassus::NodeDelassus(GroupSystem& group) {
-  if (!group.between_nodes) group.between_nodes = find_between_nodes(group);
+NodeDelassus::NodeDelassus(GroupSystem& group, const std::vector<std::vector<int>>& nodes) {
+  if (!group.between_nodes) group.between_nodes = find_between_nodes(group, nodes);
   between_nodes_ = group.between_nodes;
   space_.bodies = rigid_space(group);
-  find_touches(group);
+  find_touches(group, nodes);
   free_ = std::make_unique<InverseMasses>(space_.bodies);
   for (std::size_t i = 0; i < group.contacts.size(); ++i) diagonal_.push_back(block_of(i));
 }
 
-void NodeDelassus::find_touches(const GroupSystem& group) {
+void NodeDelassus::find_touches(const GroupSystem& group, const std::vector<std::vector<int>>& nodes) {
   space_.touches.resize(group.contacts.size());
   for (std::size_t i = 0; i < group.contacts.size(); ++i)
     for (int k = 0; k < (group.contacts[i].has_one_row() ? 1 : 3); ++k)
       space_.touches[i].rows.row(k) = group.contacts[i].directions.row(k);
-  for (int s = 0; s < bodies_of(group); ++s) {
-    const std::vector<int> nodes = touched_nodes(group, s);
-    if (nodes.empty()) continue;
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    if (nodes[s].empty()) continue;
     std::vector<int> place(static_cast<std::size_t>(group.deformable[s].velocity.size() / 3), -1);
-    for (std::size_t k = 0; k < nodes.size(); ++k) place[nodes[k]] = space_.touched + static_cast<int>(k);
+    for (std::size_t k = 0; k < nodes[s].size(); ++k) place[nodes[s][k]] = space_.touched + static_cast<int>(k);
     for (std::size_t i = 0; i < group.contacts.size(); ++i)
       for (const auto& [side, sign] : {std::pair(&group.contacts[i].a, 1.0), std::pair(&group.contacts[i].b, -1.0)})
-        if (side->deformable == s)
+        if (side->deformable == static_cast<int>(s))
           for (const NodeWeight& n : side->nodes) space_.touches[i].nodes.push_back({place[n.node], sign * n.weight});
     space_.parts.push_back({space_.touched, &(*between_nodes_)[s]});
-    space_.touched += static_cast<int>(nodes.size());
+    space_.touched += static_cast<int>(nodes[s].size());
     part_of_.resize(static_cast<std::size_t>(space_.touched), static_cast<int>(space_.parts.size()) - 1);
   }
 }

@@ -11,9 +11,9 @@ namespace impinge {
 
 class NodeDelassus : public Delassus {
  public:
-  /// Takes group.between_nodes if it is there, or makes it: factorizes A of every deformable body that is touched; throws
+  /// `nodes`: touched_nodes(group). Takes group.between_nodes if it is there, or makes it: factorizes A of every deformable body that is touched; throws
   /// DivergenceError where A is not positive definite.
-  explicit NodeDelassus(GroupSystem& group);
+  NodeDelassus(GroupSystem& group, const std::vector<std::vector<int>>& nodes);
 
   std::size_t contacts() const override { return diagonal_.size(); }
   const Mat3& diagonal(std::size_t i) const override { return diagonal_[i]; }
@@ -23,7 +23,7 @@ class NodeDelassus : public Delassus {
   const NodeSpace* node_space() override { return &space_; }
 
  private:
-  void find_touches(const GroupSystem& group);
+  void find_touches(const GroupSystem& group, const std::vector<std::vector<int>>& nodes);
   Mat3 block_of(std::size_t i) const;
 
   std::shared_ptr<const std::vector<MatX>> between_nodes_;  // A⁻¹, by deformable body

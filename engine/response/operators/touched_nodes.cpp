@@ -6,14 +6,15 @@
 
 namespace impinge {
 
-std::vector<int> touched_nodes(const GroupSystem& group, int deformable) {
-  std::vector<int> nodes;
+std::vector<std::vector<int>> touched_nodes(const GroupSystem& group) {
+  std::vector<std::vector<int>> nodes(group.deformable.size());
   for (const ContactRows& rows : group.contacts)
     for (const ContactSide* side : {&rows.a, &rows.b})
-      if (side->deformable == deformable)
-        for (const NodeWeight& n : side->nodes) nodes.push_back(n.node);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      for (const NodeWeight& n : side->nodes) nodes[side->deformable].push_back(n.node);
+  for (std::vector<int>& of_body : nodes) {
+    std::sort(of_body.begin(), of_body.end());
+    of_body.erase(std::unique(of_body.begin(), of_body.end()), of_body.end());
+  }
   return nodes;
 }
 

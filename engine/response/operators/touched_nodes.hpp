@@ -6,8 +6,8 @@
 
 namespace impinge {
 
-/// Free nodes, ascending; none where no contact of the group touches that body.
-std::vector<int> touched_nodes(const GroupSystem& group, int deformable);
+/// Free nodes by deformable body, ascending.
+std::vector<std::vector<int>> touched_nodes(const GroupSystem& group);
 
 /// Throws DivergenceError where A is not positive definite.
 void factorize(const DeformableBlock& block);

@@ -8,6 +8,7 @@
 #include "engine/lcp/residual.hpp"
 #include "engine/response/operators/assembled_delassus.hpp"
 #include "engine/response/operators/delassus_of.hpp"
+#include "engine/response/operators/touched_nodes.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/mechanics/deformable_stack.hpp"
 #include "tests/support/mechanics/methods.hpp"
@@ -65,7 +66,7 @@ TEST_CASE("W by touched nodes is W by contacts: blocks, products, changes") {
     SoftStack stack = crowded(4, rigid);
     const ConeProblem problem = make_cone_problem(stack.group);
     const MatX truth = rows_that_are(problem, AssembledDelassus(stack.group).matrix());
-    NodeDelassus w(stack.group);
+    NodeDelassus w(stack.group, touched_nodes(stack.group));
     const std::size_t n = w.contacts();
     REQUIRE(3 * n == static_cast<std::size_t>(truth.rows()));
     CHECK(static_cast<std::size_t>(w.node_space()->touched) < n);
@@ -99,7 +100,7 @@ TEST_CASE("Newton's system over touched nodes has the solution of its written-ou
       CAPTURE(rigid, size);
       SoftStack stack = crowded(3, rigid);
       ConeProblem problem = make_cone_problem(stack.group);
-      NodeDelassus w(stack.group);
+      NodeDelassus w(stack.group, touched_nodes(stack.group));
       problem.w = &w;
       const MatX dense = rows_that_are(problem, AssembledDelassus(stack.group).matrix());
       const std::size_t n = w.contacts();
