@@ -10,16 +10,16 @@
 // all). With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored) the sweeps are made
 // conjugate instead.
 //
-// What Newton leaves of rigid bodies it begins again from nothing. What it leaves then goes to conjugate sweeps, and
-// what they leave far from an answer to alternating directions, which no local minimum holds, and from there to Newton
-// again. Before Newton both cost more than they save, except on tall stacks.
+// Rigid bodies in many contacts go from a few steps of Newton's, which find an answer that is near, to rounded equations
+// (smoothing_newton.cpp), whose last digits conjugate sweeps bring for less. With fewer contacts Newton needs fewer steps
+// than those; what it leaves it begins again from nothing, what it leaves then goes to conjugate sweeps, and what they
+// leave far from an answer to rounded equations, and from there to Newton again.
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
 
-#include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 #include "engine/lcp/node_space.hpp"
 
@@ -27,6 +27,7 @@ namespace impinge {
 
 Entry<LcpSolver> nonsmooth_nonlinear_conjugate_gradient_solver();
 Entry<LcpSolver> semismooth_newton_solver();
+Entry<LcpSolver> smoothing_newton_solver();
 
 namespace {
 
@@ -34,12 +35,19 @@ constexpr int kFirstSweeps = 30;  // before the rate is looked at
 constexpr int kFewSweeps = 10;    // the same where Newton is quick, or a W that is dense makes sweeps dear
 constexpr int kWindow = 10;       // of them that it is taken over
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
-constexpr double kSweepsPerContact = 2.0;            // the price of Newton's method
-constexpr double kSweepsOfBodies = 20.0;             // and where all bodies are rigid
-constexpr double kSweepsOfConjugate = 50.0;          // what conjugate sweeps cost beside what they save
-constexpr int kAlternating = 300, kConjugate = 300;  // iterations, where all bodies are rigid and Newton ended
+constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method
+constexpr double kSweepsOfBodies = 20.0;     // and where all bodies are rigid
+constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
+constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
+constexpr int kFewSteps = 20;         // of it there, and again as long as they leave less than kGain
+constexpr double kGain = 0.3;
+constexpr int kRounds = 2;  // of rounded equations, of conjugate sweeps, which end what those creep at, and Newton
+constexpr int kLastDigits = 100;  // sweeps
+constexpr int kMoreSteps = 300;   // of Newton's
+constexpr int kConjugate = 300;   // sweeps, where all else has ended
+constexpr int kAny = std::numeric_limits<int>::max();
 constexpr double kFarBetter = 0.1;  // where there is no answer nothing at all may pass for a little better than most
-constexpr double kNear = 1e-5;      // a relative residual below which ADMM, slow towards its end, betters one in fifty
+constexpr double kNear = 1e-5;      // a relative residual that beginning again betters seldom
 
 class Automatic : public LcpSolver {
  public:
@@ -103,30 +111,43 @@ class Automatic : public LcpSolver {
     };
   }
 
+  /// Of rigid bodies. Newton, and with many contacts, where it finds none but near answers, rounded equations; then
+  /// what else there is.
   static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
                                 std::vector<Vec3>& lambda) {
-    const Method newton = by_solver(semismooth_newton_solver());
-    LcpResult result = go_on(newton, problem, settings, sweeps, lambda);
-    if (result.reason == StopReason::converged) return result;
-    std::vector<Vec3> other(lambda.size(), Vec3::Zero());
-    result = go_on(newton, problem, settings, result.iterations, other);
-    if (judge(problem, other).map.relative < kFarBetter * judge(problem, lambda).map.relative) lambda = other;
-    if (result.reason == StopReason::converged) return result;
-    result = go_on(by_solver(nonsmooth_nonlinear_conjugate_gradient_solver()), problem, settings, result.iterations,
-                   lambda, kConjugate);
-    if (result.reason == StopReason::iteration_cap && result.iterations < settings.max_iterations)
-      result.reason = StopReason::stagnated;
-    if (result.reason == StopReason::converged || judge(problem, lambda).map.relative <= kNear ||
-        !can_alternate_directions(problem))
+    const Method newton = by_solver(semismooth_newton_solver()), smoothing = by_solver(smoothing_newton_solver()),
+                 conjugate = by_solver(nonsmooth_nonlinear_conjugate_gradient_solver());
+    LcpResult result{sweeps, StopReason::stagnated};
+    const auto go = [&](const Method& method, std::vector<Vec3>& from, int most) {
+      result = go_on(method, problem, settings, result.iterations, from, most);
+      return result.reason == StopReason::converged || result.iterations >= settings.max_iterations;
+    };
+    const auto residual = [&](const std::vector<Vec3>& of) { return judge(problem, of).map.relative; };
+    if (lambda.size() >= kLarge) {
+      double before, now = residual(lambda);
+      do {
+        if (go(newton, lambda, kFewSteps)) return result;
+        before = now, now = residual(lambda);
+      } while (now < kGain * before);
+      for (int round = 0; round < kRounds; ++round)
+        if (go(smoothing, lambda, kAny) || go(conjugate, lambda, kLastDigits) || go(newton, lambda, kMoreSteps))
+          return result;
+      if (residual(lambda) <= kNear) return result;
+    } else if (go(newton, lambda, kAny)) {
       return result;
-    result = go_on(alternate_directions, problem, settings, result.iterations, lambda, kAlternating);
-    if (result.reason == StopReason::converged) return result;
-    return go_on(newton, problem, settings, result.iterations, lambda);
+    }
+    std::vector<Vec3> other(lambda.size(), Vec3::Zero());
+    const bool ended = go(newton, other, kAny);
+    if (result.reason == StopReason::converged || residual(other) < kFarBetter * residual(lambda)) lambda = other;
+    if (ended || go(conjugate, lambda, kConjugate) || residual(lambda) <= kNear) return result;
+    if (go(smoothing, lambda, kAny)) return result;
+    go(newton, lambda, kAny);
+    return result;
   }
 
   /// At most `most` iterations of another method from `lambda`, which is left as it was if they don't better it.
   static LcpResult go_on(const Method& method, const ConeProblem& problem, LcpSettings settings, int spent,
-                         std::vector<Vec3>& lambda, int most = std::numeric_limits<int>::max()) {
+                         std::vector<Vec3>& lambda, int most = kAny) {
     const std::vector<Vec3> before = lambda;
     settings.max_iterations = std::min(most, settings.max_iterations - spent);
     if (settings.max_iterations <= 0) return {spent, StopReason::iteration_cap};
@@ -144,7 +165,7 @@ class Automatic : public LcpSolver {
 Entry<LcpSolver> automatic_solver() {
   return entry<LcpSolver, Automatic>(
       "automatic",
-      "Gauss-Seidel, and where it is slow semismooth Newton (then ADMM; many contacts of soft bodies: NNCG)");
+      "Gauss-Seidel, and where it is slow semismooth or smoothing Newton (many contacts of soft bodies: NNCG)");
 }
 
 }  // namespace impinge

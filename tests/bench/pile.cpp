@@ -1,7 +1,7 @@
 // A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, the relative residual
 // (the largest and the middle one of all frames), solves without an answer, overlap, and the frame from which on every
-// speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s). usage: bench_pile [boxes = 1000] [frames = 60]
-// [response[:solver[:tolerance]] …]
+// speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s); each frame on stderr as it is done.
+// usage: bench_pile [boxes = 1000] [frames = 60] [response[:solver[:tolerance[:so many frames, then the default]]] …]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -32,7 +32,10 @@ int main(int argc, char** argv) {
     std::string word;
     if (std::getline(words, word, ':')) world.parameters.response.method = word;
     if (std::getline(words, word, ':')) world.parameters.lcp.method = word;
+    const double tolerance = world.parameters.lcp.tolerance;
+    int loose = frames;
     if (std::getline(words, word, ':')) world.parameters.lcp.tolerance = std::stod(word);
+    if (std::getline(words, word, ':')) loose = std::stoi(word);
     world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
     Random random(4242);
     add_pile(world, random, boxes);
@@ -42,6 +45,7 @@ int main(int argc, char** argv) {
     std::int64_t unconverged = 0;
     std::vector<double> residuals;
     for (int i = 0; i < frames; ++i) {
+      if (i == loose) world.parameters.lcp.tolerance = tolerance;
       world.step();
       ms += last = world.record().stats.times.response_ms;
       residuals.push_back(world.record().stats.residual_coulomb);
@@ -51,6 +55,8 @@ int main(int argc, char** argv) {
         if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
       for (const ContactRecord& c : world.record().contacts) overlap = std::max(overlap, -c.gap);
       still = speed >= 1e-3 ? -1 : still < 0 ? i : still;
+      std::fprintf(stderr, "frame %d of %d: %zu contacts, %.0f ms, residual %.1e, speed %.1e m/s, overlap %.1e m\n",
+                   i + 1, frames, world.record().contacts.size(), last, residuals.back(), speed, overlap);
     }
     std::sort(residuals.begin(), residuals.end());
     std::printf("%-58s %12.1f %12.1f %10.1e %10.1e %12lld %12.1e %12.1e %8d\n", method.c_str(), ms / frames, last,

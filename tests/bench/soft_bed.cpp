@@ -1,6 +1,6 @@
 // A heap of rigid boxes on a soft mat of 9 x 3 x 9 nodes on the ground: one group, contacts more than nodes. Friction
 // 0.5, 1/60 s, one sub-step, nothing sleeps. The frames with the most contacts, ms of response, iterations, residual; then
-// the middle ones of all frames. usage: bench_soft_bed [boxes a side = 6] [layers = 3] [frames = 40]
+// the middle ones of all frames. usage: bench_soft_bed [boxes a side = 6] [layers = 3] [frames = 40] [solver]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   world.parameters.simulation.substeps = 1;
   world.parameters.simulation.sleeping = false;
   world.parameters.contact.friction = 0.5;
+  if (argc > 4) world.parameters.lcp.method = argv[4];
   world.add_body(fixed_plane("ground", Vec3::UnitY(), 0.0));
   const double width = 0.2 * side;
   world.add_body(soft_box("mat", Vec3(width, 0.2, width), Eigen::Vector3i(8, 2, 8), Vec3(0.0, 0.0005, 0.0),

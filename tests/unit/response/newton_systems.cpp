@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include "engine/core/parallel.hpp"
-#include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/body_matrix.hpp"
 #include "engine/lcp/newton_system.hpp"
 #include "engine/lcp/residual.hpp"
@@ -139,38 +138,4 @@ TEST_CASE("Newton's system over bodies has the solution of the one over rows, or
     if (size >= 1e-9) CHECK((m * over_rows - f).norm() < 1e-6 * f.norm());
     if (size >= 1e-6) CHECK((over_bodies - over_rows).norm() < 1e-6 * over_rows.norm());
   }
-}
-
-TEST_CASE("alternating directions solve a tower of 80 boxes from nothing, by the judge") {
-  GroupSystem group;
-  for (int level = 0; level < 80; ++level) {
-    RigidBlock block;
-    block.inverse_mass = 1e-3;
-    block.inverse_inertia = 6e-3 * Mat3::Identity();
-    block.velocity = Vec3(0.0, -0.1635, 0.0);
-    group.rigid.push_back(block);
-    for (int corner = 0; corner < 4; ++corner) {
-      ContactRows rows;
-      const Vec3 at(corner % 2 ? 0.5 : -0.5, 0.0, corner / 2 ? 0.5 : -0.5);
-      rows.a.rigid = level, rows.a.arm = at - Vec3(0.0, 0.5, 0.0);
-      rows.b.rigid = level - 1, rows.b.arm = at + Vec3(0.0, 0.5, 0.0);
-      rows.directions << 0, 1, 0, 0, 0, 1, 1, 0, 0;
-      rows.friction = 0.5;
-      group.contacts.push_back(rows);
-      group.lambda.push_back(Vec3::Zero());
-    }
-  }
-  FactoredDelassus w(group);
-  ConeProblem problem = make_cone_problem(group);
-  problem.w = &w;
-  REQUIRE(can_alternate_directions(problem));
-  LcpSettings settings;
-  settings.tolerance = 1e-9;
-  settings.max_iterations = 1000;
-  const LcpResult result = alternate_directions(problem, settings, group.lambda);
-  CHECK(result.reason == StopReason::converged);
-  CHECK(judge(problem, group.lambda).map.relative <= 1e-9);
-  double carried = 0.0;  // by the ground: the weight of all
-  for (int corner = 0; corner < 4; ++corner) carried += group.lambda[corner].x();
-  CHECK(std::abs(carried - 80 * 1e3 * 0.1635) < 1e-4);
 }
