@@ -16,9 +16,7 @@
 // leave far from an answer to rounded equations, and from there to Newton again.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <memory>
 
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 #include "engine/lcp/node_space.hpp"
@@ -48,6 +46,8 @@ constexpr int kConjugate = 300;   // sweeps, where all else has ended
 constexpr int kAny = std::numeric_limits<int>::max();
 constexpr double kFarBetter = 0.1;  // where there is no answer nothing at all may pass for a little better than most
 constexpr double kNear = 1e-5;      // a relative residual that beginning again betters seldom
+
+using SolverEntry = Entry<LcpSolver>();
 
 class Automatic : public LcpSolver {
  public:
@@ -81,8 +81,8 @@ class Automatic : public LcpSolver {
       if (left <= std::min(price, static_cast<double>(settings.max_iterations - sweep))) continue;
       if (bodies) return solve_bodies(problem, settings, sweep, lambda);
       if (dense && newton) lambda = start;
-      return go_on(by_solver(newton ? semismooth_newton_solver() : nonsmooth_nonlinear_conjugate_gradient_solver()),
-                   problem, settings, sweep, lambda);
+      return go_on(newton ? semismooth_newton_solver : nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings,
+                   sweep, lambda);
     }
     return {settings.max_iterations, StopReason::iteration_cap};
   }
@@ -102,23 +102,14 @@ class Automatic : public LcpSolver {
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
   }
 
-  using Method = std::function<LcpResult(const ConeProblem&, const LcpSettings&, std::vector<Vec3>&)>;
-
-  static Method by_solver(const Entry<LcpSolver>& entry) {
-    return [solver = std::shared_ptr<LcpSolver>(entry.make())](const ConeProblem& problem, const LcpSettings& settings,
-                                                               std::vector<Vec3>& lambda) {
-      return solver->solve(problem, settings, lambda);
-    };
-  }
-
   /// Of rigid bodies. Newton, and with many contacts, where it finds none but near answers, rounded equations; then
   /// what else there is.
   static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
                                 std::vector<Vec3>& lambda) {
-    const Method newton = by_solver(semismooth_newton_solver()), smoothing = by_solver(smoothing_newton_solver()),
-                 conjugate = by_solver(nonsmooth_nonlinear_conjugate_gradient_solver());
+    const auto newton = semismooth_newton_solver, smoothing = smoothing_newton_solver,
+               conjugate = nonsmooth_nonlinear_conjugate_gradient_solver;
     LcpResult result{sweeps, StopReason::stagnated};
-    const auto go = [&](const Method& method, std::vector<Vec3>& from, int most) {
+    const auto go = [&](SolverEntry* method, std::vector<Vec3>& from, int most) {
       result = go_on(method, problem, settings, result.iterations, from, most);
       return result.reason == StopReason::converged || result.iterations >= settings.max_iterations;
     };
@@ -146,16 +137,18 @@ class Automatic : public LcpSolver {
   }
 
   /// At most `most` iterations of another method from `lambda`, which is left as it was if they don't better it.
-  static LcpResult go_on(const Method& method, const ConeProblem& problem, LcpSettings settings, int spent,
+  static LcpResult go_on(SolverEntry* method, const ConeProblem& problem, LcpSettings settings, int spent,
                          std::vector<Vec3>& lambda, int most = kAny) {
     const std::vector<Vec3> before = lambda;
+    const bool is_cut_short = most < settings.max_iterations - spent;
     settings.max_iterations = std::min(most, settings.max_iterations - spent);
     if (settings.max_iterations <= 0) return {spent, StopReason::iteration_cap};
     if (settings.history != nullptr) settings.history->pop_back();  // the next one begins with the same residual
-    LcpResult result = method(problem, settings, lambda);
+    LcpResult result = method().make()->solve(problem, settings, lambda);
     if (!result.solved() && !(judge(problem, lambda).map.relative < judge(problem, before).map.relative))
       lambda = before;
     result.iterations += spent;
+    if (is_cut_short && result.reason == StopReason::iteration_cap) result.reason = StopReason::stagnated;
     return result;
   }
 };

@@ -10,7 +10,6 @@ namespace impinge {
 namespace {
 
 constexpr int kHalvings = 7;
-constexpr std::size_t kMemory = 10;          // steps that a new one is compared with
 constexpr std::size_t kMostContacts = 6000;  // W written out takes 2.6 GB then
 
 }  // namespace
@@ -85,7 +84,6 @@ double NewtonSearch::merit(const std::vector<Vec3>& lambda) {
 }
 
 bool NewtonSearch::find_direction(double alpha) {
-  find_velocities(lambda_);
   VecX f(static_cast<Eigen::Index>(3 * n_));
   for (std::size_t i = 0; i < n_; ++i) {
     const AlartCurnier e = width_ > 0.0 ? smoothed_alart_curnier(problem_, i, u_[i], lambda_[i], rho_[i], width_)
@@ -101,7 +99,7 @@ bool NewtonSearch::find_direction(double alpha) {
   return direction_.allFinite();
 }
 
-double NewtonSearch::search(double now) {
+double NewtonSearch::search(double& now) {
   double worst = now;
   const std::size_t compared = std::min(course_.size(), kMemory - 1);
   for (auto m = course_.end() - static_cast<std::ptrdiff_t>(compared); m != course_.end(); ++m)
@@ -109,13 +107,15 @@ double NewtonSearch::search(double now) {
   double length = 1.0;
   for (int k = 0; k <= kHalvings; ++k, length *= 0.5) {
     for (std::size_t i = 0; i < n_; ++i) trial_[i] = lambda_[i] + length * direction(i);
-    merit_ = merit(trial_);
-    if (!(merit_ <= (1.0 - 1e-4 * length) * worst)) continue;
+    const double there = merit(trial_);
+    if (!(there <= (1.0 - 1e-4 * length) * worst)) continue;
     lambda_ = trial_;
     course_.push_back(now);
     if (course_.size() > kMemory + 1) course_.pop_front();
+    now = there;
     return length;
   }
+  find_velocities(lambda_);
   return 0.0;
 }
 

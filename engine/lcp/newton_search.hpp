@@ -16,6 +16,7 @@ class NewtonSearch {
   NewtonSearch(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda);
 
   static constexpr double kSmallest = 1e-12, kLargest = 1.0;  // α
+  static constexpr std::size_t kMemory = 10;                  // steps that a new one is compared with
 
   /// Rounds the equations off (smoothed_alart_curnier.hpp) over `width`, m/s, and adds `compliance` D to W; 0 and 0:
   /// they are exact.
@@ -30,11 +31,11 @@ class NewtonSearch {
 
   /// ‖F‖² in velocities, at a λ.
   double merit(const std::vector<Vec3>& lambda);
-  /// Newton's, from the present λ; false if there is none.
+  /// Newton's, from the present λ, which merit() was asked of last or search() has come to; false if there is none.
   bool find_direction(double alpha);
   /// Goes to the longest of the lengths 1, 1/2, 1/4, ... of which F has shrunk against the worst of the last few, and
-  /// returns it; 0 if there is none (λ is as before). `now`: the merit of λ; merit_ is that of what was tried last.
-  double search(double now);
+  /// returns it; 0 if there is none (λ is as before). `now`: the merit of λ, in and out.
+  double search(double& now);
   Vec3 direction(std::size_t i) const { return direction_.segment<3>(3 * static_cast<Eigen::Index>(i)); }
 
   const ConeProblem& problem_;
@@ -42,8 +43,8 @@ class NewtonSearch {
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
   std::vector<Vec3> best_;
-  std::deque<double> course_;  // merits that were stepped from
-  double residual_ = 0.0, best_residual_ = 0.0, merit_ = 0.0;
+  std::deque<double> course_;  // merits that were stepped from, kMemory + 1 at most
+  double residual_ = 0.0, best_residual_ = 0.0;
   int iterations_ = 0;
 
  private:

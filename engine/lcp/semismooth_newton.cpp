@@ -11,6 +11,7 @@
 // where that leads ends far more often. Cost of a step: one LU, of six rows a body where all bodies are rigid, else of
 // the rows in contact.
 #include <algorithm>
+#include <cmath>
 
 #include "engine/lcp/newton_search.hpp"
 
@@ -26,8 +27,7 @@ constexpr double kAfterLeap = 1.0;     // the same, of a whole step
 constexpr int kLong = 40;              // steps without 10 % gained after which it may leap
 constexpr int kLongPerContact = 60;    // and one more for so many contacts, which settle in turn
 constexpr int kPatience = 8;           // times as many without 1 % gained, and it gives up
-constexpr std::size_t kCourse = 10;    // steps that shrink F by less than kCreeps creep
-constexpr double kCreeps = 0.9;
+constexpr double kCreeps = 0.9;        // as many steps as are remembered that shrink F by less creep
 
 class Search : NewtonSearch {
  public:
@@ -68,22 +68,22 @@ class Search : NewtonSearch {
   /// When the best was met.
   bool remember(bool solved) {
     if (residual_ == best_residual_) {
-      if (residual_ < 0.99 * last_best_ || first_) best_at_ = iterations_;
-      if (residual_ < 0.9 * gained_ || first_) gained_ = residual_, gained_at_ = iterations_;
+      if (residual_ < 0.99 * last_best_) best_at_ = iterations_;
+      if (residual_ < 0.9 * gained_) gained_ = residual_, gained_at_ = iterations_;
       last_best_ = residual_;
-      first_ = false;
     }
     return solved;
   }
 
   bool creeps() const {
-    return iterations_ - gained_at_ > long_ && course_.size() > kCourse && course_.back() > kCreeps * course_.front();
+    return iterations_ - gained_at_ > long_ && course_.size() > kMemory && course_.back() > kCreeps * course_.front();
   }
 
   /// A whole step, wherever it leads.
   bool leap() {
     course_.clear();
     factor_ = kAfterLeap;
+    merit(lambda_);
     if (!direct()) return false;
     for (std::size_t i = 0; i < n_; ++i) lambda_[i] += direction(i);
     return true;
@@ -91,7 +91,7 @@ class Search : NewtonSearch {
 
   /// One regularised Newton step with its line search; false if no length served (λ is as before).
   bool step() {
-    const double now = merit(lambda_);
+    double now = merit(lambda_);
     if (!direct()) return false;
     const double length = search(now);
     if (length > 0.4)
@@ -107,8 +107,7 @@ class Search : NewtonSearch {
   }
 
   const int long_ = kLong + static_cast<int>(n_) / kLongPerContact;
-  double alpha_ = 0.0, factor_ = kFirstFactor, last_best_ = 0.0, gained_ = 0.0;
-  bool first_ = true;
+  double alpha_ = 0.0, factor_ = kFirstFactor, last_best_ = INFINITY, gained_ = INFINITY;
   int best_at_ = 0, gained_at_ = 0;
 };
 

@@ -62,7 +62,6 @@ class Continuation : NewtonSearch {
         factor *= 2.0;
       else if (length > 0.4)
         factor = std::max(0.5 * factor, kFirstFactor);
-      if (length > 0.0) now = merit_;
       if (k > 0) note(residual_);
     }
     soften(0.0, 0.0);

@@ -11,8 +11,8 @@ namespace impinge {
 
 class NodeDelassus : public Delassus {
  public:
-  /// `nodes`: touched_nodes(group). Takes group.between_nodes if it is there, or makes it: factorizes A of every deformable body that is touched; throws
-  /// DivergenceError where A is not positive definite.
+  /// `nodes`: touched_nodes(group). Takes group.between_nodes if it is there, or makes it: factorizes A of every
+  /// deformable body that is touched; throws DivergenceError where A is not positive definite.
   NodeDelassus(GroupSystem& group, const std::vector<std::vector<int>>& nodes);
 
   std::size_t contacts() const override { return diagonal_.size(); }
