@@ -66,7 +66,7 @@ class Assembly {
   void add_collision(ContactIndex index, const Collision& c) {
     ContactRows rows;
     rows.directions = contact_axes(c.normal);
-    const Vec3 common = 0.5 * (c.point_a + c.point_b);
+    const Vec3 common = c.common_point();
     const MaterialPoint a = bodies_[c.body_a].surface_point(c.triangle_a, c.point_a),
                         b = bodies_[c.body_b].surface_point(c.triangle_b, c.point_b);
     Vec3 velocity_before = Vec3::Zero();

@@ -140,7 +140,7 @@ class PairReduction {
       return;
     }
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-    const auto point = [&](std::size_t i) { return Vec3(0.5 * (contacts_[i].point_a + contacts_[i].point_b)); };
+    const auto point = [&](std::size_t i) { return contacts_[i].common_point(); };
     Vec3 middle = Vec3::Zero();
     for (const std::size_t i : patch) middle += point(i) / static_cast<double>(patch.size());
     std::vector<Place> places;

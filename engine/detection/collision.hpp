@@ -40,6 +40,9 @@ struct Collision {
   double gap = 0.0;                      ///< normal·(point_a - point_b), metres; negative: overlap
   BodyIndex normal_owner;                ///< the body whose surface gives the normal and turns it along; none: neither
   std::uint64_t feature = 0;  ///< which features touch: stable from step to step, unique within the body pair
+
+  /// Where its row acts on both bodies.
+  Vec3 common_point() const { return 0.5 * (point_a + point_b); }
 };
 
 /// Identity of a feature pair for warm starting: kinds and indices of the features on a and b.

@@ -35,8 +35,8 @@ class Motion {
   /// Of A's point from B's along the normal, m/s: by free velocities, by solved ones, and by those without what the two
   /// do to each other.
   double free(const Collision& c) const {
-    return c.normal.dot(step_.colliders[c.body_a].velocity_at(place(c)) -
-                        step_.colliders[c.body_b].velocity_at(place(c)));
+    return c.normal.dot(step_.colliders[c.body_a].velocity_at(c.common_point()) -
+                        step_.colliders[c.body_b].velocity_at(c.common_point()));
   }
   double solved(const Collision& c) const { return along(c, solved_[c.body_a], solved_[c.body_b]); }
   bool rebounds(const Collision& c, double threshold) const { return solved(c) > kRising * threshold; }
@@ -44,17 +44,16 @@ class Motion {
     Twist a = solved_[c.body_a], b = solved_[c.body_b];
     for (const SolvedContact* other : of_pair) {
       const Vec3 impulse = contact_axes(other->collision.normal).transpose() * other->lambda;
-      take(c.body_a, place(other->collision), -impulse, a);
-      take(c.body_b, place(other->collision), impulse, b);
+      take(c.body_a, other->collision.common_point(), -impulse, a);
+      take(c.body_b, other->collision.common_point(), impulse, b);
     }
     return along(c, a, b);
   }
 
  private:
-  static Vec3 place(const Collision& c) { return 0.5 * (c.point_a + c.point_b); }
   double along(const Collision& c, const Twist& a, const Twist& b) const {
     const auto at = [&](BodyIndex body, const Twist& t) {
-      return Vec3(t.linear + t.angular.cross(place(c) - step_.colliders[body].pose.position));
+      return Vec3(t.linear + t.angular.cross(c.common_point() - step_.colliders[body].pose.position));
     };
     return c.normal.dot(at(c.body_a, a) - at(c.body_b, b));
   }

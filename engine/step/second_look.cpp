@@ -217,7 +217,7 @@ void SecondLook::hand_on(std::span<const Collision> of_pair, std::size_t count,
     if (known->second->isZero(0.0))
       idle.emplace_back(-end_gap(c), known->first);
     else
-      carried.push_back({0.5 * (c.point_a + c.point_b), *known->second}), carriers.push_back(known->first);
+      carried.push_back({c.common_point(), *known->second}), carriers.push_back(known->first);
   }
   std::sort(idle.begin(), idle.end());
   idle.resize(std::min(idle.size(), count));
@@ -255,7 +255,7 @@ bool SecondLook::is_driven(BodyIndex a, BodyIndex b) const {
 
 /// As the contact's row says, or the row would not mend what is missed here.
 double SecondLook::end_gap(const Collision& c) const {
-  const Vec3 common = 0.5 * (c.point_a + c.point_b);
+  const Vec3 common = c.common_point();
   const Vec3 closing = colliders_[c.body_a].velocity_at(common) - colliders_[c.body_b].velocity_at(common);
   return c.gap + step_.time_step * c.normal.dot(closing);
 }
