@@ -25,6 +25,12 @@ Vec3 row_velocity(const GroupSystem& group, std::size_t i, bool with_delta, Node
   return rows.directions * relative + rows.surface;
 }
 
+Vec3 node_displacement(const GroupSystem& group, int body, int node) {
+  const DeformableBlock& block = group.deformable[body];
+  return block.displacement_velocity.segment<3>(3 * node) +
+         block.displacement_scale * group.deformable_delta[body].segment<3>(3 * node);
+}
+
 }  // namespace
 
 Vec3 GroupSystem::contact_velocity(std::size_t i, bool with_delta) const {
@@ -35,10 +41,13 @@ Vec3 GroupSystem::contact_velocity(std::size_t i, bool with_delta) const {
 }
 
 Vec3 GroupSystem::displacement_velocity(std::size_t i) const {
-  return row_velocity(*this, i, true, [&](int body, int node) {
-    return Vec3(deformable[body].displacement_velocity.segment<3>(3 * node) +
-                deformable[body].displacement_scale * deformable_delta[body].segment<3>(3 * node));
-  });
+  return row_velocity(*this, i, true, [&](int body, int node) { return node_displacement(*this, body, node); });
+}
+
+Vec3 GroupSystem::displacement_velocity(const ContactSide& side) const {
+  Vec3 velocity = side.driven;
+  for (const NodeWeight& n : side.nodes) velocity += n.weight * node_displacement(*this, side.deformable, n.node);
+  return velocity;
 }
 
 VecX GroupSystem::deformable_impulse(int body, const std::vector<Vec3>& impulses) const {

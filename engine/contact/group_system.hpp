@@ -62,6 +62,8 @@ struct GroupSystem {
   Vec3 contact_velocity(std::size_t i, bool with_delta) const;
   /// J Δq(v)/Δt of contact i with the Δv: how fast the gap changes over the sub-step.
   Vec3 displacement_velocity(std::size_t i) const;
+  /// The same of the point of one deformable side, world axes.
+  Vec3 displacement_velocity(const ContactSide& side) const;
   /// J^T λ on the free nodes of one deformable body, kg·m/s.
   VecX deformable_impulse(int body, const std::vector<Vec3>& impulses) const;
   /// Zero Δv of the right sizes.

@@ -52,6 +52,7 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
       const StageTimer timer(times.narrow_ms);
       find_collisions(step.colliders, step.pairs, by.contact, step.time_step, by.either_may_stop, by.narrow_phase,
                       step.triangle_pairs, step.collisions);
+      add_asked(step.brought, step.collisions);
       add_asked(step.asked, step.collisions);
     }
     const std::vector<BodyIndex> woken = sleeping.wake_touched(bodies, touching(bodies, step.contacts(attachments)));

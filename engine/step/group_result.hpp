@@ -50,6 +50,7 @@ struct GroupResult {
   ResponseResult response;                   ///< of the last solve
   bool is_at_root = true;                    ///< false: a Newton scheme ended at its cap
   bool is_contradiction = false;             ///< its rows have no answer
+  bool is_provisional = false;               ///< roughly, and turns were not followed: contacts may still be added
   int iterations = 0, outer_iterations = 0;  ///< of all its solves
   GroupVerdict verdict;
   bool is_answered() const { return response.converged() && is_at_root; }

@@ -22,6 +22,8 @@ constexpr double kPushOutTolerance = 1e-3;
 constexpr double kWorthwhile = 0.9;               // of what turning took before another solve: more is no gain
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
+constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
+constexpr double kRough = 1e-3;             // relative residual that tells where contacts are missed
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -37,12 +39,13 @@ double fastest_point(const BodyVector& velocity, double radius) {
 class GroupSolve {
  public:
   GroupSolve(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,
-             const Solving& how)
-      : bodies_(bodies), input_(input), group_(group), index_(index), how_(how) {}
+             const Solving& how, int iterations)
+      : bodies_(bodies), input_(input), group_(group), index_(index), how_(how), before_(iterations) {}
 
   GroupResult run() {
     make_system();
-    solve();
+    result_.is_provisional = how_.is_provisional && is_large() && !how_.response.is_approximate();
+    solve_expecting_turns();
     find_root();
     follow_turns();
     if (!result_.response.converged() && !how_.response.lives_on_overlap())
@@ -57,9 +60,16 @@ class GroupSolve {
   void make_system() {
     const StageTimer timer(result_.assemble_ms);
     now_ = assemble(input_, group_);
+    bounds_.clear();
+    for (const ContactRows& row : system().contacts) bounds_.push_back(row.bound);
   }
 
-  void solve() { solve(how_.context); }
+  void solve() {
+    ResponseContext context = how_.context;
+    if (result_.is_provisional && now_.deformable.empty())
+      context.lcp.tolerance = std::max(context.lcp.tolerance, kRough);
+    solve(context);
+  }
   void solve(const ResponseContext& context) {
     if (how_.freezes) result_.frozen = freeze(system());  // before a later Newton iteration takes A anew
     if (how_.watcher != nullptr) how_.watcher->solving(index_, now_, how_);
@@ -74,6 +84,40 @@ class GroupSolve {
                                         index_.value(), names, error.what()));
     }
     count(result_.response);
+  }
+
+  /// Solves, by rows that know already what turning would take with the velocities expected; without where those have no
+  /// answer.
+  void solve_expecting_turns() {
+    const std::vector<Vec3> start = system().lambda;
+    const bool are_told = expect_turns();
+    solve();
+    if (!are_told || (result_.response.converged() && !wins_energy())) return;
+    for (std::size_t i = 0; i < bounds_.size(); ++i)
+      system().contacts[i].bound = bounds_[i], system().contacts[i].turning = 0.0;
+    system().lambda = start;
+    solve();
+  }
+
+  bool expect_turns() {
+    if (how_.expected.empty() || !follows_turns() || !is_large()) return false;
+    GroupSystem& s = system();
+    s.clear_delta();
+    for (std::size_t i = 0; i < now_.rigid.size(); ++i) {
+      const Collider& to = how_.expected[now_.rigid[i]];
+      s.delta_velocity[i] = to.velocity - s.rigid[i].velocity;
+      s.delta_angular_velocity[i] = to.angular_velocity - s.rigid[i].angular_velocity;
+    }
+    const std::vector<double> gaps = end_gaps(bodies_, now_, input_.contacts, input_.time_step);
+    const bool are_told = ask_for_turning(s, gaps, bounds_, how_.contact, input_.time_step);
+    s.clear_delta();
+    return are_told;
+  }
+
+  bool is_large() const { return now_.contacts.size() >= kManyContacts; }
+  bool follows_turns() const {
+    if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
+    return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
   }
 
   /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.
@@ -104,23 +148,20 @@ class GroupSolve {
   /// can't be had, or does no better than the one before, is not taken; what takes far longer than the one before can't.
   void follow_turns() {
     const int most = how_.contact.turning_solves;
-    if (most == 0 || !now_.deformable.empty() || how_.response.is_approximate() || !result_.response.converged())
-      return;
+    if (result_.is_provisional || !follows_turns() || !result_.response.converged()) return;
     const auto look = [&] { return end_gaps(bodies_, now_, input_.contacts, input_.time_step); };
     std::vector<double> gaps = look();
     double lost = most_lost(system(), gaps, how_.contact);
     if (lost == 0.0) return;
-    std::vector<double> bounds;
-    for (const ContactRows& row : system().contacts) bounds.push_back(row.bound);
     ResponseContext context = how_.context;
     context.lcp.max_iterations =
-        std::min(context.lcp.max_iterations, kLonger * result_.response.iterations + kFewIterations);
+        std::min(context.lcp.max_iterations, kLonger * std::max(before_, result_.response.iterations) + kFewIterations);
     for (int i = 0; i < most && lost > 0.0; ++i) {
       check_interrupt();
       GroupSystem system_before = system();
       const ResponseResult response_before = result_.response;
       std::optional<FrozenGroup> frozen_before = result_.frozen;
-      ask_for_turning(system(), gaps, bounds, how_.contact, input_.time_step);
+      ask_for_turning(system(), gaps, bounds_, how_.contact, input_.time_step);
       solve(context);
       double now = INFINITY;
       if (result_.response.converged() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
@@ -139,8 +180,8 @@ class GroupSolve {
     for (const ContactIndex c : group_.contacts)
       for (const BodyIndex b : {input_.contacts.bodies(c).first, input_.contacts.bodies(c).second})
         if (!b.is_none() && bodies_[b].kind() == BodyKind::scripted) return false;
-    const auto [with, free] = kinetic_energies(bodies_, now_);
-    return with > free * (1.0 + kEnergyTolerance);
+    const auto [won, free] = energy_won(bodies_, now_);
+    return won > free * kEnergyTolerance;
   }
 
   void close() {
@@ -267,6 +308,8 @@ class GroupSolve {
   const CollisionGroup& group_;
   GroupIndex index_;
   const Solving& how_;
+  std::vector<double> bounds_;  // by row, before anybody asked for turning
+  const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
   GroupResult result_;
 };
@@ -298,8 +341,8 @@ Vec3 normal_of(const SolvedContact& contact, const Bodies& bodies) {
 }
 
 GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,
-                             const Solving& how) {
-  return GroupSolve(bodies, input, group, index, how).run();
+                             const Solving& how, int iterations) {
+  return GroupSolve(bodies, input, group, index, how, iterations).run();
 }
 
 void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
@@ -318,7 +361,7 @@ void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> 
         wanted.size(), kContactsPerTask, [&](std::size_t i) { return groups[wanted[i]].contacts.size(); },
         [&](std::size_t i) {
           const std::size_t g = wanted[i];
-          results[g] = respond_to_group(bodies, input, groups[g], GroupIndex(g), how);
+          results[g] = respond_to_group(bodies, input, groups[g], GroupIndex(g), how, results[g].response.iterations);
         });
   }
   // threads work side by side: what the stages share of the time that passed

@@ -19,17 +19,23 @@ struct Solving {
   bool rebounds = true;     ///< as SubStep has it
   bool freezes = false;     ///< the groups are wanted as they were handed to the response
   bool keeps_rows = false;  ///< what rows gave to bodies is wanted
+  /// Contacts may still be added: large groups are solved as GroupResult::is_provisional has it.
+  bool is_provisional = false;
+  /// By body, with the velocities of the answer before: large groups are told what turning takes by these.
+  std::span<const Collider> expected = {};
   SolveWatcher* watcher = nullptr;
 };
 
 /// Groups are independent, so threads share them. What of several is thrown is what the lowest group throws. Results by
-/// group; those of groups that `is_known` has (empty: none) are left as they are.
+/// group; those of groups that `is_known` has (empty: none) are left as they are, and those that were
+/// provisional and are solved again are there.
 void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
              std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
              std::vector<GroupResult>& results, StageTimes& times);
 
 /// One group. Of the bodies, those of the group may have A and b taken anew (Newton schemes); nothing else changes.
+/// `iterations`: that its answer took, if it was solved before.
 GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const CollisionGroup& group, GroupIndex index,
-                             const Solving& how);
+                             const Solving& how, int iterations = 0);
 
 }  // namespace impinge

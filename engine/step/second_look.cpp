@@ -48,12 +48,18 @@ void insert(std::vector<Collision> more, std::vector<Collision>& all) {
   std::inplace_merge(all.begin(), middle, all.end(), before);
 }
 
+int iterations_of(const std::vector<GroupResult>& results) {
+  int sum = 0;
+  for (const GroupResult& r : results) sum += r.iterations;
+  return sum;
+}
+
 }  // namespace
 
 SecondLook::SecondLook(const Bodies& bodies, const Detecting& by, SubStep& step)
     : bodies_(bodies), by_(by), step_(step), colliders_(step.later) {}
 
-void SecondLook::take_velocities() {
+std::span<const Collider> SecondLook::take_velocities() {
   step_.begin_later(bodies_);
   for (std::size_t g = 0; g < step_.groups.size(); ++g)
     for (std::size_t i = 0; i < step_.groups[g].bodies.size(); ++i) {
@@ -62,18 +68,23 @@ void SecondLook::take_velocities() {
       colliders_[b].velocity += step_.results[g].velocity[i].twist.linear;
       colliders_[b].angular_velocity += step_.results[g].velocity[i].twist.angular;
     }
+  return colliders_;
 }
 
 bool SecondLook::find(StageTimes& times) {
   check_interrupt();
   back_.clear(), pairs_.clear(), triangles_.clear(), found_.clear();
-  take_velocities();
   find_dropped();
   if (is_anyone_driven()) find_driven(times);
   {
     const StageTimer timer(times.narrow_ms);
     ahead_ = overlaps_at_end(bodies_, by_, step_, colliders_);
   }
+  std::erase_if(ahead_, [&](const Collision& c) {  // a row that is there needs to be told of turning, and not again
+    return std::any_of(step_.collisions.begin(), step_.collisions.end(), [&](const Collision& k) {
+      return key_of(k) == key_of(c) && k.normal == c.normal && k.gap == c.gap;
+    });
+  });
   return !back_.empty() || !found_.empty() || !ahead_.empty();
 }
 
@@ -176,6 +187,8 @@ void SecondLook::add(const ContactCache& carried) {
     else
       insert({c}, step_.collisions);
   }
+  for (const std::vector<Collision>* list : {&back_, &found_, &ahead_})
+    step_.brought.insert(step_.brought.end(), list->begin(), list->end());
   exchange();
 }
 
@@ -270,7 +283,8 @@ SolvedBefore::SolvedBefore(const SubStep& step, const ContactList& contacts)
       dropped_(step.dropped),
       start_(step.start),
       groups_(step.groups),
-      results_(step.results) {
+      results_(step.results),
+      brought_(step.brought.size()) {
   for (const CollisionGroup& group : step.groups) {
     keys_.emplace_back();
     for (const ContactIndex c : group.contacts) keys_.back().push_back(contacts.key(c));
@@ -306,16 +320,17 @@ int SolvedBefore::solve_changed(Bodies& bodies, std::span<const Attachment> atta
     };
     if (!std::equal(group.contacts.begin(), group.contacts.end(), places.begin(), places.end(), is_where_it_was))
       continue;
-    is_same[g] = 1;
     GroupResult& result = step.results[g] = results_[old->second];
+    is_same[g] = result.is_provisional && !how.is_provisional ? 0 : 1;
+    if (is_same[g] == 0) continue;
     for (ContactIndex& c : result.contacts)
       c = group.contacts[static_cast<std::size_t>(std::lower_bound(places.begin(), places.end(), c) - places.begin())];
     for (SolvedContact& c : result.solved) c.group = GroupIndex(g);
   }
   respond(bodies, contacts, step.start, step.groups, is_same, how, step.results, times);
-  int iterations = 0;
+  int iterations = iterations_of(results_);
   for (std::size_t g = 0; g < step.results.size(); ++g)
-    if (is_same[g] == 0) iterations += step.results[g].iterations;
+    if (is_same[g] != 0) iterations -= step.results[g].iterations;
   return iterations;
 }
 
@@ -328,11 +343,14 @@ bool SolvedBefore::was_better(const SubStep& step) const {
   return unanswered(step.results) > unanswered(results_);
 }
 
-void SolvedBefore::restore(SubStep& step) const {
+int SolvedBefore::restore(SubStep& step) const {
+  const int given_up = iterations_of(step.results);
   step.collisions = collisions_, step.dropped = dropped_;
   step.start = start_;
   step.groups = groups_;
   step.results = results_;
+  step.brought.resize(brought_);
+  return given_up - iterations_of(results_);
 }
 
 }  // namespace impinge

@@ -15,6 +15,8 @@ class SecondLook {
  public:
   SecondLook(const Bodies& bodies, const Detecting& by, SubStep& step);
 
+  /// Where the step's velocities lead from now on; whoever finds does so first.
+  std::span<const Collider> take_velocities();
   /// Whether the solved velocities lead into what has no contact and would end as an overlap: contacts that were dropped,
   /// and what no search has found yet. Changes nothing.
   bool find(StageTimes& times);
@@ -22,7 +24,6 @@ class SecondLook {
   void add(const ContactCache& carried);
 
  private:
-  void take_velocities();
   void exchange();
   void hand_on(std::span<const Collision> of_pair, std::size_t count, const std::map<ContactKey, Vec3*>& impulses,
                std::vector<ContactKey>& waiting) const;
@@ -55,18 +56,20 @@ class SolvedBefore {
   SolvedBefore(const SubStep& step, const ContactList& contacts);
 
   /// Groups and results of the step as it is now: each group whose contacts are no longer the same is solved again, from
-  /// the impulses in the step's results. Returns the iterations that this made.
+  /// the impulses in the step's results. Returns the iterations of the answers that this replaces.
   int solve_changed(Bodies& bodies, std::span<const Attachment> attachments, const Solving& how, SubStep& step,
                     StageTimes& times) const;
   /// Whether more groups had an answer.
   bool was_better(const SubStep& step) const;
-  void restore(SubStep& step) const;
+  /// Returns by how much more iterations it gives up than those of the answers that it brings back.
+  int restore(SubStep& step) const;
 
  private:
   std::vector<Collision> collisions_, dropped_;
   std::vector<Vec3> start_;
   std::vector<CollisionGroup> groups_;
   std::vector<GroupResult> results_;
+  std::size_t brought_ = 0;
   std::vector<std::vector<ContactKey>> keys_;  // by group
 };
 

@@ -21,6 +21,10 @@ struct SubStep {
   std::vector<Collision> collisions;         ///< in pair order
   std::vector<Collision> asked;              ///< contacts that a look at the motion asked for, beside those found
 
+  // of a motion that was taken back, for the one that is made instead: its impulses, and what second looks brought
+  std::optional<ContactCache> tried;
+  std::vector<Collision> brought;
+
   // 7: contacts that can't come to carry are gone from collisions
   std::vector<Collision> dropped;  ///< in pair order
 

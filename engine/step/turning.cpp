@@ -46,18 +46,27 @@ std::vector<double> end_gaps(const Bodies& bodies, const AssembledGroup& group, 
   const auto end = [&](int block, BodyIndex b) {
     return block >= 0 ? rigid[static_cast<std::size_t>(block)] : end_of(bodies[b], time_step);
   };
+  const auto place = [&](const End& of, const ContactSide& side, BodyIndex b, const MaterialPoint& point) {
+    if (side.deformable < 0) return of.pose.apply(point.local);
+    return Vec3(bodies[b].position_of(point) + time_step * group.system.displacement_velocity(side));
+  };
   std::vector<double> gaps(group.contacts.size(), INFINITY);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const Collision* c = contacts.collision(group.contacts[i]);
     if (c == nullptr) continue;
     const ContactRows& row = group.system.contacts[i];
+    const auto is_known = [&](const ContactSide& side, BodyIndex body) {
+      return side.deformable >= 0 || bodies[body].kind() != BodyKind::deformable;
+    };
+    if (row.a.rigid < 0 && row.b.rigid < 0) continue;
+    if (!is_known(row.a, c->body_a) || !is_known(row.b, c->body_b)) continue;
     const End a = end(row.a.rigid, c->body_a), b = end(row.b.rigid, c->body_b);
     if (!(a.turn <= kFarthestTurn && b.turn <= kFarthestTurn)) continue;
     Vec3 normal = c->normal;
     for (const auto& [owner, to] : {std::pair(c->body_a, &a), std::pair(c->body_b, &b)})
       if (c->normal_owner == owner) normal = to->pose.rotation * (bodies[owner].pose.rotation.transpose() * c->normal);
     const auto& [point_a, point_b] = group.points[i];
-    gaps[i] = normal.dot(a.pose.apply(point_a.local) - b.pose.apply(point_b.local));
+    gaps[i] = normal.dot(place(a, row.a, c->body_a, point_a) - place(b, row.b, c->body_b, point_b));
   }
   return gaps;
 }
@@ -72,7 +81,8 @@ double most_lost(const GroupSystem& system, std::span<const double> end_gaps, co
   return most;
 }
 
-std::pair<double, double> kinetic_energies(const Bodies& bodies, const AssembledGroup& group) {
+std::pair<double, double> energy_won(const Bodies& bodies, const AssembledGroup& group) {
+  const GroupSystem& s = group.system;
   double with = 0.0, free = 0.0;
   for (std::size_t i = 0; i < group.rigid.size(); ++i) {
     const RigidBody& body = *bodies[group.rigid[i]].as<RigidBody>();
@@ -80,14 +90,18 @@ std::pair<double, double> kinetic_energies(const Bodies& bodies, const Assembled
       return 0.5 * (body.mass * velocity.squaredNorm() + spin.dot(body.world_inertia() * spin));
     };
     free += energy(body.velocity, body.angular_velocity());
-    with += energy(body.velocity + group.system.delta_velocity[i],
-                   body.angular_velocity() + group.system.delta_angular_velocity[i]);
+    with += energy(body.velocity + s.delta_velocity[i], body.angular_velocity() + s.delta_angular_velocity[i]);
   }
-  return {with, free};
+  if (s.deformable.empty()) return {with - free, free};
+  double won = 0.0;  // A holds elastic forces too: the work of the impulses
+  for (std::size_t i = 0; i < s.contacts.size(); ++i)
+    won += 0.5 * s.lambda[i].dot(s.contact_velocity(i, false) + s.contact_velocity(i, true));
+  return {won, free};
 }
 
-void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
+bool ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
                      const ContactSettings& settings, double time_step) {
+  bool is_much = false;
   for (std::size_t i = 0; i < end_gaps.size(); ++i) {
     ContactRows& row = system.contacts[i];
     if (row.kind != RowKind::contact) continue;
@@ -95,7 +109,9 @@ void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std:
     row.turning = std::min(end_gaps[i] - straight, 0.0);
     const double at_rest = row_bound({row.gap, 0.0, 0.0, 0.0, 0.0, row.scale.speed}, settings, time_step);
     row.bound = std::max(bounds[i], at_rest - row.turning / time_step);
+    is_much |= row.turning < -kTolerance * settings.activation_distance.at(row.scale.length);
   }
+  return is_much;
 }
 
 }  // namespace impinge

@@ -7,22 +7,23 @@
 
 namespace impinge {
 
-/// By contact of a group without deformable bodies: its gap where the sub-step will end with the group's Δv, metres;
-/// prescribed bodies end where their velocity takes them. Infinite of attachments, and where a body turns so far that
-/// one straight step can't mean it.
+/// By contact of a group: its gap where the sub-step will end with the group's Δv, metres; prescribed bodies end where
+/// their velocity takes them, nodes go straight. Infinite of attachments, of what nothing rigid takes part in, and where a
+/// body turns so far that one straight step can't mean it.
 std::vector<double> end_gaps(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
                              double time_step);
 
 /// How much deeper than it began the worst contact ends, metres; 0: none by more than what push-out takes for nothing.
 double most_lost(const GroupSystem& system, std::span<const double> end_gaps, const ContactSettings& settings);
 
-/// Kinetic energy of the group's rigid bodies with their Δv, and at their free velocities, J. Contact takes energy, or
-/// none: a straight way that cuts an arc short is as quick as the arc where bodies hang in one another, and what asks for
-/// more is an impact, which has no arc to follow.
-std::pair<double, double> kinetic_energies(const Bodies& bodies, const AssembledGroup& group);
+/// What the group's impulses give to its motion, and the kinetic energy of its rigid bodies at their free velocities, J.
+/// Contact takes energy, or none: a straight way that cuts an arc short is as quick as the arc where bodies hang in one
+/// another, and what asks for more is an impact, which has no arc to follow.
+std::pair<double, double> energy_won(const Bodies& bodies, const AssembledGroup& group);
 
-/// Raises the rows' bounds, `bounds` before anybody asked, by what turning takes of the gaps that J v says.
-void ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
+/// Raises the rows' bounds, `bounds` before anybody asked, by what turning takes of the gaps that J v says. Whether that is
+/// more of any than what push-out takes for nothing.
+bool ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std::span<const double> bounds,
                      const ContactSettings& settings, double time_step);
 
 }  // namespace impinge

@@ -82,6 +82,12 @@ bool is_answered(const SubStep& step) {
   return std::all_of(step.results.begin(), step.results.end(), [](const GroupResult& r) { return r.is_answered(); });
 }
 
+/// A motion of which nothing was tried yet.
+void begin(SubStep& step) {
+  step.asked.clear(), step.brought.clear();
+  step.tried.reset();
+}
+
 /// Contacts of the features that pass, begin no farther from one another than `reach` of their pair says, and have none
 /// of this normal yet. False: each had one.
 bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
@@ -109,7 +115,7 @@ struct Asking {
   bool is_refused(SubStep& step) {
     if (!has || is_answered(step)) return false;
     may = has = false;
-    step.asked.clear();
+    begin(step);
     return true;
   }
 };
@@ -166,6 +172,13 @@ class PieceStart {
       bodies[b].restore(in), bodies[b].update_world_vertices();
     }
     sleeping = sleeping_;
+  }
+  /// The same after a motion, which leaves its impulses to the one that is made instead: they are much alike.
+  void take_back(SubStep& step, Bodies& bodies, Sleeping& sleeping) const {
+    std::vector<ContactCache::Item> items;
+    for (const GroupResult& r : step.results) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
+    step.tried.emplace().assign(std::move(items));
+    bring_back(bodies, sleeping);
   }
   /// The body where it stood, as it is otherwise.
   void let_stay(Body& body, BodyIndex index) const {
@@ -227,7 +240,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
     if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
-    sub_step_->asked.clear();
+    begin(*sub_step_);
     sub_step_->rebounds = true;
     guard_.open(bodies_);
     double share = std::min(rest, next);
@@ -246,7 +259,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (const auto before =
                 share_for_impacts(bodies_, *sub_step_, parameters.contact, gravity, impacts, watcher_)) {
           share *= *before;
-          start->bring_back(bodies_, sleeping_);
+          start->take_back(*sub_step_, bodies_, sleeping_);
           continue;
         }
       hold_back();
@@ -269,7 +282,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         break;
       }
       share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
-      start->bring_back(bodies_, sleeping_);
+      start->take_back(*sub_step_, bodies_, sleeping_);
     }
     next = asking.has && motion > kPatience ? kGrowth * share : 1.0;
     rest = share == rest ? 0.0 : rest - share;

@@ -188,7 +188,7 @@ void World::make_motion(double h, double share, bool freezes) {
   timed(times.assemble_ms, [&] {
     // 7 match with the last sub-step
     s.start.clear();
-    if (parameters.contact.warm_start) s.start = remembered_impulses(cache_, contacts);
+    if (parameters.contact.warm_start) s.start = remembered_impulses(s.tried ? *s.tried : cache_, contacts);
     // 8 groups
     s.groups = find_groups(bodies_, contacts);
   });
@@ -202,11 +202,13 @@ void World::make_motion(double h, double share, bool freezes) {
   solve.freezes = freezes;
   solve.keeps_rows = ledger_ != nullptr;
   if (watcher_ != nullptr) solve.watcher = watcher_->solve_watcher(s);
+  const bool is_looked_at = may_look_again() && parameters.contact.second_looks > 0 && !s.groups.empty();
+  solve.is_provisional = is_looked_at;
   s.results.clear();
   respond(bodies_, contacts, s.start, s.groups, {}, solve, s.results, times);
   reached(StepStage::response);
   solve.watcher = nullptr;  // of the groups as they were found
-  look_again(solve);
+  if (is_looked_at) look_again(solve);
 
   check_interrupt();
   // 11 integrate
@@ -228,27 +230,40 @@ void World::reached(StepStage stage) {
   if (watcher_ != nullptr) watcher_->reached(stage, bodies_, *sub_step_);
 }
 
-/// Between 10 and 11: contacts that only the response leads to.
-void World::look_again(const Solving& how) {
-  const ContactSettings& contact = parameters.contact;
-  if (contact.points != ContactPoints::proximity || how.response.is_approximate()) return;
-  // Newton schemes have taken A and b of their bodies where the first answer led
-  if (how.integrator.newton() != nullptr)
-    for (const Body& body : bodies_)
-      if (body.kind() == BodyKind::deformable && !body.deleted) return;
+/// Between 10 and 11: contacts that only the response leads to, and then the answers that waited for them.
+void World::look_again(Solving& how) {
   SubStep& s = *sub_step_;
-  if (s.groups.empty()) return;
   const Detecting by = detecting(parameters);
   SecondLook look(bodies_, by, s);
-  for (int i = 0; i < contact.second_looks; ++i) {
-    if (!look.find(stats_.times)) return;
+  int left = parameters.contact.second_looks;
+  for (;;) {
+    how.expected = look.take_velocities();
+    how.is_provisional = left > 0 && look.find(stats_.times);
+    const bool is_answer =
+        std::none_of(s.results.begin(), s.results.end(), [](const GroupResult& r) { return r.is_provisional; });
+    if (!how.is_provisional && is_answer) return;
     const SolvedBefore before(s, s.contacts(attachments_));
-    look.add(cache_);
+    if (how.is_provisional) look.add(cache_), --left;
     stats_.lcp_iterations += before.solve_changed(bodies_, attachments_, how, s, stats_.times);
-    if (before.was_better(s)) return before.restore(s);
+    if (how.is_provisional && before.was_better(s)) {
+      stats_.lcp_iterations += before.restore(s);
+      left = 0;
+      continue;
+    }
     reached(StepStage::second_look);
     if (watcher_ != nullptr) watcher_->found(bodies_, s);
   }
+}
+
+/// Whether solved velocities are looked at again.
+bool World::may_look_again() const {
+  if (parameters.contact.points != ContactPoints::proximity || parameters.response.method->is_approximate())
+    return false;
+  // Newton schemes have taken A and b of their bodies where the first answer led
+  if (parameters.simulation.integrator->newton() != nullptr)
+    for (const Body& body : bodies_)
+      if (body.kind() == BodyKind::deformable && !body.deleted) return false;
+  return true;
 }
 
 void World::take_results(FrozenStep* frozen) {

@@ -98,7 +98,8 @@ class World {
   void substep(double time_step, int left, FrozenStep* frozen);
   void find_at_start();
   void drop_what_never_carries();
-  void look_again(const Solving& how);
+  bool may_look_again() const;
+  void look_again(Solving& how);
   void make_motion(double time_step, double share, bool freezes);
   void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
