@@ -17,14 +17,19 @@ namespace {
 constexpr double kAllowed = 0.25;  // of the activation distance: overlap at the end that is left to recovery
 constexpr double kOfRigid = 0.02;  // of the same: where neither deforms, and nothing of the answer is smooth over nodes
 constexpr double kSwift = 10.0;    // of the same: an approach in which rigid bodies meet where their start doesn't show
-constexpr double kDeepest = 100.0;  // of the same: what ends deeper has passed, and its normal says nothing
+constexpr double kDeepest = 100.0;        // of the same: what ends deeper has passed, and its normal says nothing
+constexpr std::size_t kMostOfMeshes = 3;  // contacts of two rigid meshes that a look brings
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
-/// Planes are met by the corners that their contacts have from the start, and surfaces of triangles are searched by edges.
-bool may_hide(const Body& a, const Body& b) {
-  const auto is_plane = [](const Body& body) { return body.shape->as<Plane>() != nullptr; };
-  return !is_plane(a) && !is_plane(b) && (a.shape->mesh() == nullptr || b.shape->mesh() == nullptr);
+bool are_meshes(const Body& a, const Body& b) { return a.shape->mesh() != nullptr && b.shape->mesh() != nullptr; }
+
+/// Whether rigid bodies may meet with what did not touch when they set out. Planes are met by the corners that their contacts
+/// have from the start; and of meshes one of which hangs in the other rows of what passes tell more (world/substep).
+bool may_hide(const Bodies& bodies, const BodyPair& pair, std::span<const Collision> collisions) {
+  const Body &a = bodies[pair.a], &b = bodies[pair.b];
+  if (a.shape->as<Plane>() != nullptr || b.shape->as<Plane>() != nullptr) return false;
+  return !are_meshes(a, b) || !are_interlocked(collisions, pair);
 }
 
 /// Bodies of some pairs where the velocities of a solved step lead; the others stay as they are.
@@ -98,7 +103,34 @@ class EndPose {
   std::vector<Vec3> resting_;                // velocities of what has arrived
 };
 
+/// Of two rigid meshes, which meet in many features at once: few of them hold the others too.
+void keep_deepest(const Bodies& bodies, std::span<const double> ends, std::vector<Collision>& found) {
+  std::vector<char> stays(found.size(), 1);
+  for (std::size_t first = 0, last = 0; first < found.size(); first = last) {
+    const BodyIndex a = found[first].body_a, b = found[first].body_b;
+    std::vector<std::size_t> of_pair;
+    for (last = first; last < found.size() && found[last].body_a == a && found[last].body_b == b; ++last)
+      of_pair.push_back(last);
+    if (of_pair.size() <= kMostOfMeshes || !are_meshes(bodies[a], bodies[b]) || deforms(bodies[a]) ||
+        deforms(bodies[b]))
+      continue;
+    std::stable_sort(of_pair.begin(), of_pair.end(), [&](std::size_t l, std::size_t r) { return ends[l] < ends[r]; });
+    for (std::size_t k = kMostOfMeshes; k < of_pair.size(); ++k) stays[of_pair[k]] = 0;
+  }
+  std::size_t i = 0;
+  std::erase_if(found, [&](const Collision&) { return stays[i++] == 0; });
+}
+
 }  // namespace
+
+bool are_interlocked(std::span<const Collision> collisions, const BodyPair& pair) {
+  const auto is_of = [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; };
+  Vec3 sum = Vec3::Zero();
+  for (const Collision& c : collisions)
+    if (is_of(c)) sum += c.normal;
+  return std::any_of(collisions.begin(), collisions.end(),
+                     [&](const Collision& c) { return is_of(c) && c.normal.dot(sum) <= 0.0; });
+}
 
 std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
                                        std::span<const Collider> solved) {
@@ -110,7 +142,8 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
     const auto approaches = [&](double way) {
       return approach(solved[pair.a], a.radius, solved[pair.b], b.radius, step.time_step) > way;
     };
-    if (!deforms(a) && !deforms(b) && !(may_hide(a, b) && approaches(kSwift * activation))) continue;
+    if (!deforms(a) && !deforms(b) && !(approaches(kSwift * activation) && may_hide(bodies, pair, step.collisions)))
+      continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
     pairs.push_back({pair.a, pair.b, activation});
   }
@@ -122,6 +155,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   std::vector<TrianglePair> triangles;
   std::vector<Collision> found;
   find_collisions(end.colliders(), pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
+  std::vector<double> ends;  // gaps there, of those that stay
   std::erase_if(found, [&](Collision& c) {
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
     const bool is_rigid = !deforms(bodies[c.body_a]) && !deforms(bodies[c.body_b]);
@@ -132,8 +166,11 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
     c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);
     c.gap = c.normal.dot(c.point_a - c.point_b);
     c.normal_owner = {};
-    return at_end >= std::min(c.gap, 0.0) - allowed;
+    if (at_end >= std::min(c.gap, 0.0) - allowed) return true;
+    ends.push_back(at_end);
+    return false;
   });
+  keep_deepest(bodies, ends, found);
   return found;
 }
 

@@ -9,9 +9,13 @@
 namespace impinge {
 
 /// Of a step that is solved: overlaps at its end, deeper than they were at its start and than contacts leave, of pairs with a
-/// deforming body and of rigid bodies, one of them an exact shape, that approach fast. `solved`: the colliders with the
-/// velocities that the response gave to rigid bodies. Points and gap are those of the start, in pair order; changes nothing.
+/// deforming body and of rigid bodies that approach fast, of two meshes the few deepest and none where one hangs in the other.
+/// `solved`: the colliders with the velocities that the response gave to rigid bodies. Points and gap are those of the start,
+/// in pair order; changes nothing.
 std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
                                        std::span<const Collider> solved);
+
+/// Whether one of the two hangs in the other, as a pin does in its hole: their contacts push to all sides.
+bool are_interlocked(std::span<const Collision> collisions, const BodyPair& pair);
 
 }  // namespace impinge

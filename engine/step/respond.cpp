@@ -44,7 +44,7 @@ class GroupSolve {
 
   GroupResult run() {
     make_system();
-    result_.is_provisional = how_.is_provisional && is_large() && !how_.response.is_approximate();
+    is_rough_ = may_wait() && now_.deformable.empty();
     solve_expecting_turns();
     find_root();
     follow_turns();
@@ -66,8 +66,7 @@ class GroupSolve {
 
   void solve() {
     ResponseContext context = how_.context;
-    if (result_.is_provisional && now_.deformable.empty())
-      context.lcp.tolerance = std::max(context.lcp.tolerance, kRough);
+    if (is_rough_) context.lcp.tolerance = std::max(context.lcp.tolerance, kRough);
     solve(context);
   }
   void solve(const ResponseContext& context) {
@@ -114,6 +113,8 @@ class GroupSolve {
     return are_told;
   }
 
+  /// Whether an answer that is good enough to look where it leads will do for now.
+  bool may_wait() const { return how_.is_provisional && is_large() && !how_.response.is_approximate(); }
   bool is_large() const { return now_.contacts.size() >= kManyContacts; }
   bool follows_turns() const {
     if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
@@ -148,11 +149,13 @@ class GroupSolve {
   /// can't be had, or does no better than the one before, is not taken; what takes far longer than the one before can't.
   void follow_turns() {
     const int most = how_.contact.turning_solves;
-    if (result_.is_provisional || !follows_turns() || !result_.response.converged()) return;
+    if (!follows_turns() || !result_.response.converged()) return;
     const auto look = [&] { return end_gaps(bodies_, now_, input_.contacts, input_.time_step); };
     std::vector<double> gaps = look();
     double lost = most_lost(system(), gaps, how_.contact);
     if (lost == 0.0) return;
+    result_.is_provisional = may_wait();
+    if (result_.is_provisional) return;
     ResponseContext context = how_.context;
     context.lcp.max_iterations =
         std::min(context.lcp.max_iterations, kLonger * std::max(before_, result_.response.iterations) + kFewIterations);
@@ -187,6 +190,7 @@ class GroupSolve {
   void close() {
     const StageTimer timer(result_.response_ms);
     result_.verdict = judge_group(system());  // of stage 12: the judge sees the group while its system stands
+    if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
     result_.velocity = now_.by_body(group_, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta);
     push_out();
@@ -311,6 +315,7 @@ class GroupSolve {
   std::vector<double> bounds_;  // by row, before anybody asked for turning
   const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
+  bool is_rough_ = false;
   GroupResult result_;
 };
 

@@ -9,6 +9,7 @@
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/ledger/ledger.hpp"
+#include "engine/step/end_pose.hpp"
 #include "engine/step/impacts.hpp"
 #include "engine/step/step_watcher.hpp"
 #include "engine/world/world.hpp"
@@ -57,23 +58,14 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
   return safe;
 }
 
-/// Whether one of the two hangs in the other, as a pin does in its hole: their contacts push to all sides.
-bool are_interlocked(const SubStep& step, const UnsafeMotion::Pair& pair) {
-  const auto is_of = [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; };
-  Vec3 sum = Vec3::Zero();
-  for (const Collision& c : step.collisions)
-    if (is_of(c)) sum += c.normal;
-  return std::any_of(step.collisions.begin(), step.collisions.end(),
-                     [&](const Collision& c) { return is_of(c) && c.normal.dot(sum) <= 0.0; });
-}
-
 /// How far apart features of a pair may begin that get rows before anything is cut. What turns in a hole slides over
 /// facets and meets others than it began with: rows of those hold it where turns are followed, as long as the way is one
 /// that contacts see well.
 PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_are_followed) {
   return [&bodies, &step, turns_are_followed](const UnsafeMotion::Pair& p) {
     const auto deforms = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
-    return turns_are_followed && !deforms(p.a) && !deforms(p.b) && are_interlocked(step, p) ? p.safe : 0.0;
+    return turns_are_followed && !deforms(p.a) && !deforms(p.b) && are_interlocked(step.collisions, {p.a, p.b}) ? p.safe
+                                                                                                                : 0.0;
   };
 }
 

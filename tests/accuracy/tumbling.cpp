@@ -2,11 +2,11 @@
 // them is found where they end, so that their motion need not be cut short and tried again.
 #include <catch2/catch.hpp>
 
-#include "engine/step/step_watcher.hpp"
 #include "tests/support/geometry/brute_convex.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/pile.hpp"
+#include "tests/support/mechanics/undone_motions.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/random.hpp"
 
@@ -41,14 +41,6 @@ struct Heap {
   int undone = 0;        // motions
 };
 
-class Undone : public StepWatcher {
- public:
-  int count = 0;
-  void moved(const Bodies&, const SubStep&, MotionGuard&, const std::optional<UnsafeMotion>&, bool is_kept) override {
-    count += is_kept ? 0 : 1;
-  }
-};
-
 /// Of thirty boxes, while they fall in.
 Heap tumble(Continuous continuous, int second_looks) {
   World world;
@@ -67,7 +59,7 @@ Heap tumble(Continuous continuous, int second_looks) {
     world.add_body(body);
   }
   world.start();
-  Undone undone;
+  UndoneMotions undone;
   world.watch(&undone);
   Heap heap;
   for (int frame = 1; frame <= kLast; ++frame) {
@@ -97,7 +89,7 @@ Heap tumble_on_mat(int turning_solves) {
     world.add_body(body);
   }
   world.start();
-  Undone undone;
+  UndoneMotions undone;
   world.watch(&undone);
   Heap heap;
   for (int frame = 1; frame <= 20; ++frame) {
