@@ -1,6 +1,7 @@
 #include "engine/step/end_pose.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "engine/bodies/rigid_motion.hpp"
@@ -21,6 +22,13 @@ constexpr double kDeepest = 100.0;        // of the same: what ends deeper has p
 constexpr std::size_t kMostOfMeshes = 3;  // contacts of two rigid meshes that a look brings
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
+
+/// Of collisions in pair order.
+std::span<const Collision> of_pair(std::span<const Collision> all, const BodyPair& pair) {
+  const auto ends = [](const Collision& c) { return std::pair(c.body_a, c.body_b); };
+  const auto range = std::ranges::equal_range(all, std::pair(pair.a, pair.b), std::less(), ends);
+  return {range.begin(), range.end()};
+}
 
 bool are_meshes(const Body& a, const Body& b) { return a.shape->mesh() != nullptr && b.shape->mesh() != nullptr; }
 
@@ -107,15 +115,13 @@ class EndPose {
 void keep_deepest(const Bodies& bodies, std::span<const double> ends, std::vector<Collision>& found) {
   std::vector<char> stays(found.size(), 1);
   for (std::size_t first = 0, last = 0; first < found.size(); first = last) {
-    const BodyIndex a = found[first].body_a, b = found[first].body_b;
-    std::vector<std::size_t> of_pair;
-    for (last = first; last < found.size() && found[last].body_a == a && found[last].body_b == b; ++last)
-      of_pair.push_back(last);
-    if (of_pair.size() <= kMostOfMeshes || !are_meshes(bodies[a], bodies[b]) || deforms(bodies[a]) ||
-        deforms(bodies[b]))
-      continue;
-    std::stable_sort(of_pair.begin(), of_pair.end(), [&](std::size_t l, std::size_t r) { return ends[l] < ends[r]; });
-    for (std::size_t k = kMostOfMeshes; k < of_pair.size(); ++k) stays[of_pair[k]] = 0;
+    const Body &a = bodies[found[first].body_a], &b = bodies[found[first].body_b];
+    last = first + of_pair(found, {found[first].body_a, found[first].body_b}).size();
+    if (last - first <= kMostOfMeshes || !are_meshes(a, b) || deforms(a) || deforms(b)) continue;
+    std::vector<std::size_t> deepest(last - first);
+    std::iota(deepest.begin(), deepest.end(), first);
+    std::stable_sort(deepest.begin(), deepest.end(), [&](std::size_t l, std::size_t r) { return ends[l] < ends[r]; });
+    for (std::size_t k = kMostOfMeshes; k < deepest.size(); ++k) stays[deepest[k]] = 0;
   }
   std::size_t i = 0;
   std::erase_if(found, [&](const Collision&) { return stays[i++] == 0; });
@@ -124,12 +130,10 @@ void keep_deepest(const Bodies& bodies, std::span<const double> ends, std::vecto
 }  // namespace
 
 bool are_interlocked(std::span<const Collision> collisions, const BodyPair& pair) {
-  const auto is_of = [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; };
+  const std::span<const Collision> own = of_pair(collisions, pair);
   Vec3 sum = Vec3::Zero();
-  for (const Collision& c : collisions)
-    if (is_of(c)) sum += c.normal;
-  return std::any_of(collisions.begin(), collisions.end(),
-                     [&](const Collision& c) { return is_of(c) && c.normal.dot(sum) <= 0.0; });
+  for (const Collision& c : own) sum += c.normal;
+  return std::any_of(own.begin(), own.end(), [&](const Collision& c) { return c.normal.dot(sum) <= 0.0; });
 }
 
 std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,

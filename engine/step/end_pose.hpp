@@ -16,6 +16,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
                                        std::span<const Collider> solved);
 
 /// Whether one of the two hangs in the other, as a pin does in its hole: their contacts push to all sides.
+/// `collisions`: in pair order.
 bool are_interlocked(std::span<const Collision> collisions, const BodyPair& pair);
 
 }  // namespace impinge

@@ -11,6 +11,14 @@ void remember_impulses(const Bodies& bodies, std::span<const GroupResult> result
               [&](BodyIndex b) { return b.is_none() || bodies[b].asleep || !bodies[b].has_freedom(); });
 }
 
+ContactCache impulses_of(std::span<const GroupResult> results) {
+  std::vector<ContactCache::Item> items;
+  for (const GroupResult& r : results) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
+  ContactCache cache;
+  cache.assign(std::move(items));
+  return cache;
+}
+
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results) {
   std::vector<BodyEnds> supports;
   for (const GroupResult& result : results)

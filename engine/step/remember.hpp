@@ -9,6 +9,9 @@ namespace impinge {
 /// Keeps the impulses that the next sub-step starts from; sleepers keep theirs for the day they wake.
 void remember_impulses(const Bodies& bodies, std::span<const GroupResult> results, ContactCache& cache);
 
+/// What the results' contacts carry, to start another solve from.
+ContactCache impulses_of(std::span<const GroupResult> results);
+
 /// (body, scripted body) of all contacts that were solved.
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results);
 

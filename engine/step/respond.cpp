@@ -113,7 +113,7 @@ class GroupSolve {
     return are_told;
   }
 
-  /// Whether an answer that is good enough to look where it leads will do for now.
+  /// Whether the answer is asked for only to see where it leads.
   bool may_wait() const { return how_.is_provisional && is_large() && !how_.response.is_approximate(); }
   bool is_large() const { return now_.contacts.size() >= kManyContacts; }
   bool follows_turns() const {

@@ -9,6 +9,7 @@
 #include "engine/step/end_pose.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
+#include "engine/step/remember.hpp"
 
 namespace impinge {
 namespace {
@@ -294,11 +295,7 @@ SolvedBefore::SolvedBefore(const SubStep& step, const ContactList& contacts)
 int SolvedBefore::solve_changed(Bodies& bodies, std::span<const Attachment> attachments, const Solving& how,
                                 SubStep& step, StageTimes& times) const {
   const ContactList contacts = step.contacts(attachments);
-  ContactCache last;
-  std::vector<ContactCache::Item> items;
-  for (const GroupResult& r : step.results) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
-  last.assign(std::move(items));
-  step.start = remembered_impulses(last, contacts);
+  step.start = remembered_impulses(impulses_of(step.results), contacts);
   step.groups = find_groups(bodies, contacts);
 
   std::map<BodyIndex, std::size_t> with_first;  // the old groups by their lowest body

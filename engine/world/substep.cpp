@@ -11,6 +11,7 @@
 #include "engine/ledger/ledger.hpp"
 #include "engine/step/end_pose.hpp"
 #include "engine/step/impacts.hpp"
+#include "engine/step/remember.hpp"
 #include "engine/step/step_watcher.hpp"
 #include "engine/world/world.hpp"
 
@@ -167,9 +168,7 @@ class PieceStart {
   }
   /// The same after a motion, which leaves its impulses to the one that is made instead: they are much alike.
   void take_back(SubStep& step, Bodies& bodies, Sleeping& sleeping) const {
-    std::vector<ContactCache::Item> items;
-    for (const GroupResult& r : step.results) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
-    step.tried.emplace().assign(std::move(items));
+    step.tried = impulses_of(step.results);
     bring_back(bodies, sleeping);
   }
   /// The body where it stood, as it is otherwise.

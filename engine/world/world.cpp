@@ -238,14 +238,15 @@ void World::look_again(Solving& how) {
   int left = parameters.contact.second_looks;
   for (;;) {
     how.expected = look.take_velocities();
-    how.is_provisional = left > 0 && look.find(stats_.times);
+    const bool is_missed = left > 0 && look.find(stats_.times);
     const bool is_answer =
         std::none_of(s.results.begin(), s.results.end(), [](const GroupResult& r) { return r.is_provisional; });
-    if (!how.is_provisional && is_answer) return;
+    if (!is_missed && is_answer) return;
     const SolvedBefore before(s, s.contacts(attachments_));
-    if (how.is_provisional) look.add(cache_), --left;
+    if (is_missed) look.add(cache_), --left;
+    how.is_provisional = is_missed;
     stats_.lcp_iterations += before.solve_changed(bodies_, attachments_, how, s, stats_.times);
-    if (how.is_provisional && before.was_better(s)) {
+    if (is_missed && before.was_better(s)) {
       stats_.lcp_iterations += before.restore(s);
       left = 0;
       continue;
