@@ -11,9 +11,12 @@
 // conjugate instead.
 //
 // Rigid bodies in many contacts go from a few steps of Newton's, which find an answer that is near, to rounded equations
-// (smoothing_newton.cpp), whose last digits conjugate sweeps bring for less. With fewer contacts Newton needs fewer steps
-// than those; what it leaves it begins again from nothing, what it leaves then goes to conjugate sweeps, and what they
-// leave far from an answer to rounded equations, and from there to Newton again.
+// (smoothing_newton.cpp) until kEnough; from there on both have the steps that bring digits, which they do in a wall at
+// once. What they leave is handed on as it is, not converged: in a heap that tumbles the rest takes minutes a frame and
+// moves nothing that can be seen. With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders:
+// after kPatience of them rounded equations are tried from where it began, then Newton again from the better of the two,
+// and from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
+// equations, and from there to Newton again.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,9 +42,12 @@ constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost besid
 constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
 constexpr int kFewSteps = 20;         // of it there, and again as long as they leave less than kGain
 constexpr double kGain = 0.3;
+constexpr double kEnough = 1e-3;  // a relative residual
+constexpr int kSomeSteps = 40;    // of rounded equations, likewise
 constexpr int kRounds = 2;  // of rounded equations, of conjugate sweeps, which end what those creep at, and Newton
 constexpr int kLastDigits = 100;  // sweeps
 constexpr int kMoreSteps = 300;   // of Newton's
+constexpr int kPatience = 150;    // of them, with fewer contacts
 constexpr int kConjugate = 300;   // sweeps, where all else has ended
 constexpr int kAny = std::numeric_limits<int>::max();
 constexpr double kFarBetter = 0.1;  // where there is no answer nothing at all may pass for a little better than most
@@ -102,30 +108,66 @@ class Automatic : public LcpSolver {
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
   }
 
-  /// Of rigid bodies. Newton, and with many contacts, where it finds none but near answers, rounded equations; then
-  /// what else there is.
+  /// Of rigid bodies.
   static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
                                 std::vector<Vec3>& lambda) {
+    LcpResult result{sweeps, StopReason::stagnated};
+    if (lambda.size() < kLarge) return by_what_there_is(problem, settings, result, lambda);
+    if (bring_digits(semismooth_newton_solver, kFewSteps, problem, settings, result, lambda)) return result;
+    if (settings.measure != Measure::natural_map || settings.tolerance >= kEnough)
+      return by_what_there_is(problem, settings, result, lambda);
+    if (!(judge(problem, lambda).map.relative <= kEnough)) {
+      LcpSettings enough = settings;
+      enough.tolerance = kEnough;
+      result = by_what_there_is(problem, enough, result, lambda);
+      if (!result.solved()) return result;
+    }
+    if (bring_digits(smoothing_newton_solver, kSomeSteps, problem, settings, result, lambda)) return result;
+    if (!(judge(problem, lambda).map.relative <= kNear)) return result;
+    result =
+        go_on(nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings, result.iterations, lambda, kLastDigits);
+    if (!has_ended(result, settings))
+      bring_digits(semismooth_newton_solver, kFewSteps, problem, settings, result, lambda);
+    return result;
+  }
+
+  /// As many steps of a method as bring digits; whether nothing is left to do.
+  static bool bring_digits(SolverEntry* method, int steps, const ConeProblem& problem, const LcpSettings& settings,
+                           LcpResult& result, std::vector<Vec3>& lambda) {
+    double before, now = judge(problem, lambda).map.relative;
+    do {
+      result = go_on(method, problem, settings, result.iterations, lambda, steps);
+      if (has_ended(result, settings)) return true;
+      before = now, now = judge(problem, lambda).map.relative;
+    } while (now < kGain * before);
+    return false;
+  }
+
+  static bool has_ended(const LcpResult& result, const LcpSettings& settings) {
+    return result.reason == StopReason::converged || result.iterations >= settings.max_iterations;
+  }
+
+  /// With many contacts rounded equations, with others Newton; then what else there is.
+  static LcpResult by_what_there_is(const ConeProblem& problem, const LcpSettings& settings, LcpResult result,
+                                    std::vector<Vec3>& lambda) {
     const auto newton = semismooth_newton_solver, smoothing = smoothing_newton_solver,
                conjugate = nonsmooth_nonlinear_conjugate_gradient_solver;
-    LcpResult result{sweeps, StopReason::stagnated};
     const auto go = [&](SolverEntry* method, std::vector<Vec3>& from, int most) {
       result = go_on(method, problem, settings, result.iterations, from, most);
-      return result.reason == StopReason::converged || result.iterations >= settings.max_iterations;
+      return has_ended(result, settings);
     };
     const auto residual = [&](const std::vector<Vec3>& of) { return judge(problem, of).map.relative; };
     if (lambda.size() >= kLarge) {
-      double before, now = residual(lambda);
-      do {
-        if (go(newton, lambda, kFewSteps)) return result;
-        before = now, now = residual(lambda);
-      } while (now < kGain * before);
       for (int round = 0; round < kRounds; ++round)
         if (go(smoothing, lambda, kAny) || go(conjugate, lambda, kLastDigits) || go(newton, lambda, kMoreSteps))
           return result;
       if (residual(lambda) <= kNear) return result;
-    } else if (go(newton, lambda, kAny)) {
-      return result;
+    } else {
+      std::vector<Vec3> rounded = lambda;
+      if (go(newton, lambda, kPatience)) return result;
+      const bool is_done = go(smoothing, rounded, kAny);
+      if (result.reason == StopReason::converged || residual(rounded) < residual(lambda)) lambda = std::move(rounded);
+      if (is_done || go(newton, lambda, kAny)) return result;
     }
     std::vector<Vec3> other(lambda.size(), Vec3::Zero());
     const bool ended = go(newton, other, kAny);

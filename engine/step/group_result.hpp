@@ -53,6 +53,7 @@ struct GroupResult {
   bool is_provisional = false;               ///< roughly, and turns were not followed: contacts may still be added
   int iterations = 0, outer_iterations = 0;  ///< of all its solves
   GroupVerdict verdict;
+  bool is_usable = true;  ///< answered, or of many rigid bodies nearly so
   bool is_answered() const { return response.converged() && is_at_root; }
 
   // what it hands on, by contact

@@ -23,7 +23,8 @@ constexpr double kWorthwhile = 0.9;               // of what turning took before
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
 constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
-constexpr double kRough = 1e-3;             // relative residual that tells where contacts are missed
+constexpr double kRough =
+    1e-3;  // relative residual that tells where contacts are missed, and that a large group may keep
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -48,8 +49,7 @@ class GroupSolve {
     solve_expecting_turns();
     find_root();
     follow_turns();
-    if (!result_.response.converged() && !how_.response.lives_on_overlap())
-      result_.is_contradiction = settle_contradiction(system());
+    if (!is_usable() && !how_.response.lives_on_overlap()) result_.is_contradiction = settle_contradiction(system());
     close();
     return std::move(result_);
   }
@@ -91,7 +91,7 @@ class GroupSolve {
     const std::vector<Vec3> start = system().lambda;
     const bool are_told = expect_turns();
     solve();
-    if (!are_told || (result_.response.converged() && !wins_energy())) return;
+    if (!are_told || (is_usable() && !wins_energy())) return;
     for (std::size_t i = 0; i < bounds_.size(); ++i)
       system().contacts[i].bound = bounds_[i], system().contacts[i].turning = 0.0;
     system().lambda = start;
@@ -119,6 +119,16 @@ class GroupSolve {
   bool follows_turns() const {
     if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
     return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
+  }
+
+  /// Whether there is an answer to go on with: of many rigid bodies one that is near the exact one serves, too.
+  bool is_usable() {
+    return is_usable([this] { return judge_group(system()).relative; });
+  }
+  template <typename Residual>
+  bool is_usable(Residual residual) const {
+    return result_.response.converged() ||
+           (is_large() && now_.deformable.empty() && !how_.response.is_approximate() && residual() <= kRough);
   }
 
   /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.
@@ -149,7 +159,7 @@ class GroupSolve {
   /// can't be had, or does no better than the one before, is not taken; what takes far longer than the one before can't.
   void follow_turns() {
     const int most = how_.contact.turning_solves;
-    if (!follows_turns() || !result_.response.converged()) return;
+    if (!follows_turns() || !is_usable()) return;
     const auto look = [&] { return end_gaps(bodies_, now_, input_.contacts, input_.time_step); };
     std::vector<double> gaps = look();
     double lost = most_lost(system(), gaps, how_.contact);
@@ -167,7 +177,7 @@ class GroupSolve {
       ask_for_turning(system(), gaps, bounds_, how_.contact, input_.time_step);
       solve(context);
       double now = INFINITY;
-      if (result_.response.converged() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
+      if (is_usable() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
       if (!(now < lost)) {
         system() = std::move(system_before);
         result_.response = response_before, result_.frozen = std::move(frozen_before);
@@ -190,6 +200,7 @@ class GroupSolve {
   void close() {
     const StageTimer timer(result_.response_ms);
     result_.verdict = judge_group(system());  // of stage 12: the judge sees the group while its system stands
+    result_.is_usable = result_.is_at_root && is_usable([this] { return result_.verdict.relative; });
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
     result_.velocity = now_.by_body(group_, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta);

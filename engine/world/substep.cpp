@@ -70,9 +70,9 @@ PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_a
   };
 }
 
-/// Every group has its answer.
-bool is_answered(const SubStep& step) {
-  return std::all_of(step.results.begin(), step.results.end(), [](const GroupResult& r) { return r.is_answered(); });
+/// Every group has an answer to go on with.
+bool is_usable(const SubStep& step) {
+  return std::all_of(step.results.begin(), step.results.end(), [](const GroupResult& r) { return r.is_usable; });
 }
 
 /// A motion of which nothing was tried yet.
@@ -106,7 +106,7 @@ struct Asking {
   bool may = true, has = false;
   /// Takes them back where a solve with them has no answer: it is cut then.
   bool is_refused(SubStep& step) {
-    if (!has || is_answered(step)) return false;
+    if (!has || is_usable(step)) return false;
     may = has = false;
     begin(step);
     return true;

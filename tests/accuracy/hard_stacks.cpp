@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tests/support/mechanics/pile.hpp"
+#include "tests/support/median.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -21,6 +22,15 @@ void prepare(World& world) {
 void add_stack(World& world, int boxes) {
   prepare(world);
   for (int i = 0; i < boxes; ++i) world.add_body(cube("box" + std::to_string(i), 1.0, Vec3(0, i + 0.5, 0)));
+}
+
+/// Bricks in a bond, row on row.
+void add_wall(World& world, int rows, int bricks) {
+  prepare(world);
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < bricks; ++i)
+      world.add_body(dynamic_body(fmt::format("brick{}_{}", row, i), Box{Vec3(0.1, 0.05, 0.05)},
+                                  {0.2 * i + 0.1 * (row % 2), 0.1 * row + 0.05, 0.0}));
 }
 
 /// A light cube on the floor, one of `ratio` times its mass upon it.
@@ -130,11 +140,7 @@ TEST_CASE("a stack of a hundred boxes and a wall of bricks stand at 1/60 s, and 
     if (!is_wall) {
       add_stack(world, 100);
     } else {
-      prepare(world);
-      for (int row = 0; row < 8; ++row)
-        for (int i = 0; i < 14; ++i)
-          world.add_body(dynamic_body(fmt::format("brick{}_{}", row, i), Box{Vec3(0.1, 0.05, 0.05)},
-                                      {0.2 * i + 0.1 * (row % 2), 0.1 * row + 0.05, 0.0}));
+      add_wall(world, 8, 14);
     }
     world.start();
     std::vector<Vec3> places;
@@ -158,6 +164,19 @@ TEST_CASE("a stack of a hundred boxes and a wall of bricks stand at 1/60 s, and 
   }
 }
 
+TEST_CASE("of a wall of five thousand contacts every solve has an answer") {
+  World world;
+  add_wall(world, 14, 30);
+  world.start();
+  for (int i = 0; i < 4; ++i) {
+    world.step();
+    CAPTURE(i, world.record().stats.residual_coulomb);
+    CHECK(world.record().stats.contacts > 4000);
+    CHECK(world.record().stats.unconverged == 0);
+    CHECK(fastest(world) < 1e-6);
+  }
+}
+
 TEST_CASE("a pile of two hundred boxes comes to rest without sleeping", "[long]") {
   World world;
   prepare(world);
@@ -176,4 +195,25 @@ TEST_CASE("a pile of two hundred boxes comes to rest without sleeping", "[long]"
                                                                    << fastest(world) << " m/s");
   CHECK(still >= 0);
   CHECK(overlap(world) < 1e-6);
+}
+
+TEST_CASE("a pile of a thousand boxes comes to rest, and what its solves leave is small and said", "[long]") {
+  World world;
+  prepare(world);
+  Random random(4242);
+  add_pile(world, random, 1000);
+  world.start();
+  std::vector<double> residuals;
+  for (int i = 1; i <= 240; ++i) {
+    world.step();
+    const FrameStats& stats = world.record().stats;
+    residuals.push_back(stats.residual_coulomb);
+    CAPTURE(i, stats.residual_coulomb);
+    CHECK(stats.residual_coulomb <= 1e-2);
+    CHECK((stats.unconverged > 0 || stats.residual_coulomb <= 1.01 * world.parameters.lcp.tolerance));
+    if (i < 200) continue;
+    CHECK(fastest(world) <= 1e-6);
+    CHECK(overlap(world) <= 1e-6);
+  }
+  CHECK(median(residuals) <= 1e-3);
 }

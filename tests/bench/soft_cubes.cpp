@@ -1,8 +1,9 @@
 // Two soft cubes, one falling on the other which lies on the ground: what Incremental Potential Contact is measured on in
 // PEERS §4 (1 m, E 1e5 Pa, ν 0.4, 1000 kg/m³, h 0.01 s, one sub-step, friction 0.1, neo-Hookean; 250, 1,458 and 4,394
 // nodes in all). Milliseconds a step in which the cubes touch, by stage; contacts, solves without an answer, Coulomb's
-// residual, the judge's overlap; `to IPC`: the median step over what is printed there. Clock time.
-// usage: bench_soft_cubes [frames = 60] [threads = all] [nodes a side = 5,9,13] [aligned] [response …]
+// residual, the judge's overlap; `to IPC`: the median step over what is printed there; `apart`: how far a node is from
+// where the first response of the list had it, the farthest of all frames. Clock time.
+// usage: bench_soft_cubes [frames = 60] [threads = all] [nodes a side = 5,9,13] [aligned] [response[:solver[:tolerance[:sub-steps]]] …]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -43,13 +44,42 @@ bool do_cubes_touch(const World& world) {
   return std::any_of(all.begin(), all.end(), [](const ContactRecord& c) { return c.body_a == 1 && c.body_b == 2; });
 }
 
-double run(const Size& size, const Way& way) {
+/// "response:solver:tolerance:sub-steps", what is left out as it comes.
+void choose(Parameters& parameters, const std::string& response) {
+  std::istringstream words(response);
+  std::string word;
+  if (std::getline(words, word, ':')) parameters.response.method = word;
+  if (std::getline(words, word, ':')) parameters.lcp.method = word;
+  if (std::getline(words, word, ':')) parameters.lcp.tolerance = std::stod(word);
+  if (std::getline(words, word, ':')) parameters.simulation.substeps = std::stoi(word);
+}
+
+/// Of one size, frame by frame: the surfaces' nodes with the first response.
+using Course = std::vector<std::vector<Vec3>>;
+
+std::vector<Vec3> nodes_of(const World& world) {
+  std::vector<Vec3> nodes;
+  for (std::size_t i = 1; i < world.bodies().size(); ++i) {  // not the ground
+    const std::vector<Vec3>& surface = world.bodies()[i].world_vertices;
+    nodes.insert(nodes.end(), surface.begin(), surface.end());
+  }
+  return nodes;
+}
+
+/// The largest distance of two lists' nodes, m.
+double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).norm());
+  return largest;
+}
+
+double run(const Size& size, const Way& way, Course& first) {
   World world;
   world.parameters.simulation.frame_time = 0.01;
   world.parameters.simulation.substeps = 1;
   world.parameters.simulation.sleeping = false;
   world.parameters.contact.friction = 0.1;
-  world.parameters.response.method = way.response;
+  choose(world.parameters, way.response);
   world.add_body(fixed_plane("ground", Vec3::UnitY(), 0.0));
   const SoftOptions soft{.damping_beta = 0.0, .model = "neo_hookean"};
   const double aside = way.is_aligned ? 0.0 : 0.05;
@@ -58,7 +88,8 @@ double run(const Size& size, const Way& way) {
   world.start();
 
   std::vector<double> narrow, assemble, response, integrate, step, contacts;
-  double overlap = 0.0, residual = 0.0;
+  double overlap = 0.0, residual = 0.0, apart = 0.0;
+  const bool is_first = first.empty();
   std::int64_t unconverged = 0, unsafe = 0;
   bool is_finite = true;
   for (int i = 0; i < way.frames; ++i) {
@@ -69,6 +100,8 @@ double run(const Size& size, const Way& way) {
     unsafe += s.unsafe_motions;
     residual = std::max(residual, s.residual_coulomb);
     overlap = std::max(overlap, judge_overlap(world.bodies()).penetration);
+    if (is_first) first.push_back(nodes_of(world));
+    apart = std::max(apart, distance(nodes_of(world), first[static_cast<std::size_t>(i)]));
     if (!do_cubes_touch(world)) continue;
     narrow.push_back(s.times.broad_ms + s.times.narrow_ms);
     assemble.push_back(s.times.assemble_ms);
@@ -77,12 +110,12 @@ double run(const Size& size, const Way& way) {
     step.push_back(s.times.step_ms);
     contacts.push_back(static_cast<double>(s.contacts));
   }
-  std::printf("%-34s %6d %5zu", way.response.c_str(), 2 * size.side * size.side * size.side, step.size());
+  std::printf("%-50s %6d %5zu", way.response.c_str(), 2 * size.side * size.side * size.side, step.size());
   for (const auto* v : {&narrow, &assemble, &response, &integrate, &step})
     std::printf(" %7.1f %7.1f", median(*v), mean(*v));
-  std::printf(" %7.0f %6.0f %7.2f %6ld %6ld %9.1e %9.1e %s\n", median(contacts),
+  std::printf(" %7.0f %6.0f %7.2f %6ld %6ld %9.1e %9.1e %9.1e %s\n", median(contacts),
               contacts.empty() ? 0.0 : *std::max_element(contacts.begin(), contacts.end()), median(step) / size.ipc_ms,
-              static_cast<long>(unconverged), static_cast<long>(unsafe), residual, overlap,
+              static_cast<long>(unconverged), static_cast<long>(unsafe), residual, overlap, apart,
               is_finite ? "" : "energy is no number");
   std::fflush(stdout);
   return median(step);
@@ -111,14 +144,15 @@ int main(int argc, char** argv) {
       responses.emplace_back(argv[i]);
   if (responses.empty()) responses = {"constraint_anticipation", "iterative_constraint_anticipation"};
   std::printf(
-      "%d threads; ms a step in which the cubes touch: median, mean\n%-34s %6s %5s %15s %15s %15s %15s %15s %7s "
-      "%6s %7s %6s %6s %9s %9s\n",
+      "%d threads; ms a step in which the cubes touch: median, mean\n%-50s %6s %5s %15s %15s %15s %15s %15s %7s "
+      "%6s %7s %6s %6s %9s %9s %9s\n",
       thread_count(), "", "nodes", "steps", "detect", "assemble", "response", "integrate", "step", "contacts", "most",
-      "to IPC", "open", "unsafe", "residual", "overlap m");
+      "to IPC", "open", "unsafe", "residual", "overlap m", "apart m");
+  std::vector<Course> courses(sizes.size());
   for (const std::string& response : responses) {
     way.response = response;
     std::vector<double> ms;
-    for (const Size& size : sizes) ms.push_back(run(size, way));
+    for (std::size_t i = 0; i < sizes.size(); ++i) ms.push_back(run(sizes[i], way, courses[i]));
     for (std::size_t i = 1; i < ms.size(); ++i)
       std::printf("  growth from %d to %d nodes a side: n^%.2f\n", sizes[i - 1].side, sizes[i].side,
                   std::log(ms[i] / ms[i - 1]) / (3.0 * std::log(double(sizes[i].side) / sizes[i - 1].side)));
