@@ -37,12 +37,18 @@ double stiffness_ratio(const BlockMatrix& a) {
 
 }  // namespace
 
+double iterations_of_factor(const LinearSolver& direct, const BlockPattern& pattern) {
+  const double work = direct.factor_work();
+  return work > 0.0 ? kBesideWork + kOfWork * work / iteration_work(pattern) : 0.0;
+}
+
+double iterations_at_least(const BlockMatrix& a) { return kIterations * stiffness_ratio(a); }
+
 SolveStatus ThriftySolver::factorize(const BlockMatrix& a) {
   a_ = &a;
   worth_ = 0;
   if (iterative_.factor_work() > 0.0) return direct_.factorize(a);  // it was chosen to factorize: once is enough
-  if (const double work = direct_.factor_work(); work > 0.0)
-    worth_ = static_cast<int>(kBesideWork + kOfWork * work / iteration_work(*a.pattern));
+  worth_ = static_cast<int>(iterations_of_factor(direct_, *a.pattern));
   return iterative_.factorize(a);
 }
 
@@ -50,7 +56,7 @@ SolveReport ThriftySolver::solve(const VecX& b, VecX& x) {
   IMPINGE_ASSERT(a_ != nullptr);
   if (worth_ == 0) return chosen().solve(b, x);
   SolveReport report;
-  if (kIterations * stiffness_ratio(*a_) < worth_) {
+  if (iterations_at_least(*a_) < worth_) {
     const int most = iterative_.max_iterations;
     iterative_.max_iterations = std::min(most, worth_);
     report = iterative_.solve(b, x);

@@ -5,6 +5,12 @@
 
 namespace impinge {
 
+/// The iterations of conjugate gradients on A that take as long as its factorization by `direct`, which has been analyzed;
+/// 0: it doesn't factorize.
+double iterations_of_factor(const LinearSolver& direct, const BlockPattern& pattern);
+/// The iterations that A takes at least, as a rule.
+double iterations_at_least(const BlockMatrix& a);
+
 /// Conjugate gradients as long as they cost less than a factorization, and from then on the factorization. Operations are
 /// counted, never time, and nothing is kept from one system to the next: the same system takes the same way everywhere.
 class ThriftySolver : public LinearSolver {

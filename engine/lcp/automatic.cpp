@@ -13,9 +13,11 @@
 // Rigid bodies in many contacts go from a few steps of Newton's, which find an answer that is near, to rounded equations
 // (smoothing_newton.cpp) until kEnough; from there on both have the steps that bring digits, which they do in a wall at
 // once. What they leave is handed on as it is, not converged: in a heap that tumbles the rest takes minutes a frame and
-// moves nothing that can be seen. With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders:
-// after kPatience of them rounded equations are tried from where it began, then Newton again from the better of the two,
-// and from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
+// moves nothing that can be seen.
+//
+// With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders: after
+// kPatience of them rounded equations are tried from where it began, then Newton again from the better of the two, and
+// from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
 // equations, and from there to Newton again.
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,7 @@ namespace impinge {
 struct AnticipationSettings {
   enum class Form { accelerated, seed } form = Form::accelerated;
   enum class Stop { residual, change } stop = Stop::residual;
+  bool factorizes = true;     ///< leaves to constraint anticipation what that does quicker
   int max_iterations = 2000;  ///< of the outer loop
   std::string limit;          ///< the path of max_iterations
 };

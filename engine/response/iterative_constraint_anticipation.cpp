@@ -119,6 +119,10 @@ class IterativeConstraintAnticipation : public Response {
     rows.add("stop", settings_.stop, {{Settings::Stop::residual, "residual"}, {Settings::Stop::change, "change"}},
              "Stop rule: a true residual (lcp.tolerance), or the seed's change of less than 5 %.")
         .formerly("response.stop");
+    rows.add(
+        "factorizes", settings_.factorizes,
+        "Leaves a group to constraint anticipation where that is quicker (stiff or small bodies), not only where the "
+        "iteration stalls. Of the accelerated form with stop = residual.");
     settings_.limit = rows.add("max_iterations", settings_.max_iterations, {1, 1000000, true}, "",
                                "Outer iterations at most for a group and sub-step.")
                           .formerly("response.max_iterations")
@@ -137,7 +141,7 @@ class IterativeConstraintAnticipation : public Response {
   /// rule are from the solution.
   std::vector<ResponseVariant> variants(bool is_block_diagonal) const override {
     if (is_block_diagonal) return {{"", {}}};
-    return {{"", {{"form", "accelerated"}, {"stop", "residual"}}},
+    return {{"", {{"form", "accelerated"}, {"stop", "residual"}, {"factorizes", "false"}}},
             {"_5_percent", {{"form", "accelerated"}, {"stop", "change"}}},
             {"_seed", {{"form", "seed"}, {"stop", "residual"}}, true},
             {"_seed_5_percent", {{"form", "seed"}, {"stop", "change"}}, true}};

@@ -23,8 +23,7 @@ constexpr double kWorthwhile = 0.9;               // of what turning took before
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
 constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
-constexpr double kRough =
-    1e-3;  // relative residual that tells where contacts are missed, and that a large group may keep
+constexpr double kRough = 1e-3;  // relative residual that tells where contacts are missed; a large group may keep it
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -123,12 +122,9 @@ class GroupSolve {
 
   /// Whether there is an answer to go on with: of many rigid bodies one that is near the exact one serves, too.
   bool is_usable() {
-    return is_usable([this] { return judge_group(system()).relative; });
-  }
-  template <typename Residual>
-  bool is_usable(Residual residual) const {
-    return result_.response.converged() ||
-           (is_large() && now_.deformable.empty() && !how_.response.is_approximate() && residual() <= kRough);
+    if (result_.response.converged()) return true;
+    if (!is_large() || !now_.deformable.empty() || how_.response.is_approximate()) return false;
+    return judge_group(system()).relative <= kRough;
   }
 
   /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.
@@ -200,7 +196,7 @@ class GroupSolve {
   void close() {
     const StageTimer timer(result_.response_ms);
     result_.verdict = judge_group(system());  // of stage 12: the judge sees the group while its system stands
-    result_.is_usable = result_.is_at_root && is_usable([this] { return result_.verdict.relative; });
+    result_.is_usable = result_.is_at_root && is_usable();
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
     result_.velocity = now_.by_body(group_, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta);

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   const int most = argc > 1 ? std::atoi(argv[1]) : 8;
   const char* iterative = "iterative_constraint_anticipation";
   const Way methods[] = {{"ca", "constraint_anticipation", {}},
-                         {"ica", iterative, {}},
+                         {"ica", iterative, {{"factorizes", "false"}}},
                          {"ica_5_percent", iterative, {{"stop", "change"}}},
                          {"seed", iterative, {{"form", "seed"}}},
                          {"seed_5_percent", iterative, {{"form", "seed"}, {"stop", "change"}}}};

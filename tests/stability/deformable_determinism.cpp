@@ -31,6 +31,7 @@ void fill(World& world) {
   world.parameters.lcp.tolerance = 1e-6;
   world.parameters.lcp.max_iterations = 100;
   set(world, "response.iterative_constraint_anticipation.max_iterations", 200);
+  set(world, "response.iterative_constraint_anticipation.factorizes", "false");
   world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
   world.add_body(soft_cube("lower", 0.2, 3, {0, 0.005, 0}, {5e4, 0.4, 1000.0, beta}));
   world.add_body(soft_cube("upper", 0.2, 2, {0.03, 0.22, 0.02}, {2e5, 0.45, 1000.0, beta}));

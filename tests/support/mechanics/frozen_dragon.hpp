@@ -31,7 +31,8 @@ inline FrozenStep hardest_frame(const std::vector<std::string>& overrides, int f
 inline FrozenOutcome solved(const FrozenStep& step, const char* response, const char* solver, double tolerance) {
   ResponseContext context;
   context.lcp = {tolerance, 20000};
-  return solve_frozen(step, *patient_response(response, 20000), *make_named(lcp_solvers(), solver), context);
+  return solve_frozen(step, *patient_response(response, 20000, by_itself(response)), *make_named(lcp_solvers(), solver),
+                      context);
 }
 
 }  // namespace impinge::test

@@ -130,7 +130,7 @@ ResponseResult respond(const Response& response, GroupSystem& group, double tole
   return response.solve(group, *make_named(lcp_solvers(), "projected_gauss_seidel"), context);
 }
 ResponseResult respond(const char* name, GroupSystem& group, double tolerance) {
-  return respond(*patient_response(name, 20000), group, tolerance);
+  return respond(*patient_response(name, 20000, by_itself(name)), group, tolerance);
 }
 
 constexpr const char* kExact = "constraint_anticipation";
@@ -181,6 +181,26 @@ TEST_CASE("two stacked cubes: the iterative form meets the exact one to a millio
     CHECK(result.outer_iterations < 1000);
     CHECK(relative_error(d.a, delta_of(iterative), delta_of(exact)) < 1e-6);
   }
+}
+
+TEST_CASE(
+    "the iterative form leaves a stiff group to the exact one at once, and a soft one after as many steps as are worth "
+    "it") {
+  const auto steps = [](double young, int cells) {
+    const SoftStack stack = make_soft_stack({.young = young, .friction = 0.4, .cells = {cells, cells - 1}});
+    const Dense d = dense(stack.group);
+    GroupSystem truth = stack.group, group = stack.group;
+    CHECK(respond(kExact, truth, 1e-11).converged());
+    const ResponseResult result = respond(*patient_response(kIterative, 20000), group, 1e-9);
+    CHECK(result.converged());
+    CHECK(relative_error(d.a, delta_of(group), delta_of(truth)) < 1e-6);
+    CHECK(judge_group(group).residual() < 1e-8 * largest_speed(d));
+    return result.outer_iterations;
+  };
+  CHECK(steps(1e8, 4) == 0);
+  const int of_soft = steps(1e3, 6);
+  CHECK(of_soft > 0);
+  CHECK(of_soft < 1000);
 }
 
 TEST_CASE("with friction both anticipations reach the natural map they were asked for") {
