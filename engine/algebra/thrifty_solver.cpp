@@ -39,7 +39,11 @@ double stiffness_ratio(const BlockMatrix& a) {
 
 double iterations_of_factor(const LinearSolver& direct, const BlockPattern& pattern) {
   const double work = direct.factor_work();
-  return work > 0.0 ? kBesideWork + kOfWork * work / iteration_work(pattern) : 0.0;
+  return work > 0.0 ? kBesideWork + iterations_of_work(work, pattern) : 0.0;
+}
+
+double iterations_of_work(double operations, const BlockPattern& pattern) {
+  return kOfWork * operations / iteration_work(pattern);
 }
 
 double iterations_at_least(const BlockMatrix& a) { return kIterations * stiffness_ratio(a); }

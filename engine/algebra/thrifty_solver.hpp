@@ -8,6 +8,8 @@ namespace impinge {
 /// The iterations of conjugate gradients on A that take as long as its factorization by `direct`, which has been analyzed;
 /// 0: it doesn't factorize.
 double iterations_of_factor(const LinearSolver& direct, const BlockPattern& pattern);
+/// And as long as so many operations on dense blocks.
+double iterations_of_work(double operations, const BlockPattern& pattern);
 /// The iterations that A takes at least, as a rule.
 double iterations_at_least(const BlockMatrix& a);
 

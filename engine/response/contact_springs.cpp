@@ -77,7 +77,8 @@ namespace {
 /// Newton's method on A Δv = J^T λ(u) with friction that follows the normal impulse: no potential has these forces, so
 /// steps are measured by what is left. False where none serves; ax and u stay at the best then.
 bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
-                          int max_iterations, GroupSystem& group, VecX& ax, std::vector<Vec3>& u, int& steps) {
+                          int max_iterations, GroupSystem& group, SpringSolver& linear, VecX& ax, std::vector<Vec3>& u,
+                          int& steps) {
   const std::size_t m = law.size();
   std::vector<Vec3> along(m), trial(m);
   std::vector<Mat3> h(m);
@@ -95,8 +96,8 @@ bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& 
     if (steps == max_iterations) return false;
     ++steps;
     for (std::size_t i = 0; i < m; ++i) h[i] = law[i].derivative(u[i]);
-    VecX p = VecX::Zero(a.size());
-    a.solve_unsymmetric(h, r, kInnerTolerance, p);
+    VecX p;
+    linear.solve_unsymmetric(h, r, kInnerTolerance, p);
     const VecX ap = a.multiply(p);
     for (std::size_t i = 0; i < m; ++i) along[i] = a.row(i, p);
     double length = 1.0, next = 0.0;
@@ -117,7 +118,7 @@ bool newton_with_friction(const GroupOperator& a, const std::vector<SpringLaw>& 
 }  // namespace
 
 SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
-                            int max_iterations, GroupSystem& group) {
+                            int max_iterations, GroupSystem& group, SpringSolver& linear) {
   const std::size_t m = law.size();
   std::vector<Vec3> u, step(m);
   // what friction goes by: follows the normal impulses, by a part of the way once they swing
@@ -129,7 +130,7 @@ SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>
   SpringsResult result;
   if (std::any_of(law.begin(), law.end(),
                   [](const SpringLaw& l) { return l.kind == RowKind::contact && l.friction > 0.0; }) &&
-      newton_with_friction(a, law, tolerance, max_iterations, group, ax, u, result.iterations))
+      newton_with_friction(a, law, tolerance, max_iterations, group, linear, ax, u, result.iterations))
     return {result.iterations, true};
   while (true) {
     VecX r = VecX::Zero(a.size()), change = VecX::Zero(a.size());
@@ -150,8 +151,8 @@ SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>
     before = residual;
     r += change;
     ++result.iterations;
-    VecX p = VecX::Zero(a.size());
-    a.solve(h, r, kInnerTolerance, p);  // what it falls short of shows in the next residual
+    VecX p;
+    linear.solve(h, r, kInnerTolerance, p);  // what it falls short of shows in the next residual
     for (std::size_t i = 0; i < m; ++i) step[i] = a.row(i, p);
     const VecX ap = a.multiply(p);
     const double alpha = line_search(law, normal, u, step, dot(p, ax), dot(p, ap));
@@ -160,10 +161,10 @@ SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>
   }
 }
 
-bool apply_springs(const GroupOperator& a, GroupSystem& group) {
-  VecX b = VecX::Zero(a.size()), x = VecX::Zero(a.size());
+bool apply_springs(const GroupOperator& a, GroupSystem& group, const SpringSolver& linear) {
+  VecX b = VecX::Zero(a.size()), x;
   for (std::size_t i = 0; i < group.contacts.size(); ++i) a.add_impulse(i, group.lambda[i], b);
-  const bool solved = a.solve({}, b, 1e-12, x);
+  const bool solved = linear.free(b, 1e-12, x);
   a.store(x, group);
   return solved;
 }

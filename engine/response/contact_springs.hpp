@@ -2,7 +2,7 @@
 // with a search along the line. What the penalty response and the answer to contradicting contacts share.
 #pragma once
 
-#include "engine/response/operators/group_operator.hpp"
+#include "engine/response/operators/spring_solver.hpp"
 
 namespace impinge {
 
@@ -29,13 +29,13 @@ struct SpringsResult {
   bool converged = false;
 };
 
-/// Fills group.lambda with the impulses of the velocities that they leave; a: of this group. Friction goes by the
+/// Fills group.lambda with the impulses of the velocities that they leave; a, linear: of this group. Friction goes by the
 /// normal impulse of the iterate, so it is that of the answer at convergence: A Δv - J^T λ of `tolerance` times what
 /// the forces change.
 SpringsResult solve_springs(const GroupOperator& a, const std::vector<SpringLaw>& law, double tolerance,
-                            int max_iterations, GroupSystem& group);
+                            int max_iterations, GroupSystem& group, SpringSolver& linear);
 
-/// Δv = A⁻¹ J^T λ of group.lambda as it stands, by conjugate gradients. False if they didn't get there.
-bool apply_springs(const GroupOperator& a, GroupSystem& group);
+/// Δv = A⁻¹ J^T λ of group.lambda as it stands. False if conjugate gradients, where they are asked, didn't get there.
+bool apply_springs(const GroupOperator& a, GroupSystem& group, const SpringSolver& linear);
 
 }  // namespace impinge

@@ -40,8 +40,9 @@ bool settle_contradiction(GroupSystem& group) {
     const double slope = mobility > 0.0 ? 1.0 / (kCompliance * mobility) : 0.0;
     law.push_back({group.contacts[i].kind, slope, slope * group.contacts[i].bound});
   }
-  const bool solved = solve_springs(a, law, 1e-8, kNewtonIterations, softened).converged;
-  if (!apply_springs(a, softened) || !solved) return false;
+  SpringSolver linear(softened, a);
+  const bool solved = solve_springs(a, law, 1e-8, kNewtonIterations, softened, linear).converged;
+  if (!apply_springs(a, softened, linear) || !solved) return false;
   // an answer exists where springs this stiff are hardly compressed: their work is small beside what they move
   const Work after = work_of(softened);
   if (!(after.against > kSuspicion * after.moved)) return false;

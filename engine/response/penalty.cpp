@@ -97,9 +97,11 @@ class Penalty : public Response {
   ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
     group.clear_delta();
     const GroupOperator a(group);
+    const bool is_implicit = settings_.form == Form::end_of_step;
+    SpringSolver linear(group, a, is_implicit ? 1.0 : INFINITY);
     ResponseResult result;
     const double h = context.time_step;
-    if (settings_.form == Form::end_of_step) {
+    if (is_implicit) {
       std::vector<SpringLaw> law;
       for (std::size_t i = 0; i < group.contacts.size(); ++i) {
         const double mobility = a.block_mobility(i)(0, 0);
@@ -107,13 +109,13 @@ class Penalty : public Response {
         law.push_back(implicit_law(group.contacts[i], spring, h, slip_speed(group.contacts[i])));
       }
       const SpringsResult springs =
-          solve_springs(a, law, std::max(1e-12, context.lcp.tolerance), settings_.max_iterations, group);
+          solve_springs(a, law, std::max(1e-12, context.lcp.tolerance), settings_.max_iterations, group, linear);
       result.iterations = springs.iterations;
       if (!springs.converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
     } else {
       take_explicit(group, a, h);
     }
-    if (!apply_springs(a, group)) result.ended = StopReason::stagnated;
+    if (!apply_springs(a, group, linear)) result.ended = StopReason::stagnated;
     return result;
   }
 

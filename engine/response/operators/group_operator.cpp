@@ -188,13 +188,14 @@ VecX GroupOperator::multiply_with_springs(const std::vector<Mat3>& h, const VecX
   return y;
 }
 
-bool GroupOperator::solve(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const {
+bool GroupOperator::solve(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x, int* steps) const {
   const Blocks inverse = h.empty() ? plain_ : inverse_blocks(h);
   const double goal = tolerance * std::sqrt(dot(b, precondition(inverse, b)));
   VecX r = b - multiply_with_springs(h, x), z = precondition(inverse, r), p = z;
   double rz = dot(r, z);
   for (Eigen::Index k = 0; k < 4 * size_ + 20 && std::sqrt(rz) > goal; ++k) {
     check_interrupt();
+    if (steps != nullptr) *steps = static_cast<int>(k) + 1;
     const VecX q = multiply_with_springs(h, p);
     const double curvature = dot(p, q);
     if (!(curvature > 0.0)) return false;
@@ -209,7 +210,8 @@ bool GroupOperator::solve(const std::vector<Mat3>& h, const VecX& b, double tole
   return std::sqrt(rz) <= goal;
 }
 
-bool GroupOperator::solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const {
+bool GroupOperator::solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x,
+                                      int* steps) const {
   const Blocks inverse = inverse_blocks(h);
   const auto times = [&](const VecX& v) { return precondition(inverse, multiply_with_springs(h, v)); };
   const VecX right = precondition(inverse, b);
@@ -220,6 +222,7 @@ bool GroupOperator::solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b,
   double rho = dot(shadow, r), size = std::sqrt(dot(r, r));
   for (Eigen::Index k = 0; k < 2 * size_ + 20 && size > goal; ++k) {
     check_interrupt();
+    if (steps != nullptr) *steps = static_cast<int>(k) + 1;
     const VecX v = times(p);
     const double along = dot(shadow, v);
     if (along == 0.0) return false;

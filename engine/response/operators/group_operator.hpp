@@ -28,11 +28,12 @@ class GroupOperator {
   double largest_normal_eigenvalue(const std::vector<char>& act) const;
   /// x of (A + J^T H J) x = b from where x stands, H a symmetric positive semidefinite block for each contact or empty.
   /// Conjugate gradients with the diagonal blocks as preconditioner; ends at ‖r‖ <= tolerance ‖b‖ in the
-  /// preconditioner's norm. False if it didn't get there.
-  bool solve(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const;
+  /// preconditioner's norm. False if it didn't get there. `steps` gets how many it made.
+  bool solve(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x, int* steps = nullptr) const;
   /// The same for any H, by stabilised bi-conjugate gradients [VanDerVorst92]: sliding friction follows the normal
   /// impulse, not the other way about. Ends at ‖r‖ <= tolerance ‖b‖ as they stand.
-  bool solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x) const;
+  bool solve_unsymmetric(const std::vector<Mat3>& h, const VecX& b, double tolerance, VecX& x,
+                         int* steps = nullptr) const;
   /// max over nodes and rigid bodies of |D⁻¹ b|, m/s and rad/s.
   double velocity_of(const VecX& b) const;
   /// ‖b‖ in the norm of D⁻¹.
