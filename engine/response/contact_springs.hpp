@@ -2,7 +2,7 @@
 // with a search along the line. What the penalty response and the answer to contradicting contacts share.
 #pragma once
 
-#include "engine/response/operators/spring_solver.hpp"
+#include "engine/response/spring_solver.hpp"
 
 namespace impinge {
 

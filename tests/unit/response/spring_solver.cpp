@@ -2,7 +2,7 @@
 // is asked for that.
 #include <catch2/catch.hpp>
 
-#include "engine/response/operators/spring_solver.hpp"
+#include "engine/response/spring_solver.hpp"
 #include "tests/support/mechanics/deformable_stack.hpp"
 
 using namespace impinge;

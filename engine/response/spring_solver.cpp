@@ -1,4 +1,4 @@
-#include "engine/response/operators/spring_solver.hpp"
+#include "engine/response/spring_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
