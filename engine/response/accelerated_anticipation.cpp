@@ -26,13 +26,13 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/algebra/thrifty_solver.hpp"
 #include "engine/contact/friction_cone.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/response/augmented_lagrangian.hpp"
 #include "engine/response/delassus_columns.hpp"
 #include "engine/response/operators/assembled_delassus.hpp"
 #include "engine/response/operators/delassus_of.hpp"
+#include "engine/response/operators/factor_worth.hpp"
 #include "engine/response/operators/splitting_delassus.hpp"
 
 namespace impinge {
@@ -75,22 +75,17 @@ class Solver {
         settings_(settings),
         context_(context),
         by_change_(settings.stop == AnticipationSettings::Stop::change && !context.recovers_overlap),
-        scale_(velocity_scale(base)) {
-    for (const DeformableBlock& block : group.deformable) inverse_.emplace_back(block);
-    rows_ = std::make_unique<SplittingDelassus>(group, inverse_, base.q);
-    worth_ = steps_worth();
-    for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
-      for (const DeformableBlock& block : group.deformable) v->push_back(VecX::Zero(block.velocity.size()));
-  }
+        scale_(velocity_scale(base)),
+        worth_(steps_worth()),
+        start_(group.lambda) {}
 
   ResponseResult run() {
     ResponseResult result;
     const double tolerance = context_.lcp.tolerance * scale_;
-    start_ = group_.lambda;
-    rows_->move_rigid(group_.lambda);
-    rows_->impulses(group_.lambda, f_);
     if (is_dear(0) && solve_by_w(result)) return result;
+    prepare();
     start(tolerance);
+    if (is_dear(0) && solve_by_w(result)) return result;
     for (const Vec3& lambda : group_.lambda) acts_.push_back(!lambda.isZero(0.0));
     double before = -1.0, momentum = momentum_residual();
     show();
@@ -141,6 +136,16 @@ class Solver {
   }
 
  private:
+  /// What only the iteration needs.
+  void prepare() {
+    for (const DeformableBlock& block : group_.deformable) inverse_.emplace_back(block);
+    rows_ = std::make_unique<SplittingDelassus>(group_, inverse_, base_.q);
+    for (Vectors* v : {&x_, &last_, &y_, &a_x_, &a_last_, &a_y_, &f_, &r_, &step_, &d_, &a_d_})
+      for (const DeformableBlock& block : group_.deformable) v->push_back(VecX::Zero(block.velocity.size()));
+    rows_->move_rigid(group_.lambda);
+    rows_->impulses(group_.lambda, f_);
+  }
+
   ResponseResult finish(const ResponseResult& result) {
     rows_->move_rigid(group_.lambda);
     group_.deformable_delta = x_;
@@ -200,15 +205,9 @@ class Solver {
   /// it can't take over.
   std::optional<double> steps_worth() const {
     if (!settings_.factorizes || by_change_ || group_.contacts.size() > kMostDense) return std::nullopt;
-    double all = 0.0, factor = 0.0, least = 0.0;
-    for (const DeformableBlock& block : group_.deformable) {
-      if (block.is_diagonal) continue;
-      const double blocks = block.a->pattern->blocks(), worth = iterations_of_factor(*block.solver, *block.a->pattern);
-      if (worth == 0.0) return std::nullopt;
-      all += blocks, factor += blocks * worth, least += blocks * iterations_at_least(*block.a);
-    }
-    if (all == 0.0) return std::nullopt;
-    return kTimesLeast * least < factor ? factor / all : 0.0;
+    const std::optional<FactorWorth> worth = factor_worth(group_);
+    if (!worth) return std::nullopt;
+    return kTimesLeast * worth->at_least < worth->steps ? worth->steps : 0.0;
   }
 
   /// x = y = A⁻¹ J^T λ, nearly.
@@ -386,16 +385,16 @@ class Solver {
   const LcpSolver& solver_;
   const AnticipationSettings& settings_;
   const ResponseContext& context_;
-  const bool by_change_;  // stops by the seed's rule
-  const double scale_;    // m/s, what residuals are relative to
+  const bool by_change_;               // stops by the seed's rule
+  const double scale_;                 // m/s, what residuals are relative to
+  const std::optional<double> worth_;  // steps, as steps_worth() has it
+  const std::vector<Vec3> start_;      // λ as it came
   std::vector<NodeInverse> inverse_;
   std::unique_ptr<SplittingDelassus> rows_;
   Vectors x_, last_, y_, a_x_, a_last_, a_y_, f_, r_, step_;
   Vectors d_, a_d_;            // last step of y, and A times it
-  std::vector<Vec3> start_;    // λ as it came
   std::vector<Vec3> earlier_;  // λ before the last sweeps
   int drifting_ = 0, start_steps_ = 0;
-  std::optional<double> worth_;
   bool has_w_failed_ = false;
   std::vector<char> acts_;     // contacts with an impulse
   double least_ = 0.0;         // |F|² since the last restart

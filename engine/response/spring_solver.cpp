@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/algebra/thrifty_solver.hpp"
 #include "engine/core/error.hpp"
 #include "engine/response/operators/delassus_of.hpp"
+#include "engine/response/operators/factor_worth.hpp"
 #include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/response.hpp"
 
@@ -28,22 +28,14 @@ SpringSolver::SpringSolver(GroupSystem& group, const GroupOperator& a, double pa
 double SpringSolver::steps_of_factor() const {
   if (group_.deformable.empty()) return kOfRigid;
   if (group_.contacts.size() > kMostContacts) return kNever;
-  double all = 0.0, steps = 0.0;
-  for (const DeformableBlock& block : group_.deformable) {
-    if (block.is_diagonal || block.solver == nullptr) return kNever;
-    const double blocks = block.a->pattern->blocks(), own = iterations_of_factor(*block.solver, *block.a->pattern);
-    if (own == 0.0) return kNever;
-    all += blocks, steps += blocks * own;
-  }
-  return steps / all;
+  const std::optional<FactorWorth> worth = factor_worth(group_);
+  return worth ? worth->steps : kNever;
 }
 
 double SpringSolver::steps_of_system(const std::vector<Mat3>& h) const {
   if (group_.deformable.empty()) return kOfRigidSystem;
   const auto acting = std::count_if(h.begin(), h.end(), [](const Mat3& m) { return !m.isZero(0.0); });
-  double rate = 0.0;  // operations a step
-  for (const DeformableBlock& block : group_.deformable) rate += 1.0 / iterations_of_work(1.0, *block.a->pattern);
-  return std::pow(3.0 * static_cast<double>(acting), 3) * 2.0 / 3.0 / rate;
+  return steps_of_work(std::pow(3.0 * static_cast<double>(acting), 3) * 2.0 / 3.0, group_);
 }
 
 void SpringSolver::weigh(double steps, const std::vector<Mat3>& h) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "tests/support/mechanics/pile.hpp"
+#include "tests/support/median.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -194,4 +195,25 @@ TEST_CASE("a pile of two hundred boxes comes to rest without sleeping", "[long]"
                                                                    << fastest(world) << " m/s");
   CHECK(still >= 0);
   CHECK(overlap(world) < 1e-6);
+}
+
+TEST_CASE("a pile of a thousand boxes comes to rest, and what its solves leave is small and said", "[long]") {
+  World world;
+  prepare(world);
+  Random random(4242);
+  add_pile(world, random, 1000);
+  world.start();
+  std::vector<double> residuals;
+  for (int i = 1; i <= 240; ++i) {
+    world.step();
+    const FrameStats& stats = world.record().stats;
+    residuals.push_back(stats.residual_coulomb);
+    CAPTURE(i, stats.residual_coulomb);
+    CHECK(stats.residual_coulomb <= 1e-2);
+    CHECK((stats.unconverged > 0 || stats.residual_coulomb <= 1.01 * world.parameters.lcp.tolerance));
+    if (i < 200) continue;
+    CHECK(fastest(world) <= 1e-6);
+    CHECK(overlap(world) <= 1e-6);
+  }
+  CHECK(median(residuals) <= 1e-3);
 }

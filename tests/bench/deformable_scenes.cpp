@@ -79,7 +79,10 @@ int main(int argc, char** argv) {
 
   Course courses[] = {
       {"CA", {"response.method=constraint_anticipation"}, {}},
-      {"ICA accelerated", {"response.method=iterative_constraint_anticipation"}, {}},
+      {"ICA accelerated",
+       {"response.method=iterative_constraint_anticipation",
+        "response.iterative_constraint_anticipation.factorizes=false"},
+       {}},
       {"ICA seed, 5 % rule",
        {"response.method=iterative_constraint_anticipation", "response.iterative_constraint_anticipation.form=seed",
         "response.iterative_constraint_anticipation.stop=change"},

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/response/response.hpp"
+#include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/pile.hpp"
 
 using namespace impinge;
@@ -28,14 +29,10 @@ int main(int argc, char** argv) {
     World world;
     world.parameters.simulation.sleeping = false;
     world.parameters.simulation.substeps = 1;
-    std::istringstream words(method);
-    std::string word;
-    if (std::getline(words, word, ':')) world.parameters.response.method = word;
-    if (std::getline(words, word, ':')) world.parameters.lcp.method = word;
     const double tolerance = world.parameters.lcp.tolerance;
-    int loose = frames;
-    if (std::getline(words, word, ':')) world.parameters.lcp.tolerance = std::stod(word);
-    if (std::getline(words, word, ':')) loose = std::stoi(word);
+    std::istringstream more = choose(world.parameters, method);
+    std::string word;
+    const int loose = std::getline(more, word, ':') ? std::stoi(word) : frames;
     world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
     Random random(4242);
     add_pile(world, random, boxes);

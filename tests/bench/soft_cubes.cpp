@@ -13,6 +13,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
+#include "tests/support/mechanics/methods.hpp"
 #include "tests/support/median.hpp"
 
 using namespace impinge;
@@ -44,16 +45,6 @@ bool do_cubes_touch(const World& world) {
   return std::any_of(all.begin(), all.end(), [](const ContactRecord& c) { return c.body_a == 1 && c.body_b == 2; });
 }
 
-/// "response:solver:tolerance:sub-steps", what is left out as it comes.
-void choose(Parameters& parameters, const std::string& response) {
-  std::istringstream words(response);
-  std::string word;
-  if (std::getline(words, word, ':')) parameters.response.method = word;
-  if (std::getline(words, word, ':')) parameters.lcp.method = word;
-  if (std::getline(words, word, ':')) parameters.lcp.tolerance = std::stod(word);
-  if (std::getline(words, word, ':')) parameters.simulation.substeps = std::stoi(word);
-}
-
 /// Of one size, frame by frame: the surfaces' nodes with the first response.
 using Course = std::vector<std::vector<Vec3>>;
 
@@ -79,7 +70,9 @@ double run(const Size& size, const Way& way, Course& first) {
   world.parameters.simulation.substeps = 1;
   world.parameters.simulation.sleeping = false;
   world.parameters.contact.friction = 0.1;
-  choose(world.parameters, way.response);
+  std::istringstream more = choose(world.parameters, way.response);
+  if (std::string substeps; std::getline(more, substeps, ':'))
+    world.parameters.simulation.substeps = std::stoi(substeps);
   world.add_body(fixed_plane("ground", Vec3::UnitY(), 0.0));
   const SoftOptions soft{.damping_beta = 0.0, .model = "neo_hookean"};
   const double aside = way.is_aligned ? 0.0 : 0.05;
@@ -100,8 +93,9 @@ double run(const Size& size, const Way& way, Course& first) {
     unsafe += s.unsafe_motions;
     residual = std::max(residual, s.residual_coulomb);
     overlap = std::max(overlap, judge_overlap(world.bodies()).penetration);
-    if (is_first) first.push_back(nodes_of(world));
-    apart = std::max(apart, distance(nodes_of(world), first[static_cast<std::size_t>(i)]));
+    const std::vector<Vec3> nodes = nodes_of(world);
+    if (is_first) first.push_back(nodes);
+    apart = std::max(apart, distance(nodes, first[static_cast<std::size_t>(i)]));
     if (!do_cubes_touch(world)) continue;
     narrow.push_back(s.times.broad_ms + s.times.narrow_ms);
     assemble.push_back(s.times.assemble_ms);

@@ -14,7 +14,7 @@ std::string what_ended(const UnsolvedGroups& cause) {
     case SolveEnd::cap:
       return "stopped at " + cause.limit;
     case SolveEnd::stalled:
-      return "were left where more iterations bring nothing, or hardly anything";
+      return "ended where more iterations bring nothing, or hardly anything";
     case SolveEnd::contradiction:
       return "had contacts that contradict each other";
     case SolveEnd::refused:

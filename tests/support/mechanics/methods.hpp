@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "engine/core/error.hpp"
 #include "engine/response/response.hpp"
 #include "engine/world/world.hpp"
@@ -18,6 +20,16 @@ inline void set(World& world, const std::string& path, const std::string& value)
   row->set(parse_value(*row, value));
 }
 inline void set(World& world, const std::string& path, double value) { set(world, path, shortest(value)); }
+
+/// "response:solver:tolerance", what is left out as it comes. Returns the words that follow.
+inline std::istringstream choose(Parameters& parameters, const std::string& text) {
+  std::istringstream words(text);
+  std::string word;
+  if (std::getline(words, word, ':')) parameters.response.method = word;
+  if (std::getline(words, word, ':')) parameters.lcp.method = word;
+  if (std::getline(words, word, ':')) parameters.lcp.tolerance = std::stod(word);
+  return words;
+}
 
 /// Where a response has a limit of its own on iterations.
 inline void allow_iterations(Response& response, int most) {

@@ -1,5 +1,4 @@
-// (A + Jᵀ H J) x = b by a factorization and by gradients: either is put back into the equation, which neither of them
-// is asked for that.
+// (A + Jᵀ H J) x = b by a factorization and by gradients: the answers of both are put back into the equation.
 #include <catch2/catch.hpp>
 
 #include "engine/response/spring_solver.hpp"
@@ -55,6 +54,8 @@ TEST_CASE("systems with springs at contacts are solved alike by a factorization 
         CHECK(direct.is_factorized());
         CHECK_FALSE(gradients.is_factorized());
         CHECK(left_of(a, h, b, x).norm() < 1e-8 * b.norm());
+        // stabilised bi-conjugate gradients break down earlier; they are asked for 1e-2 as a rule
+        CHECK(left_of(a, h, b, y).norm() < (is_symmetric ? 1e-8 : 1e-4) * b.norm());
         if (is_symmetric) CHECK((x - y).norm() < 1e-6 * y.norm());
         VecX free;
         CHECK(direct.free(b, 1e-12, free));
