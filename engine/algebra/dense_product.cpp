@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 
+#include "engine/algebra/lanes.hpp"
 #include "engine/core/parallel.hpp"
 
 namespace impinge {
@@ -10,6 +12,7 @@ namespace {
 
 constexpr int kPiece = 128;        // of k at a time: a tile's rows of A stay in the nearest cache
 constexpr int kColumns = 48;       // of C a task
+constexpr int kWorthPacking = 32;  // rows and columns
 constexpr double kParallel = 1e6;  // multiplications below which waking a thread takes longer
 
 struct Operands {
@@ -17,104 +20,185 @@ struct Operands {
   double* c;
   int m, n, k;
   std::ptrdiff_t a_stride, b_stride, c_stride;
+
+  template <bool kTransposed>
+  void to_column(int j) {
+    b += kTransposed ? j : j * b_stride;
+    c += j * c_stride;
+  }
 };
 
-// numbers at a time; they stand anywhere in memory
-struct Two {
-  using Vector [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
-};
-struct Four {
-  using Vector [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-};
-struct Eight {
-  using Vector [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
-};
-
-/// R vectors of rows by C columns of the result, kept in registers.
+/// R vectors of rows by C columns of the result, kept in registers. a: their first column, a_step from one column to the
+/// next; b: its number (p, j) stands at p b_step + j b_stride.
 template <class Lanes, int R, int C>
-[[gnu::always_inline]] inline void subtract_tile(const Operands& o, int i, int j0) {
-  const double* const a = o.a + i;
-  const double* const b = o.b + j0 * o.b_stride;
-  double* const c = o.c + i + j0 * o.c_stride;
+[[gnu::always_inline]] inline void subtract_tile(const double* a, std::ptrdiff_t a_step, const double* b,
+                                                 std::ptrdiff_t b_step, std::ptrdiff_t b_stride, double* c,
+                                                 std::ptrdiff_t c_stride, int k) {
   using Vector = typename Lanes::Vector;
-  constexpr int kWidth = sizeof(Vector) / sizeof(double);
   Vector sum[R][C];
 #pragma GCC unroll 16
   for (int r = 0; r < R; ++r)
 #pragma GCC unroll 16
     for (int j = 0; j < C; ++j) sum[r][j] = Vector{};
-  for (int p = 0; p < o.k; ++p) {
+  for (int p = 0; p < k; ++p) {
     Vector row[R];
 #pragma GCC unroll 16
-    for (int r = 0; r < R; ++r) row[r] = *reinterpret_cast<const Vector*>(a + p * o.a_stride + r * kWidth);
+    for (int r = 0; r < R; ++r) row[r] = vector_at<Lanes>(a + p * a_step + r * kWidth<Lanes>);
 #pragma GCC unroll 16
     for (int j = 0; j < C; ++j)
 #pragma GCC unroll 16
-      for (int r = 0; r < R; ++r) sum[r][j] += row[r] * b[p + j * o.b_stride];
+      for (int r = 0; r < R; ++r) sum[r][j] += row[r] * b[p * b_step + j * b_stride];
   }
 #pragma GCC unroll 16
   for (int r = 0; r < R; ++r)
 #pragma GCC unroll 16
-    for (int j = 0; j < C; ++j) *reinterpret_cast<Vector*>(c + j * o.c_stride + r * kWidth) -= sum[r][j];
+    for (int j = 0; j < C; ++j) vector_at<Lanes>(c + j * c_stride + r * kWidth<Lanes>) -= sum[r][j];
 }
 
-template <class Lanes, int R, int C>
-[[gnu::always_inline]] inline void subtract_rows(const Operands& o, int i) {
+/// B as it stands.
+template <bool kTransposed>
+struct InPlace {
+  const Operands& o;
+  template <class Lanes, int R, int C>
+  [[gnu::always_inline]] void subtract(const double* a, std::ptrdiff_t a_step, int i, int j) const {
+    const std::ptrdiff_t step = kTransposed ? o.b_stride : 1, stride = kTransposed ? 1 : o.b_stride;
+    subtract_tile<Lanes, R, C>(a, a_step, o.b + j * stride, step, stride, o.c + i + j * o.c_stride, o.c_stride, o.k);
+  }
+};
+
+/// B copied tile by tile, each by its rows.
+struct Packed {
+  const Operands& o;
+  const double* b;
+  template <class Lanes, int R, int C>
+  [[gnu::always_inline]] void subtract(const double* a, std::ptrdiff_t a_step, int i, int j) const {
+    subtract_tile<Lanes, R, C>(a, a_step, b + static_cast<std::ptrdiff_t>(j) * o.k, C, 1, o.c + i + j * o.c_stride,
+                               o.c_stride, o.k);
+  }
+};
+
+/// Calls visit of each tile's first column and width, a constant.
+template <int C, class Visit>
+[[gnu::always_inline]] inline void each_tile(int n, Visit&& visit) {
   int j = 0;
-  for (; j + C <= o.n; j += C) subtract_tile<Lanes, R, C>(o, i, j);
-  for (; j < o.n; ++j) subtract_tile<Lanes, R, 1>(o, i, j);
+  for (; j + C <= n; j += C) visit(j, std::integral_constant<int, C>());
+  for (; j + 3 <= n; j += 3) visit(j, std::integral_constant<int, 3>());
+  for (; j < n; ++j) visit(j, std::integral_constant<int, 1>());
 }
 
-template <class Lanes, int R, int C>
+template <class Lanes, int R, int C, class B>
+[[gnu::always_inline]] inline void subtract_rows(const Operands& o, const B& b, int& i) {
+  for (; i + R * kWidth<Lanes> <= o.m; i += R * kWidth<Lanes>)
+    each_tile<C>(
+        o.n, [&](int j, auto columns) __attribute__((always_inline)) {
+          b.template subtract<Lanes, R, columns()>(o.a + i, o.a_stride, i, j);
+        });
+}
+
+template <class Lanes, int R, int C, class B>
+[[gnu::always_inline]] inline void subtract_rest(const Operands& o, const B& b, int i) {
+  subtract_rows<Lanes, R, C>(o, b, i);
+  subtract_rows<Lanes, 1, C>(o, b, i);
+  subtract_rows<Two, 1, C>(o, b, i);
+  subtract_rows<One, 1, C>(o, b, i);
+}
+
+template <bool kTransposed, int C>
+[[gnu::always_inline]] inline void pack_columns(const Operands& o, double* to) {
+  const std::ptrdiff_t step = kTransposed ? o.b_stride : 1, stride = kTransposed ? 1 : o.b_stride;
+  each_tile<C>(
+      o.n, [&](int j, auto columns) __attribute__((always_inline)) {
+        const double* const from = o.b + j * stride;
+        for (int p = 0; p < o.k; ++p)
+          for (int c = 0; c < columns(); ++c) *to++ = from[p * step + c * stride];
+      });
+}
+
+/// Copies put next to one another what is read again and again: far apart in memory, it drops out of the caches.
+template <bool kTransposed, class Lanes, int R, int C>
 [[gnu::always_inline]] inline void subtract(const Operands& o) {
-  constexpr int kWidth = sizeof(typename Lanes::Vector) / sizeof(double);
+  if (o.m < kWorthPacking || o.n < kWorthPacking || o.k < C)
+    return subtract_rest<Lanes, R, C>(o, InPlace<kTransposed>{o}, 0);
+  constexpr int kRows = R * kWidth<Lanes>;
+  double columns_of_b[kColumns * kPiece], rows_of_a[kRows * kPiece];
+  pack_columns<kTransposed, C>(o, columns_of_b);
+  const Packed b{o, columns_of_b};
   int i = 0;
-  for (; i + R * kWidth <= o.m; i += R * kWidth) subtract_rows<Lanes, R, C>(o, i);
-  for (; i + kWidth <= o.m; i += kWidth) subtract_rows<Lanes, 1, C>(o, i);
-  for (; i + 2 <= o.m; i += 2) subtract_rows<Two, 1, C>(o, i);
-  for (; i < o.m; ++i)
-    for (int j = 0; j < o.n; ++j) {
-      double sum = 0.0;
-      for (int p = 0; p < o.k; ++p) sum += o.a[i + p * o.a_stride] * o.b[p + j * o.b_stride];
-      o.c[i + j * o.c_stride] -= sum;
-    }
+  for (; i + kRows <= o.m; i += kRows) {
+    for (int p = 0; p < o.k; ++p)
+      for (int r = 0; r < R; ++r)
+        vector_at<Lanes>(rows_of_a + p * kRows + r * kWidth<Lanes>) =
+            vector_at<Lanes>(o.a + i + p * o.a_stride + r * kWidth<Lanes>);
+    each_tile<C>(
+        o.n, [&](int j, auto columns)
+                 __attribute__((always_inline)) { b.template subtract<Lanes, R, columns()>(rows_of_a, kRows, i, j); });
+  }
+  subtract_rest<Lanes, R, C>(o, b, i);
 }
 
-void by_two(const Operands& o) { subtract<Two, 2, 4>(o); }
-
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] void by_four(const Operands& o) { subtract<Four, 2, 6>(o); }
-[[gnu::target("avx512f")]] void by_eight(const Operands& o) { subtract<Eight, 2, 8>(o); }
-
-auto widest() {
-  __builtin_cpu_init();
-  return __builtin_cpu_supports("avx512f") ? by_eight : __builtin_cpu_supports("avx2") ? by_four : by_two;
+template <bool kTransposed>
+void by_two(const Operands& o) {
+  subtract<kTransposed, Two, 2, 4>(o);
 }
-#else
-auto widest() { return by_two; }
-#endif
+template <bool kTransposed>
+IMPINGE_FOUR_LANES void by_four(const Operands& o) {
+  subtract<kTransposed, Four, 2, 6>(o);
+}
+template <bool kTransposed>
+IMPINGE_EIGHT_LANES void by_eight(const Operands& o) {
+  subtract<kTransposed, Eight, 2, 8>(o);
+}
 
+template <bool kTransposed>
 void in_pieces(Operands o) {
-  static const auto kernel = widest();
-  for (int left = o.k; left > 0; left -= kPiece, o.a += kPiece * o.a_stride, o.b += kPiece) {
+  static const auto kernel = widest(by_two<kTransposed>, by_four<kTransposed>, by_eight<kTransposed>);
+  for (int left = o.k; left > 0; left -= kPiece) {
     o.k = std::min(left, kPiece);
     kernel(o);
+    o.a += kPiece * o.a_stride;
+    o.b += kPiece * (kTransposed ? o.b_stride : 1);
   }
+}
+
+/// Calls strip(first column, columns), side by side where there is much to do.
+template <class Strip>
+void in_strips(int m, int n, int k, Strip&& strip) {
+  const auto one = [&](std::size_t task) {
+    const auto first = static_cast<int>(task) * kColumns;
+    strip(first, std::min(kColumns, n - first));
+  };
+  const auto tasks = static_cast<std::size_t>((n + kColumns - 1) / kColumns);
+  if (static_cast<double>(m) * n * k >= kParallel) return parallel_for(tasks, 1, one);
+  for (std::size_t task = 0; task < tasks; ++task) one(task);
+}
+
+template <bool kTransposed>
+void subtract_all(const Operands& all) {
+  if (all.m <= 0 || all.n <= 0 || all.k <= 0) return;
+  in_strips(all.m, all.n, all.k, [&](int first, int columns) {
+    Operands part = all;
+    part.n = columns;
+    part.to_column<kTransposed>(first);
+    in_pieces<kTransposed>(part);
+  });
 }
 
 }  // namespace
 
 void subtract_product(DenseColumns a, DenseColumns b, double* c, int c_stride, int m, int n, int k) {
-  if (m <= 0 || n <= 0 || k <= 0) return;
-  const Operands all{a.first, b.first, c, m, n, k, a.stride, b.stride, c_stride};
-  if (n <= kColumns || static_cast<double>(m) * n * k < kParallel) return in_pieces(all);
-  parallel_for((n + kColumns - 1) / kColumns, 1, [&](std::size_t task) {
-    Operands part = all;
-    const auto first = static_cast<int>(task) * kColumns;
-    part.n = std::min(kColumns, n - first);
-    part.b += first * all.b_stride;
-    part.c += first * all.c_stride;
-    in_pieces(part);
+  subtract_all<false>({a.first, b.first, c, m, n, k, a.stride, b.stride, c_stride});
+}
+
+void subtract_transposed(DenseColumns a, DenseColumns b, double* c, int c_stride, int m, int n, int k) {
+  subtract_all<true>({a.first, b.first, c, m, n, k, a.stride, b.stride, c_stride});
+}
+
+void subtract_square(DenseColumns a, double* c, int c_stride, int m, int n, int k) {
+  if (n <= 0 || k <= 0) return;
+  in_strips(m, n, k, [&](int first, int columns) {
+    Operands part{a.first + first, a.first, c + first, m - first, columns, k, a.stride, a.stride, c_stride};
+    part.to_column<true>(first);
+    in_pieces<true>(part);
   });
 }
 

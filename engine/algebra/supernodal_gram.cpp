@@ -1,152 +1,186 @@
 // With Y = L⁻¹ P B, Bᵀ A⁻¹ B = Yᵀ Y: half of the triangular solves, and symmetric by itself. Y is never stored. The
-// supernodes (blocks of columns of L with the same rows below) are taken from the leaves of the elimination tree to its
-// root as in a multifrontal factorization: each gathers the parts of B in its own rows and what its children have left
-// for it, solves for its rows of Y, adds their products to W and hands the rest on. A supernode works on those columns
-// of B only that reach it, which is where sparse columns save: a contact on the surface touches one path from a leaf to
-// the root.
-#ifdef IMPINGE_CHOLMOD
-
+// supernodes are taken from the leaves to the root as in the factorization: each gathers the parts of B in its own rows
+// and what its children have left for it, solves for its rows of Y, adds their products to W and hands the rest on. A
+// supernode works on those columns of B only that reach it, which is where sparse columns save: a contact on the surface
+// touches one path from a leaf to the root.
 #include "engine/algebra/supernodal_gram.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
+#include "engine/algebra/dense_cholesky.hpp"
 #include "engine/core/interrupt.hpp"
-
-// of the BLAS that CHOLMOD itself uses
-extern "C" {
-void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
-            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
-void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,
-            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
-            const int* ldc);
-void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
-            const int* lda, const double* beta, double* c, const int* ldc);
-}
+#include "engine/core/parallel.hpp"
 
 namespace impinge {
 namespace {
 
-/// One supernode of the factor: columns first … first + width − 1, its rows (those columns, then those below).
-struct Supernode {
-  int first, width, height;
-  const int* rows;
-  const double* values;  // height × width, lower trapezoid
-};
+constexpr int kColumnsPerTask = 96;  // of B, in one supernode
 
-Supernode supernode(const cholmod_factor& l, int s) {
-  const int* start = static_cast<const int*>(l.super);
-  const int* rows = static_cast<const int*>(l.pi);
-  return {start[s], start[s + 1] - start[s], rows[s + 1] - rows[s], static_cast<const int*>(l.s) + rows[s],
-          static_cast<const double*>(l.x) + static_cast<const int*>(l.px)[s]};
-}
-
-/// What a supernode leaves for those above: one row for each of its rows below, one column for each column of B that
-/// has reached it.
-struct Left {
-  std::vector<int> columns;  // ascending
-  MatX values;
-};
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Entry3 {
-  int row, column;
+  int place, column;
   double value;
 };
 
-/// B's entries by row of the permuted system.
-std::vector<Entry3> permuted_entries(const cholmod_factor& l, const SparseColumns& b) {
-  const int n = static_cast<int>(l.n);
-  const int* permutation = static_cast<const int*>(l.Perm);
-  std::vector<int> place(n);
-  for (int i = 0; i < n; ++i) place[permutation[i]] = i;
+/// B's entries by their row's place in the factor.
+std::vector<Entry3> entries_by_place(const Supernodes& nodes, const SparseColumns& b) {
   std::vector<Entry3> entries;
-  entries.reserve(b.nonZeros());
+  entries.reserve(static_cast<std::size_t>(b.nonZeros()));
   for (int j = 0; j < b.outerSize(); ++j)
-    for (SparseColumns::InnerIterator it(b, j); it; ++it) entries.push_back({place[it.row()], j, it.value()});
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry3& p, const Entry3& q) { return p.row < q.row; });
+    for (SparseColumns::InnerIterator it(b, j); it; ++it)
+      entries.push_back({nodes.place()[static_cast<std::size_t>(it.row())], j, it.value()});
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry3& p, const Entry3& q) { return p.place < q.place; });
   return entries;
 }
 
-void add_product(const MatX& y, int width, const std::vector<int>& columns, MatX& w, MatX& scratch) {
-  const int count = static_cast<int>(columns.size()), height = static_cast<int>(y.rows());
-  const double one = 1.0, zero = 0.0;
-  if (count == w.cols()) {
-    dsyrk_("L", "T", &count, &width, &one, y.data(), &height, &one, w.data(), &count);
-    return;
+/// Where each of `some` stands in `all`; both ascend.
+std::vector<int> places_in(const std::vector<int>& all, const std::vector<int>& some) {
+  std::vector<int> places;
+  places.reserve(some.size());
+  int place = 0;
+  for (const int c : some) {
+    while (all[at(place)] != c) ++place;
+    places.push_back(place);
   }
-  scratch.resize(count, count);
-  dsyrk_("L", "T", &count, &width, &one, y.data(), &height, &zero, scratch.data(), &count);
-  for (int j = 0; j < count; ++j)
-    for (int i = j; i < count; ++i) w(columns[i], columns[j]) += scratch(i, j);
+  return places;
 }
 
-}  // namespace
-
-void supernodal_gram(const cholmod_factor& l, const SparseColumns& b, MatX& w) {
-  const int count = static_cast<int>(l.nsuper);
-  std::vector<int> owner(l.n);
-  for (int s = 0; s < count; ++s) {
-    const Supernode node = supernode(l, s);
-    std::fill_n(owner.begin() + node.first, node.width, s);
+class Gram {
+ public:
+  Gram(const SupernodalFactor& l, const SparseColumns& b)
+      : l_(l), nodes_(l.nodes()), entries_(entries_by_place(nodes_, b)) {
+    begin_.assign(at(nodes_.count()) + 1, entries_.size());
+    for (std::size_t e = entries_.size(); e-- > 0;) begin_[at(nodes_.node_of(entries_[e].place))] = e;
+    for (int s = nodes_.count() - 1; s >= 0; --s) begin_[at(s)] = std::min(begin_[at(s)], begin_[at(s) + 1]);
+    find_columns();
+    fronts_.resize(at(nodes_.count()));
+    sums_.resize(at(nodes_.tasks()));
   }
-  w.setZero(b.cols(), b.cols());
-  const std::vector<Entry3> entries = permuted_entries(l, b);
-  std::vector<std::vector<int>> children(count);  // those with something left
-  std::vector<Left> left(count);
-  std::vector<int> local_row(l.n), local_column(b.cols(), -1);
-  MatX front, scratch;
-  std::size_t next = 0;
-  for (int s = 0; s < count; ++s) {
-    const Supernode node = supernode(l, s);
-    const std::size_t begin = next;
-    while (next < entries.size() && entries[next].row < node.first + node.width) ++next;
 
+  /// w: zero.
+  void find(MatX& w) {
+    nodes_.run([&](int task) {
+      Sum& sum = sums_[at(task)];
+      begin(task, sum);
+      for (const int node : nodes_.nodes(task)) visit(node, sum);
+    });
+    std::vector<int> all(static_cast<std::size_t>(w.cols()));
+    std::iota(all.begin(), all.end(), 0);
+    for (const int task : nodes_.last_tasks()) take(sums_[at(task)], all, w);
+    w.triangularView<Eigen::Lower>() = -w;
+    w.triangularView<Eigen::StrictlyUpper>() = w.transpose();
+  }
+
+ private:
+  /// −W of the columns that reach a task's nodes, as far as it and those below have found it; its lower triangle.
+  struct Sum {
     std::vector<int> columns;
-    const auto add_column = [&](int c) {
-      if (local_column[c] >= 0) return;
-      local_column[c] = 0;
-      columns.push_back(c);
-    };
-    for (std::size_t e = begin; e < next; ++e) add_column(entries[e].column);
-    for (const int child : children[s])
-      for (const int c : left[child].columns) add_column(c);
-    if (columns.empty()) continue;
-    check_interrupt();
-    std::sort(columns.begin(), columns.end());
-    const int active = static_cast<int>(columns.size());
-    for (int i = 0; i < active; ++i) local_column[columns[i]] = i;
-    for (int i = 0; i < node.height; ++i) local_row[node.rows[i]] = i;
+    MatX values;
+  };
 
-    front.setZero(node.height, active);
-    for (std::size_t e = begin; e < next; ++e)
-      front(entries[e].row - node.first, local_column[entries[e].column]) += entries[e].value;
-    for (const int child : children[s]) {
-      const Supernode from = supernode(l, child);
-      Left& part = left[child];
-      const int* rows = from.rows + from.width;
-      for (std::size_t j = 0; j < part.columns.size(); ++j) {
-        double* out = front.col(local_column[part.columns[j]]).data();
-        const double* in = part.values.col(static_cast<Eigen::Index>(j)).data();
-        for (int i = 0; i < part.values.rows(); ++i) out[local_row[rows[i]]] += in[i];
+  void begin(int task, Sum& sum) {
+    for (const int node : nodes_.nodes(task))
+      sum.columns.insert(sum.columns.end(), columns_[at(node)].begin(), columns_[at(node)].end());
+    for (const int below : nodes_.tasks_below(task))
+      sum.columns.insert(sum.columns.end(), sums_[at(below)].columns.begin(), sums_[at(below)].columns.end());
+    std::sort(sum.columns.begin(), sum.columns.end());
+    sum.columns.erase(std::unique(sum.columns.begin(), sum.columns.end()), sum.columns.end());
+    const auto count = static_cast<Eigen::Index>(sum.columns.size());
+    sum.values.setZero(count, count);
+    for (const int below : nodes_.tasks_below(task)) take(sums_[at(below)], sum.columns, sum.values);
+  }
+
+  static void take(Sum& from, const std::vector<int>& columns, MatX& to) {
+    add(from.values, places_in(columns, from.columns), to);
+    from = {};
+  }
+
+  void find_columns() {
+    columns_.resize(at(nodes_.count()));
+    std::vector<int> seen_by;
+    for (int s = 0; s < nodes_.count(); ++s) {
+      std::vector<int>& columns = columns_[at(s)];
+      const auto add = [&](int c) {
+        if (c >= static_cast<int>(seen_by.size())) seen_by.resize(at(c) + 1, -1);
+        if (std::exchange(seen_by[at(c)], s) != s) columns.push_back(c);
+      };
+      for (std::size_t e = begin_[at(s)]; e < begin_[at(s) + 1]; ++e) add(entries_[e].column);
+      for (const int child : nodes_.children(s))
+        for (const int c : columns_[at(child)]) add(c);
+      std::sort(columns.begin(), columns.end());
+    }
+  }
+
+  /// A row for each of its columns of B, a column for each row of the supernode.
+  void gather(int s, MatX& front) {
+    const std::vector<int>& columns = columns_[at(s)];
+    front.setZero(static_cast<Eigen::Index>(columns.size()), nodes_.height(s));
+    for (std::size_t e = begin_[at(s)]; e < begin_[at(s) + 1]; ++e) {
+      const auto row = std::lower_bound(columns.begin(), columns.end(), entries_[e].column) - columns.begin();
+      front(row, entries_[e].place - nodes_.first(s)) += entries_[e].value;
+    }
+    for (const int child : nodes_.children(s)) {
+      MatX& part = fronts_[at(child)];
+      if (part.rows() > 0) {
+        const std::vector<int> places = places_in(columns, columns_[at(child)]);
+        const std::span<const int> rows = nodes_.rows_of_parent(child);
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+          const double* const in = part.col(nodes_.width(child) + static_cast<Eigen::Index>(j)).data();
+          double* const out = front.col(rows[j]).data();
+          for (std::size_t i = 0; i < places.size(); ++i) out[places[i]] += in[i];
+        }
       }
       part = {};
     }
-    for (const int c : columns) local_column[c] = -1;
-
-    const double one = 1.0, minus = -1.0;
-    dtrsm_("L", "L", "N", "N", &node.width, &active, &one, node.values, &node.height, front.data(), &node.height);
-    add_product(front, node.width, columns, w, scratch);
-    const int below = node.height - node.width;
-    if (below == 0) continue;
-    dgemm_("N", "N", &below, &active, &node.width, &minus, node.values + node.width, &node.height, front.data(),
-           &node.height, &one, front.data() + node.width, &node.height);
-    left[s].values = front.bottomRows(below);
-    left[s].columns = std::move(columns);
-    children[owner[node.rows[node.width]]].push_back(s);
   }
-  w.triangularView<Eigen::StrictlyUpper>() = w.transpose();
+
+  void visit(int s, Sum& sum) {
+    const int active = static_cast<int>(columns_[at(s)].size());
+    if (active == 0) return;
+    check_interrupt();
+    MatX& front = fronts_[at(s)];
+    gather(s, front);
+    const DenseColumns l = l_.columns(s);
+    const int width = nodes_.width(s), below = nodes_.below(s);
+    parallel_for(at((active + kColumnsPerTask - 1) / kColumnsPerTask), 1, [&](std::size_t task) {
+      const int first = static_cast<int>(task) * kColumnsPerTask, count = std::min(kColumnsPerTask, active - first);
+      double* const rows = front.data() + first;
+      solve_rows(l, width, rows, active, count);
+      subtract_transposed({rows, active}, {l.first + width, l.stride},
+                          rows + static_cast<std::ptrdiff_t>(width) * active, active, count, below, width);
+    });
+    if (columns_[at(s)].size() == sum.columns.size()) {
+      subtract_square({front.data(), active}, sum.values.data(), active, active, active, width);
+      return;
+    }
+    MatX product = MatX::Zero(active, active);
+    subtract_square({front.data(), active}, product.data(), active, active, active, width);
+    add(product, places_in(sum.columns, columns_[at(s)]), sum.values);
+  }
+
+  static void add(const MatX& lower, const std::vector<int>& places, MatX& to) {
+    for (Eigen::Index j = 0; j < lower.cols(); ++j)
+      for (Eigen::Index i = j; i < lower.rows(); ++i)
+        to(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]) += lower(i, j);
+  }
+
+  const SupernodalFactor& l_;
+  const Supernodes& nodes_;
+  std::vector<Entry3> entries_;
+  std::vector<std::size_t> begin_;         // of each node's entries
+  std::vector<std::vector<int>> columns_;  // of B, that reach each node
+  std::vector<MatX> fronts_;
+  std::vector<Sum> sums_;  // of each task
+};
+
+}  // namespace
+
+void supernodal_gram(const SupernodalFactor& l, const SparseColumns& b, MatX& w) {
+  w.setZero(b.cols(), b.cols());
+  if (b.cols() > 0) Gram(l, b).find(w);
 }
 
 }  // namespace impinge
-
-#endif

@@ -1,15 +1,12 @@
-// W = Bᵀ A⁻¹ B from CHOLMOD's supernodal factor, by half solves.
+// W = Bᵀ A⁻¹ B from a supernodal factor, by half solves.
 #pragma once
-#ifdef IMPINGE_CHOLMOD
-
-#include <cholmod.h>
 
 #include "engine/algebra/linear_solver.hpp"
+#include "engine/algebra/supernodal_factor.hpp"
 
 namespace impinge {
 
-/// l: supernodal L with L Lᵀ = P A Pᵀ. W comes out exactly symmetric.
-void supernodal_gram(const cholmod_factor& l, const SparseColumns& b, MatX& w);
+/// W comes out exactly symmetric.
+void supernodal_gram(const SupernodalFactor& l, const SparseColumns& b, MatX& w);
 
 }  // namespace impinge
-#endif

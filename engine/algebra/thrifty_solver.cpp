@@ -1,10 +1,10 @@
-// Measured on bodies of 375 to 27,783 unknowns, cubes of lattice cells and slender cages (one thread): a CHOLMOD
-// factorization takes the time of 100 + 0.35 r iterations, r its floating-point operations over an iteration's, within a
-// tenth. With s = √(D/m), D a node's diagonal block of A and m the mass that its row sums up to, conjugate
-// gradients took 5 to 12 s iterations to 1e-8 where bodies are soft (s < 60, h = 8 and 10 ms), 4 s where they are stiff.
+// Measured on cubes of lattice cells with 300 to 26,460 unknowns (one thread): a factorization takes the time of
+// 30 + 0.33 r iterations, r its floating-point operations over an iteration's, within a fifth. With s = √(D/m), D a node's
+// diagonal block of A and m the mass that its row sums up to, conjugate gradients took 5 to 12 s iterations to 1e-8 where
+// bodies are soft (s < 60, h = 8 and 10 ms), 4 s where they are stiff.
 //
-// A muscle's strand, of 1e6 Pa: 466 iterations, 14 ms, or a factorization, 4 ms. Dragons of 1e4, 1e5, 1e6, 1e7 Pa: 66,
-// 263, 591, 1,303 iterations, 2 to 40 ms, or 4 ms.
+// A muscle's strand, of 1e6 Pa: 466 iterations, 14 ms, or a factorization, 3 ms. Dragons of 1e4, 1e5, 1e6, 1e7 Pa: 66,
+// 263, 591, 1,303 iterations, 2 to 40 ms, or 3 ms.
 #include "engine/algebra/thrifty_solver.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 namespace impinge {
 namespace {
 
-constexpr double kBesideWork = 100.0, kOfWork = 0.35;  // iterations a factorization
-constexpr double kIterations = 5.0;                    // the least of √(D/m)
+constexpr double kBesideWork = 30.0, kOfWork = 0.33;  // iterations a factorization
+constexpr double kIterations = 5.0;                   // the least of √(D/m)
 
 double iteration_work(const BlockPattern& p) { return 18.0 * p.blocks() + 36.0 * 3.0 * p.rows; }
 

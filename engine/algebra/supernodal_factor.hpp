@@ -1,0 +1,36 @@
+// L with L Lᵀ = P A Pᵀ, by supernodes: its numbers, and solving with them.
+#pragma once
+
+#include "engine/algebra/dense_product.hpp"
+#include "engine/algebra/linear_solver.hpp"
+#include "engine/algebra/supernodes.hpp"
+
+namespace impinge {
+
+class SupernodalFactor {
+ public:
+  /// lower: the lower triangle of A in compressed columns, each entry of which has a place in L.
+  SupernodalFactor(Supernodes nodes, const Eigen::SparseMatrix<double>& lower);
+
+  const Supernodes& nodes() const { return nodes_; }
+  /// The node's height × width numbers by columns; above the diagonal there is anything.
+  DenseColumns columns(int node) const;
+
+  /// From the numbers of `lower`, which has the pattern this was made with. False: not positive definite.
+  bool factorize(const Eigen::SparseMatrix<double>& lower);
+  /// x = A⁻¹ b.
+  void solve(Eigen::Ref<const VecX> b, Eigen::Ref<VecX> x) const;
+
+ private:
+  struct Source {
+    int from, to;  // of lower's numbers, to which of the node's
+  };
+  bool factorize(int node, const Eigen::SparseMatrix<double>& lower, std::vector<MatX>& left);
+
+  Supernodes nodes_;
+  std::vector<Source> sources_;
+  std::vector<std::size_t> source_begin_;  // of each node
+  std::vector<double> values_;
+};
+
+}  // namespace impinge
