@@ -17,7 +17,9 @@ void set_thread_count(int count) {
 }
 
 int thread_count() {
-  return g_threads > 0 ? g_threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // asked once: the C library reads a file for it
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return g_threads > 0 ? g_threads : cores;
 }
 
 void parallel_for(std::size_t count, std::size_t grain, const std::function<void(std::size_t)>& body) {
