@@ -15,7 +15,6 @@
 #include "engine/core/apart.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
-#include "engine/core/parallel.hpp"
 
 namespace impinge {
 namespace {
@@ -68,17 +67,12 @@ class Cholmod : public LinearSolver {
   }
   SolveReport solve(const VecX& b, VecX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    x.resize(b.size());
     factor_->solve(b, x);
     return report_on(x);
   }
   SolveReport solve_many(const MatX& b, MatX& x) override {
     if (status_ != SolveStatus::ok) return {status_, 0, 0.0};
-    x.resize(b.rows(), b.cols());
-    parallel_for(static_cast<std::size_t>(b.cols()), 1, [&](std::size_t j) {
-      const auto column = static_cast<Eigen::Index>(j);
-      factor_->solve(b.col(column), x.col(column));
-    });
+    factor_->solve(b, x);
     return report_on(x);
   }
   SolveReport gram(const SparseColumns& b, MatX& w) override {

@@ -6,9 +6,12 @@
 #include "engine/algebra/dense_cholesky.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
 
 namespace impinge {
 namespace {
+
+constexpr Eigen::Index kColumnsPerTask = 32;  // right-hand sides
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -74,31 +77,49 @@ bool SupernodalFactor::factorize(int node, const Eigen::SparseMatrix<double>& lo
   return true;
 }
 
-void SupernodalFactor::solve(Eigen::Ref<const VecX> b, Eigen::Ref<VecX> x) const {
+void SupernodalFactor::solve(const VecX& b, VecX& x) const {
+  x = b;
+  solve_in_place(x);
+}
+
+void SupernodalFactor::solve(const MatX& b, MatX& x) const {
+  x = b;
+  const Eigen::Index tasks = (b.cols() + kColumnsPerTask - 1) / kColumnsPerTask;
+  parallel_for(static_cast<std::size_t>(tasks), 1, [&](std::size_t task) {
+    const auto first = static_cast<Eigen::Index>(task) * kColumnsPerTask;
+    auto columns = x.middleCols(first, std::min(kColumnsPerTask, x.cols() - first));
+    MatX part = columns;
+    solve_in_place(part);
+    columns = part;
+  });
+}
+
+template <class Columns>
+void SupernodalFactor::solve_in_place(Columns& x) const {
   const std::vector<int>& order = nodes_.order();
-  VecX y(nodes_.unknowns()), part;
-  for (std::size_t i = 0; i < order.size(); ++i) y[static_cast<Eigen::Index>(i)] = b[order[i]];
+  Columns y(x.rows(), x.cols()), part;
+  for (std::size_t i = 0; i < order.size(); ++i) y.row(static_cast<Eigen::Index>(i)) = x.row(order[i]);
   const auto panel = [&](int node) {
     return Eigen::Map<const MatX>(columns(node).first, nodes_.height(node), nodes_.width(node));
   };
   for (int s = 0; s < nodes_.count(); ++s) {
     const auto l = panel(s);
     const Eigen::Index w = l.cols(), below = l.rows() - w;
-    auto own = y.segment(nodes_.first(s), w);
-    l.topRows(w).triangularView<Eigen::Lower>().solveInPlace(own);
+    auto own = y.middleRows(nodes_.first(s), w);
+    l.topRows(w).template triangularView<Eigen::Lower>().solveInPlace(own);
     part.noalias() = l.bottomRows(below) * own;
-    for (Eigen::Index i = 0; i < below; ++i) y[nodes_.rows(s)[static_cast<std::size_t>(w + i)]] -= part[i];
+    for (Eigen::Index i = 0; i < below; ++i) y.row(nodes_.rows(s)[static_cast<std::size_t>(w + i)]) -= part.row(i);
   }
   for (int s = nodes_.count() - 1; s >= 0; --s) {
     const auto l = panel(s);
     const Eigen::Index w = l.cols(), below = l.rows() - w;
-    part.resize(below);
-    for (Eigen::Index i = 0; i < below; ++i) part[i] = y[nodes_.rows(s)[static_cast<std::size_t>(w + i)]];
-    auto own = y.segment(nodes_.first(s), w);
+    part.resize(below, x.cols());
+    for (Eigen::Index i = 0; i < below; ++i) part.row(i) = y.row(nodes_.rows(s)[static_cast<std::size_t>(w + i)]);
+    auto own = y.middleRows(nodes_.first(s), w);
     own.noalias() -= l.bottomRows(below).transpose() * part;
-    l.topRows(w).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    l.topRows(w).template triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
-  for (std::size_t i = 0; i < order.size(); ++i) x[order[i]] = y[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < order.size(); ++i) x.row(order[i]) = y.row(static_cast<Eigen::Index>(i));
 }
 
 }  // namespace impinge

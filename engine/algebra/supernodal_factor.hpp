@@ -19,13 +19,17 @@ class SupernodalFactor {
   /// From the numbers of `lower`, which has the pattern this was made with. False: not positive definite.
   bool factorize(const Eigen::SparseMatrix<double>& lower);
   /// x = A⁻¹ b.
-  void solve(Eigen::Ref<const VecX> b, Eigen::Ref<VecX> x) const;
+  void solve(const VecX& b, VecX& x) const;
+  void solve(const MatX& b, MatX& x) const;  ///< column by column
 
  private:
   struct Source {
     int from, to;  // of lower's numbers, to which of the node's
   };
   bool factorize(int node, const Eigen::SparseMatrix<double>& lower, std::vector<MatX>& left);
+
+  template <class Columns>
+  void solve_in_place(Columns& x) const;
 
   Supernodes nodes_;
   std::vector<Source> sources_;
