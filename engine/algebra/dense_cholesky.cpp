@@ -39,11 +39,11 @@ template <class Lanes, int N>
     typename Lanes::Vector v[N];
 #pragma GCC unroll 6
     for (int c = 0; c < N; ++c) {
-      v[c] = vector_at<Lanes>(x + i + c * stride);
+      load(v[c], x + i + c * stride);
 #pragma GCC unroll 6
       for (int d = 0; d < c; ++d) v[c] -= v[d] * l.entry[d][c];
       v[c] *= l.inverse[c];
-      vector_at<Lanes>(x + i + c * stride) = v[c];
+      store(x + i + c * stride, v[c]);
     }
   }
 }

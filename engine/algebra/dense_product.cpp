@@ -43,7 +43,7 @@ template <class Lanes, int R, int C>
   for (int p = 0; p < k; ++p) {
     Vector row[R];
 #pragma GCC unroll 16
-    for (int r = 0; r < R; ++r) row[r] = vector_at<Lanes>(a + p * a_step + r * kWidth<Lanes>);
+    for (int r = 0; r < R; ++r) load(row[r], a + p * a_step + r * kWidth<Lanes>);
 #pragma GCC unroll 16
     for (int j = 0; j < C; ++j)
 #pragma GCC unroll 16
@@ -52,7 +52,13 @@ template <class Lanes, int R, int C>
 #pragma GCC unroll 16
   for (int r = 0; r < R; ++r)
 #pragma GCC unroll 16
-    for (int j = 0; j < C; ++j) vector_at<Lanes>(c + j * c_stride + r * kWidth<Lanes>) -= sum[r][j];
+    for (int j = 0; j < C; ++j) {
+      double* const to = c + j * c_stride + r * kWidth<Lanes>;
+      Vector v;
+      load(v, to);
+      v -= sum[r][j];
+      store(to, v);
+    }
 }
 
 /// B as it stands.
@@ -126,9 +132,7 @@ template <bool kTransposed, class Lanes, int R, int C>
   int i = 0;
   for (; i + kRows <= o.m; i += kRows) {
     for (int p = 0; p < o.k; ++p)
-      for (int r = 0; r < R; ++r)
-        vector_at<Lanes>(rows_of_a + p * kRows + r * kWidth<Lanes>) =
-            vector_at<Lanes>(o.a + i + p * o.a_stride + r * kWidth<Lanes>);
+      __builtin_memcpy(rows_of_a + p * kRows, o.a + i + p * o.a_stride, kRows * sizeof(double));
     each_tile<C>(
         o.n, [&](int j, auto columns)
                  __attribute__((always_inline)) { b.template subtract<Lanes, R, columns()>(rows_of_a, kRows, i, j); });

@@ -4,30 +4,30 @@
 
 namespace impinge {
 
-/// Vectors stand anywhere in memory.
 struct One {
   using Vector = double;
 };
 struct Two {
-  using Vector [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+  using Vector [[gnu::vector_size(16)]] = double;
 };
 struct Four {
-  using Vector [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+  using Vector [[gnu::vector_size(32)]] = double;
 };
 struct Eight {
-  using Vector [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
+  using Vector [[gnu::vector_size(64)]] = double;
 };
 
 template <class Lanes>
 inline constexpr int kWidth = sizeof(typename Lanes::Vector) / sizeof(double);
 
-template <class Lanes>
-[[gnu::always_inline]] inline typename Lanes::Vector& vector_at(double* x) {
-  return *reinterpret_cast<typename Lanes::Vector*>(x);
+/// From anywhere in memory: a reference to a vector there would promise that it is aligned.
+template <class Vector>
+[[gnu::always_inline]] inline void load(Vector& v, const double* from) {
+  __builtin_memcpy(&v, from, sizeof v);
 }
-template <class Lanes>
-[[gnu::always_inline]] inline const typename Lanes::Vector& vector_at(const double* x) {
-  return *reinterpret_cast<const typename Lanes::Vector*>(x);
+template <class Vector>
+[[gnu::always_inline]] inline void store(double* to, const Vector& v) {
+  __builtin_memcpy(to, &v, sizeof v);
 }
 
 /// Of three ways to do the same, compiled for two, four and eight lanes, the widest that this processor has.
