@@ -44,13 +44,13 @@ const Registry<LinearSolver>& linear_solvers() {
 // Measured by tests/bench/linear_solvers.cpp (lattice solid of 6 tetrahedra a cell, K + m/Δt², Δt 0.01 s, one thread,
 // ms; CG to 1e-8 from zero at E 1e5, the others to rounding; W of 100 contacts side by side: by half solves, and by
 // whole ones):
-//   unknowns   CG solve   CHOLMOD factor / solve / W (whole)   Eigen factor / solve / W (whole)
-//      882       0.17         5 / 0.05 /  –                        3.0 / 0.12 /  –
-//    3,630       1.1         40 / 0.34 / 12 (55)                    81 / 1.2 /  78 (268)
-//    9,450       4.0         99 / 2.9  / 16 (180)                 1140 / 8.5 / 368 (2261)
-//   26,460        17        765 / 16   / 57 (751)                    –
-//   56,862        86       2003 / 42   / 172 (2044)                  –
-// At E 1e7 CG takes six times as long. So CG solves 20 to 60 right-hand sides of soft bodies before a CHOLMOD
+//   unknowns   CG solve   supernodal factor / solve / W (whole)   Eigen factor / solve / W (whole)
+//      882       0.31          1 / 0.07 /   –                           3.7 / 0.14 /   –
+//    3,630       2.2          19 / 0.71 /  23 (194)                      135 / 1.4 / 122 (333)
+//    9,450       5.3          74 / 3.8  /  25 (576)                     1860 / 10  / 594 (2342)
+//   26,460        34         840 / 23   / 126 (2365)                       –
+//   56,862       138        3560 / 55   / 297 (5736)                       –
+// At E 1e7 CG takes six times as long. So CG solves 3 to 26 right-hand sides of soft bodies before a supernodal
 // factorization has paid, and Eigen's pays beyond a few thousand unknowns only where it serves hundreds. But a direct
 // solve is exact, which the contact forces of constraint anticipation want, W then costs next to nothing beside the
 // factorization, and CG's iterations grow with √E: with 24 and more right-hand sides the factorization is taken.

@@ -1,9 +1,11 @@
 // L with L Lᵀ = P A Pᵀ, by supernodes: its numbers, and solving with them.
 #pragma once
 
+#include <Eigen/SparseCore>
+
 #include "engine/algebra/dense_product.hpp"
-#include "engine/algebra/linear_solver.hpp"
 #include "engine/algebra/supernodes.hpp"
+#include "engine/core/types.hpp"
 
 namespace impinge {
 

@@ -55,7 +55,7 @@ class Gram {
     begin_.assign(at(nodes_.count()) + 1, entries_.size());
     for (std::size_t e = entries_.size(); e-- > 0;) begin_[at(nodes_.node_of(entries_[e].place))] = e;
     for (int s = nodes_.count() - 1; s >= 0; --s) begin_[at(s)] = std::min(begin_[at(s)], begin_[at(s) + 1]);
-    find_columns();
+    find_columns(b.cols());
     fronts_.resize(at(nodes_.count()));
     sums_.resize(at(nodes_.tasks()));
   }
@@ -98,13 +98,12 @@ class Gram {
     from = {};
   }
 
-  void find_columns() {
+  void find_columns(Eigen::Index count) {
     columns_.resize(at(nodes_.count()));
-    std::vector<int> seen_by;
+    std::vector<int> seen_by(static_cast<std::size_t>(count), -1);
     for (int s = 0; s < nodes_.count(); ++s) {
       std::vector<int>& columns = columns_[at(s)];
       const auto add = [&](int c) {
-        if (c >= static_cast<int>(seen_by.size())) seen_by.resize(at(c) + 1, -1);
         if (std::exchange(seen_by[at(c)], s) != s) columns.push_back(c);
       };
       for (std::size_t e = begin_[at(s)]; e < begin_[at(s) + 1]; ++e) add(entries_[e].column);

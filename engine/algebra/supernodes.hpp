@@ -3,7 +3,6 @@
 // [Duff83]); and what hangs below different nodes can be worked at side by side.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <cstddef>
 #include <functional>
 #include <span>

@@ -18,8 +18,9 @@
 // With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders: after
 // kPatience of them rounded equations are tried from where it began, then Newton again from the better of the two, and
 // from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
-// equations, and from there to Newton again. With kMany contacts that takes seconds, and what is within kNear after one
-// of these is handed on: in a wall that a ball goes through nothing brings more digits, or hundreds of steps each.
+// equations, and from there to Newton again. With kMany contacts that takes seconds, and what is within kNear once both
+// have had their turn is handed on: in a wall that a ball goes through nothing brings more digits, or hundreds of steps
+// each.
 #include <algorithm>
 #include <cmath>
 #include <limits>
