@@ -52,8 +52,9 @@ const Registry<LinearSolver>& linear_solvers() {
 //   56,862       138        3560 / 55   / 297 (5736)                       –
 // At E 1e7 CG takes six times as long. So CG solves 3 to 26 right-hand sides of soft bodies before a supernodal
 // factorization has paid, and Eigen's pays beyond a few thousand unknowns only where it serves hundreds. But a direct
-// solve is exact, which the contact forces of constraint anticipation want, W then costs next to nothing beside the
-// factorization, and CG's iterations grow with √E: with 24 and more right-hand sides the factorization is taken.
+// solve is exact, which the contact forces of constraint anticipation want, W then costs as much as the factorization
+// again or, with large bodies, a tenth of it, and CG's iterations grow with √E: with 24 and more right-hand sides the
+// factorization is taken.
 std::string_view automatic_linear_solver(int unknowns, int right_hand_sides) {
   constexpr int kFewRightHandSides = 24;
   if (right_hand_sides < kFewRightHandSides) return "conjugate_gradient";
