@@ -5,10 +5,14 @@
 // Price in sweeps: where all bodies are rigid Newton's systems have six rows a body, and a solve costs some twenty
 // sweeps however many contacts there are. Elsewhere it is some 15 factorizations of 2/3 (3n)³ operations at full speed
 // against 18 n² a sweep at a fraction of it, about 6 n, and less since open contacts leave the factorization; 2 n was
-// the best of 6, 2 and 0.5 on stacks, piles and deformable cubes. There Newton begins with the λ that came, not with
-// that of the sweeps: on frozen steps of two soft cubes in 130 to 530 contacts it took half the time (5.9 s of 11.9 in
-// all). With more contacts than kMostDense (a W with factors, whose sweeps cost n: kMostFactored) the sweeps are made
-// conjugate instead.
+// the best of 6, 2 and 0.5 on stacks, piles and deformable cubes, and a quarter of it where the λ that came is near: then
+// three to six steps do. There Newton begins with that λ, not with the sweeps': on frozen steps of two soft cubes in 130
+// to 530 contacts it took half the time (5.9 s of 11.9 in all). With more contacts than kMostDense (a W with factors,
+// whose sweeps cost n: kMostFactored) the sweeps are made conjugate instead.
+//
+// Between the two, where W is dense: where Gauss-Seidel would need N sweeps, conjugate ones (kConjugateSweep times as
+// dear) needed 4 to 10 roots of N on published problems and frozen steps of deformable bodies (N 120 to 3,300). They are
+// tried where that is less than Newton's price, and left where their rate doesn't keep it.
 //
 // Rigid bodies in many contacts go from a few steps of Newton's, which find an answer that is near, to rounded equations
 // (smoothing_newton.cpp) until kEnough; from there on both have the steps that bring digits, which they do in a wall at
@@ -25,6 +29,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/lcp/conjugate_sweeps.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 #include "engine/lcp/node_space.hpp"
 
@@ -36,9 +41,16 @@ Entry<LcpSolver> smoothing_newton_solver();
 
 namespace {
 
-constexpr int kFirstSweeps = 30;  // before the rate is looked at
-constexpr int kFewSweeps = 10;    // the same where Newton is quick, or a W that is dense makes sweeps dear
-constexpr int kWindow = 10;       // of them that it is taken over
+constexpr int kFirstSweeps = 30;          // before the rate is looked at
+constexpr int kFewSweeps = 10;            // the same where Newton is quick, or a W that is dense makes sweeps dear
+constexpr int kWindow = 10;               // of them that it is taken over
+constexpr double kGood = 0.1;             // a relative residual that Newton may begin with
+constexpr double kFromGood = 0.25;        // what is left of its price there
+constexpr double kConjugateSweep = 1.45;  // what a conjugate sweep costs, in sweeps
+constexpr double kConjugateOfRoot = 6.0;  // how many of them are expected, over the root of the others' number
+constexpr std::size_t kConjugateWindow = 20;
+constexpr double kTooFar = 2.0;  // prices of Newton's that are still to come where they are left
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
 constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method
 constexpr double kSweepsOfBodies = 20.0;     // and where all bodies are rigid
@@ -69,11 +81,11 @@ class Automatic : public LcpSolver {
     const bool bodies = problem.w->body_space() != nullptr;
     const NodeSpace* nodes = problem.w->node_space();
     const bool newton = bodies || nodes != nullptr || n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
-    const double price = bodies ? kSweepsOfBodies
-                         : newton
-                             ? kSweepsPerContact * (nodes != nullptr ? of_nodes(*nodes, n) : static_cast<double>(n))
-                             : kSweepsOfConjugate;
     const bool dense = !problem.w->has_factors();
+    double price = bodies   ? kSweepsOfBodies
+                   : newton ? kSweepsPerContact * (nodes != nullptr ? of_nodes(*nodes, n) : static_cast<double>(n))
+                            : kSweepsOfConjugate;
+    if (dense && newton && nodes == nullptr && begins_near(problem, lambda)) price *= kFromGood;
     const int first = bodies || dense ? kFewSweeps : kFirstSweeps;
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
@@ -89,11 +101,15 @@ class Automatic : public LcpSolver {
       if (sweep < first || sweep == settings.max_iterations) continue;
       // a rate that promises an end and doesn't keep it counts for nothing
       const double left = sweep > first + price ? price + 1.0 : sweeps_left(changes, goal);
-      if (left <= std::min(price, static_cast<double>(settings.max_iterations - sweep))) continue;
+      const double by_conjugate = dense && newton ? kConjugateSweep * kConjugateOfRoot * std::sqrt(left) : kInfinity;
+      if (left <= std::min({price, by_conjugate, static_cast<double>(settings.max_iterations - sweep)})) continue;
       if (bodies) return solve_bodies(problem, settings, sweep, lambda);
-      if (dense && newton) lambda = start;
-      return go_on(newton ? semismooth_newton_solver : nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings,
-                   sweep, lambda);
+      if (!newton) return go_on(nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings, sweep, lambda);
+      if (!dense) return go_on(semismooth_newton_solver, problem, settings, sweep, lambda);
+      if (by_conjugate < price && conjugate_sweeps_end(problem, settings, stop, price, sweep, lambda))
+        return {sweep, StopReason::converged};
+      lambda = start;
+      return by_newton(problem, settings, sweep, lambda);
     }
     return {settings.max_iterations, StopReason::iteration_cap};
   }
@@ -104,13 +120,53 @@ class Automatic : public LcpSolver {
     return static_cast<double>(space.touched) * space.touched / static_cast<double>(contacts);
   }
 
+  /// Whether the λ that came is of use.
+  static bool begins_near(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
+    const auto is_zero = [](const Vec3& of_contact) { return of_contact.isZero(0.0); };
+    return !std::all_of(lambda.begin(), lambda.end(), is_zero) && judge(problem, lambda).map.relative < kGood;
+  }
+
   /// What the rate of the last sweeps says.
-  static double sweeps_left(const std::vector<double>& changes, double goal) {
-    const std::size_t window = std::min<std::size_t>(kWindow, changes.size() - 1);
+  static double sweeps_left(const std::vector<double>& changes, double goal, std::size_t window = kWindow) {
+    window = std::min(window, changes.size() - 1);
     const double now = changes.back(), before = changes[changes.size() - 1 - window];
     const double rate = std::pow(now / before, 1.0 / static_cast<double>(window));
     if (now <= goal) return 0.0;
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
+  }
+
+  /// Conjugate sweeps as long as they promise an end for less than `price` sweeps.
+  static bool conjugate_sweeps_end(const ConeProblem& problem, const LcpSettings& settings, SweepStop& stop,
+                                   double price, int& sweeps, std::vector<Vec3>& lambda) {
+    const double goal = settings.tolerance * velocity_scale(problem);
+    ConjugateSweeps conjugate(problem);
+    std::vector<double> changes;
+    while (sweeps < settings.max_iterations) {
+      const double change = conjugate.sweep(lambda);
+      ++sweeps;
+      if (stop.solved(lambda, change)) return true;
+      changes.push_back(change);
+      if (changes.size() % kConjugateWindow != 0) continue;
+      const double spent = kConjugateSweep * static_cast<double>(changes.size()),
+                   left = kConjugateSweep * sweeps_left(changes, goal, changes.size() - 1);
+      if (spent > price || left > kTooFar * price) break;
+    }
+    return false;
+  }
+
+  /// Where W is dense: from the λ that came, and where that ends short, from there on rounded equations.
+  static LcpResult by_newton(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
+                             std::vector<Vec3>& lambda) {
+    std::vector<Vec3> rounded = lambda;
+    LcpResult result = go_on(semismooth_newton_solver, problem, settings, sweeps, lambda);
+    if (has_ended(result, settings)) return result;
+    result = go_on(smoothing_newton_solver, problem, settings, result.iterations, rounded);
+    if (result.reason != StopReason::converged &&
+        !(judge(problem, rounded).map.relative < judge(problem, lambda).map.relative))
+      return result;
+    lambda = std::move(rounded);
+    if (has_ended(result, settings)) return result;
+    return go_on(semismooth_newton_solver, problem, settings, result.iterations, lambda);
   }
 
   /// Of rigid bodies.

@@ -1,11 +1,22 @@
-// bench_lcp [TOLERANCE [CAP]]: every LCP solver on chains, grids and random problems, and on the published ones where
-// the shared data folder is: iterations, milliseconds, and the residual as the judge finds it.
+// bench_lcp [TOLERANCE [CAP [STEP_FILE...]]]: every LCP solver on stacks, on a light and a heavy box, and on the published problems where
+// the shared data folder is: iterations, milliseconds (the median of runs in turn), the residual as the judge finds it,
+// and what `automatic` takes beside the quickest method that reaches the tolerance. With files of frozen steps (`impinge run
+// --freeze`): their groups instead, from the λ before and from nothing.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 
+#include "engine/frozen/frozen_step_file.hpp"
 #include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
+#include "engine/lcp/node_space.hpp"
+#include "engine/response/operators/delassus_of.hpp"
+#include "engine/response/operators/factored_delassus.hpp"
+#include "engine/response/response.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/random.hpp"
 
@@ -15,21 +26,62 @@ namespace {
 
 using Block = BlockSparseDelassus::Block;
 
-void report(const std::string& name, const ConeProblem& problem, Measure measure, double tolerance, int cap) {
-  fmt::print("{} ({} contacts)\n", name, problem.q.size());
-  for (const auto& e : lcp_solvers()) {
-    const auto solver = e.make();
-    if (!solver->applies(problem).empty()) continue;
-    std::vector<Vec3> lambda(problem.q.size(), Vec3::Zero());
-    LcpSettings settings{tolerance, cap};
-    settings.measure = measure;
-    const auto begin = std::chrono::steady_clock::now();
-    const LcpResult result = solver->solve(problem, settings, lambda);
-    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-    const Residual r = judge(problem, lambda);
-    fmt::print("  {:<40}{:>8} iterations{:>11.2f} ms{:>11.2e}  {}\n", e.name, result.iterations, ms,
-               measure == Measure::siconos ? r.siconos : r.map.relative, name_of(result.reason));
+constexpr int kRuns = 15;
+constexpr double kEnoughMs = 1000.0;  // of one method's runs
+
+struct Row {
+  std::string name;
+  LcpResult result;
+  Residual residual;
+  std::vector<double> ms;
+};
+
+/// One more run of a method.
+void run(const Entry<LcpSolver>& method, const ConeProblem& problem, const LcpSettings& settings,
+         std::vector<Vec3> lambda, Row& row) {
+  const auto begin = std::chrono::steady_clock::now();
+  row.result = method.make()->solve(problem, settings, lambda);
+  row.ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+  row.residual = judge(problem, lambda);
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+/// What `automatic` takes, over the quickest method's time; 0 where it doesn't end.
+double report(const std::string& name, const ConeProblem& problem, const LcpSettings& settings,
+              const std::vector<Vec3>& start) {
+  problem.w->begin(start);
+  fmt::print("{} ({} contacts)\n  start {:.2e} nodes {}\n", name, problem.q.size(), judge(problem, start).map.relative,
+             problem.w->node_space() ? problem.w->node_space()->touched : 0);
+  std::vector<Row> rows;
+  for (int turn = 0; turn < kRuns; ++turn) {
+    std::size_t i = 0;
+    for (const auto& e : lcp_solvers()) {
+      if (!e.make()->applies(problem).empty()) continue;
+      if (turn == 0) rows.push_back({std::string(e.name), {}, {}, {}});
+      Row& row = rows[i++];
+      double spent = 0.0;
+      for (const double ms : row.ms) spent += ms;
+      if (turn == 0 || (row.result.reason == StopReason::converged && spent < kEnoughMs))
+        run(e, problem, settings, start, row);
+    }
   }
+  double quickest = std::numeric_limits<double>::infinity(), automatic = 0.0;
+  for (const Row& row : rows) {
+    const double ms = median(row.ms),
+                 left = settings.measure == Measure::siconos ? row.residual.siconos : row.residual.map.relative;
+    fmt::print("  {:<40}{:>8} iterations{:>11.3f} ms{:>11.2e}  {}\n", row.name, row.result.iterations, ms, left,
+               name_of(row.result.reason));
+    if (!(left <= settings.tolerance)) continue;
+    quickest = std::min(quickest, ms);
+    if (row.name == "automatic") automatic = ms;
+  }
+  fmt::print("  automatic beside the quickest: {:.2f} x, {:+.2f} ms\n", automatic / quickest, automatic - quickest);
+  std::fflush(stdout);
+  return automatic / quickest;
 }
 
 /// A stack of n unit boxes with four contacts between neighbours, the lowest on the ground, under gravity for one step.
@@ -70,23 +122,68 @@ FrictionContactProblem stack(int n, double top_mass) {
   return made;
 }
 
+std::vector<Vec3> nothing(const ConeProblem& problem) { return std::vector<Vec3>(problem.q.size(), Vec3::Zero()); }
+
+/// Every group of a frozen step, from the λ before and from nothing.
+void report_step(const std::string& path, const LcpSettings& settings, std::vector<double>& ratios) {
+  const FrozenStep step = read_frozen_step(path);
+  for (std::size_t g = 0; g < step.groups.size(); ++g) {
+    ThawedGroup thawed = thaw(step.groups[g], step.linear_solver);
+    GroupSystem& group = thawed.system;
+    ConeProblem problem = make_cone_problem(group);
+    if (problem.q.empty()) continue;
+    std::unique_ptr<Delassus> w;
+    if (group.deformable.empty())
+      w = std::make_unique<FactoredDelassus>(group);
+    else
+      w = delassus_of(group);
+    problem.w = w.get();
+    const std::string name = fmt::format("{} group {}{}", path, g, group.deformable.empty() ? "" : ", deformable");
+    ratios.push_back(report(name + ", from the step before", problem, settings, group.lambda));
+    ratios.push_back(report(name + ", from nothing", problem, settings, nothing(problem)));
+  }
+}
+
+void summary(const char* of, const std::vector<double>& ratios) {
+  if (ratios.empty()) return;
+  double logs = 0.0;
+  for (const double ratio : ratios) logs += std::log(ratio);
+  fmt::print("automatic beside the quickest, {} {}: geometric mean {:.2f}, at most {:.2f}\n", ratios.size(), of,
+             std::exp(logs / static_cast<double>(ratios.size())), *std::max_element(ratios.begin(), ratios.end()));
+}
+
+void report_published(LcpSettings settings) {
+  settings.measure = Measure::siconos;
+  std::vector<double> ratios;
+  for (const char* name :
+       {"FrictionContact3D_1c", "FC3D_Example1", "FC3D_Example1_SBM", "NESpheres_10_1", "Confeti-ex03-Fc3D-SBM",
+        "Rover1039", "Rover9770", "KaplasTower-i1061-4.hdf5", "Capsules-i100-889", "BoxesStack1-i100000-32.hdf5",
+        "OneObject-i100000-499.hdf5", "RockPile_tob1"}) {
+    const std::string path = test::shared_file(fmt::format("friction-contact/{}.dat", name));
+    if (path.empty()) {
+      fmt::print("{}: skipped, no shared data folder\n", name);
+      continue;
+    }
+    const FrictionContactProblem read = read_friction_contact(path);
+    ratios.push_back(report(name, read.problem, settings, nothing(read.problem)));
+  }
+  summary("published problems", ratios);
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  const double tolerance = count > 1 ? std::atof(words[1]) : 1e-8;
-  const int cap = count > 2 ? std::atoi(words[2]) : 2000;
-  for (const int n : {2, 10, 50})
-    report(fmt::format("stack of {}", n), stack(n, 1.0).problem, Measure::natural_map, tolerance, cap);
-  for (const double r : {1e2, 1e4})
-    report(fmt::format("two boxes, the upper {} times as heavy", r), stack(2, r).problem, Measure::natural_map,
-           tolerance, cap);
-  for (const char* name :
-       {"NESpheres_10_1", "Confeti-ex03-Fc3D-SBM", "Rover1039", "Rover9770", "KaplasTower-i1061-4.hdf5",
-        "Capsules-i100-889", "BoxesStack1-i100000-32.hdf5", "OneObject-i100000-499.hdf5", "RockPile_tob1"}) {
-    const std::string path = test::shared_file(fmt::format("friction-contact/{}.dat", name));
-    if (path.empty())
-      fmt::print("{}: skipped, no shared data folder\n", name);
-    else
-      report(name, read_friction_contact(path).problem, Measure::siconos, tolerance, cap);
+  const LcpSettings settings{count > 1 ? std::atof(words[1]) : 1e-8, count > 2 ? std::atoi(words[2]) : 2000};
+  if (count > 3) {
+    std::vector<double> ratios;
+    for (int i = 3; i < count; ++i) report_step(words[i], settings, ratios);
+    summary("frozen groups", ratios);
+    return 0;
   }
+  const auto made = [&](const std::string& name, const ConeProblem& problem) {
+    report(name, problem, settings, nothing(problem));
+  };
+  for (const int n : {2, 10, 50}) made(fmt::format("stack of {}", n), stack(n, 1.0).problem);
+  for (const double r : {1e2, 1e4}) made(fmt::format("two boxes, the upper {} times as heavy", r), stack(2, r).problem);
+  report_published(settings);
 }
