@@ -62,7 +62,8 @@ TEST_CASE("a conjugate sweep without momentum is a sweep, and what comes after n
   CHECK(3 * nncg.iterations < gauss_seidel.iterations);
 }
 
-TEST_CASE("the default makes sweeps conjugate where Gauss-Seidel is slow and Newton dearer, and Newton ends what is left") {
+TEST_CASE(
+    "the default makes sweeps conjugate where Gauss-Seidel is slow and Newton dearer, and Newton ends what is left") {
   for (const double little : {1e-2, 1e-6}) {
     const Line of(300, little);
     std::vector<Vec3> lambda(300, Vec3::Zero()), newton = lambda;
