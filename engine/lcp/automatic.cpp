@@ -108,6 +108,7 @@ class Automatic : public LcpSolver {
       if (!dense) return go_on(semismooth_newton_solver, problem, settings, sweep, lambda);
       if (by_conjugate < price && conjugate_sweeps_end(problem, settings, stop, price, sweep, lambda))
         return {sweep, StopReason::converged};
+      if (sweep == settings.max_iterations) break;
       lambda = start;
       return by_newton(problem, settings, sweep, lambda);
     }
