@@ -263,8 +263,7 @@ class Automatic : public LcpSolver {
 
 Entry<LcpSolver> automatic_solver() {
   return entry<LcpSolver, Automatic>(
-      "automatic",
-      "Gauss-Seidel, and where it is slow semismooth or smoothing Newton (many contacts of soft bodies: NNCG)");
+      "automatic", "Gauss-Seidel; where it is slow conjugate sweeps (soft bodies), semismooth or smoothing Newton");
 }
 
 }  // namespace impinge
