@@ -85,11 +85,11 @@ class Automatic : public LcpSolver {
     double price = bodies   ? kSweepsOfBodies
                    : newton ? kSweepsPerContact * (nodes != nullptr ? of_nodes(*nodes, n) : static_cast<double>(n))
                             : kSweepsOfConjugate;
-    if (dense && newton && nodes == nullptr && begins_near(problem, lambda)) price *= kFromGood;
     const int first = bodies || dense ? kFewSweeps : kFirstSweeps;
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
+    if (dense && newton && nodes == nullptr && stop.residual() < kGood && !is_zero(lambda)) price *= kFromGood;
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
     const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
@@ -106,11 +106,13 @@ class Automatic : public LcpSolver {
       if (bodies) return solve_bodies(problem, settings, sweep, lambda);
       if (!newton) return go_on(nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings, sweep, lambda);
       if (!dense) return go_on(semismooth_newton_solver, problem, settings, sweep, lambda);
-      if (by_conjugate < price && conjugate_sweeps_end(problem, settings, stop, price, sweep, lambda))
+      if (by_conjugate < price && conjugate_sweeps_end(problem, settings, goal, price, stop, sweep, lambda))
         return {sweep, StopReason::converged};
       if (sweep == settings.max_iterations) break;
       lambda = start;
-      return by_newton(problem, settings, sweep, lambda);
+      LcpResult result{sweep, StopReason::stagnated};
+      newton_or_rounded(kAny, problem, settings, result, lambda);
+      return result;
     }
     return {settings.max_iterations, StopReason::iteration_cap};
   }
@@ -121,10 +123,9 @@ class Automatic : public LcpSolver {
     return static_cast<double>(space.touched) * space.touched / static_cast<double>(contacts);
   }
 
-  /// Whether the λ that came is of use.
-  static bool begins_near(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
-    const auto is_zero = [](const Vec3& of_contact) { return of_contact.isZero(0.0); };
-    return !std::all_of(lambda.begin(), lambda.end(), is_zero) && judge(problem, lambda).map.relative < kGood;
+  /// Whether no λ came: open contacts then make residuals small that are not near an answer.
+  static bool is_zero(const std::vector<Vec3>& lambda) {
+    return std::all_of(lambda.begin(), lambda.end(), [](const Vec3& of_contact) { return of_contact.isZero(0.0); });
   }
 
   /// What the rate of the last sweeps says.
@@ -137,9 +138,8 @@ class Automatic : public LcpSolver {
   }
 
   /// Conjugate sweeps as long as they promise an end for less than `price` sweeps.
-  static bool conjugate_sweeps_end(const ConeProblem& problem, const LcpSettings& settings, SweepStop& stop,
-                                   double price, int& sweeps, std::vector<Vec3>& lambda) {
-    const double goal = settings.tolerance * velocity_scale(problem);
+  static bool conjugate_sweeps_end(const ConeProblem& problem, const LcpSettings& settings, double goal, double price,
+                                   SweepStop& stop, int& sweeps, std::vector<Vec3>& lambda) {
     ConjugateSweeps conjugate(problem);
     std::vector<double> changes;
     while (sweeps < settings.max_iterations) {
@@ -155,19 +155,18 @@ class Automatic : public LcpSolver {
     return false;
   }
 
-  /// Where W is dense: from the λ that came, and where that ends short, from there on rounded equations.
-  static LcpResult by_newton(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
-                             std::vector<Vec3>& lambda) {
+  /// So many steps of Newton's, then rounded equations from where it began; λ is the better one's. Whether nothing is
+  /// left to do.
+  static bool newton_or_rounded(int most, const ConeProblem& problem, const LcpSettings& settings, LcpResult& result,
+                                std::vector<Vec3>& lambda) {
     std::vector<Vec3> rounded = lambda;
-    LcpResult result = go_on(semismooth_newton_solver, problem, settings, sweeps, lambda);
-    if (has_ended(result, settings)) return result;
+    result = go_on(semismooth_newton_solver, problem, settings, result.iterations, lambda, most);
+    if (has_ended(result, settings)) return true;
     result = go_on(smoothing_newton_solver, problem, settings, result.iterations, rounded);
-    if (result.reason != StopReason::converged &&
-        !(judge(problem, rounded).map.relative < judge(problem, lambda).map.relative))
-      return result;
-    lambda = std::move(rounded);
-    if (has_ended(result, settings)) return result;
-    return go_on(semismooth_newton_solver, problem, settings, result.iterations, lambda);
+    if (result.reason == StopReason::converged ||
+        judge(problem, rounded).map.relative < judge(problem, lambda).map.relative)
+      lambda = std::move(rounded);
+    return has_ended(result, settings);
   }
 
   /// Of rigid bodies.
@@ -227,11 +226,9 @@ class Automatic : public LcpSolver {
     } else {
       const bool is_dear = lambda.size() >= kMany;
       const auto will_do = [&] { return is_dear && residual(lambda) <= kNear; };
-      std::vector<Vec3> rounded = lambda;
-      if (go(newton, lambda, kPatience)) return result;
-      const bool is_done = go(smoothing, rounded, kAny);
-      if (result.reason == StopReason::converged || residual(rounded) < residual(lambda)) lambda = std::move(rounded);
-      if (is_done || will_do() || go(newton, lambda, is_dear ? kPatience : kAny) || will_do()) return result;
+      if (newton_or_rounded(kPatience, problem, settings, result, lambda) || will_do() ||
+          go(newton, lambda, is_dear ? kPatience : kAny) || will_do())
+        return result;
     }
     std::vector<Vec3> other(lambda.size(), Vec3::Zero());
     const bool ended = go(newton, other, kAny);

@@ -25,9 +25,9 @@ double ConjugateSweeps::sweep(std::vector<Vec3>& lambda) {
       problem_.w->change(i, momentum, problem_.has_one_row(i));
     }
   }
-  before_ = lambda;
+  step_ = lambda;
   const double change = gauss_seidel_sweep(problem_, lambda);
-  for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = lambda[i] - before_[i];
+  for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = lambda[i] - step_[i];
   return change;
 }
 

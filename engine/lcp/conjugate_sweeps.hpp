@@ -19,7 +19,7 @@ class ConjugateSweeps {
 
  private:
   const ConeProblem& problem_;
-  std::vector<Vec3> before_, step_, direction_;
+  std::vector<Vec3> step_, direction_;
   double size_before_ = std::numeric_limits<double>::infinity();  // so that the first step is taken as it is
 };
 

@@ -71,9 +71,9 @@ SweepStop::SweepStop(const ConeProblem& problem, const LcpSettings& settings)
 
 bool SweepStop::solved(const std::vector<Vec3>& lambda) {
   velocities(problem_, u_);
-  const double residual = relative_residual(problem_, u_, lambda, settings_.measure);
-  if (settings_.history != nullptr) settings_.history->push_back(residual);
-  return residual <= settings_.tolerance;
+  residual_ = relative_residual(problem_, u_, lambda, settings_.measure);
+  if (settings_.history != nullptr) settings_.history->push_back(residual_);
+  return residual_ <= settings_.tolerance;
 }
 
 bool SweepStop::solved(const std::vector<Vec3>& lambda, double change) {
@@ -82,8 +82,7 @@ bool SweepStop::solved(const std::vector<Vec3>& lambda, double change) {
   if (solved(lambda)) return true;
   if (settings_.measure == Measure::natural_map || settings_.history != nullptr) return false;
   // in another measure the step says nothing by itself, but it shrinks as the residual does
-  const double residual = relative_residual(problem_, u_, lambda, settings_.measure);
-  gate_ = std::max(change * std::min(1.0, 3.0 * settings_.tolerance / residual), 1e-3 * gate_);
+  gate_ = std::max(change * std::min(1.0, 3.0 * settings_.tolerance / residual_), 1e-3 * gate_);
   return false;
 }
 

@@ -23,11 +23,14 @@ class SweepStop {
   bool solved(const std::vector<Vec3>& lambda);
   /// After a sweep whose largest change was `change`.
   bool solved(const std::vector<Vec3>& lambda, double change);
+  /// The last one that was computed, in the settings' measure, relative.
+  double residual() const { return residual_; }
 
  private:
   const ConeProblem& problem_;
   const LcpSettings& settings_;
   double gate_;  // m/s: sweeps that change more than this are not looked at
+  double residual_ = 0.0;
   std::vector<Vec3> u_;
 };
 

@@ -7,7 +7,6 @@
 #include "engine/core/error.hpp"
 #include "engine/response/operators/delassus_of.hpp"
 #include "engine/response/operators/factor_worth.hpp"
-#include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {
@@ -48,7 +47,7 @@ void SpringSolver::factorize() {
   left_ = kNever;
   ConeProblem problem = make_cone_problem(group_);
   try {
-    w_ = group_.deformable.empty() ? std::make_unique<FactoredDelassus>(group_) : delassus_of(group_);
+    w_ = delassus_of(group_);
   } catch (const DivergenceError&) {  // A is not positive definite: gradients go on as far as they can
     return;
   }

@@ -1,7 +1,7 @@
-// bench_lcp [TOLERANCE [CAP [STEP_FILE...]]]: every LCP solver on stacks, on a light and a heavy box, and on the published problems where
-// the shared data folder is: iterations, milliseconds (the median of runs in turn), the residual as the judge finds it,
-// and what `automatic` takes beside the quickest method that reaches the tolerance. With files of frozen steps (`impinge run
-// --freeze`): their groups instead, from the λ before and from nothing.
+// bench_lcp [TOLERANCE [CAP [STEP_FILE...]]]: every LCP solver on stacks, on a light and a heavy box, and on the published
+// problems where the shared data folder is: iterations, milliseconds (the median of runs in turn), the residual as the
+// judge finds it, and what `automatic` takes beside the quickest method that reaches the tolerance. With files of frozen
+// steps (`impinge run --freeze`): their groups instead, from the λ before and from nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,12 +13,10 @@
 #include "engine/frozen/frozen_step_file.hpp"
 #include "engine/frozen/read_friction_contact.hpp"
 #include "engine/lcp/lcp_solver.hpp"
-#include "engine/lcp/node_space.hpp"
 #include "engine/response/operators/delassus_of.hpp"
-#include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/response.hpp"
 #include "tests/support/geometry/meshes.hpp"
-#include "tests/support/random.hpp"
+#include "tests/support/median.hpp"
 
 using namespace impinge;
 
@@ -45,17 +43,11 @@ void run(const Entry<LcpSolver>& method, const ConeProblem& problem, const LcpSe
   row.residual = judge(problem, lambda);
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 /// What `automatic` takes, over the quickest method's time; 0 where it doesn't end.
 double report(const std::string& name, const ConeProblem& problem, const LcpSettings& settings,
               const std::vector<Vec3>& start) {
-  problem.w->begin(start);
-  fmt::print("{} ({} contacts)\n  start {:.2e} nodes {}\n", name, problem.q.size(), judge(problem, start).map.relative,
-             problem.w->node_space() ? problem.w->node_space()->touched : 0);
+  fmt::print("{} ({} contacts, residual at first {:.1e})\n", name, problem.q.size(),
+             judge(problem, start).map.relative);
   std::vector<Row> rows;
   for (int turn = 0; turn < kRuns; ++turn) {
     std::size_t i = 0;
@@ -71,7 +63,7 @@ double report(const std::string& name, const ConeProblem& problem, const LcpSett
   }
   double quickest = std::numeric_limits<double>::infinity(), automatic = 0.0;
   for (const Row& row : rows) {
-    const double ms = median(row.ms),
+    const double ms = test::median(row.ms),
                  left = settings.measure == Measure::siconos ? row.residual.siconos : row.residual.map.relative;
     fmt::print("  {:<40}{:>8} iterations{:>11.3f} ms{:>11.2e}  {}\n", row.name, row.result.iterations, ms, left,
                name_of(row.result.reason));
@@ -132,11 +124,7 @@ void report_step(const std::string& path, const LcpSettings& settings, std::vect
     GroupSystem& group = thawed.system;
     ConeProblem problem = make_cone_problem(group);
     if (problem.q.empty()) continue;
-    std::unique_ptr<Delassus> w;
-    if (group.deformable.empty())
-      w = std::make_unique<FactoredDelassus>(group);
-    else
-      w = delassus_of(group);
+    const std::unique_ptr<Delassus> w = delassus_of(group);
     problem.w = w.get();
     const std::string name = fmt::format("{} group {}{}", path, g, group.deformable.empty() ? "" : ", deformable");
     ratios.push_back(report(name + ", from the step before", problem, settings, group.lambda));

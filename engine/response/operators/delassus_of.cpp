@@ -1,6 +1,7 @@
 #include "engine/response/operators/delassus_of.hpp"
 
 #include "engine/response/operators/assembled_delassus.hpp"
+#include "engine/response/operators/factored_delassus.hpp"
 #include "engine/response/operators/node_delassus.hpp"
 #include "engine/response/operators/touched_nodes.hpp"
 
@@ -13,6 +14,7 @@ constexpr std::size_t kFewContacts = 100;  // whose W is small, whatever it is m
 }  // namespace
 
 std::unique_ptr<Delassus> delassus_of(GroupSystem& group) {
+  if (group.deformable.empty()) return std::make_unique<FactoredDelassus>(group);
   if (group.contacts.size() >= kFewContacts) {
     const std::vector<std::vector<int>> nodes = touched_nodes(group);
     std::size_t count = 0;

@@ -1,4 +1,5 @@
-// W of a group with deformable bodies, by contacts or by the nodes that they touch, whichever are fewer.
+// W of a group: of rigid bodies by its factors, with deformable ones by contacts or by the nodes that they touch,
+// whichever are fewer.
 #pragma once
 
 #include <memory>
