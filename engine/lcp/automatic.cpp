@@ -3,12 +3,12 @@
 // clocks, so the same problem takes the same way everywhere.
 //
 // Price in sweeps: where all bodies are rigid Newton's systems have six rows a body, and a solve costs some twenty
-// sweeps however many contacts there are. Elsewhere it is some 15 factorizations of 2/3 (3n)³ operations at full speed
-// against 18 n² a sweep at a fraction of it, about 6 n, and less since open contacts leave the factorization; 2 n was
-// the best of 6, 2 and 0.5 on stacks, piles and deformable cubes, and a quarter of it where the λ that came is near: then
-// three to six steps do. There Newton begins with that λ, not with the sweeps': on frozen steps of two soft cubes in 130
-// to 530 contacts it took half the time (5.9 s of 11.9 in all). With more contacts than kMostDense (a W with factors,
-// whose sweeps cost n: kMostFactored) the sweeps are made conjugate instead.
+// sweeps however many contacts there are. Where W is dense a step of Newton's costs what the contacts that carry make it
+// or the nodes make it (of_step), and from a λ that is near five of them do, else some twelve: 16 frozen groups of deformable
+// bodies and 5 published problems took 5 to 94 sweeps a step, 207 the largest, where 11 to 160 are expected. There Newton
+// begins with the λ that came, not with that of the sweeps: on frozen steps of two soft cubes in 130 to 530 contacts it
+// took half the time (5.9 s of 11.9 in all). With more contacts than kMostDense (a W with factors, whose sweeps cost n:
+// kMostFactored) the sweeps are made conjugate instead.
 //
 // Between the two, where W is dense: where Gauss-Seidel would need N sweeps, conjugate ones (kConjugateSweep times as
 // dear) needed 4 to 10 roots of N on published problems and frozen steps of deformable bodies (N 120 to 3,300). They are
@@ -41,18 +41,19 @@ Entry<LcpSolver> smoothing_newton_solver();
 
 namespace {
 
-constexpr int kFirstSweeps = 30;          // before the rate is looked at
-constexpr int kFewSweeps = 10;            // the same where Newton is quick, or a W that is dense makes sweeps dear
-constexpr int kWindow = 10;               // of them that it is taken over
-constexpr double kGood = 0.1;             // a relative residual that Newton may begin with
-constexpr double kFromGood = 0.25;        // what is left of its price there
-constexpr double kConjugateSweep = 1.45;  // what a conjugate sweep costs, in sweeps
+constexpr int kFirstSweeps = 30;  // before the rate is looked at
+constexpr int kFewSweeps = 10;    // the same where Newton is quick, or a W that is dense makes sweeps dear
+constexpr int kWindow = 10;       // of them that it is taken over
+constexpr double kGood = 0.1;     // a relative residual that Newton may begin with
+constexpr double kSteps = 12.0, kStepsFromNear = 5.0;                  // of Newton's from anywhere, and from there
+constexpr double kSweepsOfStep = 10.0, kOfRows = 0.6, kOfNodes = 0.1;  // the price of one of them, where W is dense
+constexpr double kConjugateSweep = 1.45;                               // what a conjugate sweep costs, in sweeps
 constexpr double kConjugateOfRoot = 6.0;  // how many of them are expected, over the root of the others' number
 constexpr std::size_t kConjugateWindow = 20;
-constexpr double kTooFar = 2.0;  // prices of Newton's that are still to come where they are left
+constexpr double kTooFar = 2.0;  // prices of Newton's where they are left whatever they promise
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
-constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method
+constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method, where W has factors
 constexpr double kSweepsOfBodies = 20.0;     // and where all bodies are rigid
 constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
 constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
@@ -82,14 +83,12 @@ class Automatic : public LcpSolver {
     const NodeSpace* nodes = problem.w->node_space();
     const bool newton = bodies || nodes != nullptr || n <= (problem.w->has_factors() ? kMostFactored : kMostDense);
     const bool dense = !problem.w->has_factors();
-    double price = bodies   ? kSweepsOfBodies
-                   : newton ? kSweepsPerContact * (nodes != nullptr ? of_nodes(*nodes, n) : static_cast<double>(n))
-                            : kSweepsOfConjugate;
+    double price = bodies ? kSweepsOfBodies : newton ? kSweepsPerContact * static_cast<double>(n) : kSweepsOfConjugate;
     const int first = bodies || dense ? kFewSweeps : kFirstSweeps;
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
-    if (dense && newton && nodes == nullptr && stop.residual() < kGood && !is_zero(lambda)) price *= kFromGood;
+    const double steps = stop.residual() < kGood && !is_zero(lambda) ? kStepsFromNear : kSteps;
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
     const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
@@ -99,6 +98,7 @@ class Automatic : public LcpSolver {
       if (change == 0.0) return {sweep, StopReason::stagnated};
       changes.push_back(change);
       if (sweep < first || sweep == settings.max_iterations) continue;
+      if (sweep == first && dense && newton) price = steps * of_step(nodes, lambda);
       // a rate that promises an end and doesn't keep it counts for nothing
       const double left = sweep > first + price ? price + 1.0 : sweeps_left(changes, goal);
       const double by_conjugate = dense && newton ? kConjugateSweep * kConjugateOfRoot * std::sqrt(left) : kInfinity;
@@ -118,9 +118,12 @@ class Automatic : public LcpSolver {
   }
 
  private:
-  /// A factorization goes by the cube of the nodes, a sweep by nodes times contacts.
-  static double of_nodes(const NodeSpace& space, std::size_t contacts) {
-    return static_cast<double>(space.touched) * space.touched / static_cast<double>(contacts);
+  /// One of Newton's steps in sweeps, where W is dense: a factorization goes by the cube of the contacts that carry, or of
+  /// the nodes, a sweep by contacts times contacts; what else a step needs is a few sweeps.
+  static double of_step(const NodeSpace* nodes, const std::vector<Vec3>& lambda) {
+    const auto carries = [](const Vec3& of_contact) { return !of_contact.isZero(0.0); };
+    const double size = nodes != nullptr ? nodes->touched : std::count_if(lambda.begin(), lambda.end(), carries);
+    return kSweepsOfStep + (nodes != nullptr ? kOfNodes : kOfRows) * size * size / static_cast<double>(lambda.size());
   }
 
   /// Whether no λ came: open contacts then make residuals small that are not near an answer.
@@ -137,7 +140,7 @@ class Automatic : public LcpSolver {
     return rate < 1.0 ? std::log(goal / now) / std::log(rate) : std::numeric_limits<double>::infinity();
   }
 
-  /// Conjugate sweeps as long as they promise an end for less than `price` sweeps.
+  /// Conjugate sweeps as long as they promise to end what is left for less than `price` sweeps.
   static bool conjugate_sweeps_end(const ConeProblem& problem, const LcpSettings& settings, double goal, double price,
                                    SweepStop& stop, int& sweeps, std::vector<Vec3>& lambda) {
     ConjugateSweeps conjugate(problem);
@@ -150,7 +153,7 @@ class Automatic : public LcpSolver {
       if (changes.size() % kConjugateWindow != 0) continue;
       const double spent = kConjugateSweep * static_cast<double>(changes.size()),
                    left = kConjugateSweep * sweeps_left(changes, goal, changes.size() - 1);
-      if (spent > price || left > kTooFar * price) break;
+      if (left > price || spent > kTooFar * price) break;
     }
     return false;
   }
