@@ -136,25 +136,31 @@ bool are_interlocked(std::span<const Collision> collisions, const BodyPair& pair
   return std::any_of(own.begin(), own.end(), [&](const Collision& c) { return c.normal.dot(sum) <= 0.0; });
 }
 
-std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
-                                       std::span<const Collider> solved) {
+std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& contact, const SubStep& step,
+                                   std::span<const Collider> solved) {
   std::vector<BodyPair> pairs;
   for (const BodyPair& pair : step.pairs) {
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
     if (pair.a == pair.b || a.asleep || b.asleep) continue;
-    const double activation = by.contact.activation(pair_size(a, b));
-    const auto approaches = [&](double way) {
-      return approach(solved[pair.a], a.radius, solved[pair.b], b.radius, step.time_step) > way;
-    };
-    if (!deforms(a) && !deforms(b) && !(approaches(kSwift * activation) && may_hide(bodies, pair, step.collisions)))
-      continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
-    pairs.push_back({pair.a, pair.b, activation});
+    const double activation = contact.activation(pair_size(a, b));
+    const auto is_swift = [&] {
+      const double way = approach(solved[pair.a], a.radius, solved[pair.b], b.radius, step.time_step);
+      return way > kSwift * activation && may_hide(bodies, pair, step.collisions);
+    };
+    if (deforms(a) || deforms(b) || std::binary_search(step.passing.begin(), step.passing.end(), pair) || is_swift())
+      pairs.push_back({pair.a, pair.b, activation});
   }
-  if (pairs.empty()) return {};
-  const EndPose end(bodies, step, solved, pairs);
-  std::erase_if(pairs,
-                [&](const BodyPair& p) { return !overlap(end.colliders()[p.a].bounds, end.colliders()[p.b].bounds); });
+  return pairs;
+}
+
+std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
+                                       std::span<const Collider> solved, std::span<const BodyPair> seen) {
+  if (seen.empty()) return {};
+  const EndPose end(bodies, step, solved, seen);
+  std::vector<BodyPair> pairs;
+  std::copy_if(seen.begin(), seen.end(), std::back_inserter(pairs),
+               [&](const BodyPair& p) { return overlap(end.colliders()[p.a].bounds, end.colliders()[p.b].bounds); });
   if (pairs.empty()) return {};
   std::vector<TrianglePair> triangles;
   std::vector<Collision> found;
@@ -176,6 +182,22 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   });
   keep_deepest(bodies, ends, found);
   return found;
+}
+
+std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std::vector<BodyPair> pairs) {
+  std::vector<Collider> colliders;
+  make_colliders(bodies, colliders);
+  for (Collider& c : colliders) c.velocity = c.angular_velocity = Vec3::Zero();
+  for (BodyPair& pair : pairs) pair.margin = by.contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
+  std::vector<TrianglePair> triangles;
+  std::vector<Collision> found;
+  find_collisions(colliders, pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
+  std::vector<double> depths;
+  for (const BodyPair& pair : pairs) {
+    depths.push_back(0.0);
+    for (const Collision& c : of_pair(found, pair)) depths.back() = std::max(depths.back(), -c.gap);
+  }
+  return depths;
 }
 
 }  // namespace impinge

@@ -8,12 +8,19 @@
 
 namespace impinge {
 
-/// Of a step that is solved: overlaps at its end, deeper than they were at its start and than contacts leave, of pairs with a
-/// deforming body and of rigid bodies that approach fast, of two meshes the few deepest and none where one hangs in the other.
-/// `solved`: the colliders with the velocities that the response gave to rigid bodies. Points and gap are those of the start,
-/// in pair order; changes nothing.
+/// Of a step that is solved: pairs whose end is worth a look. Those with a deforming body, rigid bodies that approach fast,
+/// unless one hangs in the other, and those that are known to pass. `solved`: the colliders with the velocities that the
+/// response gave to rigid bodies. Sorted.
+std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& contact, const SubStep& step,
+                                   std::span<const Collider> solved);
+
+/// Overlaps of those pairs at its end, deeper than they were at its start and than contacts leave, of two rigid meshes the
+/// few deepest. Points and gap are those of the start, in pair order; changes nothing.
 std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
-                                       std::span<const Collider> solved);
+                                       std::span<const Collider> solved, std::span<const BodyPair> pairs);
+
+/// By pair, of rigid bodies: how deep their deepest contact is where they stand, metres; 0: they don't overlap.
+std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std::vector<BodyPair> pairs);
 
 /// Whether one of the two hangs in the other, as a pin does in its hole: their contacts push to all sides.
 /// `collisions`: in pair order.

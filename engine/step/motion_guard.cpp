@@ -23,8 +23,11 @@ constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found
 constexpr double kSeen = 0.3;      // of that: what they see well
 constexpr double kRough = 5.0;     // of that, half the thickness: less than this leads nobody through
 constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
-constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up,
-constexpr double kCreep = 0.01;    // and of these depths, what rigid bodies may end deeper than they began
+constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
+constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
+constexpr double kWithin =
+    5.0;  // of what paths are straight to, half the activation distance: contacts see those depths
+constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
@@ -245,9 +248,8 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
   paths.reserve(pairs.size());
   for (const UnsafeMotion::Pair& pair : pairs)
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
-  std::vector<double> seen;  // by pair: as its safe approach is, but of a wall where one of the two is hollow
-  for (const UnsafeMotion::Pair& pair : pairs)
-    seen.push_back(std::min(pair.safe, kSafe * std::min(wall_of(bodies[pair.a]), wall_of(bodies[pair.b]))));
+  std::vector<double> seen;  // by pair: found before threads begin, as wall_of keeps what it knows
+  for (const UnsafeMotion::Pair& pair : pairs) seen.push_back(seen_of(bodies, pair));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const Body &of_a = bodies[pairs[i].a], &of_b = bodies[pairs[i].b];
     PassageSettings own = settings(of_a, of_b);
@@ -259,11 +261,43 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
       own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * seen[i]) : own.depth;
     else {
       own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * seen[i]);
+      if (depth == Depth::graze) own.depth = std::max(own.depth, std::min(kGraze * seen[i], kWithin * own.reach));
       own.creep = kCreep * own.depth;
     }
     if (is_known_clear(of_a, of_b, paths[i].first, paths[i].second, own.depth)) return;
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
                                                  : first_passages(paths[i].first, paths[i].second, own);
+  });
+}
+
+/// As the pair's safe approach is, but of a wall where one of the two is hollow, metres.
+double MotionGuard::seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair) {
+  return std::min(pair.safe, kSafe * std::min(wall_of(bodies[pair.a]), wall_of(bodies[pair.b])));
+}
+
+/// Takes out the pairs of rigid bodies that slide through one another's corners by little and are out again at the end: a
+/// shorter motion would end no better.
+void MotionGuard::forgive_grazes(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs,
+                                 const PassagesOf& settings, const OverlapsOf& overlaps) {
+  std::vector<UnsafeMotion::Pair> grazing;
+  std::vector<BodyPair> of;
+  for (const UnsafeMotion::Pair& pair : pairs) {
+    if (deforms(bodies[pair.a]) || deforms(bodies[pair.b])) continue;
+    grazing.push_back(pair), grazing.back().passages.clear();
+    of.push_back({pair.a, pair.b});
+  }
+  if (grazing.empty()) return;
+  const std::vector<double> depths = overlaps(of);
+  std::size_t i = 0;
+  std::erase_if(grazing, [&](const UnsafeMotion::Pair& pair) {
+    const double allowed = settings(bodies[pair.a], bodies[pair.b]).depth;
+    return depths[i++] > std::max(allowed, kShallow * seen_of(bodies, pair));
+  });
+  search(bodies, grazing, settings, Depth::graze);
+  std::erase_if(pairs, [&](const UnsafeMotion::Pair& pair) {
+    return std::any_of(grazing.begin(), grazing.end(), [&](const UnsafeMotion::Pair& g) {
+      return g.a == pair.a && g.b == pair.b && g.passages.empty();
+    });
   });
 }
 
@@ -280,12 +314,13 @@ void MotionGuard::find_passages(const Bodies& bodies, UnsafeMotion& motion, cons
 }
 
 std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous which, const PassagesOf& settings,
-                                              bool is_rough, bool is_cut) {
+                                              bool is_rough, bool is_cut, const OverlapsOf& overlaps) {
   std::vector<UnsafeMotion::Pair> pairs = pairs_at_risk(bodies, which, is_rough);
   if (pairs.empty()) return std::nullopt;
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
   search(bodies, pairs, settings, is_rough ? Depth::rough : is_cut ? Depth::least : Depth::shallow);
   std::erase_if(pairs, [](const UnsafeMotion::Pair& pair) { return pair.passages.empty(); });
+  if (!is_rough && !is_cut && overlaps) forgive_grazes(bodies, pairs, settings, overlaps);
   if (pairs.empty()) return std::nullopt;
   return UnsafeMotion{std::move(pairs)};
 }

@@ -37,6 +37,9 @@ struct UnsafeMotion {
 /// What counts as a passage of two bodies.
 using PassagesOf = std::function<PassageSettings(const Body& a, const Body& b)>;
 
+/// By pair of rigid bodies: how deep they overlap where they stand, metres; 0: they don't.
+using OverlapsOf = std::function<std::vector<double>(std::vector<BodyPair>)>;
+
 class MotionGuard {
  public:
   MotionGuard();
@@ -49,9 +52,10 @@ class MotionGuard {
   void stayed(BodyIndex body) { turns_[body].clear(); }
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
   /// `is_rough`: rigid bodies may end in one another by a tenth of the thinner one's thickness, from where contacts still
-  /// know the way out. `is_cut`: of a sub-step that is made in pieces, whose overlaps add up.
+  /// know the way out. `is_cut`: of a sub-step that is made in pieces, whose overlaps add up. `overlaps`: of a whole one, rigid bodies that graze each other on the way, and end no deeper in one another than is
+  /// left to contacts, pass nobody; empty: every passage counts.
   std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings, bool is_rough,
-                                   bool is_cut);
+                                   bool is_cut, const OverlapsOf& overlaps);
   /// What `look` holds against each other of two bodies after the motion.
   struct PairMotion {
     bool is_planar = false;  ///< a plane is among them: what is through it is still inside
@@ -64,7 +68,7 @@ class MotionGuard {
   void find_passages(const Bodies& bodies, UnsafeMotion& motion, const PassagesOf& settings);
 
  private:
-  enum class Depth { least, shallow, rough, safe };  // from which on a passage counts
+  enum class Depth { least, shallow, graze, rough, safe };  // from which on a passage counts
   struct Known;
   /// The box round everything the body covers on its way, and how far a point of it moves at most.
   struct Sweep {
@@ -83,7 +87,10 @@ class MotionGuard {
   SurfacePath path_of(const Body& body, BodyIndex b);
   void add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs);
   std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, Continuous which, bool is_rough);
+  double seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair);
   void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings, Depth depth);
+  void forgive_grazes(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings,
+                      const OverlapsOf& overlaps);
 
   std::vector<Pose> start_;               // by body
   std::vector<std::vector<Pose>> turns_;  // by body: poses on the way of what turns far; else empty

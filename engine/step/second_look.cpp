@@ -79,7 +79,8 @@ bool SecondLook::find(StageTimes& times) {
   if (is_anyone_driven()) find_driven(times);
   {
     const StageTimer timer(times.narrow_ms);
-    ahead_ = overlaps_at_end(bodies_, by_, step_, colliders_);
+    step_.seen_at_end = pairs_at_end(bodies_, by_.contact, step_, colliders_);
+    ahead_ = overlaps_at_end(bodies_, by_, step_, colliders_, step_.seen_at_end);
   }
   std::erase_if(ahead_, [&](const Collision& c) {  // a row that is there needs to be told of turning, and not again
     return std::any_of(step_.collisions.begin(), step_.collisions.end(), [&](const Collision& k) {

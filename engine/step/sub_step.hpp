@@ -24,6 +24,7 @@ struct SubStep {
   // of a motion that was taken back, for the one that is made instead: its impulses, and what second looks brought
   std::optional<ContactCache> tried;
   std::vector<Collision> brought;
+  std::vector<BodyPair> passing;  ///< sorted; rigid bodies whose end is to be looked at because they passed each other
 
   // 7: contacts that can't come to carry are gone from collisions
   std::vector<Collision> dropped;  ///< in pair order
@@ -36,6 +37,9 @@ struct SubStep {
 
   // 9, 10: by group
   std::vector<GroupResult> results;
+
+  // 10: pairs whose end second looks saw, sorted
+  std::vector<BodyPair> seen_at_end;
 
   // 10, 12: the colliders later: with the velocities that the response gave to rigid bodies, and where the motion led
   std::vector<Collider> later;

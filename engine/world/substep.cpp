@@ -23,6 +23,7 @@ constexpr int kMostMotions = 32;      // tried for a piece
 constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
 constexpr double kGrowth = 2.0;       // of the next piece over one that had rows and took more motions than that
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
+constexpr double kFar = 20.0;         // of a safe approach: from there on the end tells nothing of what is on the way
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
 constexpr double kSelfDepth = 1e-6;   // the same of a body with itself, whose contacts keep it apart by more than that
@@ -77,7 +78,7 @@ bool is_usable(const SubStep& step) {
 
 /// A motion of which nothing was tried yet.
 void begin(SubStep& step) {
-  step.asked.clear(), step.brought.clear();
+  step.asked.clear(), step.brought.clear(), step.passing.clear();
   step.tried.reset();
 }
 
@@ -112,6 +113,31 @@ struct Asking {
     return true;
   }
 };
+
+OverlapsOf overlaps_by(const Bodies& bodies, const Parameters& parameters) {
+  if (parameters.contact.points != ContactPoints::proximity) return {};
+  return [&](std::vector<BodyPair> pairs) { return overlaps_now(bodies, detecting(parameters), std::move(pairs)); };
+}
+
+/// Has second looks see the ends of rigid bodies that pass, where rows of what they overlap with may hold them. False: they
+/// saw all of them and brought nothing, or that is far.
+bool look_at_ends(const Bodies& bodies, const UnsafeMotion& motion, SubStep& step) {
+  bool is_new = false;
+  for (const UnsafeMotion::Pair& p : motion.pairs) {
+    const BodyPair pair{p.a, p.b};
+    const auto is_of_pair = [&](const Collision& c) { return c.body_a == p.a && c.body_b == p.b; };
+    const auto at = std::lower_bound(step.passing.begin(), step.passing.end(), pair);
+    if (at != step.passing.end() && *at == pair) continue;
+    if (bodies[p.a].kind() == BodyKind::deformable || bodies[p.b].kind() == BodyKind::deformable) continue;
+    if (p.approach > kFar * p.safe || (step.group_of(p.a).is_none() && step.group_of(p.b).is_none())) continue;
+    if (std::binary_search(step.seen_at_end.begin(), step.seen_at_end.end(), pair) &&
+        std::none_of(step.brought.begin(), step.brought.end(), is_of_pair))
+      continue;
+    step.passing.insert(at, pair);
+    is_new = true;
+  }
+  return is_new;
+}
 
 /// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
 double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
@@ -218,14 +244,13 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation, is_kept);
+  const OverlapsOf overlaps = overlaps_by(bodies_, parameters);
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   if (bodies_.all_active()) has_rebounds_ = has_rebounds(bodies_, parameters.contact);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds_;
-  const double gravity = scale_gravity(parameters.simulation.gravity);
   int impacts = 0;
-  double rest = 1.0;  // of the sub-step
-  double next = 1.0;  // the same, of the piece that is tried
+  double rest = 1.0, next = 1.0;  // of the sub-step: what is left, and what the next piece tries
   Asking asking;
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
@@ -247,14 +272,14 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
       };
       if (rebounds && motion < kMostMotions)
-        if (const auto before =
-                share_for_impacts(bodies_, *sub_step_, parameters.contact, gravity, impacts, watcher_)) {
+        if (const auto before = share_for_impacts(bodies_, *sub_step_, parameters.contact,
+                                                  scale_gravity(parameters.simulation.gravity), impacts, watcher_)) {
           share *= *before;
           start->take_back(*sub_step_, bodies_, sleeping_);
           continue;
         }
       hold_back();
-      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1);
+      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
       if (!unsafe) break;
@@ -267,12 +292,13 @@ void World::substep(double h, int left, FrozenStep* frozen) {
           if (held.pairs.empty()) break;
           note_unsafe(held, substep, UnsafeBody::held_back);
           hold_back();
-          unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1);
+          unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
         }
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
+      if (!(motion <= kPatience && may_look_again() && look_at_ends(bodies_, *unsafe, *sub_step_)))
+        share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
     next = asking.has && motion > kPatience ? kGrowth * share : 1.0;

@@ -202,9 +202,9 @@ void World::make_motion(double h, double share, bool freezes) {
   solve.freezes = freezes;
   solve.keeps_rows = ledger_ != nullptr;
   if (watcher_ != nullptr) solve.watcher = watcher_->solve_watcher(s);
-  const bool is_looked_at = may_look_again() && parameters.contact.second_looks > 0 && !s.groups.empty();
+  const bool is_looked_at = may_look_again() && !s.groups.empty();
   solve.is_provisional = is_looked_at;
-  s.results.clear();
+  s.results.clear(), s.seen_at_end.clear();
   respond(bodies_, contacts, s.start, s.groups, {}, solve, s.results, times);
   reached(StepStage::response);
   solve.watcher = nullptr;  // of the groups as they were found
@@ -258,7 +258,8 @@ void World::look_again(Solving& how) {
 
 /// Whether solved velocities are looked at again.
 bool World::may_look_again() const {
-  if (parameters.contact.points != ContactPoints::proximity || parameters.response.method->is_approximate())
+  if (parameters.contact.points != ContactPoints::proximity || parameters.contact.second_looks == 0 ||
+      parameters.response.method->is_approximate())
     return false;
   // Newton schemes have taken A and b of their bodies where the first answer led
   if (parameters.simulation.integrator->newton() != nullptr)

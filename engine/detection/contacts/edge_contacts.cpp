@@ -1,7 +1,9 @@
 // Proximity contacts of crossing edges: pairs whose closest points are inside both edges and a local minimum of
 // distance.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/edge_cone.hpp"
@@ -24,10 +26,15 @@ std::vector<EdgeCone> convex_edges(const SurfaceView& view, std::vector<int> tri
   return edges;
 }
 
-int find_edge(const std::vector<EdgeCone>& edges, int index) {
-  const auto it =
-      std::lower_bound(edges.begin(), edges.end(), index, [](const EdgeCone& l, int r) { return l.index < r; });
-  return it != edges.end() && it->index == index ? static_cast<int>(it - edges.begin()) : -1;
+/// Places of a triangle's edges; -1 of one that is not there.
+std::array<int, 3> find(const std::vector<EdgeCone>& edges, const std::array<int, 3>& indices) {
+  std::array<int, 3> places{};
+  for (int k = 0; k < 3; ++k) {
+    const auto it =
+        std::lower_bound(edges.begin(), edges.end(), indices[k], [](const EdgeCone& l, int r) { return l.index < r; });
+    places[k] = it != edges.end() && it->index == indices[k] ? static_cast<int>(it - edges.begin()) : -1;
+  }
+  return places;
 }
 
 void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone& eb,
@@ -81,23 +88,28 @@ void append_edge_contacts(const ProximityQuery& query, std::vector<Collision>& c
   const std::vector<EdgeCone> edges_b = convex_edges(query.b, std::move(triangles_b));
   if (edges_a.empty() || edges_b.empty()) return;
   InterruptPoll poll;
-  std::vector<std::uint64_t> keys;
+  std::vector<std::pair<int, int>> met;  // edges of A and B, an edge's triangles' pairs name it several times
+  std::vector<std::size_t> end(edges_a.size() + 1, 0);
+  TriangleIndex last_a(-1);
+  std::array<int, 3> of_a{};
   for (const TrianglePair& pair : query.triangles) {
     poll();
-    for (int ea : query.a.triangle_edges(pair.triangle_a)) {
-      const int i = find_edge(edges_a, ea);
-      if (i < 0) continue;
-      for (int eb : query.b.triangle_edges(pair.triangle_b)) {
-        const int j = find_edge(edges_b, eb);
-        if (j >= 0) keys.push_back(static_cast<std::uint64_t>(i) << 32 | static_cast<std::uint32_t>(j));
-      }
-    }
+    if (pair.triangle_a != last_a) of_a = find(edges_a, query.a.triangle_edges(last_a = pair.triangle_a));
+    const std::array<int, 3> of_b = find(edges_b, query.b.triangle_edges(pair.triangle_b));
+    for (const int i : of_a)
+      for (const int j : of_b)
+        if (i >= 0 && j >= 0) met.emplace_back(i, j), ++end[static_cast<std::size_t>(i) + 1];
   }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  for (std::uint64_t key : keys) {
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<int> with(met.size());  // the edges of B, by that of A
+  for (const auto& [i, j] : met) with[end[static_cast<std::size_t>(i)]++] = j;
+  for (std::size_t i = 0, first = 0; i < edges_a.size(); first = end[i++]) {
     poll();
-    add_contact(query, edges_a[key >> 32], edges_b[key & 0xffffffffu], contacts);
+    const auto begin = with.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto last = with.begin() + static_cast<std::ptrdiff_t>(end[i]);
+    std::sort(begin, last);
+    std::for_each(begin, std::unique(begin, last),
+                  [&](int j) { add_contact(query, edges_a[i], edges_b[j], contacts); });
   }
 }
 
