@@ -25,8 +25,7 @@ constexpr double kRough = 5.0;     // of that, half the thickness: less than thi
 constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
 constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
 constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
-constexpr double kWithin =
-    5.0;  // of what paths are straight to, half the activation distance: contacts see those depths
+constexpr double kWithin = 5.0;    // of what paths are straight to: half the activation distance, which contacts see
 constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
@@ -320,7 +319,7 @@ std::optional<UnsafeMotion> MotionGuard::look(const Bodies& bodies, Continuous w
   if (which == Continuous::off) return UnsafeMotion{std::move(pairs)};
   search(bodies, pairs, settings, is_rough ? Depth::rough : is_cut ? Depth::least : Depth::shallow);
   std::erase_if(pairs, [](const UnsafeMotion::Pair& pair) { return pair.passages.empty(); });
-  if (!is_rough && !is_cut && overlaps) forgive_grazes(bodies, pairs, settings, overlaps);
+  if (!is_cut && overlaps) forgive_grazes(bodies, pairs, settings, overlaps);
   if (pairs.empty()) return std::nullopt;
   return UnsafeMotion{std::move(pairs)};
 }

@@ -52,8 +52,9 @@ class MotionGuard {
   void stayed(BodyIndex body) { turns_[body].clear(); }
   /// After the motion: nothing if no surface passes another. Continuous::off: the pairs that nobody vouches for.
   /// `is_rough`: rigid bodies may end in one another by a tenth of the thinner one's thickness, from where contacts still
-  /// know the way out. `is_cut`: of a sub-step that is made in pieces, whose overlaps add up. `overlaps`: of a whole one, rigid bodies that graze each other on the way, and end no deeper in one another than is
-  /// left to contacts, pass nobody; empty: every passage counts.
+  /// know the way out. `is_cut`: of a sub-step that is made in pieces, whose overlaps add up. `overlaps`: rigid bodies that
+  /// graze each other on the way of a whole one, and end no deeper in one another than is left to contacts, pass nobody;
+  /// empty: every passage counts.
   std::optional<UnsafeMotion> look(const Bodies& bodies, Continuous which, const PassagesOf& settings, bool is_rough,
                                    bool is_cut, const OverlapsOf& overlaps);
   /// What `look` holds against each other of two bodies after the motion.

@@ -114,6 +114,7 @@ struct Asking {
   }
 };
 
+/// By the contacts of the poses that bodies have; empty: those would not tell depths.
 OverlapsOf overlaps_by(const Bodies& bodies, const Parameters& parameters) {
   if (parameters.contact.points != ContactPoints::proximity) return {};
   return [&](std::vector<BodyPair> pairs) { return overlaps_now(bodies, detecting(parameters), std::move(pairs)); };
@@ -244,7 +245,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation, is_kept);
-  const OverlapsOf overlaps = overlaps_by(bodies_, parameters);
+  const OverlapsOf overlaps = is_kept && !is_rough ? overlaps_by(bodies_, parameters) : OverlapsOf();
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   if (bodies_.all_active()) has_rebounds_ = has_rebounds(bodies_, parameters.contact);

@@ -27,7 +27,7 @@ std::vector<EdgeCone> convex_edges(const SurfaceView& view, std::vector<int> tri
 }
 
 /// Places of a triangle's edges; -1 of one that is not there.
-std::array<int, 3> find(const std::vector<EdgeCone>& edges, const std::array<int, 3>& indices) {
+std::array<int, 3> places_of(const std::vector<EdgeCone>& edges, const std::array<int, 3>& indices) {
   std::array<int, 3> places{};
   for (int k = 0; k < 3; ++k) {
     const auto it =
@@ -88,14 +88,15 @@ void append_edge_contacts(const ProximityQuery& query, std::vector<Collision>& c
   const std::vector<EdgeCone> edges_b = convex_edges(query.b, std::move(triangles_b));
   if (edges_a.empty() || edges_b.empty()) return;
   InterruptPoll poll;
-  std::vector<std::pair<int, int>> met;  // edges of A and B, an edge's triangles' pairs name it several times
+  std::vector<std::pair<int, int>> met;  // edges of A and B; those that triangles share come several times
   std::vector<std::size_t> end(edges_a.size() + 1, 0);
   TriangleIndex last_a(-1);
   std::array<int, 3> of_a{};
   for (const TrianglePair& pair : query.triangles) {
     poll();
-    if (pair.triangle_a != last_a) of_a = find(edges_a, query.a.triangle_edges(last_a = pair.triangle_a));
-    const std::array<int, 3> of_b = find(edges_b, query.b.triangle_edges(pair.triangle_b));
+    if (pair.triangle_a != last_a) of_a = places_of(edges_a, query.a.triangle_edges(pair.triangle_a));
+    last_a = pair.triangle_a;
+    const std::array<int, 3> of_b = places_of(edges_b, query.b.triangle_edges(pair.triangle_b));
     for (const int i : of_a)
       for (const int j : of_b)
         if (i >= 0 && j >= 0) met.emplace_back(i, j), ++end[static_cast<std::size_t>(i) + 1];

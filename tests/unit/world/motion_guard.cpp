@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include "engine/step/end_pose.hpp"
 #include "engine/world/world.hpp"
 #include "tests/support/geometry/meshes.hpp"
