@@ -11,8 +11,6 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kGravity = 9.81;
-
 MeshPointer cut_cube(int cells) { return surface(box(Vec3::Constant(0.05), Eigen::Vector3i::Constant(cells))); }
 
 }  // namespace

@@ -10,8 +10,6 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kGravity = 9.81;
-
 /// Drops one or two cubes of 0.2 m from 5 mm and checks that they rest after `seconds`.
 void check_rest(double young, int cells, bool stacked, double seconds, int substeps) {
   CAPTURE(young, cells, stacked);

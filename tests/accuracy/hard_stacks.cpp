@@ -50,13 +50,6 @@ double overlap(const World& world) {
   return deepest;
 }
 
-double fastest(const World& world) {
-  double speed = 0.0;
-  for (const Body& b : world.bodies())
-    if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
-  return speed;
-}
-
 /// Vertical force between the bodies before and from `first` on, N, in the last frame: what carries all above.
 double force_across(const World& world, int first) {
   double sum = 0.0;

@@ -14,8 +14,6 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kGravity = 9.81;
-
 SoftOptions quadratic(double young, double poisson, double beta, const std::string& model = "corotational") {
   return {young, poisson, 1000.0, beta, model, ElementKind::quadratic};
 }

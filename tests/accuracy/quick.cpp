@@ -22,13 +22,6 @@ void prepare(World& world) {
 
 double deepest(const World& world) { return judge_overlap(world.bodies()).penetration; }
 
-double fastest(const World& world) {
-  double speed = 0.0;
-  for (const Body& b : world.bodies())
-    if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
-  return speed;
-}
-
 }  // namespace
 
 TEST_CASE("quick: a block on an incline holds up to a thousandth of tan θ, and slides by g (sin θ - µ cos θ) beyond") {

@@ -11,12 +11,6 @@ using namespace impinge::test;
 namespace {
 
 /// What matters of a resting scene at its end, for messages.
-double fastest(const World& world) {
-  double speed = 0.0;
-  for (const Body& b : world.bodies()) speed = std::max(speed, b.fastest_point());
-  return speed;
-}
-
 void add_stack(World& world, int boxes, double size) {
   world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
   for (int i = 0; i < boxes; ++i) world.add_body(cube("box" + std::to_string(i), size, Vec3(0, size * (i + 0.5), 0)));

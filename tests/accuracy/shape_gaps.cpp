@@ -13,13 +13,8 @@ namespace {
 
 const ContactQuery kAll{true, 10.0, 0.0};
 
-SharedShape cylinder(double radius, double length) {
-  return made("cylinder", {{"radius", radius}, {"length", length}});
-}
-SharedShape cone(double radius, double length) { return made("cone", {{"radius", radius}, {"length", length}}); }
-
 std::vector<Collision> contacts_of(const SharedShape& a, const Pose& pose_a, const SharedShape& b, const Pose& pose_b) {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(a, pose_a);
   bodies.add(b, pose_b);
   return bodies.contacts(0, 1, kAll);
@@ -66,7 +61,7 @@ TEST_CASE("a cylinder rests on eight points or more, on its side on two; so does
     Pose pose;
     pose.rotation = Quat::FromTwoVectors(Vec3::UnitY(), axis).toRotationMatrix();
     pose.position.y() = height;
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(floor);
     bodies.add(shape, pose);
     int touching = 0;
@@ -89,14 +84,14 @@ TEST_CASE("a cylinder rests on eight points or more, on its side on two; so does
     CAPTURE(ground->name());
     for (const auto& [shape, height, expected] :
          {std::tuple(cylinder(0.3, 0.8), 0.9, 8), std::tuple(cone(0.3, 0.8), 0.9, 8)}) {
-      Bodies bodies;
+      TestColliders bodies;
       bodies.add(ground);
       bodies.add(shape, {Mat3::Identity(), Vec3(0.1, height, 0.05)});
       const auto found = bodies.contacts(0, 1, {true, 1e-3, 0.0});
       CHECK(static_cast<int>(found.size()) == expected);
       for (const Collision& c : found) CHECK((std::abs(c.gap) < 1e-9 && (c.normal + Vec3::UnitY()).norm() < 1e-9));
     }
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(ground);
     bodies.add(cylinder(0.3, 0.8),
                {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitX()).toRotationMatrix(), Vec3(0.1, 0.8, 0.05)});

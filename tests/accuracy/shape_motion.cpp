@@ -11,13 +11,6 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kGravity = 9.81;
-
-SharedShape cylinder(double radius, double length) {
-  return made("cylinder", {{"radius", radius}, {"length", length}});
-}
-SharedShape cone(double radius, double length) { return made("cone", {{"radius", radius}, {"length", length}}); }
-
 /// A box of two halves side by side.
 SharedShape split_box(const Vec3& half) {
   const SharedShape part = Box(Vec3(0.5 * half.x(), half.y(), half.z()));
@@ -38,13 +31,6 @@ void prepare(World& world, int substeps = 1) {
   world.parameters.simulation.sleeping = false;
   world.parameters.simulation.substeps = substeps;
   world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
-}
-
-double fastest(const World& world) {
-  double speed = 0.0;
-  for (const Body& b : world.bodies())
-    if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
-  return speed;
 }
 
 struct Rest {

@@ -11,8 +11,6 @@ using namespace impinge::test;
 
 namespace {
 
-const Vec3 kDown(0, -kGravity, 0);
-
 /// Turns about y at `rate`, rad/s, from long before the start: key frames rest at their ends.
 BodyDescription turning_arm(double rate) {
   BodyDescription arm = dynamic_body("arm", Box(Vec3(1.0, 0.01, 0.01)), Vec3::Zero());

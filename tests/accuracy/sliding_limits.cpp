@@ -12,8 +12,6 @@ using namespace impinge::test;
 
 namespace {
 
-const Vec3 kDown(0, -kGravity, 0);
-
 struct Seen {
   double off = 0.0, energy = 0.0, momentum = 0.0, spin = 0.0;
   std::int64_t unconverged = 0;

@@ -12,8 +12,6 @@ using namespace impinge::test;
 
 namespace {
 
-const Vec3 kDown(0, -kGravity, 0);
-
 BodyDescription fixed_body(const std::string& name, const SharedShape& shape) {
   BodyDescription d = dynamic_body(name, shape, Vec3::Zero());
   d.kind = BodyKind::fixed;

@@ -14,7 +14,7 @@ using namespace impinge::test;
 namespace {
 
 /// Every kind of shape, two real meshes, a scripted paddle: a pile that collides, slides, rests and sleeps.
-void fill(World& world) {
+void fill_scene(World& world) {
   static const MeshPointer bunny = [] {
     auto surface = std::make_shared<SurfaceMesh>();
     surface->mesh = read_mesh(IMPINGE_SOURCE_DIR "/scenes/meshes/bunny/bunny.off");
@@ -47,7 +47,7 @@ TEST_CASE("a pile of meshes and shapes has the same hashes for 1, 2 and 4 thread
   for (int threads : {1, 2, 4, 1}) {
     const Threads guard(threads);
     World world;
-    fill(world);
+    fill_scene(world);
     const std::vector<std::uint64_t> list = hashes(world, 60);
     if (first.empty()) {
       first = list;
@@ -60,7 +60,7 @@ TEST_CASE("a pile of meshes and shapes has the same hashes for 1, 2 and 4 thread
 
 TEST_CASE("a restored snapshot goes on bit for bit, also in a fresh world") {
   World world;
-  fill(world);
+  fill_scene(world);
   run(world, 25);
   ByteWriter snapshot;
   world.save(snapshot);
@@ -72,7 +72,7 @@ TEST_CASE("a restored snapshot goes on bit for bit, also in a fresh world") {
   CHECK(hashes(world, 15) == ahead);
 
   World fresh;
-  fill(fresh);
+  fill_scene(fresh);
   ByteReader into(snapshot.bytes());
   fresh.restore(into);
   CHECK(hashes(fresh, 15) == ahead);
@@ -80,7 +80,7 @@ TEST_CASE("a restored snapshot goes on bit for bit, also in a fresh world") {
 
 TEST_CASE("a cut or foreign snapshot is refused") {
   World world;
-  fill(world);
+  fill_scene(world);
   ByteWriter snapshot;
   world.save(snapshot);
   ByteReader cut(std::string_view(snapshot.bytes()).substr(0, 100));

@@ -199,7 +199,7 @@ TEST_CASE("every shape has contacts with every other, found the same from both s
         const Pose pose_a = is_infinite(a) ? Pose{} : random_pose(r, 0.7),
                    pose_b = is_infinite(b) ? Pose{} : random_pose(r, 0.7);
         CAPTURE(entries[i].name, entries[j].name, k);
-        Bodies bodies;
+        TestColliders bodies;
         bodies.add(a, pose_a);
         bodies.add(b, pose_b);
         bodies.add(a, pose_a);
@@ -225,7 +225,7 @@ TEST_CASE("every shape has contacts with every other, found the same from both s
         if ((a->mesh() != nullptr || b->mesh() != nullptr) && smallest_gap(contacts) < -0.05) continue;
 
         const Pose move = random_pose(r, 2.0);
-        Bodies moved;
+        TestColliders moved;
         moved.add(a, then(move, pose_a));
         moved.add(b, then(move, pose_b));
         const auto there = moved.contacts(0, 1, query);

@@ -11,16 +11,12 @@
 #include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/indices.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "tests/support/geometry/shapes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 namespace {
-
-TriangleCorners corners(const Collider& c, int t) {
-  const Triangle& v = c.mesh().mesh.triangles[t];
-  return {c.vertices[v[0]], c.vertices[v[1]], c.vertices[v[2]]};
-}
 
 // all triangle pairs, no box test but a generous one
 std::vector<TrianglePair> reference(std::span<const Collider> colliders, std::span<const BodyPair> pairs) {

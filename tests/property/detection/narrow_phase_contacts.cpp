@@ -7,6 +7,7 @@
 #include "engine/geometry/triangle_intersection.hpp"
 #include "tests/support/geometry/indices.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "tests/support/geometry/shapes.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -32,11 +33,6 @@ std::vector<Collision> intersection(const ColliderSet& set) {
   std::vector<Collision> contacts;
   intersection_contacts(set.all(), pair, triangles_of(set, pair), contacts);
   return contacts;
-}
-
-TriangleCorners corners(const Collider& c, int t) {
-  const Triangle& v = c.mesh().mesh.triangles[t];
-  return {c.vertices[v[0]], c.vertices[v[1]], c.vertices[v[2]]};
 }
 
 double distance_to_surface(const Vec3& x, const Collider& c) {

@@ -77,7 +77,7 @@ Distance core_distance(const Projection& a, const Projection& b, int iterations 
   return {n.dot(a.pose.position - b.pose.position) - a.reach(n) - b.reach(n), high};
 }
 
-void check_contract(const std::vector<Collision>& contacts, const Bodies& bodies, int a, int b,
+void check_contract(const std::vector<Collision>& contacts, const TestColliders& bodies, int a, int b,
                     const ContactQuery& query) {
   std::set<std::uint64_t> keys;
   for (const Collision& c : contacts) {
@@ -106,7 +106,7 @@ TEST_CASE("exact contacts keep their contract in every pair and pose") {
       if (i == 4 && j == 4) continue;
       int pairs = 0;
       for (int k = 0; k < 150; ++k) {
-        Bodies bodies;
+        TestColliders bodies;
         const SharedShape sa = random_shape(r, i), sb = random_shape(r, j);
         const Pose pa = i == 0 ? Pose{} : random_pose(r, 0.7), pb = j == 0 ? Pose{} : random_pose(r, 0.7);
         bodies.add(sa, pa);
@@ -136,7 +136,7 @@ TEST_CASE("exact contacts keep their contract in every pair and pose") {
 
         // the scene moved as a whole: the same contacts
         const Pose move = random_pose(r, 2.0);
-        Bodies moved;
+        TestColliders moved;
         moved.add(sa, then(move, pa));
         moved.add(sb, then(move, pb));
         const auto there = moved.contacts(0, 1, query);
@@ -164,7 +164,7 @@ TEST_CASE("gaps of separated exact shapes are their distances") {
   for (int i = 1; i < 4; ++i)
     for (int j = 1; j < 4; ++j)
       for (int k = 0; k < 250; ++k) {
-        Bodies bodies;
+        TestColliders bodies;
         const Projection a{random_pose(r, 1.0), random_shape(r, i)}, b{random_pose(r, 1.0), random_shape(r, j)};
         bodies.add(a.shape, a.pose);
         bodies.add(b.shape, b.pose);
@@ -215,7 +215,7 @@ TEST_CASE("gaps of nearly aligned boxes and capsules are their distances too") {
         const Projection a{{tilted(), Vec3::Zero()}, sa}, b{{tilted(), 2.0 * offset}, sb};
         const Distance distance = core_distance(a, b, 6000);
         if (distance.high < 1e-3) continue;
-        Bodies bodies;
+        TestColliders bodies;
         bodies.add(a.shape, a.pose);
         bodies.add(b.shape, b.pose);
         const ContactQuery query{true, 10.0, 0.0};
@@ -261,7 +261,7 @@ TEST_CASE("overlapping boxes are as deep as the shortest way out") {
       }
     if (depth < 1e-3) continue;
     ++overlapping;
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(a, pa);
     bodies.add(b, pb);
     const auto contacts = bodies.contacts(0, 1, {false, 0.0, 0.0});
@@ -287,7 +287,7 @@ TEST_CASE("the smallest gap changes continuously as shapes move into each other"
         const SharedShape sa = random_shape(r, i), sb = random_shape(r, j);
         Pose pa = random_pose(r, 0.0), pb = random_pose(r, 0.0);
         const Vec3 way = r.direction();
-        Bodies bodies;
+        TestColliders bodies;
         bodies.add(sa, pa);
         bodies.add(sb, pb);
         double before = 0.0, touched = 0.0;

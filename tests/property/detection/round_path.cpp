@@ -17,7 +17,7 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr int kMoments = 300;
+constexpr int kInstants = 300;
 
 /// Distance of a segment, taken as a triangle without area, and a triangle: the general routine.
 double distance(const Vec3& p, const Vec3& q, const TriangleCorners& t) { return triangle_distance({p, q, q}, t); }
@@ -56,9 +56,9 @@ TEST_CASE("a round body that is said to stay out of triangles does, at every mom
       const double depth = core.radius * std::pow(10.0, dips ? -1.0 : random.in(-3.5, -1.0));
       const bool is_out = stays_out(core, own, other, depth);
       double nearest = INFINITY;
-      for (int k = 0; k <= kMoments; ++k) {
+      for (int k = 0; k <= kInstants; ++k) {
         if (nearest < core.radius - depth && !is_out) break;  // nothing more to learn
-        const double moment = static_cast<double>(k) / kMoments;
+        const double moment = static_cast<double>(k) / kInstants;
         const Pose of_own = own.pose_at(moment), of_other = other.pose_at(moment);
         const Vec3 p = of_other.apply_inverse(of_own.apply(core.p)), q = of_other.apply_inverse(of_own.apply(core.q));
         for (const Triangle& c : mesh.triangles) {
@@ -108,8 +108,8 @@ TEST_CASE("two round bodies that are said to stay out of each other do, at every
     }
     ++said;
     double nearest = INFINITY;
-    for (int k = 0; k <= kMoments; ++k) {
-      const Pose at_a = path_a.pose_at(1.0 * k / kMoments), at_b = path_b.pose_at(1.0 * k / kMoments);
+    for (int k = 0; k <= kInstants; ++k) {
+      const Pose at_a = path_a.pose_at(1.0 * k / kInstants), at_b = path_b.pose_at(1.0 * k / kInstants);
       nearest = std::min(
           nearest, distance(at_a.apply(a.p), at_a.apply(a.q), {at_b.apply(b.p), at_b.apply(b.q), at_b.apply(b.q)}));
     }

@@ -15,6 +15,11 @@ inline SharedShape made(std::string_view name, std::initializer_list<std::pair<c
   return make_shape(name, values);
 }
 
+inline SharedShape cylinder(double radius, double length) {
+  return made("cylinder", {{"radius", radius}, {"length", length}});
+}
+inline SharedShape cone(double radius, double length) { return made("cone", {{"radius", radius}, {"length", length}}); }
+
 inline SharedShape made_hull(const std::vector<Vec3>& points) {
   ShapeValues values;
   values.set("points", points);

@@ -6,14 +6,21 @@
 #include "engine/detection/collider.hpp"
 #include "engine/detection/collision.hpp"
 #include "engine/detection/pairs/primitive.hpp"
+#include "engine/geometry/distance.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/random.hpp"
 
 namespace impinge::test {
 
+/// Of a triangle of a mesh, where it is now.
+inline TriangleCorners corners(const Collider& c, int triangle) {
+  const Triangle& v = c.mesh().mesh.triangles[triangle];
+  return {c.vertices[v[0]], c.vertices[v[1]], c.vertices[v[2]]};
+}
+
 /// Owns what colliders point to. Bodies are numbered in the order in which they are added.
-class Bodies {
+class TestColliders {
  public:
   // poses by value: they may be those of a collider that moves in memory
   Collider& add(const SharedShape& shape, Pose pose = {}) {

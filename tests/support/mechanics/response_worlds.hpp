@@ -6,8 +6,6 @@
 
 namespace impinge::test {
 
-inline constexpr double kGravity = 9.81;  ///< m/s², the default scene's
-
 /// Whether loads are carried by overlap, friction is not Coulomb's own, or what is left depends on work that is fixed
 /// beforehand.
 inline bool regularised(std::string_view name) { return find_entry(responses(), name)->make()->is_approximate(); }

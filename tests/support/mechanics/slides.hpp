@@ -5,6 +5,8 @@
 
 namespace impinge::test {
 
+inline const Vec3 kDown(0, -kGravity, 0);
+
 inline AttachmentDescription slide(AttachmentKind kind, const std::string& a, const std::string& b, const Vec3& point,
                                    const Vec3& axis = Vec3::Zero()) {
   return {"slide", a, b, point, kind, axis, false};

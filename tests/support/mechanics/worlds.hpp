@@ -1,6 +1,8 @@
 // Small scenes for tests, built without files.
 #pragma once
 
+#include <algorithm>
+
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/bodies/rigid_body.hpp"
 #include "engine/core/archive.hpp"
@@ -9,6 +11,8 @@
 #include "engine/world/world.hpp"
 
 namespace impinge::test {
+
+inline constexpr double kGravity = 9.81;  ///< m/s², the default scene's
 
 /// The body of that place in the scene, as what it is there.
 template <class Kind, class W>
@@ -21,6 +25,14 @@ inline RigidBody& rigid(World& world, int i) { return body_as<RigidBody>(world, 
 inline const RigidBody& rigid(const World& world, int i) { return body_as<RigidBody>(world, i); }
 inline DeformableBody& deformable(World& world, int i) { return body_as<DeformableBody>(world, i); }
 inline const DeformableBody& deformable(const World& world, int i) { return body_as<DeformableBody>(world, i); }
+
+/// The greatest speed of a point of what moves freely, m/s.
+inline double fastest(const World& world) {
+  double speed = 0.0;
+  for (const Body& b : world.bodies())
+    if (b.kind() == BodyKind::dynamic) speed = std::max(speed, b.fastest_point());
+  return speed;
+}
 
 inline BodyDescription fixed_plane(const char* name, const Vec3& normal, double offset) {
   BodyDescription d;

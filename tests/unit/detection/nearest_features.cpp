@@ -14,7 +14,7 @@ namespace {
 
 const BodyIndex kA(0), kB(1);
 
-std::optional<NearestFeatures> nearest(const Bodies& bodies, double limit = INFINITY) {
+std::optional<NearestFeatures> nearest(const TestColliders& bodies, double limit = INFINITY) {
   return NearestSearch().find(bodies.colliders(), kA, kB, limit);
 }
 
@@ -41,7 +41,7 @@ TEST_CASE("the nearest features of exact shapes are where formulas have them, at
   Random r(21);
   for (int i = 0; i < 300; ++i) {
     const double far = std::pow(10.0, r.in(-2.0, 3.0));
-    Bodies balls;
+    TestColliders balls;
     balls.add(Sphere{0.3}, {Mat3::Identity(), far * r.vector()});
     balls.add(Sphere{0.1}, {Mat3::Identity(), far * r.vector()});
     const Vec3 between = balls[0].pose.position - balls[1].pose.position;
@@ -50,7 +50,7 @@ TEST_CASE("the nearest features of exact shapes are where formulas have them, at
     CHECK(found->distance == Approx(between.norm() - 0.4).margin(1e-12 * far));
     CHECK((found->normal - between.normalized()).norm() < 1e-9);
 
-    Bodies floor;
+    TestColliders floor;
     const Vec3 n = r.direction();
     floor.add(Plane{n, r.sym()});
     floor.add(Box{{0.3, 0.2, 0.1}}, {r.rotation(), far * r.vector()});
@@ -69,7 +69,7 @@ TEST_CASE("the nearest features of boxes are those of all their faces, edges and
   Random r(22);
   for (int i = 0; i < 200; ++i) {
     const Vec3 half_a(0.3, 0.2, 0.1), half_b(0.1, 0.4, 0.2);
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(Box{half_a}, random_pose(r, i % 2 == 0 ? 1.0 : 8.0));
     bodies.add(Box{half_b}, random_pose(r, 1.0));
     const BruteGap truth = brute_convex_gap(placed(bodies[0], box(half_a)), placed(bodies[1], box(half_b)));
@@ -87,7 +87,7 @@ TEST_CASE("the nearest features of meshes are those of the nearest two triangles
   Random r(23);
   int crossing = 0;
   for (int i = 0; i < 60; ++i) {
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(surface(bumpy_torus(12, 6)), random_pose(r, i % 2 == 0 ? 0.8 : 2.5));
     bodies.add(surface(bumpy_sphere(2)), random_pose(r, i % 6 == 5 ? 20.0 : 1.0));
     const double truth = brute_distance(bodies[0], bodies[1]);
@@ -108,7 +108,7 @@ TEST_CASE("the nearest features of meshes are those of the nearest two triangles
 TEST_CASE("an exact shape beside a mesh is as near as to its nearest triangle") {
   Random r(24);
   for (int i = 0; i < 200; ++i) {
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(Sphere{0.2}, random_pose(r, 6.0));
     bodies.add(surface(bumpy_torus(12, 6)), random_pose(r, 2.0));
     double least = INFINITY;
@@ -131,7 +131,7 @@ TEST_CASE("a box beside a mesh is as near as its own triangles, and a rounded so
   Random r(25);
   for (int i = 0; i < 100; ++i) {
     const Vec3 half(0.3, 0.1, 0.2);
-    Bodies bodies, made;
+    TestColliders bodies, made;
     const Pose at_a = random_pose(r, 4.0), at_b = random_pose(r, 2.0);
     bodies.add(Box{half}, at_a);
     bodies.add(surface(bumpy_torus(12, 6)), at_b);
@@ -146,7 +146,7 @@ TEST_CASE("a box beside a mesh is as near as its own triangles, and a rounded so
     else
       CHECK(found->distance == Approx(truth).epsilon(1e-9));
 
-    Bodies rounded;
+    TestColliders rounded;
     rounded.add(Capsule{0.1, 0.3}, at_a);
     rounded.add(surface(bumpy_torus(12, 6)), at_b);
     double core = INFINITY;  // of the capsule's line
@@ -164,13 +164,13 @@ TEST_CASE("a box beside a mesh is as near as its own triangles, and a rounded so
 }
 
 TEST_CASE("beyond the limit there is nothing, and between planes neither") {
-  Bodies balls;
+  TestColliders balls;
   balls.add(Sphere{0.5});
   balls.add(Sphere{0.5}, {Mat3::Identity(), Vec3(0, 3, 0)});  // 2 m apart
   CHECK_FALSE(nearest(balls, 1.999));
   REQUIRE(nearest(balls, 2.001));
   CHECK(nearest(balls, 2.001)->distance == Approx(2.0));
-  Bodies planes;
+  TestColliders planes;
   planes.add(Plane{Vec3::UnitY(), 0.0});
   planes.add(Plane{Vec3::UnitX(), 0.0});
   CHECK_FALSE(nearest(planes));

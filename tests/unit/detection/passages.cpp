@@ -19,7 +19,7 @@ SurfacePath moving(const PathSurface& surface, const Pose& from, const Pose& to)
   return path;
 }
 
-Pose at(double x, double y, double z) { return {Mat3::Identity(), Vec3(x, y, z)}; }
+Pose moved_to(double x, double y, double z) { return {Mat3::Identity(), Vec3(x, y, z)}; }
 
 const Passage& first(const std::vector<Passage>& passages) {
   return *std::min_element(passages.begin(), passages.end(),
@@ -38,8 +38,8 @@ TEST_CASE("a ball that flies through a plate is seen at the moment of its meetin
   Random r(5);
   for (int i = 0; i < 50; ++i) {
     const double y0 = r.in(0.06, 0.5), y1 = r.in(-3.0, -0.1), x = r.in(-0.3, 0.3);
-    const SurfacePath flies = moving(of_ball, at(x, y0, 0.02), at(x + r.in(-0.1, 0.1), y1, 0.02)),
-                      stands = moving(of_plate, at(0, 0, 0), at(0, 0, 0));
+    const SurfacePath flies = moving(of_ball, moved_to(x, y0, 0.02), moved_to(x + r.in(-0.1, 0.1), y1, 0.02)),
+                      stands = moving(of_plate, moved_to(0, 0, 0), moved_to(0, 0, 0));
     const double truth = (y0 + lowest - 1e-3) / (y0 - y1);
     const std::vector<Passage> found = first_passages(flies, stands, {}), other = first_passages(stands, flies, {});
     REQUIRE_FALSE(found.empty());
@@ -54,10 +54,10 @@ TEST_CASE("a ball that flies through a plate is seen at the moment of its meetin
 TEST_CASE("what comes near, rests or leaves is no passage", "[continuous]") {
   const MeshPointer cube = surface(box(Vec3::Constant(0.05))), plate = surface(box(Vec3(0.5, 1e-3, 0.5), {10, 1, 10}));
   const PathSurface of_cube(*cube), of_plate(*plate);
-  const SurfacePath stands = moving(of_plate, at(0, 0, 0), at(0, 0, 0));
+  const SurfacePath stands = moving(of_plate, moved_to(0, 0, 0), moved_to(0, 0, 0));
   const double rest = 0.051;
-  CHECK(first_passages(moving(of_cube, at(0.01, 0.3, 0), at(0.01, rest + 1e-9, 0)), stands, {}).empty());
-  CHECK(first_passages(moving(of_cube, at(0.01, rest, 0), at(0.31, rest, 0.1)), stands, {}).empty());
+  CHECK(first_passages(moving(of_cube, moved_to(0.01, 0.3, 0), moved_to(0.01, rest + 1e-9, 0)), stands, {}).empty());
+  CHECK(first_passages(moving(of_cube, moved_to(0.01, rest, 0), moved_to(0.31, rest, 0.1)), stands, {}).empty());
   for (const double overlap : {-1e-9, 1e-12, 5e-8})
     for (const double turn : {0.0, 0.3}) {  // a cube that slides over edges and corners of the plate's squares
       const Mat3 turned = rotation_exp(Vec3(0, turn, 0));
@@ -65,9 +65,10 @@ TEST_CASE("what comes near, rests or leaves is no passage", "[continuous]") {
           moving(of_cube, {turned, Vec3(-0.3, rest - overlap, 0.02)}, {turned, Vec3(0.31, rest - 1.1 * overlap, -0.1)});
       CHECK(first_passages(slides, stands, {}).empty());
     }
-  CHECK(first_passages(moving(of_cube, at(0.01, rest - 1e-5, 0), at(0.01, 0.4, 0)), stands, {}).empty());
-  CHECK(first_passages(moving(of_cube, at(0.7, 0.3, 0), at(0.7, -0.3, 0)), stands, {}).empty());
-  CHECK_FALSE(first_passages(moving(of_cube, at(0.01, rest, 0), at(0.01, rest - 1e-5, 0)), stands, {}).empty());
+  CHECK(first_passages(moving(of_cube, moved_to(0.01, rest - 1e-5, 0), moved_to(0.01, 0.4, 0)), stands, {}).empty());
+  CHECK(first_passages(moving(of_cube, moved_to(0.7, 0.3, 0), moved_to(0.7, -0.3, 0)), stands, {}).empty());
+  CHECK_FALSE(
+      first_passages(moving(of_cube, moved_to(0.01, rest, 0), moved_to(0.01, rest - 1e-5, 0)), stands, {}).empty());
 }
 
 TEST_CASE("a rod that turns meets a post when its face gets there", "[continuous]") {

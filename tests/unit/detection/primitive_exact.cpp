@@ -11,18 +11,14 @@ using namespace impinge::test;
 namespace {
 const ContactQuery kClose{true, 1e-3, 0.0};
 
-Pose at(double x, double y, double z) {
-  Pose pose;
-  pose.position = {x, y, z};
-  return pose;
-}
+Pose at(double x, double y, double z) { return {Mat3::Identity(), {x, y, z}}; }
 Pose turned(const Vec3& position, double degrees, const Vec3& axis) {
   return {Eigen::AngleAxisd(degrees * M_PI / 180.0, axis).toRotationMatrix(), position};
 }
 }  // namespace
 
 TEST_CASE("a plane meets a sphere, a box and a capsule where they are deepest") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Plane{Vec3::UnitY(), 0.5});
   bodies.add(Sphere{0.3}, at(1, 0.79, 2));
   bodies.add(Box{Vec3(0.1, 0.2, 0.3)}, at(0, 0.7, 0));
@@ -47,7 +43,7 @@ TEST_CASE("a plane meets a sphere, a box and a capsule where they are deepest") 
 }
 
 TEST_CASE("a plane is placed by its body's pose") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Plane{Vec3::UnitY(), 0.0},
              turned({0, 1, 0}, 90, Vec3::UnitZ()));  // now x <= ... : normal -x through (0, 1, 0)
   bodies.add(Sphere{0.5}, at(-0.4, 7, 0));
@@ -63,7 +59,7 @@ TEST_CASE("stacked equal boxes touch at four corners whose names last") {
   for (int step = 0; step < 200; ++step) {
     // rounding-sized and then solver-sized disturbances, apart and in overlap
     const double noise = step < 100 ? 1e-16 : 1e-6;
-    Bodies bodies;
+    TestColliders bodies;
     bodies.add(Box{Vec3(0.5, 0.5, 0.5)}, turned(noise * r.vector(), noise * r.sym(), r.direction()));
     bodies.add(Box{Vec3(0.5, 0.5, 0.5)},
                turned(Vec3(0, 1.0 + 1e-5 * r.sym(), 0) + noise * r.vector(), noise * r.sym(), r.direction()));
@@ -88,7 +84,7 @@ TEST_CASE("stacked equal boxes touch at four corners whose names last") {
 }
 
 TEST_CASE("a box on a shifted, turned or larger one") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Box{Vec3(0.5, 0.5, 0.5)});
   bodies.add(Box{Vec3(0.5, 0.5, 0.5)}, at(0.25, 1.0005, 0.125));
   auto contacts = bodies.contacts(0, 1, kClose);
@@ -112,7 +108,7 @@ TEST_CASE("a box on a shifted, turned or larger one") {
 }
 
 TEST_CASE("boxes corner to corner, corner to edge and edge to edge") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Box{Vec3(0.5, 0.5, 0.5)});
   bodies.add(Box{Vec3(0.5, 0.5, 0.5)}, at(1.03, 1.04, 1.12));
   auto contacts = bodies.contacts(0, 1, {true, 1.0, 0.0});
@@ -140,7 +136,7 @@ TEST_CASE("boxes corner to corner, corner to edge and edge to edge") {
 }
 
 TEST_CASE("a sphere at a box's face, edge, corner and inside") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Sphere{0.25}, at(0, 0.75, 0));
   bodies.add(Box{Vec3(0.5, 0.5, 0.5)});
   auto only = [&](const Vec3& center) {
@@ -161,7 +157,7 @@ TEST_CASE("a sphere at a box's face, edge, corner and inside") {
 }
 
 TEST_CASE("parallel capsules touch at both ends of what they have in common") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Capsule{0.1, 0.5});
   bodies.add(Capsule{0.2, 0.5}, at(0.3005, 0.4, 0));
   auto contacts = bodies.contacts(0, 1, kClose);
@@ -182,7 +178,7 @@ TEST_CASE("parallel capsules touch at both ends of what they have in common") {
 }
 
 TEST_CASE("a capsule lies on a box") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Capsule{0.1, 0.3}, turned({0.05, 0.5995, 0.1}, 90, Vec3::UnitZ()));
   bodies.add(Box{Vec3(0.5, 0.5, 0.5)});
   auto contacts = bodies.contacts(0, 1, kClose);
@@ -208,14 +204,14 @@ TEST_CASE("a capsule lies on a box") {
 }
 
 TEST_CASE("degenerate overlaps give finite unit normals") {
-  Bodies bodies;
+  TestColliders bodies;
   const SharedShape shapes[] = {Sphere{0.5}, Box{Vec3(0.5, 0.5, 0.5)}, Capsule{0.2, 0.5}, Sphere{0.0},
                                 Capsule{0.2, 0.0}};
   for (const SharedShape& a : shapes)
     for (const SharedShape& b : shapes)
       for (const Vec3& offset :
            {Vec3(0, 0, 0), Vec3(0, 0.5, 0), Vec3(0.5, 0.5, 0.5), Vec3(0, 0.25, 0), Vec3(1e-17, 0, -1e-200)}) {
-        Bodies pair;
+        TestColliders pair;
         Pose pose;
         pose.position = offset;
         pair.add(a);
@@ -231,7 +227,7 @@ TEST_CASE("degenerate overlaps give finite unit normals") {
 }
 
 TEST_CASE("a fast sphere is seen before it passes a thin box, a plane or another sphere") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Sphere{0.05}, at(0.2, 3, 0.1));
   bodies.add(Box{Vec3(1, 0.01, 1)});
   bodies.add(Plane{Vec3::UnitY(), 0.0});

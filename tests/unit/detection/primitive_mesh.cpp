@@ -13,7 +13,7 @@ Pose at(const Vec3& x) { return {Mat3::Identity(), x}; }
 
 TEST_CASE("a sphere on a tessellated plane has one upright contact wherever it is") {
   Random r(5);
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Sphere{0.4});
   bodies.add(surface(box({1.0, 0.5, 1.0}, {8, 1, 8})), at({0, -0.5, 0}));
   for (int i = 0; i < 2000; ++i) {
@@ -33,7 +33,7 @@ TEST_CASE("a sphere on a tessellated plane has one upright contact wherever it i
 TEST_CASE("a sphere against a cube's mesh is the sphere against the box") {
   Random r(6);
   const Vec3 half(0.5, 0.4, 0.3);
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Sphere{0.2});
   bodies.add(surface(box(half, {3, 2, 4})));
   bodies.add(Box{half});
@@ -67,7 +67,7 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
   for (const SharedShape& other : others) {
     int compared = 0;
     for (int i = 0; i < 300; ++i) {
-      Bodies bodies;
+      TestColliders bodies;
       const Pose pose = random_pose(r, 0.8);
       const bool plane = other->as<Plane>() != nullptr;
       bodies.add(other, plane ? Pose{} : pose);
@@ -94,7 +94,7 @@ TEST_CASE("shapes against a fine icosphere agree with the sphere within the chor
 
 TEST_CASE("capsules and boxes rest on a tessellated plane as on the plane") {
   Random r(9);
-  Bodies bodies;
+  TestColliders bodies;
   const SharedShape ground = surface(box({2.0, 0.5, 2.0}, {9, 1, 9}));
   bodies.add(Capsule{0.1, 0.4});
   bodies.add(Box{Vec3(0.3, 0.2, 0.4)});
@@ -134,7 +134,7 @@ TEST_CASE("a capsule lies across a ridge and a peak") {
   roof.triangles = {{0, 1, 5}, {0, 5, 4}, {0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}, {0, 4, 2}, {1, 3, 5}};
   const MeshPointer mesh = surface(roof);
   REQUIRE(mesh->topology.is_closed());
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Capsule{0.1, 0.5},
              {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.1005, 0.2)});
   bodies.add(mesh);
@@ -147,7 +147,7 @@ TEST_CASE("a capsule lies across a ridge and a peak") {
   TriangleMesh peak;
   peak.vertices = {{0, 0, 0}, {1, -1, 1}, {1, -1, -1}, {-1, -1, -1}, {-1, -1, 1}};
   peak.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {1, 4, 3}, {1, 3, 2}};
-  Bodies peaked;
+  TestColliders peaked;
   peaked.add(Capsule{0.1, 0.5},
              {Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.0995, 0.0)});
   peaked.add(surface(peak));
@@ -163,7 +163,7 @@ TEST_CASE("a capsule lies across a ridge and a peak") {
 }
 
 TEST_CASE("bodies deep inside a mesh are pushed out the nearest way") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Sphere{0.05}, at({0.1, 0.3, -0.1}));
   bodies.add(Capsule{0.05, 0.05}, at({0.1, 0.3, -0.1}));
   bodies.add(Box{Vec3(0.05, 0.05, 0.05)}, at({0.1, 0.3, -0.1}));
@@ -179,7 +179,7 @@ TEST_CASE("bodies deep inside a mesh are pushed out the nearest way") {
 }
 
 TEST_CASE("a fast ball is seen before it passes a thin mesh") {
-  Bodies bodies;
+  TestColliders bodies;
   bodies.add(Sphere{0.02}, at({0.3, 2.0, -0.17}));
   bodies.add(surface(box({1.0, 0.005, 1.0}, {5, 1, 5})));
   bodies[0].velocity = {0, -300, 0};

@@ -19,7 +19,7 @@ TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v += by;
   return mesh;
 }
-TriangleMesh cube(double half) { return box(Vec3::Constant(half)); }
+TriangleMesh cube_of(double half) { return box(Vec3::Constant(half)); }
 /// Corners on the axes, at distance r.
 TriangleMesh octahedron(double r) {
   TriangleMesh mesh;
@@ -59,19 +59,19 @@ TEST_CASE("the octahedron of these tests faces outwards") {
 }
 
 TEST_CASE("a component that faces the wrong way is named, whatever the whole volume is") {
-  const TriangleMesh good = moved(icosphere(2), {5, 0, 0}), bad = inside_out(cube(0.5));
-  CHECK(problem(together({good, cube(0.5)})) == "none");
+  const TriangleMesh good = moved(icosphere(2), {5, 0, 0}), bad = inside_out(cube_of(0.5));
+  CHECK(problem(together({good, cube_of(0.5)})) == "none");
   REQUIRE(signed_volume(together({good, bad})) > 0.0);  // all that was looked at once
   check_wrong(together({good, bad}), "has component 2 of 2 inside out (triangles from 320 on, volume -1 m³)",
               "flip the order of their corners");
-  check_wrong(together({good, cube(0.5), inside_out(moved(cube(0.5), {0, 3, 0}))}), "has component 3 of 3 inside out",
-              "");
+  check_wrong(together({good, cube_of(0.5), inside_out(moved(cube_of(0.5), {0, 3, 0}))}),
+              "has component 3 of 3 inside out", "");
   check_wrong(inside_out(icosphere(1)), "is inside out: its triangles face inwards (volume -", "flip the order");
   check_wrong(together({inside_out(icosphere(1)), bad}), "has component 1 of 2 inside out", "face inwards");
 }
 
 TEST_CASE("the walls of cavities face inwards, of what stands in them outwards") {
-  const TriangleMesh outer = icosphere(3, 2.0), wall = inside_out(icosphere(3, 1.5)), core = cube(0.5);
+  const TriangleMesh outer = icosphere(3, 2.0), wall = inside_out(icosphere(3, 1.5)), core = cube_of(0.5);
   const TriangleMesh hole = inside_out(icosphere(1, 0.3));
   CHECK(problem(together({outer, wall})) == "none");
   CHECK(problem(together({wall, outer})) == "none");
@@ -91,21 +91,21 @@ TEST_CASE("the walls of cavities face inwards, of what stands in them outwards")
 }
 
 TEST_CASE("parts that pierce or touch from outside are walls of their own") {
-  CHECK(problem(together({cube(1.0), moved(cube(0.4), {1.0, 0.1, 0.2})})) == "none");    // an eye in its socket
-  CHECK(problem(together({cube(1.0), moved(cube(1.0), {2.0, 0.0, 0.0})})) == "none");    // side by side
-  CHECK(problem(together({cube(1.0), moved(cube(0.25), {1.25, 0.0, 0.0})})) == "none");  // on a face
-  CHECK(problem(together({cube(1.0), moved(cube(0.5), {1.5, 1.5, 1.5})})) == "none");    // at a corner
-  CHECK(problem(together({cube(1.0), moved(cube(0.5), {1.5, 1.5, 0.0})})) == "none");    // at an edge
-  CHECK(problem(together({cube(1.0), cube(1.0)})) == "none");                            // twice the same
+  CHECK(problem(together({cube_of(1.0), moved(cube_of(0.4), {1.0, 0.1, 0.2})})) == "none");    // an eye in its socket
+  CHECK(problem(together({cube_of(1.0), moved(cube_of(1.0), {2.0, 0.0, 0.0})})) == "none");    // side by side
+  CHECK(problem(together({cube_of(1.0), moved(cube_of(0.25), {1.25, 0.0, 0.0})})) == "none");  // on a face
+  CHECK(problem(together({cube_of(1.0), moved(cube_of(0.5), {1.5, 1.5, 1.5})})) == "none");    // at a corner
+  CHECK(problem(together({cube_of(1.0), moved(cube_of(0.5), {1.5, 1.5, 0.0})})) == "none");    // at an edge
+  CHECK(problem(together({cube_of(1.0), cube_of(1.0)})) == "none");                            // twice the same
   // a bar through a ring: its box holds that of the bar across, nothing of it is inside
-  CHECK(problem(together({torus(1.0, 0.2, 24, 12), cube(0.1)})) == "none");
+  CHECK(problem(together({torus(1.0, 0.2, 24, 12), cube_of(0.1)})) == "none");
   // a plus: vertices of neither lie in the other
   CHECK(problem(together({box({1.0, 0.2, 0.2}), box({0.2, 1.0, 0.2})})) == "none");
   // a spike of the outer one reaches into the inner one: they pierce
   TriangleMesh dented = box(Vec3::Constant(1.0), {2, 2, 2});
   for (Vec3& v : dented.vertices)
     if (v == Vec3(0, 1, 0)) v.y() = -0.2;
-  CHECK(problem(together({dented, cube(0.5)})) == "none");
+  CHECK(problem(together({dented, cube_of(0.5)})) == "none");
 }
 
 TEST_CASE("a cavity may touch the wall round it") {
@@ -114,12 +114,12 @@ TEST_CASE("a cavity may touch the wall round it") {
     check_wrong(together({outer, inner}), "has component 2 of 2 inside out", "cavity");
     check_wrong(together({inner, outer}), "has component 1 of 2 inside out", "inside component 2");
   };
-  check_cavity(cube(1.0), moved(cube(0.5), {0.5, 0.0, 0.0}));              // a face in a face
-  check_cavity(cube(1.0), moved(cube(0.5), {0.5, 0.5, 0.5}));              // three faces, an own corner in a corner
-  check_cavity(cube(1.0), moved(cube(0.5), {0.5, 0.5, 0.0}));              // along an edge
-  check_cavity(cube(1.0), octahedron(1.0));                                // every vertex in a face
+  check_cavity(cube_of(1.0), moved(cube_of(0.5), {0.5, 0.0, 0.0}));        // a face in a face
+  check_cavity(cube_of(1.0), moved(cube_of(0.5), {0.5, 0.5, 0.5}));        // three faces, an own corner in a corner
+  check_cavity(cube_of(1.0), moved(cube_of(0.5), {0.5, 0.5, 0.0}));        // along an edge
+  check_cavity(cube_of(1.0), octahedron(1.0));                             // every vertex in a face
   check_cavity(octahedron(1.0), moved(octahedron(0.5), {0.5, 0.0, 0.0}));  // a vertex in common
-  TriangleMesh turned = cube(1.0);
+  TriangleMesh turned = cube_of(1.0);
   const Mat3 r = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   TriangleMesh inscribed = octahedron(1.0);
   for (Vec3& v : turned.vertices) v = r * v;
@@ -195,7 +195,7 @@ TEST_CASE("random nests of shells: the one that was turned is found, in any orde
 
 TEST_CASE("the side of a surface is the winding number, and nothing on the surface itself") {
   Random random(8);
-  TriangleMesh meshes[] = {bumpy_sphere(3), bumpy_torus(40, 20), cube(1.0),
+  TriangleMesh meshes[] = {bumpy_sphere(3), bumpy_torus(40, 20), cube_of(1.0),
                            together({icosphere(2), moved(icosphere(2), {0.5, 0, 0})}), inside_out(octahedron(1.0))};
   for (const TriangleMesh& mesh : meshes) {
     const SurfaceSide side(mesh.vertices, mesh.triangles);

@@ -49,7 +49,7 @@ bool exactly_intersect(const IntTriangle& a, const IntTriangle& b) {
   return false;
 }
 
-IntTriangle random_triangle(Random& random, int reach) {
+IntTriangle integer_triangle(Random& random, int reach) {
   IntTriangle t;
   for (Int3& c : t)
     for (int d = 0; d < 3; ++d) c[d] = random.below(2 * reach + 1) - reach;
@@ -63,7 +63,7 @@ TriangleCorners placed(const IntTriangle& t, const Pose& pose) {
 // corners drawn from a small grid, so that shared corners, touching edges, one plane and no area are all common; some
 // corners are copied on purpose
 std::pair<IntTriangle, IntTriangle> random_pair(Random& random) {
-  IntTriangle a = random_triangle(random, 2), b = random_triangle(random, 2);
+  IntTriangle a = integer_triangle(random, 2), b = integer_triangle(random, 2);
   switch (random.below(6)) {
     case 0:
       b[0] = a[0];

@@ -14,11 +14,11 @@ using namespace impinge::test;
 
 namespace {
 
-struct Loaded {
+struct LoadedBodies {
   World world;
   ParameterSet rows;
   Scene scene;
-  explicit Loaded(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}) {
+  explicit LoadedBodies(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}) {
     world.parameters.bind(rows);
     scene = load_scene(path, overrides, world, rows);
   }
@@ -60,7 +60,7 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
         Case{"shape = { capsule = { radius = 0.1, length = 0.2 } }\nvolume = { cage = { cells = 6 } }\n", pill, 0.03},
         Case{"shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n", 6e-3, 1e-9}}) {
     INFO(c.lines);
-    Loaded s(folder.write("s.toml", body_text(c.lines)));
+    LoadedBodies s(folder.write("s.toml", body_text(c.lines)));
     const Body& body = s.body();
     CHECK(body.mass == Approx(1000.0 * c.volume).epsilon(c.tolerance));
     CHECK(s.soft().embedding.outside == 0);
@@ -72,7 +72,7 @@ TEST_CASE("exact shapes become bodies of their volume, with every way of filling
     CHECK(s.steps());
   }
   // cells as cubic as the sides allow: 2:1:3
-  const Loaded lattice(folder.write(
+  const LoadedBodies lattice(folder.write(
       "s.toml", body_text("shape = { box = { size = [0.2, 0.1, 0.3] } }\nvolume = { lattice = { cells = 6 } }\n")));
   CHECK(lattice.soft().nodes() == 5 * 3 * 7);
 }
@@ -87,7 +87,7 @@ TEST_CASE("volume files of every format give the same body") {
   folder.write("four.msh", msh41_text(mesh));
   for (const char* name : {"v.veg", "v.node", "v.ele", "two.msh", "four.msh"}) {
     INFO(name);
-    Loaded s(folder.write(
+    LoadedBodies s(folder.write(
         "s.toml",
         body_text(fmt::format(
             "volume = \"{}\"\nscale = 2\nrotation = [0, 90, 0]\nposition = [1, 2, 3]\nmaterial = {{ density = 500 }}\n",
@@ -114,7 +114,7 @@ TEST_CASE("a surface is carried by a volume file; both are scaled; a little outs
   TriangleMesh surface = box_surface(Vec3(0.1, 0.05, 0.15), Eigen::Vector3i(3, 2, 4));
   for (Vec3& x : surface.vertices) x = 1.02 * x + Vec3(0.1, 0.05, 0.15);  // 3 mm outside at most
   folder.write("s.off", off_text(surface));
-  Loaded s(folder.write("s.toml", body_text("volume = \"v.veg\"\nsurface = \"s.off\"\nscale = 3\n")));
+  LoadedBodies s(folder.write("s.toml", body_text("volume = \"v.veg\"\nsurface = \"s.off\"\nscale = 3\n")));
   CHECK(s.soft().embedding.outside == static_cast<int>(surface.vertices.size()));
   for (std::size_t v = 0; v < surface.vertices.size(); ++v)
     CHECK((s.body().world_vertices[v] - 3.0 * surface.vertices[v]).norm() < 1e-12);
@@ -126,12 +126,13 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
   const std::string shape = "shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 4 } }\n";
   for (const char* model : {"linear", "corotational", "stvk", "fixed_corotated", "neo_hookean", "mass_spring"}) {
     INFO(model);
-    Loaded s(folder.write("s.toml", body_text(shape +
-                                              "mass = 2.5\nself_collision = true\nfriction = 0.7\nrestitution = "
-                                              "0.2\nvelocity = [1, 2, 3]\nangular_velocity = [0, 0, 2]\n" +
-                                              fmt::format("material = {{ model = \"{}\", young = 3e4, poisson = 0.3, "
-                                                          "damping = [0.5, 0.02], mass = \"consistent\" }}\n",
-                                                          model))));
+    LoadedBodies s(
+        folder.write("s.toml", body_text(shape +
+                                         "mass = 2.5\nself_collision = true\nfriction = 0.7\nrestitution = "
+                                         "0.2\nvelocity = [1, 2, 3]\nangular_velocity = [0, 0, 2]\n" +
+                                         fmt::format("material = {{ model = \"{}\", young = 3e4, poisson = 0.3, "
+                                                     "damping = [0.5, 0.02], mass = \"consistent\" }}\n",
+                                                     model))));
     const DeformableBody& soft = s.soft();
     CHECK(soft.model == model);
     CHECK(soft.material->settings().young == 3e4);
@@ -146,7 +147,7 @@ TEST_CASE("every material key arrives; mass is shared out over what is filled") 
     CHECK((soft.momentum() - 2.5 * Vec3(1, 2, 3)).norm() < 1e-12);
     CHECK(s.steps());
   }
-  const Loaded s(
+  const LoadedBodies s(
       folder.write(
           "s.toml",
           body_text(shape +
@@ -161,11 +162,11 @@ TEST_CASE("a volume file's own material is used where the scene is silent") {
   const TempFolder folder;
   folder.write("v.veg", veg_text(sample_volume()) +
                             "\n*MATERIAL rubber\nENU, 1234, 5e5, 0.25\n\n*REGION\nallElements, rubber\n");
-  const Loaded own(folder.write("s.toml", body_text("volume = \"v.veg\"\n")));
+  const LoadedBodies own(folder.write("s.toml", body_text("volume = \"v.veg\"\n")));
   CHECK(own.soft().material->settings().young == 5e5);
   CHECK(own.soft().material->settings().poisson == 0.25);
   CHECK(own.body().mass == Approx(1234 * 6e-3));
-  const Loaded given(
+  const LoadedBodies given(
       folder.write("s.toml", body_text("volume = \"v.veg\"\nmaterial = { young = 1e3, density = 10 }\n")));
   CHECK(given.soft().material->settings().young == 1e3);
   CHECK(given.soft().material->settings().poisson == 0.25);
@@ -178,7 +179,8 @@ TEST_CASE("regions hold the nodes they name, and move them") {
       "shape = { box = { size = [0.2, 0.2, 0.2] } }\nvolume = { lattice = { cells = 4 } }\nposition = [0, 1, 0]\nfixed "
       "= ";
   {
-    Loaded s(folder.write("s.toml", body_text(lines + "{ box = { min = [-1, 0.89, -1], max = [1, 0.91, 1] } }\n")));
+    LoadedBodies s(
+        folder.write("s.toml", body_text(lines + "{ box = { min = [-1, 0.89, -1], max = [1, 0.91, 1] } }\n")));
     REQUIRE(s.soft().held.size() == 1);
     CHECK(s.soft().held[0].nodes.size() == 25);
     for (const int i : s.soft().held[0].nodes) CHECK(s.soft().position[3 * i + 1] == Approx(0.9));
@@ -186,7 +188,7 @@ TEST_CASE("regions hold the nodes they name, and move them") {
     CHECK(s.steps());
   }
   {
-    Loaded s(folder.write(
+    LoadedBodies s(folder.write(
         "s.toml", body_text(lines + "[ { sphere = { center = [0.1, 1.1, 0.1], radius = 0.06 } }, { nodes = [0, 1, 2], "
                                     "motion = [ { time = 0 }, { time = 0.03, position = [0.01, 0, 0] } ] } ]\n")));
     REQUIRE(s.soft().held.size() == 2);
@@ -204,7 +206,7 @@ TEST_CASE("regions hold the nodes they name, and move them") {
 TEST_CASE("attachments join bodies to one another and to the world") {
   const TempFolder folder;
   const std::string a = body_text("shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 3 } }\n");
-  Loaded s(folder.write(
+  LoadedBodies s(folder.write(
       "s.toml",
       a + "[[body]]\nname = \"b\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0.5, 0]\n"
           "[[attachment]]\nbody_a = \"a\"\nbody_b = \"b\"\npoint = [0, 0.2, 0]\n[[attachment]]\nname = "
@@ -219,7 +221,7 @@ TEST_CASE("bodies of one surface share one volume, and a resolved scene gives th
   const std::string body = "kind = \"deformable\"\nsurface = \"s.off\"\nvolume = { cage = { cells = 4 } }\n";
   std::string text;
   for (int i = 0; i < 4; ++i) text += fmt::format("[[body]]\nname = \"b{}\"\nposition = [{}, 0, 0]\n{}", i, i, body);
-  const Loaded s(folder.write("s.toml", text + "scale = 2\n"));
+  const LoadedBodies s(folder.write("s.toml", text + "scale = 2\n"));
   for (int i = 1; i < 3; ++i) CHECK(s.soft(i).fem.rest().tets == s.soft(0).fem.rest().tets);
   CHECK(s.body(3).mass == Approx(8 * s.body(0).mass));
 
@@ -227,6 +229,6 @@ TEST_CASE("bodies of one surface share one volume, and a resolved scene gives th
   run.version = "1";
   run.scene = "s.toml";
   run.folder = folder.path().string();
-  const Loaded again(other.write("run.toml", format_run(s.scene, s.rows, run)));
+  const LoadedBodies again(other.write("run.toml", format_run(s.scene, s.rows, run)));
   CHECK(again.world.state_hash() == s.world.state_hash());
 }
