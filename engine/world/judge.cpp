@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/geometry/edges_inside.hpp"
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -134,25 +136,62 @@ double pair_penetration(const Solid& a, const Solid& b) {
   return std::max(0.0, -signed_distance(plane, solid.pose.apply(lowest)));
 }
 
-std::int64_t crossing_triangles(const Solid& a, const Solid& b) {
+struct Crossings {
+  std::int64_t count = 0;           ///< of triangles
+  std::vector<EdgeHit> of_a, of_b;  ///< of the edges of each
+};
+
+Crossings crossings_of(const Solid& a, const Solid& b) {
   const auto near = [&](const Solid& mesh, const Aabb& region) {
-    std::vector<std::pair<Aabb, TriangleCorners>> list;
+    std::vector<std::tuple<Aabb, TriangleCorners, Triangle>> list;
     for (const Triangle& t : triangles_of(mesh)) {
       const TriangleCorners c{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
       const Aabb box = bounds_of(c[0], c[1], c[2]);
-      if (overlap(box, region)) list.emplace_back(box, c);
+      if (overlap(box, region)) list.emplace_back(box, c, t);
     }
     return list;
   };
   const auto list_a = near(a, b.bounds), list_b = near(b, a.bounds);
-  std::int64_t count = 0;
+  Crossings found;
   InterruptPoll poll;
-  for (const auto& [box_a, corners_a] : list_a)
-    for (const auto& [box_b, corners_b] : list_b) {
+  for (const auto& [box_a, corners_a, t_a] : list_a)
+    for (const auto& [box_b, corners_b, t_b] : list_b) {
       poll();
-      if (overlap(box_a, box_b) && triangles_intersect(corners_a, corners_b)) ++count;
+      if (!overlap(box_a, box_b) || !triangles_intersect(corners_a, corners_b)) continue;
+      ++found.count;
+      add_edge_hits(t_a, a.vertices, corners_b, found.of_a);
+      add_edge_hits(t_b, b.vertices, corners_a, found.of_b);
     }
-  return count;
+  return found;
+}
+
+/// The deepest point inside a convex solid of a mesh's edges, metres; `known` if that is deeper.
+double edges_in_solid(const Solid& mesh, const Solid& solid, double known) {
+  std::vector<double> depth;
+  for (const Vec3& v : mesh.vertices) depth.push_back(-signed_distance(solid, v));
+  InterruptPoll poll;
+  for (const Triangle& t : triangles_of(mesh))
+    for (int k = 0; k < 3; ++k) {
+      const int v0 = t[k], v1 = t[(k + 1) % 3];
+      const Vec3 &p = mesh.vertices[v0], &q = mesh.vertices[v1];
+      if ((q - p).norm() + depth[v0] + depth[v1] <= 2.0 * known)
+        continue;  // a distance changes no faster than the place
+      poll();
+      known = std::max(known, -lowest_on_segment(p, q, [&](const Vec3& x) { return signed_distance(solid, x); }));
+    }
+  return known;
+}
+
+/// How deep edges of meshes run through a solid between their ends, where that is deeper than `vertices` are, metres.
+double deepest_edges(const Solid& a, const Solid& b, const Crossings& crossings, double vertices) {
+  const bool mesh_a = a.shape->mesh() != nullptr, mesh_b = b.shape->mesh() != nullptr;
+  if (mesh_a != mesh_b) {
+    const Solid &mesh = mesh_a ? a : b, &solid = mesh_a ? b : a;
+    return solid.shape->as<Plane>() != nullptr ? vertices : edges_in_solid(mesh, solid, vertices);
+  }
+  if (crossings.count == 0) return vertices;
+  const double of_a = deepest_of_edges(crossings.of_a, a.vertices, {b.vertices, triangles_of(b)}, vertices);
+  return deepest_of_edges(crossings.of_b, b.vertices, {a.vertices, triangles_of(a)}, of_a);
 }
 
 }  // namespace
@@ -168,13 +207,15 @@ OverlapVerdict judge_overlap(const Bodies& bodies) {
       for (const Solid& a : solids[i])
         for (const Solid& b : solids[j]) {
           if (!overlap(a.bounds, b.bounds)) continue;
-          if (a.shape->mesh() != nullptr && b.shape->mesh() != nullptr)
-            verdict.intersections += crossing_triangles(a, b);
-          const double depth = pair_penetration(a, b);
-          if (depth == 0.0) continue;
+          Crossings crossings;
+          if (a.shape->mesh() != nullptr && b.shape->mesh() != nullptr) crossings = crossings_of(a, b);
+          verdict.intersections += crossings.count;
+          const double depth = pair_penetration(a, b), with_edges = deepest_edges(a, b, crossings, depth);
+          if (with_edges == 0.0) continue;
+          verdict.deepest = std::max(verdict.deepest, with_edges);
           const double thickness = std::min(thickness_of(*bodies[i].shape), thickness_of(*bodies[j].shape));
-          if (depth / thickness > verdict.crossing.share())
-            verdict.crossing = {bodies[i].name, bodies[j].name, depth, thickness, 0};
+          if (with_edges / thickness > verdict.crossing.share())
+            verdict.crossing = {bodies[i].name, bodies[j].name, with_edges, thickness, 0};
           if (depth <= verdict.penetration) continue;
           verdict.penetration = depth;
           verdict.body_a = static_cast<int>(i);

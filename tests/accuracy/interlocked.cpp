@@ -34,7 +34,7 @@ ChainResult swing(int turning_solves) {
     if (frame == 0) first = energy;
     result.gain = std::max(result.gain, energy - first);
     result.unconverged += stats.unconverged;
-    result.deepest = std::max(result.deepest, judge_overlap(world.bodies()).penetration);
+    result.deepest = std::max(result.deepest, judge_overlap(world.bodies()).deepest);
     for (int i = 1; i < kLinks; ++i)
       result.widest =
           std::max(result.widest, (world.bodies()[i].pose.position - world.bodies()[i - 1].pose.position).norm());
@@ -65,7 +65,7 @@ TEST_CASE("hardly a motion of a chain that swings at one sub-step of 10 ms has t
   for (int frame = 0; frame < 60; ++frame) {
     world.step();
     CHECK(world.record().stats.unconverged == 0);
-    deepest = std::max(deepest, judge_overlap(world.bodies()).penetration);
+    deepest = std::max(deepest, judge_overlap(world.bodies()).deepest);
   }
   CAPTURE(undone.count, deepest);
   CHECK(undone.count <= 20);  // 221 while meshes were looked at where they begin, and nowhere else
@@ -113,6 +113,6 @@ TEST_CASE("what only the response drives together overlaps unless it is looked f
   CAPTURE(with.overlap, without.overlap, with.thickness);
   constexpr double kLeft = 1e-6;  // metres
   CHECK(with.overlap <= kLeft);
-  CHECK(without.overlap >= 10.0 * kLeft);              // the look at motions leaves what is shallow to it:
-  CHECK(without.overlap <= 5e-3 * without.thickness);  // of the thickness of a stone
+  // by edges 10 mm: all corners of two stones that meet lie in one another's sides, where vertices tell nothing
+  CHECK(without.overlap >= 1e3 * kLeft);
 }

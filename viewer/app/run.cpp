@@ -145,8 +145,8 @@ void RunCommand::declare(Options& options) {
       "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections; "
       "--judge=substeps: at the end of every sub-step, and the worst of a frame counts, self_crossings too");
   options.flag("--strict", strict_,
-               "exit code 1 if a body may have passed another, or overlaps one by more than 10 % of a thickness where "
-               "--judge looks");
+               "exit code 1 if a body may have passed another, or overlaps one by more than 10 % of a thickness, by "
+               "vertices or edges, where --judge looks");
   options.whole("--freeze", options_.freeze, 0, 100'000'000,
                 "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_option(options);

@@ -65,6 +65,21 @@ bool says(const std::string& text, const std::string& what) { return text.find(w
 
 }  // namespace
 
+TEST_CASE("plates that cross like an X overlap by half a thickness, though no vertex of either is in the other") {
+  const TempFolder folder;
+  folder.write("flat.off", off_text(box({0.5, 0.5 * kThick, 0.5})));
+  folder.write("upright.off", off_text(box({0.5 * kThick, 0.5, 0.4})));
+  folder.write("s.toml",
+               "[simulation]\ngravity = [0, 0, 0]\n[contact]\nmax_push_out = 1e-9\n"
+               "[[body]]\nname = \"flat\"\nkind = \"static\"\nsurface = \"flat.off\"\n"
+               "[[body]]\nname = \"upright\"\nkind = \"dynamic\"\nsurface = \"upright.off\"\n");
+  const Outcome outcome = impinge_run(
+      folder.path(), {"run", "s.toml", "--no-images", "--frames", "1", "--out", "o", "--judge", "--strict"});
+  INFO(outcome.out);
+  CHECK(outcome.code == 1);
+  CHECK(says(last_line(outcome.out), "'flat' and 'upright' overlap by 0.005 m, 50 % of 0.01 m"));
+}
+
 TEST_CASE("a body that moved farther than is safe is named with frame, sub-step, displacement and remedy") {
   const Outcome outcome = run(shot(), kOff);
   INFO(outcome.out);

@@ -127,7 +127,7 @@ ShotResult shoot(const Shot& shot) {
       result.energy = std::max(result.energy, s.kinetic / kinetic);
       result.has_hit |= std::abs(s.kinetic - kinetic) > 1e-9 * kinetic;
       result.shown = std::max(result.shown, s.max_penetration);
-      result.overlap = std::max(result.overlap, judge_overlap(world.bodies()).penetration);
+      result.overlap = std::max(result.overlap, judge_overlap(world.bodies()).deepest);
       const Vec3 mover = world.bodies()[1].pose.position, target = world.bodies()[0].pose.position;
       const Vec3 between = world.bodies()[0].pose.rotation.transpose() * (mover - target);
       has_left |= std::max(std::abs(between.x()), std::abs(between.z())) > scene.half_side + kSize;

@@ -138,11 +138,21 @@ void add_arch(World& world, int stones) {
   }
 }
 
-/// Notes how deep bodies overlap at the end of every sub-step.
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Notes how deep bodies overlap at the end of every sub-step, and how long it took to see that.
 class Judge final : public StepWatcher {
  public:
-  void finished(const Bodies& bodies, int) override { deepest = std::max(deepest, judge_overlap(bodies).penetration); }
-  double deepest = 0.0;
+  void finished(const Bodies& bodies, int) override {
+    const Clock::time_point start = Clock::now();
+    deepest = std::max(deepest, judge_overlap(bodies).deepest);
+    ms += ms_since(start);
+  }
+  double deepest = 0.0, ms = 0.0;
 };
 
 }  // namespace
@@ -179,9 +189,10 @@ AssemblyResult run(const Assembly& what, bool every_substep, int second_looks) {
   std::vector<double> ms;
   const int frames = static_cast<int>(std::lround(what.seconds / 0.01));
   for (int frame = 0; frame < frames; ++frame) {
-    const auto start = std::chrono::steady_clock::now();
+    judge.ms = 0.0;
+    const Clock::time_point start = Clock::now();
     world.step();
-    ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    ms.push_back(ms_since(start) - judge.ms);
     if (!every_substep) judge.finished(world.bodies(), 0);
     const FrameStats& stats = world.record().stats;
     const double energy = stats.kinetic + stats.potential;

@@ -2,6 +2,7 @@
 
 #include "engine/geometry/inside.hpp"
 #include "engine/world/judge.hpp"
+#include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/random.hpp"
 
@@ -64,6 +65,88 @@ TEST_CASE("the overlap judge agrees with the exact box when boxes are given as m
   CHECK(penetration(make_box_mesh(half), {1.05, 0, 0}, {0, 0, 0}, make_box_mesh(half), Vec3::Zero(), &crossings) ==
         0.0);
   CHECK(crossings == 0);
+}
+
+namespace {
+
+/// Two meshes where they are.
+struct Meshes {
+  Bodies bodies;
+  Meshes(const TriangleMesh& a, const TriangleMesh& b) {
+    for (const TriangleMesh* mesh : {&a, &b}) {
+      BodyDescription d = dynamic_body("m", surface(*mesh), Vec3::Zero());
+      d.position = Vec3::Zero();
+      bodies.add(make_body(d));
+    }
+  }
+};
+
+/// The deepest inside b of `samples` points of every edge of a that has an end outside, metres.
+double deepest_sample(const Body& a, const Body& b, int samples) {
+  const std::vector<Triangle>&of_a = a.shape->mesh()->mesh.triangles, &of_b = b.shape->mesh()->mesh.triangles;
+  double deepest = 0.0;
+  for (const Triangle& t : of_a)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 &p = a.world_vertices[t[k]], &q = a.world_vertices[t[(k + 1) % 3]];
+      const auto is_inside = [&](const Vec3& x) { return winding_number(x, b.world_vertices, of_b) > 0.5; };
+      for (int i = 0; i < samples && !(is_inside(p) && is_inside(q)); ++i)
+        if (const Vec3 x = p + i / (samples - 1.0) * (q - p); is_inside(x))
+          deepest = std::max(deepest, distance_to_surface(x, b.world_vertices, of_b));
+    }
+  return deepest;
+}
+
+}  // namespace
+
+TEST_CASE("plates of meshes that cross like an X are known to cross, though no vertex of either is in the other") {
+  for (const double thick : {2e-4, 2e-3, 2e-2}) {
+    const Meshes plates(box({0.5, 0.5 * thick, 0.3}), box({0.5 * thick, 0.5, 0.2}));
+    const OverlapVerdict verdict = judge_overlap(plates.bodies);
+    CHECK(verdict.penetration == 0.0);
+    CHECK(verdict.crossing.depth == Approx(0.5 * thick));  // the middle of what runs through the plate
+    CHECK(verdict.crossing.share() == Approx(0.5));
+  }
+}
+
+TEST_CASE("edges of a mesh that run through an exact shape are known to, by the formula of a cube's edge") {
+  const double half = 0.5 * std::sqrt(2.0);  // of a cube of 1 m that stands on its edge
+  for (const double depth : {1e-4, 1e-2, 0.1})
+    for (const double turn : {17.0, 60.0, 90.0}) {
+      BodyDescription lower = dynamic_body("lower", Box{Vec3::Constant(0.5)}, Vec3::Zero()), upper = lower;
+      lower.rotation = {45.0, 0.0, 0.0};
+      upper.name = "upper", upper.shape = make_box_mesh(Vec3::Constant(0.5));
+      upper.position = {0.0, 2.0 * half - depth, 0.0};
+      upper.rotation = {45.0, turn, 0.0};
+      Bodies bodies;
+      bodies.add(make_body(lower));
+      bodies.add(make_body(upper));
+      const OverlapVerdict verdict = judge_overlap(bodies);
+      CAPTURE(depth, turn);
+      CHECK(verdict.penetration == 0.0);
+      CHECK(verdict.deepest == Approx(depth / std::sqrt(2.0)));  // below both faces that slope by 45 degrees
+    }
+}
+
+TEST_CASE("how deep edges of two meshes run through one another is what points of all edges say") {
+  Random random(23);
+  int edges_alone = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Mat3 turn = Eigen::AngleAxisd(random.in(0.0, 3.0), random.direction()).toRotationMatrix();
+    TriangleMesh turned = i % 2 == 0 ? box({0.5, 0.4, 0.3}) : icosphere(1, 0.4);
+    const Vec3 place = random.direction() * random.in(0.6, 0.9);
+    for (Vec3& v : turned.vertices) v = turn * v + place;
+    const Meshes pair(turned, box({0.45, 0.3, 0.5}));
+    const Body &a = pair.bodies[BodyIndex(0)], &b = pair.bodies[BodyIndex(1)];
+    const int samples = 201;
+    const OverlapVerdict verdict = judge_overlap(pair.bodies);
+    const double sampled =
+        std::max({deepest_sample(a, b, samples), deepest_sample(b, a, samples), verdict.penetration});
+    CAPTURE(i, sampled, verdict.penetration, verdict.deepest);
+    CHECK(verdict.deepest >= sampled - 1e-12);
+    CHECK(verdict.deepest <= sampled + 0.6 * std::sqrt(2.0) / samples);  // half the way between two of them
+    edges_alone += sampled > verdict.penetration + 1e-3;
+  }
+  CHECK(edges_alone >= 20);
 }
 
 TEST_CASE("winding number and distance of a box are those of the box") {
