@@ -6,7 +6,7 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/geometry/aabb.hpp"
+#include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
@@ -94,9 +94,7 @@ double deepest_of_edges(std::vector<EdgeHit> hits, std::span<const Vec3> vertice
   // of its ends one is on the surface and the other as well, or a vertex no deeper than what is known
   std::erase_if(list, [&](const Stretch& s) { return (s.q - s.p).norm() <= known; });
   if (list.empty()) return known;
-  std::vector<Aabb> boxes;
-  for (const Triangle& t : other.triangles)
-    boxes.push_back(bounds_of(other.vertices[t[0]], other.vertices[t[1]], other.vertices[t[2]]));
+  const std::vector<Aabb> boxes = triangle_boxes(other.triangles, other.vertices);
   parallel_for(list.size(), 8, [&](std::size_t i) {
     check_interrupt();
     measure(list[i], other, boxes);

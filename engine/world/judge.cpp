@@ -90,10 +90,34 @@ double points_in_mesh(std::span<const Vec3> points, const Solid& mesh) {
   return depth.empty() ? 0.0 : *std::max_element(depth.begin(), depth.end());
 }
 
-double mesh_with_shape(const Solid& mesh, const Solid& solid) {
+/// How deep two solids are in one another, metres.
+struct Overlap {
+  double vertices = 0.0;       ///< as OverlapVerdict::penetration says
+  double edges = 0.0;          ///< the same, edges of meshes between their ends included
+  std::int64_t crossings = 0;  ///< of triangles
+};
+
+/// The deepest point inside a convex solid of a mesh's edges, metres; `known` if that is deeper. `depth`: of each vertex.
+double edges_in_solid(const Solid& mesh, const Solid& solid, const std::vector<double>& depth, double known) {
+  InterruptPoll poll;
+  for (const MeshTopology::Edge& e : mesh.shape->mesh()->topology.edges) {
+    const Vec3 &p = mesh.vertices[e.v0], &q = mesh.vertices[e.v1];
+    // a distance changes no faster than the place
+    if ((q - p).norm() + depth[e.v0] + depth[e.v1] <= 2.0 * known) continue;
+    poll();
+    known = std::max(known, -lowest_on_segment(p, q, [&](const Vec3& x) { return signed_distance(solid, x); }));
+  }
+  return known;
+}
+
+Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
   double depth = 0.0;
   check_interrupt();
-  for (const Vec3& v : mesh.vertices) depth = std::max(depth, -signed_distance(solid, v));
+  std::vector<double> of_vertices;
+  for (const Vec3& v : mesh.vertices) {
+    of_vertices.push_back(-signed_distance(solid, v));
+    depth = std::max(depth, of_vertices.back());
+  }
   Vec3 p, q;
   double radius = 0.0;
   if (centre_line(solid, p, q, radius)) {
@@ -112,13 +136,39 @@ double mesh_with_shape(const Solid& mesh, const Solid& solid) {
     for (Vec3& x : points) x = solid.pose.apply(x);
     depth = std::max(depth, points_in_mesh(points, mesh));
   }
-  return depth;
+  if (solid.shape->as<Plane>() != nullptr) return {depth, depth};
+  return {depth, edges_in_solid(mesh, solid, of_vertices, depth)};
 }
 
-double pair_penetration(const Solid& a, const Solid& b) {
-  const bool mesh_a = a.shape->mesh() != nullptr, mesh_b = b.shape->mesh() != nullptr;
-  if (mesh_a && mesh_b) return std::max(points_in_mesh(a.vertices, b), points_in_mesh(b.vertices, a));
-  if (mesh_a || mesh_b) return mesh_a ? mesh_with_shape(a, b) : mesh_with_shape(b, a);
+Overlap mesh_with_mesh(const Solid& a, const Solid& b) {
+  const auto near = [&](const Solid& mesh, const Aabb& region) {
+    std::vector<std::tuple<Aabb, TriangleCorners, Triangle>> list;
+    for (const Triangle& t : triangles_of(mesh)) {
+      const TriangleCorners c{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+      const Aabb box = bounds_of(c[0], c[1], c[2]);
+      if (overlap(box, region)) list.emplace_back(box, c, t);
+    }
+    return list;
+  };
+  const auto list_a = near(a, b.bounds), list_b = near(b, a.bounds);
+  Overlap found;
+  std::vector<EdgeHit> of_a, of_b;
+  InterruptPoll poll;
+  for (const auto& [box_a, corners_a, t_a] : list_a)
+    for (const auto& [box_b, corners_b, t_b] : list_b) {
+      poll();
+      if (!overlap(box_a, box_b) || !triangles_intersect(corners_a, corners_b)) continue;
+      ++found.crossings;
+      add_edge_hits(t_a, a.vertices, corners_b, of_a);
+      add_edge_hits(t_b, b.vertices, corners_a, of_b);
+    }
+  found.vertices = std::max(points_in_mesh(a.vertices, b), points_in_mesh(b.vertices, a));
+  found.edges = deepest_of_edges(std::move(of_a), a.vertices, {b.vertices, triangles_of(b)}, found.vertices);
+  found.edges = deepest_of_edges(std::move(of_b), b.vertices, {a.vertices, triangles_of(a)}, found.edges);
+  return found;
+}
+
+double shapes_penetration(const Solid& a, const Solid& b) {
   Vec3 p, q;
   double radius = 0.0;
   for (const auto& [line, other] : {std::pair(&a, &b), std::pair(&b, &a)})
@@ -136,62 +186,12 @@ double pair_penetration(const Solid& a, const Solid& b) {
   return std::max(0.0, -signed_distance(plane, solid.pose.apply(lowest)));
 }
 
-struct Crossings {
-  std::int64_t count = 0;           ///< of triangles
-  std::vector<EdgeHit> of_a, of_b;  ///< of the edges of each
-};
-
-Crossings crossings_of(const Solid& a, const Solid& b) {
-  const auto near = [&](const Solid& mesh, const Aabb& region) {
-    std::vector<std::tuple<Aabb, TriangleCorners, Triangle>> list;
-    for (const Triangle& t : triangles_of(mesh)) {
-      const TriangleCorners c{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-      const Aabb box = bounds_of(c[0], c[1], c[2]);
-      if (overlap(box, region)) list.emplace_back(box, c, t);
-    }
-    return list;
-  };
-  const auto list_a = near(a, b.bounds), list_b = near(b, a.bounds);
-  Crossings found;
-  InterruptPoll poll;
-  for (const auto& [box_a, corners_a, t_a] : list_a)
-    for (const auto& [box_b, corners_b, t_b] : list_b) {
-      poll();
-      if (!overlap(box_a, box_b) || !triangles_intersect(corners_a, corners_b)) continue;
-      ++found.count;
-      add_edge_hits(t_a, a.vertices, corners_b, found.of_a);
-      add_edge_hits(t_b, b.vertices, corners_a, found.of_b);
-    }
-  return found;
-}
-
-/// The deepest point inside a convex solid of a mesh's edges, metres; `known` if that is deeper.
-double edges_in_solid(const Solid& mesh, const Solid& solid, double known) {
-  std::vector<double> depth;
-  for (const Vec3& v : mesh.vertices) depth.push_back(-signed_distance(solid, v));
-  InterruptPoll poll;
-  for (const Triangle& t : triangles_of(mesh))
-    for (int k = 0; k < 3; ++k) {
-      const int v0 = t[k], v1 = t[(k + 1) % 3];
-      const Vec3 &p = mesh.vertices[v0], &q = mesh.vertices[v1];
-      if ((q - p).norm() + depth[v0] + depth[v1] <= 2.0 * known)
-        continue;  // a distance changes no faster than the place
-      poll();
-      known = std::max(known, -lowest_on_segment(p, q, [&](const Vec3& x) { return signed_distance(solid, x); }));
-    }
-  return known;
-}
-
-/// How deep edges of meshes run through a solid between their ends, where that is deeper than `vertices` are, metres.
-double deepest_edges(const Solid& a, const Solid& b, const Crossings& crossings, double vertices) {
+Overlap overlap_of(const Solid& a, const Solid& b) {
   const bool mesh_a = a.shape->mesh() != nullptr, mesh_b = b.shape->mesh() != nullptr;
-  if (mesh_a != mesh_b) {
-    const Solid &mesh = mesh_a ? a : b, &solid = mesh_a ? b : a;
-    return solid.shape->as<Plane>() != nullptr ? vertices : edges_in_solid(mesh, solid, vertices);
-  }
-  if (crossings.count == 0) return vertices;
-  const double of_a = deepest_of_edges(crossings.of_a, a.vertices, {b.vertices, triangles_of(b)}, vertices);
-  return deepest_of_edges(crossings.of_b, b.vertices, {a.vertices, triangles_of(a)}, of_a);
+  if (mesh_a && mesh_b) return mesh_with_mesh(a, b);
+  if (mesh_a || mesh_b) return mesh_a ? mesh_with_shape(a, b) : mesh_with_shape(b, a);
+  const double depth = shapes_penetration(a, b);
+  return {depth, depth};
 }
 
 }  // namespace
@@ -207,17 +207,15 @@ OverlapVerdict judge_overlap(const Bodies& bodies) {
       for (const Solid& a : solids[i])
         for (const Solid& b : solids[j]) {
           if (!overlap(a.bounds, b.bounds)) continue;
-          Crossings crossings;
-          if (a.shape->mesh() != nullptr && b.shape->mesh() != nullptr) crossings = crossings_of(a, b);
-          verdict.intersections += crossings.count;
-          const double depth = pair_penetration(a, b), with_edges = deepest_edges(a, b, crossings, depth);
-          if (with_edges == 0.0) continue;
-          verdict.deepest = std::max(verdict.deepest, with_edges);
+          const Overlap found = overlap_of(a, b);
+          verdict.intersections += found.crossings;
+          if (found.edges == 0.0) continue;
+          verdict.deepest = std::max(verdict.deepest, found.edges);
           const double thickness = std::min(thickness_of(*bodies[i].shape), thickness_of(*bodies[j].shape));
-          if (with_edges / thickness > verdict.crossing.share())
-            verdict.crossing = {bodies[i].name, bodies[j].name, with_edges, thickness, 0};
-          if (depth <= verdict.penetration) continue;
-          verdict.penetration = depth;
+          if (found.edges / thickness > verdict.crossing.share())
+            verdict.crossing = {bodies[i].name, bodies[j].name, found.edges, thickness, 0};
+          if (found.vertices <= verdict.penetration) continue;
+          verdict.penetration = found.vertices;
           verdict.body_a = static_cast<int>(i);
           verdict.body_b = static_cast<int>(j);
         }

@@ -1,11 +1,11 @@
 #include "tests/support/mechanics/interlocked.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
+#include "engine/core/profile.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/step/step_watcher.hpp"
 #include "engine/world/judge.hpp"
@@ -138,21 +138,16 @@ void add_arch(World& world, int stones) {
   }
 }
 
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 /// Notes how deep bodies overlap at the end of every sub-step, and how long it took to see that.
 class Judge final : public StepWatcher {
  public:
   void finished(const Bodies& bodies, int) override {
-    const Clock::time_point start = Clock::now();
-    deepest = std::max(deepest, judge_overlap(bodies).deepest);
-    ms += ms_since(start);
+    const StageTimer timer(ms);
+    const OverlapVerdict verdict = judge_overlap(bodies);
+    deepest = std::max(deepest, verdict.deepest);
+    by_vertices = std::max(by_vertices, verdict.penetration);
   }
-  double deepest = 0.0, ms = 0.0;
+  double deepest = 0.0, by_vertices = 0.0, ms = 0.0;
 };
 
 }  // namespace
@@ -190,9 +185,12 @@ AssemblyResult run(const Assembly& what, bool every_substep, int second_looks) {
   const int frames = static_cast<int>(std::lround(what.seconds / 0.01));
   for (int frame = 0; frame < frames; ++frame) {
     judge.ms = 0.0;
-    const Clock::time_point start = Clock::now();
-    world.step();
-    ms.push_back(ms_since(start) - judge.ms);
+    ms.push_back(0.0);
+    {
+      const StageTimer timer(ms.back());
+      world.step();
+    }
+    ms.back() -= judge.ms;
     if (!every_substep) judge.finished(world.bodies(), 0);
     const FrameStats& stats = world.record().stats;
     const double energy = stats.kinetic + stats.potential;
@@ -206,7 +204,7 @@ AssemblyResult run(const Assembly& what, bool every_substep, int second_looks) {
       result.contacts = std::max(result.contacts, ++of_pair[{c.body_a.value(), c.body_b.value()}]);
     result.reach = std::max(result.reach, (world.bodies()[last].pose.position - place).norm());
   }
-  result.overlap = judge.deepest;
+  result.overlap = judge.deepest, result.by_vertices = judge.by_vertices;
   result.dearest_frame = static_cast<int>(std::max_element(ms.begin(), ms.end()) - ms.begin()) + 1;
   result.dearest_ms = *std::max_element(ms.begin(), ms.end());
   std::nth_element(ms.begin(), ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2), ms.end());

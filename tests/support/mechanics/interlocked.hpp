@@ -18,8 +18,9 @@ struct Assembly {
 
 struct AssemblyResult {
   double thickness = 0.0;  ///< of the thinnest part that carries, metres
-  double overlap = 0.0;    ///< largest at the end of a sub-step, metres, by the judge
-  int contacts = 0;        ///< most of a pair of bodies
+  double overlap = 0.0;    ///< largest at the end of a sub-step, metres, by the judge, edges included
+  double by_vertices = 0.0;
+  int contacts = 0;  ///< most of a pair of bodies
   std::int64_t unconverged = 0, unsafe = 0;
   double gain = 0.0;                         ///< J, the most that was ever won over the start
   double fall = 0.0;                         ///< J, the most that the weight gave

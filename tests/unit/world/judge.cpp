@@ -73,11 +73,7 @@ namespace {
 struct Meshes {
   Bodies bodies;
   Meshes(const TriangleMesh& a, const TriangleMesh& b) {
-    for (const TriangleMesh* mesh : {&a, &b}) {
-      BodyDescription d = dynamic_body("m", surface(*mesh), Vec3::Zero());
-      d.position = Vec3::Zero();
-      bodies.add(make_body(d));
-    }
+    for (const TriangleMesh* mesh : {&a, &b}) bodies.add(make_body(dynamic_body("m", surface(*mesh), Vec3::Zero())));
   }
 };
 
