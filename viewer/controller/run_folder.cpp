@@ -80,7 +80,12 @@ bool is_our_number(const fs::path& path, const char* ending) {
 RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, RunStart how,
                      std::uint64_t snapshot_bytes)
     : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes), columns_(run.judge) {
-  check_new(how, run_toml);  // before anything is written, the lock's file among it
+  try {
+    check_new(how, run_toml);  // before anything is written, the lock's file among it
+  } catch (const InputError&) {
+    FolderLock::check_free(folder_);  // what another process has begun just now is its own to be told of,
+    check_new(how, run_toml);         // or was ended since
+  }
   make_folder(folder_);
   lock_ = FolderLock::take(folder_);
   check_new(how, run_toml);  // what another process may have made of it until it gave the lock back
