@@ -12,9 +12,9 @@
 namespace impinge {
 namespace {
 
-constexpr int kColumns = 48;       // whose products with those after them are taken at once
-constexpr int kRows = 96;          // a task
-constexpr double kParallel = 1e6;  // multiplications below which waking a thread takes longer
+constexpr int kColumnsAtOnce = 48;   // whose products with those after them are taken at once
+constexpr int kRows = 96;            // a task
+constexpr double kSharedFrom = 1e6;  // multiplications below which waking a thread takes longer
 
 /// Columns that a row is solved in at a time: nodes have three unknowns, and products are made of six columns.
 int few(int left) { return left >= 6 ? 6 : left >= 3 ? 3 : 1; }
@@ -61,21 +61,21 @@ template <class Lanes, int N>
 }
 
 template <int N>
-void by_two(const Triangle<N>& l, double* x, std::ptrdiff_t stride, int m) {
+void solve_by_two(const Triangle<N>& l, double* x, std::ptrdiff_t stride, int m) {
   solve_few<Two>(l, x, stride, m);
 }
 template <int N>
-IMPINGE_FOUR_LANES void by_four(const Triangle<N>& l, double* x, std::ptrdiff_t stride, int m) {
+IMPINGE_FOUR_LANES void solve_by_four(const Triangle<N>& l, double* x, std::ptrdiff_t stride, int m) {
   solve_few<Four>(l, x, stride, m);
 }
 template <int N>
-IMPINGE_EIGHT_LANES void by_eight(const Triangle<N>& l, double* x, std::ptrdiff_t stride, int m) {
+IMPINGE_EIGHT_LANES void solve_by_eight(const Triangle<N>& l, double* x, std::ptrdiff_t stride, int m) {
   solve_few<Eight>(l, x, stride, m);
 }
 
 template <int N>
 void solve_columns(DenseColumns l, double* x, std::ptrdiff_t stride, int m) {
-  static const auto kernel = widest(by_two<N>, by_four<N>, by_eight<N>);
+  static const auto kernel = widest(solve_by_two<N>, solve_by_four<N>, solve_by_eight<N>);
   if (m > 0) kernel(Triangle<N>(l), x, stride, m);
 }
 
@@ -89,7 +89,7 @@ const double* at(DenseColumns l, int row, int column) {
   return l.first + row + column * static_cast<std::ptrdiff_t>(l.stride);
 }
 
-/// n <= kColumns.
+/// n <= kColumnsAtOnce.
 void solve_block(DenseColumns l, int n, double* x, int x_stride, int m) {
   const std::ptrdiff_t stride = x_stride;
   for (int j = 0, count = 0; j < n; j += count) {
@@ -115,7 +115,7 @@ bool factorize_few(double* a, std::ptrdiff_t stride, int n) {
   return true;
 }
 
-/// A square block of n <= kColumns, or one with rows below that are too few to share.
+/// A square block of n <= kColumnsAtOnce, or one with rows below that are too few to share.
 bool factorize_block(double* a, int height, int n, int stride) {
   for (int j = 0, count = 0; j < n; j += count) {
     count = few(n - j);
@@ -139,8 +139,8 @@ void solve_rows_apart(DenseColumns l, int n, double* x, int x_stride, int m) {
 }  // namespace
 
 void solve_rows(DenseColumns l, int n, double* x, int x_stride, int m) {
-  for (int j = 0; j < n; j += kColumns) {
-    const int count = std::min(kColumns, n - j), after = j + count;
+  for (int j = 0; j < n; j += kColumnsAtOnce) {
+    const int count = std::min(kColumnsAtOnce, n - j), after = j + count;
     double* const block = x + j * static_cast<std::ptrdiff_t>(x_stride);
     solve_block({at(l, j, j), l.stride}, count, block, x_stride, m);
     subtract_transposed({block, x_stride}, {at(l, after, j), l.stride},
@@ -149,10 +149,10 @@ void solve_rows(DenseColumns l, int n, double* x, int x_stride, int m) {
 }
 
 bool factorize_columns(double* a, int height, int width) {
-  for (int j = 0; j < width; j += kColumns) {
-    const int count = std::min(kColumns, width - j), after = j + count;
+  for (int j = 0; j < width; j += kColumnsAtOnce) {
+    const int count = std::min(kColumnsAtOnce, width - j), after = j + count;
     double* const block = a + j + j * static_cast<std::ptrdiff_t>(height);
-    const bool shared = static_cast<double>(height - after) * count * count >= kParallel;
+    const bool shared = static_cast<double>(height - after) * count * count >= kSharedFrom;
     if (!factorize_block(block, shared ? count : height - j, count, height)) return false;
     if (shared) solve_rows_apart({block, height}, count, block + count, height, height - after);
     subtract_square({block + count, height}, a + after + after * static_cast<std::ptrdiff_t>(height), height,

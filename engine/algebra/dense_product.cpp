@@ -141,21 +141,22 @@ template <bool kTransposed, class Lanes, int R, int C>
 }
 
 template <bool kTransposed>
-void by_two(const Operands& o) {
+void multiply_by_two(const Operands& o) {
   subtract<kTransposed, Two, 2, 4>(o);
 }
 template <bool kTransposed>
-IMPINGE_FOUR_LANES void by_four(const Operands& o) {
+IMPINGE_FOUR_LANES void multiply_by_four(const Operands& o) {
   subtract<kTransposed, Four, 2, 6>(o);
 }
 template <bool kTransposed>
-IMPINGE_EIGHT_LANES void by_eight(const Operands& o) {
+IMPINGE_EIGHT_LANES void multiply_by_eight(const Operands& o) {
   subtract<kTransposed, Eight, 2, 8>(o);
 }
 
 template <bool kTransposed>
 void in_pieces(Operands o) {
-  static const auto kernel = widest(by_two<kTransposed>, by_four<kTransposed>, by_eight<kTransposed>);
+  static const auto kernel =
+      widest(multiply_by_two<kTransposed>, multiply_by_four<kTransposed>, multiply_by_eight<kTransposed>);
   for (int left = o.k; left > 0; left -= kPiece) {
     o.k = std::min(left, kPiece);
     kernel(o);

@@ -16,9 +16,9 @@
 namespace impinge {
 namespace {
 
-constexpr int kColumnsPerTask = 96;  // of B, in one supernode
+constexpr int kColumnsOfB = 96;  // of B, in one supernode
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t nth(int i) { return static_cast<std::size_t>(i); }
 
 struct Entry3 {
   int place, column;
@@ -42,7 +42,7 @@ std::vector<int> places_in(const std::vector<int>& all, const std::vector<int>& 
   places.reserve(some.size());
   int place = 0;
   for (const int c : some) {
-    while (all[at(place)] != c) ++place;
+    while (all[nth(place)] != c) ++place;
     places.push_back(place);
   }
   return places;
@@ -52,24 +52,24 @@ class Gram {
  public:
   Gram(const SupernodalFactor& l, const SparseColumns& b)
       : l_(l), nodes_(l.nodes()), entries_(entries_by_place(nodes_, b)) {
-    begin_.assign(at(nodes_.count()) + 1, entries_.size());
-    for (std::size_t e = entries_.size(); e-- > 0;) begin_[at(nodes_.node_of(entries_[e].place))] = e;
-    for (int s = nodes_.count() - 1; s >= 0; --s) begin_[at(s)] = std::min(begin_[at(s)], begin_[at(s) + 1]);
+    begin_.assign(nth(nodes_.count()) + 1, entries_.size());
+    for (std::size_t e = entries_.size(); e-- > 0;) begin_[nth(nodes_.node_of(entries_[e].place))] = e;
+    for (int s = nodes_.count() - 1; s >= 0; --s) begin_[nth(s)] = std::min(begin_[nth(s)], begin_[nth(s) + 1]);
     find_columns(b.cols());
-    fronts_.resize(at(nodes_.count()));
-    sums_.resize(at(nodes_.tasks()));
+    fronts_.resize(nth(nodes_.count()));
+    sums_.resize(nth(nodes_.tasks()));
   }
 
   /// w: zero.
   void find(MatX& w) {
     nodes_.run([&](int task) {
-      Sum& sum = sums_[at(task)];
+      Sum& sum = sums_[nth(task)];
       begin(task, sum);
       for (const int node : nodes_.nodes(task)) visit(node, sum);
     });
     std::vector<int> all(static_cast<std::size_t>(w.cols()));
     std::iota(all.begin(), all.end(), 0);
-    for (const int task : nodes_.last_tasks()) take(sums_[at(task)], all, w);
+    for (const int task : nodes_.last_tasks()) take(sums_[nth(task)], all, w);
     w.triangularView<Eigen::Lower>() = -w;
     w.triangularView<Eigen::StrictlyUpper>() = w.transpose();
   }
@@ -83,14 +83,14 @@ class Gram {
 
   void begin(int task, Sum& sum) {
     for (const int node : nodes_.nodes(task))
-      sum.columns.insert(sum.columns.end(), columns_[at(node)].begin(), columns_[at(node)].end());
+      sum.columns.insert(sum.columns.end(), columns_[nth(node)].begin(), columns_[nth(node)].end());
     for (const int below : nodes_.tasks_below(task))
-      sum.columns.insert(sum.columns.end(), sums_[at(below)].columns.begin(), sums_[at(below)].columns.end());
+      sum.columns.insert(sum.columns.end(), sums_[nth(below)].columns.begin(), sums_[nth(below)].columns.end());
     std::sort(sum.columns.begin(), sum.columns.end());
     sum.columns.erase(std::unique(sum.columns.begin(), sum.columns.end()), sum.columns.end());
     const auto count = static_cast<Eigen::Index>(sum.columns.size());
     sum.values.setZero(count, count);
-    for (const int below : nodes_.tasks_below(task)) take(sums_[at(below)], sum.columns, sum.values);
+    for (const int below : nodes_.tasks_below(task)) take(sums_[nth(below)], sum.columns, sum.values);
   }
 
   static void take(Sum& from, const std::vector<int>& columns, MatX& to) {
@@ -99,32 +99,32 @@ class Gram {
   }
 
   void find_columns(Eigen::Index count) {
-    columns_.resize(at(nodes_.count()));
+    columns_.resize(nth(nodes_.count()));
     std::vector<int> seen_by(static_cast<std::size_t>(count), -1);
     for (int s = 0; s < nodes_.count(); ++s) {
-      std::vector<int>& columns = columns_[at(s)];
+      std::vector<int>& columns = columns_[nth(s)];
       const auto add = [&](int c) {
-        if (std::exchange(seen_by[at(c)], s) != s) columns.push_back(c);
+        if (std::exchange(seen_by[nth(c)], s) != s) columns.push_back(c);
       };
-      for (std::size_t e = begin_[at(s)]; e < begin_[at(s) + 1]; ++e) add(entries_[e].column);
+      for (std::size_t e = begin_[nth(s)]; e < begin_[nth(s) + 1]; ++e) add(entries_[e].column);
       for (const int child : nodes_.children(s))
-        for (const int c : columns_[at(child)]) add(c);
+        for (const int c : columns_[nth(child)]) add(c);
       std::sort(columns.begin(), columns.end());
     }
   }
 
   /// A row for each of its columns of B, a column for each row of the supernode.
   void gather(int s, MatX& front) {
-    const std::vector<int>& columns = columns_[at(s)];
+    const std::vector<int>& columns = columns_[nth(s)];
     front.setZero(static_cast<Eigen::Index>(columns.size()), nodes_.height(s));
-    for (std::size_t e = begin_[at(s)]; e < begin_[at(s) + 1]; ++e) {
+    for (std::size_t e = begin_[nth(s)]; e < begin_[nth(s) + 1]; ++e) {
       const auto row = std::lower_bound(columns.begin(), columns.end(), entries_[e].column) - columns.begin();
       front(row, entries_[e].place - nodes_.first(s)) += entries_[e].value;
     }
     for (const int child : nodes_.children(s)) {
-      MatX& part = fronts_[at(child)];
+      MatX& part = fronts_[nth(child)];
       if (part.rows() > 0) {
-        const std::vector<int> places = places_in(columns, columns_[at(child)]);
+        const std::vector<int> places = places_in(columns, columns_[nth(child)]);
         const std::span<const int> rows = nodes_.rows_of_parent(child);
         for (std::size_t j = 0; j < rows.size(); ++j) {
           const double* const in = part.col(nodes_.width(child) + static_cast<Eigen::Index>(j)).data();
@@ -137,27 +137,27 @@ class Gram {
   }
 
   void visit(int s, Sum& sum) {
-    const int active = static_cast<int>(columns_[at(s)].size());
+    const int active = static_cast<int>(columns_[nth(s)].size());
     if (active == 0) return;
     check_interrupt();
-    MatX& front = fronts_[at(s)];
+    MatX& front = fronts_[nth(s)];
     gather(s, front);
     const DenseColumns l = l_.columns(s);
     const int width = nodes_.width(s), below = nodes_.below(s);
-    parallel_for(at((active + kColumnsPerTask - 1) / kColumnsPerTask), 1, [&](std::size_t task) {
-      const int first = static_cast<int>(task) * kColumnsPerTask, count = std::min(kColumnsPerTask, active - first);
+    parallel_for(nth((active + kColumnsOfB - 1) / kColumnsOfB), 1, [&](std::size_t task) {
+      const int first = static_cast<int>(task) * kColumnsOfB, count = std::min(kColumnsOfB, active - first);
       double* const rows = front.data() + first;
       solve_rows(l, width, rows, active, count);
       subtract_transposed({rows, active}, {l.first + width, l.stride},
                           rows + static_cast<std::ptrdiff_t>(width) * active, active, count, below, width);
     });
-    if (columns_[at(s)].size() == sum.columns.size()) {
+    if (columns_[nth(s)].size() == sum.columns.size()) {
       subtract_square({front.data(), active}, sum.values.data(), active, active, active, width);
       return;
     }
     MatX product = MatX::Zero(active, active);
     subtract_square({front.data(), active}, product.data(), active, active, active, width);
-    add(product, places_in(sum.columns, columns_[at(s)]), sum.values);
+    add(product, places_in(sum.columns, columns_[nth(s)]), sum.values);
   }
 
   static void add(const MatX& lower, const std::vector<int>& places, MatX& to) {

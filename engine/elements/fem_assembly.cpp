@@ -13,7 +13,7 @@ namespace {
 // an element takes about a microsecond, a quadratic one some seven, a node's product with the mass a tenth of one
 constexpr std::size_t kElementsPerTask = 64;
 constexpr std::size_t kQuadraticPerTask = 8;
-constexpr std::size_t kNodesPerTask = 256;
+constexpr std::size_t kForcesPerTask = 256;
 
 /// Half the modulus of confined compression: what is let go yields to no load that its own material would stand.
 double unwinding_modulus(const Material& material) {
@@ -105,7 +105,7 @@ void FemAssembly::multiply_mass(const VecX& x, VecX& y) const {
     for (int i = 0; i < nodes(); ++i) y.segment<3>(3 * i) = node_mass_[i] * x.segment<3>(3 * i);
     return;
   }
-  parallel_for(nodes(), kNodesPerTask, [&](std::size_t i) {
+  parallel_for(nodes(), kForcesPerTask, [&](std::size_t i) {
     Vec3 sum = Vec3::Zero();
     for (int k = pattern_->begin[i]; k < pattern_->begin[i + 1]; ++k)
       sum += block_mass_[k] * x.segment<3>(3 * pattern_->column[k]);

@@ -9,7 +9,7 @@
 namespace impinge {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 30;
+constexpr std::uint64_t kMostOfFile = std::uint64_t(1) << 30;
 
 /// The file as one row of numbers, each with its place.
 class Numbers {
@@ -125,7 +125,7 @@ std::vector<Block> read_sparse(Numbers& in, std::int64_t contacts) {
 }  // namespace
 
 FrictionContactProblem read_friction_contact(const std::filesystem::path& path) {
-  const std::string text = read_file(path, kMostBytes);
+  const std::string text = read_file(path, kMostOfFile);
   Numbers in(path.string(), text);
   const std::int64_t dimension = in.whole("the dimension");
   if (dimension != 3)

@@ -14,20 +14,20 @@ namespace {
 constexpr double kRounding = 0x1.0p-52;
 
 /// A part of [0, 1] whose ends are whole multiples of 2^-depth: bisection then never rounds.
-struct Part {
+struct SubBox {
   std::uint64_t index = 0;
   int depth = 0;
   double low() const { return std::ldexp(static_cast<double>(index), -depth); }
   double high() const { return std::ldexp(static_cast<double>(index + 1), -depth); }
   double width() const { return std::ldexp(1.0, -depth); }
-  Part half(int which) const { return {2 * index + which, depth + 1}; }
+  SubBox half(int which) const { return {2 * index + which, depth + 1}; }
 };
 
 constexpr int kDeepest = 50;  // beyond this the ends of a part are no longer exact doubles apart
 
 /// t, and the two coordinates on the features.
 struct Box {
-  std::array<Part, 3> part;
+  std::array<SubBox, 3> part;
 };
 
 struct Later {  // the earliest on top; of those that start together the finest, which decides soonest

@@ -9,6 +9,8 @@ namespace impinge {
 
 /// The three corners of a triangle in space, metres.
 using TriangleCorners = std::array<Vec3, 3>;
+/// Across the triangle, twice its area long.
+inline Vec3 normal_of(const TriangleCorners& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
 
 /// Where on a triangle a point lies. edge_k joins corners k and (k+1)%3.
 enum class TriangleFeature : std::uint8_t { corner0, corner1, corner2, edge0, edge1, edge2, face };

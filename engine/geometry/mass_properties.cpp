@@ -11,13 +11,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Aabb bounds_of(const TriangleMesh& mesh) {
-  Aabb box;
-  for (const Triangle& t : mesh.triangles)
-    for (int v : t) box.include(mesh.vertices[v]);
-  return box;
-}
-
 MassProperties diagonal(double mass, double xx, double yy, double zz) {
   MassProperties result;
   result.mass = mass;
@@ -26,6 +19,13 @@ MassProperties diagonal(double mass, double xx, double yy, double zz) {
 }
 
 }  // namespace
+
+Aabb bounds_of(const TriangleMesh& mesh) {
+  Aabb box;
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) box.include(mesh.vertices[v]);
+  return box;
+}
 
 double signed_volume(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return 0.0;

@@ -2,9 +2,13 @@
 // exact shapes. For a Shape see engine/shapes/shape_mass.hpp.
 #pragma once
 
+#include "engine/geometry/aabb.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {
+
+/// Of its triangles: a vertex that none has doesn't count.
+Aabb bounds_of(const TriangleMesh& mesh);
 
 /// Of a solid of uniform density.
 struct MassProperties {

@@ -20,9 +20,9 @@
 // moves nothing that can be seen.
 //
 // With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders: after
-// kPatience of them rounded equations are tried from where it began, then Newton again from the better of the two, and
+// kNewtonSteps of them rounded equations are tried from where it began, then Newton again from the better of the two, and
 // from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
-// equations, and from there to Newton again. With kMany contacts that takes seconds, and what is within kNear once both
+// equations, and from there to Newton again. With kMany contacts that takes seconds, and what is within kNearEnough once both
 // have had their turn is handed on: in a wall that a ball goes through nothing brings more digits, or hundreds of steps
 // each.
 #include <algorithm>
@@ -63,13 +63,13 @@ constexpr double kGain = 0.3;
 constexpr double kEnough = 1e-3;  // a relative residual
 constexpr int kSomeSteps = 40;    // of rounded equations, likewise
 constexpr int kRounds = 2;  // of rounded equations, of conjugate sweeps, which end what those creep at, and Newton
-constexpr int kLastDigits = 100;  // sweeps
-constexpr int kMoreSteps = 300;   // of Newton's
-constexpr int kPatience = 150;    // of them, with fewer contacts
-constexpr int kConjugate = 300;   // sweeps, where all else has ended
+constexpr int kLastDigits = 100;   // sweeps
+constexpr int kMoreSteps = 300;    // of Newton's
+constexpr int kNewtonSteps = 150;  // of them, with fewer contacts
+constexpr int kConjugate = 300;    // sweeps, where all else has ended
 constexpr int kAny = std::numeric_limits<int>::max();
-constexpr double kFarBetter = 0.1;  // where there is no answer nothing at all may pass for a little better than most
-constexpr double kNear = 1e-5;      // a relative residual that another method betters seldom
+constexpr double kFarBetter = 0.1;    // where there is no answer nothing at all may pass for a little better than most
+constexpr double kNearEnough = 1e-5;  // a relative residual that another method betters seldom
 
 using SolverEntry = Entry<LcpSolver>();
 
@@ -187,7 +187,7 @@ class Automatic : public LcpSolver {
       if (!result.solved()) return result;
     }
     if (bring_digits(smoothing_newton_solver, kSomeSteps, problem, settings, result, lambda)) return result;
-    if (!(judge(problem, lambda).map.relative <= kNear)) return result;
+    if (!(judge(problem, lambda).map.relative <= kNearEnough)) return result;
     result =
         go_on(nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings, result.iterations, lambda, kLastDigits);
     if (!has_ended(result, settings))
@@ -225,18 +225,18 @@ class Automatic : public LcpSolver {
       for (int round = 0; round < kRounds; ++round)
         if (go(smoothing, lambda, kAny) || go(conjugate, lambda, kLastDigits) || go(newton, lambda, kMoreSteps))
           return result;
-      if (residual(lambda) <= kNear) return result;
+      if (residual(lambda) <= kNearEnough) return result;
     } else {
       const bool is_dear = lambda.size() >= kMany;
-      const auto will_do = [&] { return is_dear && residual(lambda) <= kNear; };
-      if (newton_or_rounded(kPatience, problem, settings, result, lambda) || will_do() ||
-          go(newton, lambda, is_dear ? kPatience : kAny) || will_do())
+      const auto will_do = [&] { return is_dear && residual(lambda) <= kNearEnough; };
+      if (newton_or_rounded(kNewtonSteps, problem, settings, result, lambda) || will_do() ||
+          go(newton, lambda, is_dear ? kNewtonSteps : kAny) || will_do())
         return result;
     }
     std::vector<Vec3> other(lambda.size(), Vec3::Zero());
     const bool ended = go(newton, other, kAny);
     if (result.reason == StopReason::converged || residual(other) < kFarBetter * residual(lambda)) lambda = other;
-    if (ended || go(conjugate, lambda, kConjugate) || residual(lambda) <= kNear) return result;
+    if (ended || go(conjugate, lambda, kConjugate) || residual(lambda) <= kNearEnough) return result;
     if (go(smoothing, lambda, kAny)) return result;
     go(newton, lambda, kAny);
     return result;

@@ -12,7 +12,7 @@
 namespace impinge {
 namespace {
 
-using Rows = std::array<BodySpace::Six, 3>;
+using SixByThree = std::array<BodySpace::Six, 3>;
 
 constexpr int kWidest = 8;      // columns of a panel
 constexpr double kZeros = 0.1;  // of a panel's entries at most
@@ -20,14 +20,14 @@ constexpr int kFew = 6;         // rows below that are not worth a panel's packi
 constexpr int kStrip = 8;       // bodies' columns a task: some 100 µs where many are below
 
 /// G J.
-Rows weigh(const Mat3& g, const Rows& j) {
-  Rows weighed;
+SixByThree weigh(const Mat3& g, const SixByThree& j) {
+  SixByThree weighed;
   for (int r = 0; r < 3; ++r) weighed[r] = g(r, 0) * j[0] + g(r, 1) * j[1] + g(r, 2) * j[2];
   return weighed;
 }
 
 /// block += Jᵀ H, column by column.
-void add_product(const Rows& j, const Rows& h, BodyMatrix::Block& block) {
+void add_product(const SixByThree& j, const SixByThree& h, BodyMatrix::Block& block) {
   for (int c = 0; c < 6; ++c) block.col(c) += h[0][c] * j[0] + h[1][c] * j[1] + h[2][c] * j[2];
 }
 
@@ -173,7 +173,7 @@ void BodyMatrix::assemble(std::span<const Mat3> g) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (g[i].isZero(0.0)) continue;
     const auto& [a, b] = bodies_.sides[i];
-    const Rows of_a = weigh(g[i], a.row), of_b = weigh(g[i], b.row);
+    const SixByThree of_a = weigh(g[i], a.row), of_b = weigh(g[i], b.row);
     if (a.body >= 0) add_product(a.row, of_a, diagonal_[position_[a.body]]);
     if (b.body >= 0) add_product(b.row, of_b, diagonal_[position_[b.body]]);
     if (a.body >= 0 && a.body == b.body) {

@@ -10,7 +10,7 @@
 namespace impinge {
 namespace {
 
-constexpr std::size_t kColumnsPerTask = 8;
+constexpr std::size_t kNodeColumnsPerTask = 8;
 
 class SystemOfNodes : public SystemOfVelocities<NodeSpace> {
  public:
@@ -31,10 +31,10 @@ class SystemOfNodes : public SystemOfVelocities<NodeSpace> {
     bodies_.factorize(g);
     g_.assign(g.begin(), g.end());
     by_node_ = couple();
-    parallel_for(static_cast<std::size_t>(rows()) / kColumnsPerTask + 1, 1, [&](std::size_t task) {
+    parallel_for(static_cast<std::size_t>(rows()) / kNodeColumnsPerTask + 1, 1, [&](std::size_t task) {
       VecX column;
-      const auto first = static_cast<Eigen::Index>(task * kColumnsPerTask);
-      for (Eigen::Index c = first; c < std::min(rows(), first + Eigen::Index(kColumnsPerTask)); ++c) {
+      const auto first = static_cast<Eigen::Index>(task * kNodeColumnsPerTask);
+      for (Eigen::Index c = first; c < std::min(rows(), first + Eigen::Index(kNodeColumnsPerTask)); ++c) {
         if (by_node_.col(c).isZero(0.0)) continue;
         column = by_node_.col(c);
         bodies_.solve(column);

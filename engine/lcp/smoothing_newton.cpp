@@ -13,16 +13,16 @@
 namespace impinge {
 namespace {
 
-constexpr double kFirstWidth = 0.1;    // over the velocities of the problem
-constexpr double kFall = 0.3;          // from one width to the next
-constexpr double kLast = 0.1;          // of the tolerance: the last width before 0
-constexpr double kStiffness = 1e5;     // width over compliance
-constexpr double kNear = 0.1;          // F, root mean square, over the width: go on with the next
-constexpr double kExact = 0.01;        // of the tolerance: F is as good as 0
-constexpr int kSteps = 15;             // at one width
-constexpr double kFirstFactor = 1e-3;  // α over F at each width
-constexpr double kFromNear = 30.0;     // the first width over the residual, where that is less
-constexpr int kFirstSweeps = 3;
+constexpr double kFirstWidth = 0.1;     // over the velocities of the problem
+constexpr double kFall = 0.3;           // from one width to the next
+constexpr double kLast = 0.1;           // of the tolerance: the last width before 0
+constexpr double kStiffness = 1e5;      // width over compliance
+constexpr double kNear = 0.1;           // F, root mean square, over the width: go on with the next
+constexpr double kExact = 0.01;         // of the tolerance: F is as good as 0
+constexpr int kStepsAtWidth = 15;       // at one width
+constexpr double kFirstDamping = 1e-3;  // α over F at each width
+constexpr double kFromNear = 30.0;      // the first width over the residual, where that is less
+constexpr int kSweepsBefore = 3;
 
 class Continuation : NewtonSearch {
  public:
@@ -31,7 +31,7 @@ class Continuation : NewtonSearch {
 
   LcpResult run() {
     if (measure()) return finish(StopReason::converged);
-    const int first = problem_.w->has_factors() ? kFirstSweeps : 0;
+    const int first = problem_.w->has_factors() ? kSweepsBefore : 0;
     while (iterations_ < std::min(first, settings_.max_iterations))
       if (sweep()) return finish(StopReason::converged);
     for (double width = std::min(kFirstWidth, kFromNear * residual_); width > 0.0; width *= kFall) {
@@ -48,9 +48,9 @@ class Continuation : NewtonSearch {
   bool go_on(double width) {
     soften(width * velocity_, width / kStiffness);
     course_.clear();
-    double factor = kFirstFactor, now = merit(lambda_);
+    double factor = kFirstDamping, now = merit(lambda_);
     const int before = iterations_;
-    for (int k = 0; k < kSteps && iterations_ < settings_.max_iterations; ++k, ++iterations_) {
+    for (int k = 0; k < kStepsAtWidth && iterations_ < settings_.max_iterations; ++k, ++iterations_) {
       const double left = std::sqrt(now / static_cast<double>(n_)) / velocity_;
       if (!(left > std::max(kNear * width, kExact * settings_.tolerance))) break;
       const double alpha = std::clamp(factor * left, kSmallest, kLargest);
@@ -61,7 +61,7 @@ class Continuation : NewtonSearch {
       else if (length < 0.2)
         factor *= 2.0;
       else if (length > 0.4)
-        factor = std::max(0.5 * factor, kFirstFactor);
+        factor = std::max(0.5 * factor, kFirstDamping);
       if (k > 0) note(residual_);
     }
     soften(0.0, 0.0);

@@ -7,7 +7,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kMost = 0.5;  // strain at the foot of a column of the body's height
+constexpr double kMostStrain = 0.5;  // strain at the foot of a column of the body's height
 
 class OwnWeight : public Warning {
  public:
@@ -26,7 +26,7 @@ class OwnWeight : public Warning {
       for (const TetRest& element : soft->fem.elements()) volume += element.volume;
       const double young = soft->material->settings().young;
       const double strain = body.mass / volume * gravity.norm() * (high - low) / young;
-      if (!(strain > kMost)) continue;
+      if (!(strain > kMostStrain)) continue;
       found.push_back(
           {fmt::format("'{}' would be pressed by its own weight, {:.3g} Pa at its foot, to a strain of "
                        "{:.3g} (material.young is {:.3g} Pa)",

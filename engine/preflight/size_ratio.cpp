@@ -8,7 +8,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kMost = 100.0;  // centimetres taken for metres
+constexpr double kMostRatio = 100.0;  // centimetres taken for metres
 
 class SizeRatio : public Warning {
  public:
@@ -19,7 +19,7 @@ class SizeRatio : public Warning {
       if (smallest == nullptr || body.size < smallest->size) smallest = &body;
       if (largest == nullptr || body.size > largest->size) largest = &body;
     }
-    if (largest == nullptr || !(largest->size > kMost * smallest->size)) return {};
+    if (largest == nullptr || !(largest->size > kMostRatio * smallest->size)) return {};
     return {
         {fmt::format("'{}' is {} thick, {:.3g} times as much as '{}' ({})", largest->name, length_text(largest->size),
                      largest->size / smallest->size, smallest->name, length_text(smallest->size)),

@@ -11,8 +11,8 @@
 namespace impinge {
 namespace {
 
-constexpr double kMost = 100.0;  // times, of the median
-constexpr double kFew = 0.01;    // of all: so few small ones, which scans have at their seams, disturb nobody
+constexpr double kMostOfMedian = 100.0;  // times, of the median
+constexpr double kFew = 0.01;            // of all: so few small ones, which scans have at their seams, disturb nobody
 
 /// Longest edge.
 double size_of(const TriangleMesh& mesh, const Triangle& t) {
@@ -51,8 +51,8 @@ class TriangleSizes : public Warning {
       const auto take = [&](Odd& odd, bool is_worse) {
         if (odd.count++ == 0 || is_worse) odd.worst = i, odd.size = sizes[i];
       };
-      if (sizes[i] * kMost < median) take(small, sizes[i] < small.size);
-      if (sizes[i] > kMost * median) take(large, sizes[i] > large.size);
+      if (sizes[i] * kMostOfMedian < median) take(small, sizes[i] < small.size);
+      if (sizes[i] > kMostOfMedian * median) take(large, sizes[i] > large.size);
     }
     const auto tell = [&](const Odd& odd, const char* word, const char* remedy) {
       if (odd.count == 0) return;
@@ -61,8 +61,8 @@ class TriangleSizes : public Warning {
           {fmt::format("{} of {} triangles of '{}'{} are over {:g} times {} than half of them, number {} by "
                        "{:.3g} times: {}, where the median is {}",
                        odd.count, sizes.size(), body.name,
-                       body.surface_file.empty() ? "" : " (" + body.surface_file + ")", kMost, word, odd.worst, times,
-                       length_text(odd.size), length_text(median)),
+                       body.surface_file.empty() ? "" : " (" + body.surface_file + ")", kMostOfMedian, word, odd.worst,
+                       times, length_text(odd.size), length_text(median)),
            remedy});
     };
     if (static_cast<double>(small.count) > kFew * static_cast<double>(sizes.size()))

@@ -65,10 +65,10 @@ double inner(const Vectors& a, const Vectors& b) {
   return sum;
 }
 
-class Solver {
+class AcceleratedSolver {
  public:
-  Solver(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver, const AnticipationSettings& settings,
-         const ResponseContext& context)
+  AcceleratedSolver(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver,
+                    const AnticipationSettings& settings, const ResponseContext& context)
       : group_(group),
         base_(base),
         solver_(solver),
@@ -410,7 +410,7 @@ class Solver {
 
 ResponseResult solve_accelerated(GroupSystem& group, const ConeProblem& base, const LcpSolver& solver,
                                  const AnticipationSettings& settings, const ResponseContext& context) {
-  return Solver(group, base, solver, settings, context).run();
+  return AcceleratedSolver(group, base, solver, settings, context).run();
 }
 
 }  // namespace impinge

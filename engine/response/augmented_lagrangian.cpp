@@ -27,13 +27,13 @@ constexpr double kGain = 0.3;  // of the error after a round, to leave ρ as it 
 constexpr int kMultiplierSteps = 60, kNewtonSteps = 40;
 constexpr double kSteady = 0.2;  // how little the gain of two rounds differs for the next to be had at once
 constexpr double kWorse = 10.0;  // times the error: the round is taken back
-constexpr int kHalvings = 8;
+constexpr int kStepHalvings = 8;
 constexpr double kInner = 1e-2;  // of a Newton step's system
 constexpr double kPart = 0.1;    // of the contacts' error: how well the springs are solved in a round
 
-class Solver {
+class AugmentedSolver {
  public:
-  Solver(const GroupOperator& a, const ConeProblem& problem, GroupSystem& group, VecX& x)
+  AugmentedSolver(const GroupOperator& a, const ConeProblem& problem, GroupSystem& group, VecX& x)
       : a_(a),
         problem_(problem),
         group_(group),
@@ -159,7 +159,7 @@ class Solver {
       for (int h = 0;; ++h, length *= 0.5) {
         for (std::size_t i = 0; i < u_.size(); ++i) u[i] = u_[i] + length * along[i];
         r = left(u, ax_ + length * ap);
-        if (a_.norm(r) <= (1.0 - 0.1 * length) * size || h == kHalvings) break;
+        if (a_.norm(r) <= (1.0 - 0.1 * length) * size || h == kStepHalvings) break;
       }
       x_ += length * p;
       ax_ += length * ap;
@@ -184,7 +184,7 @@ class Solver {
 
 AugmentedLagrangianResult solve_by_augmented_lagrangian(const GroupOperator& a, const ConeProblem& problem,
                                                         double tolerance, GroupSystem& group, VecX& x) {
-  return Solver(a, problem, group, x).run(tolerance);
+  return AugmentedSolver(a, problem, group, x).run(tolerance);
 }
 
 }  // namespace impinge

@@ -65,7 +65,7 @@ Mat3 mobility(const GroupSystem& group, const ContactRows& row) {
 
 }  // namespace
 
-SpringLaw spring_law(double hertz, double ratio, double h) {
+SoftLaw soft_law(double hertz, double ratio, double h) {
   const double omega = 2.0 * M_PI * hertz;
   const double a1 = 2.0 * ratio + h * omega, a2 = h * omega * a1, a3 = 1.0 / (1.0 + a2);
   return {omega / a1, a2 * a3, a3};
@@ -324,7 +324,7 @@ inline double PackedContacts::gap_of(const Pair& pair, int contact, const Sides&
 void PackedContacts::relax(const Pair& pair, const SweepLaw& law) {
   Sides sides(bodies_, pair.a, pair.b);
   Body &a = sides.a, &b = sides.b;
-  const SpringLaw& spring = pair.a < 0 || pair.b < 0 ? law.fixed : law.between;
+  const SoftLaw& spring = pair.a < 0 || pair.b < 0 ? law.fixed : law.between;
   const double inverse_step = 1.0 / law.time_step;
   for (int i = pair.first; i < pair.first + pair.count; ++i) {
     Contact& c = contacts_[i];

@@ -10,19 +10,19 @@
 namespace impinge {
 
 /// Of a contact's spring over a solver step of implicit Euler, without a mass in it [Catto11].
-struct SpringLaw {
+struct SoftLaw {
   double bias_rate = 0.0;  ///< of the overlap that is taken out, 1/s
   double mass_scale = 1.0, impulse_scale = 0.0;
 };
 /// Of `hertz` and damping ratio `ratio` over `h` seconds.
-SpringLaw spring_law(double hertz, double ratio, double h);
+SoftLaw soft_law(double hertz, double ratio, double h);
 
 /// How a sweep answers.
 struct SweepLaw {
-  double time_step = 0.0;    ///< of a solver step, s: what gaps may be closed in
-  double elapsed = 0.0;      ///< since the sub-step began, s: how long prescribed motions have moved their points
-  bool recovers = false;     ///< whether overlap is taken out; else it may not grow
-  SpringLaw between, fixed;  ///< of two that move; of one with a body that doesn't
+  double time_step = 0.0;  ///< of a solver step, s: what gaps may be closed in
+  double elapsed = 0.0;    ///< since the sub-step began, s: how long prescribed motions have moved their points
+  bool recovers = false;   ///< whether overlap is taken out; else it may not grow
+  SoftLaw between, fixed;  ///< of two that move; of one with a body that doesn't
 };
 
 class PackedContacts {

@@ -56,8 +56,8 @@ class Quick : public Response {
     const double hertz = std::min(settings_.frequency, 0.25 / h);
     SweepLaw law;
     law.time_step = h;
-    law.between = spring_law(hertz, settings_.damping_ratio, h);
-    law.fixed = spring_law(2.0 * hertz, settings_.damping_ratio, h);
+    law.between = soft_law(hertz, settings_.damping_ratio, h);
+    law.fixed = soft_law(2.0 * hertz, settings_.damping_ratio, h);
     for (int k = 1; k <= steps; ++k) {
       packed.accelerate(part);
       packed.warm_start();

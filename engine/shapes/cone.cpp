@@ -10,7 +10,7 @@
 namespace impinge {
 namespace {
 
-constexpr int kRimPoints = 8, kDrawnAround = 48;
+constexpr int kBasePoints = 8, kConeSides = 48;
 
 class Cone final : public ConvexShape {
  public:
@@ -50,8 +50,8 @@ class Cone final : public ConvexShape {
     ContactFace face;
     if (-d.y() > kNearlyFacing) {
       face.normal = {0.0, -1.0, 0.0};
-      for (int k = 0; k < kRimPoints; ++k) {
-        const double angle = -2.0 * std::numbers::pi * k / kRimPoints;
+      for (int k = 0; k < kBasePoints; ++k) {
+        const double angle = -2.0 * std::numbers::pi * k / kBasePoints;
         face.add({radius_ * std::cos(angle), base_, -radius_ * std::sin(angle)});
       }
       return face;
@@ -76,7 +76,7 @@ class Cone final : public ConvexShape {
     for (int i = 1; i < wall; ++i) profile.emplace_back(radius_ * (wall - i) / wall, base_ + length * i / wall);
     return surface_of_revolution(profile, base_, apex_, around);
   }
-  TriangleMesh drawn() const override { return surface_of_revolution({{radius_, base_}}, base_, apex_, kDrawnAround); }
+  TriangleMesh drawn() const override { return surface_of_revolution({{radius_, base_}}, base_, apex_, kConeSides); }
   std::vector<double> dimensions() const override { return {radius_, base_, apex_}; }
 
  private:

@@ -10,8 +10,8 @@
 namespace impinge {
 namespace {
 
-constexpr int kRimPoints = 8, kDrawnAround = 48;
-constexpr double kNearlyAcross = 0.2431;  // sine of 14 degrees: how steep to a direction the wall may be that faces it
+constexpr int kRimPoints = 8, kCylinderSides = 48;
+constexpr double kWallFaces = 0.2431;  // sine of 14 degrees: how steep to a direction the wall may be that faces it
 
 class Cylinder final : public ConvexShape {
  public:
@@ -52,7 +52,7 @@ class Cylinder final : public ConvexShape {
       return face;
     }
     face.face = 2;
-    if (std::abs(d.y()) > kNearlyAcross) {
+    if (std::abs(d.y()) > kWallFaces) {
       face.add(support(d));
       return face;
     }
@@ -71,7 +71,7 @@ class Cylinder final : public ConvexShape {
     return surface_of_revolution(profile, -half_, half_, around);
   }
   TriangleMesh drawn() const override {
-    return surface_of_revolution({{radius_, -half_}, {radius_, half_}}, -half_, half_, kDrawnAround);
+    return surface_of_revolution({{radius_, -half_}, {radius_, half_}}, -half_, half_, kCylinderSides);
   }
   std::vector<double> dimensions() const override { return {radius_, half_}; }
 

@@ -23,7 +23,7 @@ constexpr double kWorthwhile = 0.9;               // of what turning took before
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
 constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
-constexpr double kRough = 1e-3;  // relative residual that tells where contacts are missed; a large group may keep it
+constexpr double kRoughly = 1e-3;  // relative residual that tells where contacts are missed; a large group may keep it
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -65,7 +65,7 @@ class GroupSolve {
 
   void solve() {
     ResponseContext context = how_.context;
-    if (is_rough_) context.lcp.tolerance = std::max(context.lcp.tolerance, kRough);
+    if (is_rough_) context.lcp.tolerance = std::max(context.lcp.tolerance, kRoughly);
     solve(context);
   }
   void solve(const ResponseContext& context) {
@@ -124,7 +124,7 @@ class GroupSolve {
   bool is_usable() {
     if (result_.response.converged()) return true;
     if (!is_large() || !now_.deformable.empty() || how_.response.is_approximate()) return false;
-    return judge_group(system()).relative <= kRough;
+    return judge_group(system()).relative <= kRoughly;
   }
 
   /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.

@@ -10,8 +10,8 @@
 namespace impinge {
 namespace {
 
-constexpr double kFarthestTurn = 0.5;  // radians; what turns farther leaves its contact's plane
-constexpr double kTolerance = 1e-3;    // of the activation distance
+constexpr double kFarthestTurn = 0.5;       // radians; what turns farther leaves its contact's plane
+constexpr double kTurningTolerance = 1e-3;  // of the activation distance
 
 struct End {
   Pose pose;
@@ -76,7 +76,7 @@ double most_lost(const GroupSystem& system, std::span<const double> end_gaps, co
   for (std::size_t i = 0; i < end_gaps.size(); ++i) {
     const ContactRows& row = system.contacts[i];
     const double lost = std::min(row.gap, 0.0) - end_gaps[i];
-    if (lost > kTolerance * settings.activation_distance.at(row.scale.length)) most = std::max(most, lost);
+    if (lost > kTurningTolerance * settings.activation_distance.at(row.scale.length)) most = std::max(most, lost);
   }
   return most;
 }
@@ -109,7 +109,7 @@ bool ask_for_turning(GroupSystem& system, std::span<const double> end_gaps, std:
     row.turning = std::min(end_gaps[i] - straight, 0.0);
     const double at_rest = row_bound({row.gap, 0.0, 0.0, 0.0, 0.0, row.scale.speed}, settings, time_step);
     row.bound = std::max(bounds[i], at_rest - row.turning / time_step);
-    is_much |= row.turning < -kTolerance * settings.activation_distance.at(row.scale.length);
+    is_much |= row.turning < -kTurningTolerance * settings.activation_distance.at(row.scale.length);
   }
   return is_much;
 }

@@ -13,9 +13,10 @@ constexpr int kStarts = 6;                              // of them, those that a
 constexpr int kLineSteps = 26;                          // of a golden section
 constexpr double kFirstWidth = 0.2, kLastWidth = 1e-9;  // radians either way
 
-class Overlap {
+class ConvexOverlap {
  public:
-  Overlap(const PlacedConvex& a, const PlacedConvex& b) : a_(a), b_(b), offset_(a.pose.position - b.pose.position) {}
+  ConvexOverlap(const PlacedConvex& a, const PlacedConvex& b)
+      : a_(a), b_(b), offset_(a.pose.position - b.pose.position) {}
 
   /// How far the solids overlap along a direction of any length.
   double along(const Vec3& n) const {
@@ -130,7 +131,7 @@ class Overlap {
 }  // namespace
 
 double least_overlap(const PlacedConvex& a, const PlacedConvex& b) {
-  const Overlap overlap(a, b);
+  const ConvexOverlap overlap(a, b);
   const ConvexPolyhedron *solid_a = a.set->polyhedron(), *solid_b = b.set->polyhedron();
   const bool few = solid_a != nullptr && solid_b != nullptr && solid_a->edges().size() * solid_b->edges().size() < kFew;
   return std::max(0.0, few ? overlap.of_polyhedra() : overlap.of_any());

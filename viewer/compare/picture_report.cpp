@@ -17,7 +17,7 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;
+constexpr std::uint64_t kMostOfPicture = std::uint64_t{1} << 28;
 constexpr std::size_t kMostEmbedded = std::size_t{24} << 20;  // bytes of pictures in one page
 
 constexpr const char* kStyle =
@@ -123,7 +123,7 @@ std::string data(const PictureComparison& c, const PictureRules& rules, std::siz
   if (c.verdict != PictureComparison::different) return out + fmt::format(",none:{}}}", json(c.headline));
   if (embedded > kMostEmbedded)
     return out + fmt::format(",none:{}}}", json("too many pictures for one page: this one lies beside it, " + c.name));
-  const std::string a = read_file(c.a, kMostBytes), b = read_file(c.b, kMostBytes);
+  const std::string a = read_file(c.a, kMostOfPicture), b = read_file(c.b, kMostOfPicture);
   const Image image_a = decode_png(a, c.a.string()), image_b = decode_png(b, c.b.string());
   const std::string d = encode_png(
       difference_overlay(image_a, image_b, c.difference.settings.tolerance, image_a.width >= 600 ? 2 : 0, rules.mask));

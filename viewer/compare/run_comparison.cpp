@@ -19,7 +19,7 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 30;
+constexpr std::uint64_t kMostOfTable = std::uint64_t{64} << 30;
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -52,7 +52,7 @@ void flatten(const TomlNode& table, const std::string& prefix, Settings& out) {
 
 Settings settings_of(const RecordedRun& run) {
   const fs::path file = run.folder() / "run.toml";
-  TomlNode root = parse_toml(file.string(), read_file(file, kMostBytes));
+  TomlNode root = parse_toml(file.string(), read_file(file, kMostOfTable));
   rename_former_paths(root, run.session().rows());
   Settings settings;
   flatten(root, "", settings);

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kFarthest = 1e9, kMostImpulse = 1e12, kLeastStiffness = 1e-6, kMostStiffness = 1e12, kMostTurn = 36000;
 
-struct VerbRow {
+struct ActRow {
   Act::Verb verb;
   const char *name, *usage;
 };
-constexpr VerbRow kVerbs[] = {
+constexpr ActRow kActs[] = {
     {Act::pull, "pull", "pull BODY X Y Z to X Y Z [stiffness K]"},
     {Act::release, "release", "release BODY"},
     {Act::push, "push", "push BODY JX JY JZ [at X Y Z]"},
@@ -31,7 +31,7 @@ constexpr VerbRow kVerbs[] = {
 /// The words of a line, one after another.
 class WordReader {
  public:
-  WordReader(std::span<const PlacedText> words, const VerbRow& verb) : words_(words), verb_(verb) {}
+  WordReader(std::span<const PlacedText> words, const ActRow& verb) : words_(words), verb_(verb) {}
 
   const PlacedText& next(const char* what) {
     if (at_ >= words_.size())
@@ -84,7 +84,7 @@ class WordReader {
 
  private:
   std::span<const PlacedText> words_;
-  const VerbRow& verb_;
+  const ActRow& verb_;
   std::size_t at_ = 1;
 };
 
@@ -133,14 +133,14 @@ std::string turn_text(const Act& act) {
 const std::vector<std::string>& act_verbs() {
   static const std::vector<std::string> verbs = [] {
     std::vector<std::string> names;
-    for (const VerbRow& row : kVerbs) names.emplace_back(row.name);
+    for (const ActRow& row : kActs) names.emplace_back(row.name);
     return names;
   }();
   return verbs;
 }
 
 Act parse_act(std::span<const PlacedText> all, const ParameterSet& rows) {
-  const VerbRow& verb = kVerbs[std::find(act_verbs().begin(), act_verbs().end(), all[0].text) - act_verbs().begin()];
+  const ActRow& verb = kActs[std::find(act_verbs().begin(), act_verbs().end(), all[0].text) - act_verbs().begin()];
   WordReader words(all, verb);
   Act act;
   act.verb = verb.verb;
@@ -188,7 +188,7 @@ void check_new_name(const PlacedText& name, const ParameterSet& rows) {
 
 std::string format_act(const Act& act) {
   std::string line;
-  for (const VerbRow& row : kVerbs)
+  for (const ActRow& row : kActs)
     if (row.verb == act.verb) line = fmt::format("{} {}", row.name, act.body);
   switch (act.verb) {
     case Act::pull:

@@ -14,10 +14,10 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 30;
+constexpr std::uint64_t kMostOfTable = std::uint64_t{64} << 30;
 
 std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
-  const std::string table = read_file(file, kMostBytes);
+  const std::string table = read_file(file, kMostOfTable);
   const std::string name = file.string();
   StatsReader reader(table, judged, name);
   std::vector<StatsLine> rows;

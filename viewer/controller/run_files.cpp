@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMostOfToml = std::uint64_t{1} << 30;
 constexpr std::string_view kRecord[] = {"run.toml", "commands.log", "stats.csv", "contacts.csv", "ledger.csv", "done"};
 // what impinge export writes
 constexpr std::string_view kExported[] = {".ply", ".obj", ".mtl", ".gltf", ".glb", ".bin",
@@ -106,7 +106,7 @@ bool is_run_folder(const fs::path& folder) {
   const fs::path file = folder / "run.toml";
   if (kind_of(file) != Kind::file) return false;
   try {
-    return parse_toml(file.string(), read_file(file, kMostBytes)).find("run") != nullptr;
+    return parse_toml(file.string(), read_file(file, kMostOfToml)).find("run") != nullptr;
   } catch (const InputError&) {
     return false;
   }

@@ -21,7 +21,7 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 30;
+constexpr std::uint64_t kMostOfRecord = std::uint64_t{64} << 30;
 
 std::string six_digits(int frame) { return fmt::format("{:06}", frame); }
 
@@ -35,7 +35,7 @@ std::pair<std::string, int> split_frames(const std::string& run_toml) {
   return {run_toml.substr(0, begin) + run_toml.substr(end), frames};
 }
 
-std::string read_if_there(const fs::path& path) { return is_file(path) ? read_file(path, kMostBytes) : ""; }
+std::string read_if_there(const fs::path& path) { return is_file(path) ? read_file(path, kMostOfRecord) : ""; }
 
 // how many bytes to keep so that no line of a frame after `frame` stays; `number` finds a line's frame
 template <class Number>
@@ -128,7 +128,7 @@ void RunFolder::check_new(RunStart how, const std::string& run_toml) const {
         "{}: holds a run.toml that no run of impinge wrote; --force replaces runs only; choose another --out", name));
   }
   const bool resume = how == RunStart::resume;
-  const auto [before, frames_before] = split_frames(read_file(recorded, kMostBytes));
+  const auto [before, frames_before] = split_frames(read_file(recorded, kMostOfRecord));
   const auto [now, frames_now] = split_frames(run_toml);
   if (before != now)
     throw InputError(name +

@@ -11,7 +11,7 @@ namespace impinge {
 namespace {
 
 constexpr std::string_view kName = "impinge snapshot ", kHead = "impinge snapshot 4\n";
-constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
+constexpr std::uint64_t kMostOfSnapshot = std::uint64_t{8} << 30;
 
 // the state between head and checksum; empty if the file is damaged
 std::string_view body_of(std::string_view bytes) {
@@ -39,13 +39,13 @@ std::size_t write_snapshot(const std::filesystem::path& path, const Session& ses
 bool is_valid_snapshot(const std::filesystem::path& path) {
   std::error_code error;
   if (!is_file(path)) return false;
-  return !body_of(read_file(path, kMostBytes)).empty();
+  return !body_of(read_file(path, kMostOfSnapshot)).empty();
 }
 
 void refuse_other_version(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return;
-  const std::string bytes = read_file(path, kMostBytes);
+  const std::string bytes = read_file(path, kMostOfSnapshot);
   const std::string_view head = std::string_view(bytes).substr(0, bytes.find('\n') + 1);
   if (head.starts_with(kName) && head != kHead)
     throw InputError(
@@ -56,7 +56,7 @@ void refuse_other_version(const std::filesystem::path& path) {
 }
 
 void restore_snapshot(const std::filesystem::path& path, Session& session) {
-  const std::string bytes = read_file(path, kMostBytes);
+  const std::string bytes = read_file(path, kMostOfSnapshot);
   const std::string_view body = body_of(bytes);
   if (body.empty())
     throw InputError(path.string() + ": is damaged; a whole snapshot is wanted; remove it and run again with --resume");

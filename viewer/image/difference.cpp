@@ -15,12 +15,6 @@ namespace {
 
 using Flags = std::vector<std::uint8_t>;  // one a pixel, row by row
 
-bool left_out(const Image* mask, std::size_t pixel) {
-  if (mask == nullptr) return false;
-  const std::uint8_t* rgb = mask->rgb.data() + 3 * pixel;
-  return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0;
-}
-
 /// The colour of a corner that leaves the fewest pixels over: a panel may cover any three of the corners.
 const std::uint8_t* background(const Image& image) {
   const std::uint8_t* const corners[] = {image.pixel(0, 0), image.pixel(image.width - 1, 0),
@@ -62,7 +56,7 @@ Flags find_differing(const Image& a, const Image& b, const Image* mask, Differen
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * a.width + x;
-      if (left_out(mask, pixel)) continue;
+      if (is_left_out(mask, pixel)) continue;
       ++difference.compared;
       const std::uint8_t *p = a.pixel(x, y), *q = b.pixel(x, y);
       difference.drawn += channel_difference(p, back_a) > tolerance || channel_difference(q, back_b) > tolerance;

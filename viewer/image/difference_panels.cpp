@@ -12,7 +12,7 @@ namespace impinge {
 
 namespace {
 
-constexpr Rgb kPaper = {24, 26, 30}, kInk = {235, 235, 235}, kFrame = {80, 220, 255};
+constexpr Rgb kSheet = {24, 26, 30}, kCaption = {235, 235, 235}, kFrame = {80, 220, 255};
 constexpr int kGap = 8, kMinPanelWidth = 320;
 
 /// Each pixel of `image` as a square of `zoom` pixels, its upper left corner at (x, y).
@@ -80,7 +80,7 @@ Image difference_panels(const Image& a, const Image& b, const Difference& differ
   const int sheet_width = 3 * panel + 4 * kGap, top = line + kGap;
   const std::vector<std::string> lines = wrap(difference.reason, sheet_width - 2 * kGap, scale);
   Image sheet(sheet_width, top + height * zoom + kGap + static_cast<int>(lines.size()) * line);
-  fill_rectangle(sheet, 0, 0, sheet.width, sheet.height, kPaper);
+  fill_rectangle(sheet, 0, 0, sheet.width, sheet.height, kSheet);
 
   const Image third = difference_overlay(a, b, difference.settings.tolerance, zoom > 1 ? 0 : 2, mask);
   const Image* const images[] = {&a, &b, &third};
@@ -89,7 +89,7 @@ Image difference_panels(const Image& a, const Image& b, const Difference& differ
       fmt::format("over {} levels: {}", difference.settings.tolerance, difference.differing)};
   for (int k = 0; k < 3; ++k) {
     const int x = kGap + k * (panel + kGap);
-    draw_text(sheet, x, kGap, captions[k], kInk, scale);
+    draw_text(sheet, x, kGap, captions[k], kCaption, scale);
     paste(sheet, x, top, *images[k], zoom);
     if (difference.worst_window == 0) continue;
     // just outside the window, so that it hides none of its pixels
@@ -98,7 +98,7 @@ Image difference_panels(const Image& a, const Image& b, const Difference& differ
                    kFrame);
   }
   for (std::size_t k = 0; k < lines.size(); ++k)
-    draw_text(sheet, kGap, top + height * zoom + kGap + static_cast<int>(k) * line, lines[k], kInk, scale);
+    draw_text(sheet, kGap, top + height * zoom + kGap + static_cast<int>(k) * line, lines[k], kCaption, scale);
   return sheet;
 }
 

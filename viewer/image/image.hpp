@@ -19,4 +19,11 @@ struct Image {
   }
 };
 
+/// By a mask, if there is one: it is black there.
+inline bool is_left_out(const Image* mask, std::size_t pixel) {
+  if (mask == nullptr) return false;
+  const std::uint8_t* rgb = mask->rgb.data() + 3 * pixel;
+  return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0;
+}
+
 }  // namespace impinge

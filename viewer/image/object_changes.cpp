@@ -30,10 +30,6 @@ std::map<Key, std::set<std::uint64_t>> seen_in(const IdImage& ids) {
   return all;
 }
 
-bool left_out(const Image* mask, std::size_t pixel) {
-  return mask != nullptr && mask->rgb[3 * pixel] == 0 && mask->rgb[3 * pixel + 1] == 0 && mask->rgb[3 * pixel + 2] == 0;
-}
-
 std::string plural(const std::string& mark, int count) { return count == 1 || mark.back() == 's' ? mark : mark + "s"; }
 
 }  // namespace
@@ -82,7 +78,7 @@ std::vector<ObjectChange> object_changes(const Image& a, const Image& b, const I
     return i;
   };
   for (std::size_t i = 0; i < ids_a.object.size(); ++i) {
-    if (left_out(mask, i) || channel_difference(a.rgb.data() + 3 * i, b.rgb.data() + 3 * i) <= tolerance) continue;
+    if (is_left_out(mask, i) || channel_difference(a.rgb.data() + 3 * i, b.rgb.data() + 3 * i) <= tolerance) continue;
     const std::size_t source = source_of(i);
     const IdObject *in_a = object_of(ids_a, source), *in_b = object_of(ids_b, source);
     const auto count = [&](const IdObject& object) {

@@ -4,7 +4,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_aabbs(const LayerContext& context, DrawList& list) {
   const Color color = context.settings.backdrop == BackdropStyle::light
                           ? with_alpha(mix(role::kAabb, role::kOutline, 0.55f), 0.8f)
                           : with_alpha(role::kAabb, 0.75f);
@@ -22,7 +22,7 @@ Layer aabbs_layer() {
   return {"aabbs",
           "Axis-aligned bounding boxes of dynamic and scripted bodies.",
           false,
-          draw,
+          draw_aabbs,
           {{LegendRow::line, role::kAabb, "bounding box"}}};
 }
 

@@ -9,7 +9,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kReach = 1.0;  // of the diagonal of the body's box: how far the mark of its way goes, to either side
+constexpr double kWayOf = 1.0;  // of the diagonal of the body's box: how far the mark of its way goes, to either side
 constexpr double kPatch = 0.4;  // of that: the patch of a surface, which holds near the point only
 constexpr float kMarkAlpha = 0.8f;
 
@@ -19,13 +19,13 @@ bool has_slides(const StepRecord& record) {
 }
 
 /// How far the mark of its way reaches: by the size of the body that slides.
-double reach_of(const AttachmentRecord& link, const StepRecord& record) {
+double half_way(const AttachmentRecord& link, const StepRecord& record) {
   for (const BodyIndex b : {link.body_a, link.body_b}) {
     if (b.is_none()) continue;
     const Aabb& box = record.bodies[static_cast<std::size_t>(b.value())].bounds;
-    if (!box.is_empty() && box.extent().allFinite()) return kReach * box.extent().norm();
+    if (!box.is_empty() && box.extent().allFinite()) return kWayOf * box.extent().norm();
   }
-  return kReach;
+  return kWayOf;
 }
 
 /// A square across `normal` with its middle lines.
@@ -56,14 +56,14 @@ void draw_way(const AttachmentRecord& link, double reach, const DrawLine& like, 
   list.lines.push_back(normal);
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_attachments(const LayerContext& context, DrawList& list) {
   const float size = 0.9f * static_cast<float>(context.settings.point_size),
               width = 1.8f * static_cast<float>(context.settings.line_width);
   for (const AttachmentRecord& link : context.record.attachments) {
     const PickId pick = body_pick(static_cast<std::size_t>(std::max(0, link.body_a.value())));
     if (link.kind != AttachmentKind::point) {
       const DrawLine mark{{}, {}, with_alpha(role::kAttachment, kMarkAlpha), 0.7f * width, Depth::both, pick};
-      draw_way(link, reach_of(link, context.record), mark, list);
+      draw_way(link, half_way(link, context.record), mark, list);
     }
     list.lines.push_back({link.point_a, link.point_b, role::kAttachment, width, Depth::both, pick});
     for (const Vec3& p : {link.point_a, link.point_b}) {
@@ -80,7 +80,7 @@ Layer attachments_layer() {
           "Attached points, with a line between the two where they are apart, and the line, plane or surface that a "
           "point slides on.",
           false,
-          draw,
+          draw_attachments,
           {{LegendRow::ring, role::kAttachment, "attachment", has_attachments},
            {LegendRow::line, role::kAttachment, "where it slides", has_slides}}};
 }

@@ -13,7 +13,7 @@ Vec3 end_of(const BodyRecord& body, const BodyRecord& other) {
   return from - n * (n.dot(from - body.pose.position) - plane->offset);
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_broad_pairs(const LayerContext& context, DrawList& list) {
   const std::vector<BodyRecord>& bodies = context.record.bodies;
   const float width = 1.2f * static_cast<float>(context.settings.line_width);
   const BodySet hidden = not_drawn(context.record, context.settings);
@@ -31,7 +31,7 @@ Layer broad_pairs_layer() {
   return {"broad_pairs",
           "Body pairs that the broad phase hands on.",
           false,
-          draw,
+          draw_broad_pairs,
           {{LegendRow::line, role::kPair, "broad-phase pair"}}};
 }
 

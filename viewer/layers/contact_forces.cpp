@@ -31,7 +31,7 @@ double force_unit(const StepRecord& record) {
   return mass / count * record.gravity.norm() / std::max(1.0, contacts / bodies);
 }
 
-struct Settings {
+struct ForceSettings {
   double unit = 0.0;  // N
 
   void declare(const Rows& rows) {
@@ -41,11 +41,11 @@ struct Settings {
   }
 };
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_contact_forces(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const double step = record.frame_time / std::max(1, record.stats.substeps);
   if (!(step > 0.0)) return;
-  const double given = context.own<Settings>().unit;
+  const double given = context.own<ForceSettings>().unit;
   double unit = given > 0.0 ? given : force_unit(record);
   if (unit <= 0.0)
     for (const ContactRecord& c : record.contacts) unit = std::max(unit, c.lambda.norm() / step);
@@ -70,9 +70,9 @@ Layer contact_forces_layer() {
           "Contact forces with friction; a normal's length is the bodies' mean weight over the mean number of contacts "
           "that carry one.",
           false,
-          draw,
+          draw_contact_forces,
           {{LegendRow::arrow, role::kForce, "contact force (on A, if it can move)"}},
-          Settings{}};
+          ForceSettings{}};
 }
 
 }  // namespace impinge

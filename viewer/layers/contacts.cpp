@@ -11,13 +11,13 @@ namespace {
 
 constexpr float kLeastSize = 0.35f, kMostSize = 3.0f;  // times view.point_size
 
-enum class Shown { state, gap, impulse, slip, residual };
+enum class ContactColor { state, gap, impulse, slip, residual };
 enum class Size { same, force };
 
-struct Settings {
+struct ContactMarkSettings {
   bool carrying = false, of_selected = false;
   Size size = Size::same;
-  Shown color = Shown::state;
+  ContactColor color = ContactColor::state;
   ScaleSettings colors;
 
   void declare(const Rows& rows) {
@@ -27,11 +27,11 @@ struct Settings {
              "Discs of one size, or with areas like their normal forces: view.point_size is the mean one's.");
     rows.add(
         "color", color,
-        {{Shown::state, "state"},
-         {Shown::gap, "gap"},
-         {Shown::impulse, "impulse"},
-         {Shown::slip, "slip"},
-         {Shown::residual, "residual"}},
+        {{ContactColor::state, "state"},
+         {ContactColor::gap, "gap"},
+         {ContactColor::impulse, "impulse"},
+         {ContactColor::slip, "slip"},
+         {ContactColor::residual, "residual"}},
         "What colours mean: the state; how deep the bodies overlap (m); the normal impulse (N s); the speed at "
         "which the two points slide along each other (m/s); how far the answer is from Coulomb's law (relative, as "
         "residual_coulomb).");
@@ -50,14 +50,14 @@ Color color_of(ContactState state) {
   }
 }
 
-ContactMeasure measure_of(Shown what) {
-  if (what == Shown::gap) return ContactMeasure::overlap;
-  if (what == Shown::residual) return ContactMeasure::residual;
-  return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
+ContactMeasure measure_of_color(ContactColor what) {
+  if (what == ContactColor::gap) return ContactMeasure::overlap;
+  if (what == ContactColor::residual) return ContactMeasure::residual;
+  return what == ContactColor::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
 }
 
 /// Which are drawn, those that carry something last: they lie over the many that are merely near.
-std::vector<std::size_t> drawn(const LayerContext& context, const Settings& own) {
+std::vector<std::size_t> drawn(const LayerContext& context, const ContactMarkSettings& own) {
   const std::vector<ContactRecord>& contacts = context.record.contacts;
   const std::vector<std::string>& selected = context.settings.selected;
   const auto is_selected = [&](BodyIndex b) {
@@ -78,12 +78,12 @@ std::vector<std::size_t> drawn(const LayerContext& context, const Settings& own)
   return order;
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_contacts(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
-  const Settings& own = context.own<Settings>();
+  const ContactMarkSettings& own = context.own<ContactMarkSettings>();
   const std::vector<std::size_t> order = drawn(context, own);
-  const bool by_state = own.color == Shown::state;
-  const ContactMeasure measure = measure_of(own.color);
+  const bool by_state = own.color == ContactColor::state;
+  const ContactMeasure measure = measure_of_color(own.color);
   double sum = 0.0, most = 0.0;
   int carrying = 0;
   for (const std::size_t i : order) {
@@ -110,7 +110,7 @@ void draw(const LayerContext& context, DrawList& list) {
 }
 
 bool shows_states(const ViewSettings& settings) {
-  return settings.of_layer<Settings>("contacts").color == Shown::state;
+  return settings.of_layer<ContactMarkSettings>("contacts").color == ContactColor::state;
 }
 
 }  // namespace
@@ -119,11 +119,11 @@ Layer contacts_layer() {
   return {"contacts",
           "Contact points: open, sticking, slipping.",
           true,
-          draw,
+          draw_contacts,
           {{LegendRow::point, role::kOpen, "contact, open", nullptr, shows_states},
            {LegendRow::point, role::kStick, "contact, sticks", nullptr, shows_states},
            {LegendRow::point, role::kSlip, "contact, slips", nullptr, shows_states}},
-          Settings{}};
+          ContactMarkSettings{}};
 }
 
 }  // namespace impinge

@@ -7,9 +7,9 @@ namespace impinge {
 namespace {
 
 constexpr double kInsideWeight = -1e-9;
-constexpr std::size_t kMostVertices = 250;  // of a body, and as many outside ones
+constexpr std::size_t kMostShown = 250;  // of a body, and as many outside ones
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_embedding(const LayerContext& context, DrawList& list) {
   const float width = 0.7f * static_cast<float>(context.settings.line_width),
               size = 0.5f * static_cast<float>(context.settings.point_size);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
@@ -28,9 +28,9 @@ void draw(const LayerContext& context, DrawList& list) {
     std::vector<std::size_t> outside;
     for (std::size_t v = 0; v < embedding.tet.size(); ++v)
       if (embedding.weight[v].minCoeff() < kInsideWeight) outside.push_back(v);
-    for (const std::size_t v : thinned(embedding.tet.size(), kMostVertices))
+    for (const std::size_t v : thinned(embedding.tet.size(), kMostShown))
       if (embedding.weight[v].minCoeff() >= kInsideWeight) draw_vertex(v, false);
-    for (const std::size_t k : thinned(outside.size(), kMostVertices)) draw_vertex(outside[k], true);
+    for (const std::size_t k : thinned(outside.size(), kMostShown)) draw_vertex(outside[k], true);
   }
 }
 
@@ -40,7 +40,7 @@ Layer embedding_layer() {
   return {"embedding",
           "Lines from some vertices of deformable surfaces to the nodes that carry them.",
           false,
-          draw,
+          draw_embedding,
           {{LegendRow::line, role::kCarried, "vertex to its nodes", has_deformable},
            {LegendRow::point, role::kOutside, "vertex outside the tetrahedra", has_outside_vertices}}};
 }

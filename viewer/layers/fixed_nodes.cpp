@@ -6,9 +6,9 @@
 namespace impinge {
 namespace {
 
-constexpr double kFrames = 6.0;  // as the velocities layer
+constexpr double kFramesAhead = 6.0;  // as the velocities layer
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_fixed_nodes(const LayerContext& context, DrawList& list) {
   const float size = 0.85f * static_cast<float>(context.settings.point_size),
               width = 1.4f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
@@ -19,7 +19,7 @@ void draw(const LayerContext& context, DrawList& list) {
       const Vec3 at = body->position.segment<3>(3 * n), velocity = body->held_velocity().segment<3>(3 * n);
       const bool moves = velocity.squaredNorm() > 0.0;
       if (moves)
-        list.arrows.push_back({at, velocity * (kFrames * context.record.frame_time), role::kMoved, 0.0f, width,
+        list.arrows.push_back({at, velocity * (kFramesAhead * context.record.frame_time), role::kMoved, 0.0f, width,
                                Depth::both, body_pick(i)});
       list.points.push_back({at, moves ? role::kMoved : role::kHeld, size, Depth::both, body_pick(i)});
       list.points.push_back({at, role::kOutline, 0.35f * size, Depth::both, body_pick(i)});
@@ -33,7 +33,7 @@ Layer fixed_nodes_layer() {
   return {"fixed_nodes",
           "Held nodes of deformable bodies; those that a script moves with their way of the next six frames.",
           false,
-          draw,
+          draw_fixed_nodes,
           {{LegendRow::ring, role::kHeld, "node, held", has_held_nodes},
            {LegendRow::arrow, role::kMoved, "node, moved by the scene", has_held_nodes}}};
 }

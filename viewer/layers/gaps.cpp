@@ -4,7 +4,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_gaps(const LayerContext& context, DrawList& list) {
   const float width = static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.contacts.size(); ++i) {
     const ContactRecord& c = context.record.contacts[i];
@@ -21,7 +21,7 @@ Layer gaps_layer() {
   return {"gaps",
           "From point A to point B of every contact.",
           false,
-          draw,
+          draw_gaps,
           {{LegendRow::line, role::kGap, "gap, apart"}, {LegendRow::line, role::kOverlap, "gap, overlapping"}}};
 }
 

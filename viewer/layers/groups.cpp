@@ -6,7 +6,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_groups(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const std::vector<Color> colors = body_colors(record, context.settings.colors);
   for (DrawSurface& item : list.surfaces) {
@@ -30,7 +30,7 @@ Layer groups_layer() {
   return {"groups",
           "Surfaces coloured by collision group.",
           false,
-          draw,
+          draw_groups,
           {{LegendRow::area, role::kUngrouped, "in no collision group"}}};
 }
 

@@ -12,20 +12,20 @@ namespace {
 
 constexpr double kReach = 0.1;  // of the smaller body of a contact, to where its colour fades
 
-enum class Shown { speed, overlap, impulse, slip, residual };
+enum class HeatOf { speed, overlap, impulse, slip, residual };
 
-struct Settings {
-  Shown of = Shown::speed;
+struct HeatSettings {
+  HeatOf of = HeatOf::speed;
   ScaleSettings colors;
 
   void declare(const Rows& rows) {
     rows.add(
         "of", of,
-        {{Shown::speed, "speed"},
-         {Shown::overlap, "overlap"},
-         {Shown::impulse, "impulse"},
-         {Shown::slip, "slip"},
-         {Shown::residual, "residual"}},
+        {{HeatOf::speed, "speed"},
+         {HeatOf::overlap, "overlap"},
+         {HeatOf::impulse, "impulse"},
+         {HeatOf::slip, "slip"},
+         {HeatOf::residual, "residual"}},
         "What colours mean: the speed of the material (m/s); at contacts how deep the bodies overlap (m), the "
         "normal impulse (N s), the speed at which the two points slide along each other (m/s), or how far the answer "
         "is from Coulomb's law, as the judge measures it: relative, no more than residual_coulomb.");
@@ -90,17 +90,17 @@ std::vector<double> by_contacts(const DrawSurface& item, std::size_t own, const 
 }
 
 /// None of speed.
-std::optional<ContactMeasure> measure_of(Shown what) {
-  if (what == Shown::speed) return std::nullopt;
-  if (what == Shown::overlap) return ContactMeasure::overlap;
-  if (what == Shown::residual) return ContactMeasure::residual;
-  return what == Shown::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
+std::optional<ContactMeasure> measure_of_heat(HeatOf what) {
+  if (what == HeatOf::speed) return std::nullopt;
+  if (what == HeatOf::overlap) return ContactMeasure::overlap;
+  if (what == HeatOf::residual) return ContactMeasure::residual;
+  return what == HeatOf::impulse ? ContactMeasure::impulse : ContactMeasure::slip;
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_heat(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
-  const Settings& own = context.own<Settings>();
-  const std::optional<ContactMeasure> measure = measure_of(own.of);
+  const HeatSettings& own = context.own<HeatSettings>();
+  const std::optional<ContactMeasure> measure = measure_of_heat(own.of);
   std::vector<std::vector<double>> values(list.surfaces.size());
   double most = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -139,9 +139,9 @@ Layer heat_layer() {
           "colour bar "
           "gives its range.",
           false,
-          draw,
+          draw_heat,
           {},
-          Settings{}};
+          HeatSettings{}};
 }
 
 }  // namespace impinge

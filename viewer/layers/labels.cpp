@@ -6,18 +6,18 @@
 namespace impinge {
 namespace {
 
-struct Settings {
+struct LabelSettings {
   bool fixed = false;
 
   void declare(const Rows& rows) { rows.add("static", fixed, "Static bodies too, not only those that are selected."); }
 };
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_labels(const LayerContext& context, DrawList& list) {
   const std::vector<std::string>& selected = context.settings.selected;
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     const bool is_selected = std::find(selected.begin(), selected.end(), body.name) != selected.end();
-    if (body.kind == BodyKind::fixed && !context.own<Settings>().fixed && !is_selected) continue;
+    if (body.kind == BodyKind::fixed && !context.own<LabelSettings>().fixed && !is_selected) continue;
     if (body.bounds.is_empty() || !body.bounds.extent().allFinite()) continue;
     list.labels.push_back({body.bounds.center(), std::string(body.name), role::kInk, body_pick(i)});
   }
@@ -29,9 +29,9 @@ Layer labels_layer() {
   return {"labels",
           "The names of dynamic and scripted bodies, of what is selected, and of static ones (view.labels.static).",
           false,
-          draw,
+          draw_labels,
           {},
-          Settings{}};
+          LabelSettings{}};
 }
 
 }  // namespace impinge

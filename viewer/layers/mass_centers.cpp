@@ -5,7 +5,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_mass_centers(const LayerContext& context, DrawList& list) {
   const float length = 0.8f * static_cast<float>(context.settings.arrow_length),
               width = 1.5f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
@@ -26,7 +26,7 @@ Layer mass_centers_layer() {
   return {"mass_centers",
           "Centres of mass with the axes of the bodies' frames.",
           false,
-          draw,
+          draw_mass_centers,
           {{LegendRow::point, role::kMassCenter, "centre of mass"},
            {LegendRow::arrow, role::kAxisX, "body axis x", has_rigid},
            {LegendRow::arrow, role::kAxisY, "body axis y", has_rigid},

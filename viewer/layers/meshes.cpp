@@ -9,7 +9,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_meshes(const LayerContext& context, DrawList& list) {
   const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
@@ -44,7 +44,7 @@ Layer meshes_layer() {
   return {"meshes",
           "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.",
           true,
-          draw,
+          draw_meshes,
           {{LegendRow::area, role::kScripted, "scripted body", has_scripted},
            {LegendRow::area, role::kStatic, "static body", has_fixed}}};
 }

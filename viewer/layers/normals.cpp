@@ -4,7 +4,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_normals(const LayerContext& context, DrawList& list) {
   const std::vector<ContactRecord>& contacts = context.record.contacts;
   const float length = static_cast<float>(context.settings.arrow_length),
               width = 1.5f * static_cast<float>(context.settings.line_width);
@@ -22,7 +22,7 @@ Layer normals_layer() {
   return {"normals",
           "Contact normals, from body B towards body A.",
           false,
-          draw,
+          draw_normals,
           {{LegendRow::arrow, role::kNormal, "contact normal (B to A)"}}};
 }
 

@@ -23,7 +23,7 @@ bool has_pulls(const StepRecord& record) {
                      [](const BodyRecord& b) { return b.pull.has_value(); });
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_pulls(const LayerContext& context, DrawList& list) {
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i)
     if (const auto& pull = context.record.bodies[i].pull)
       mark_pull(pull->point, pull->target, context.settings, 1.0, body_pick(i), list);
@@ -35,7 +35,7 @@ Layer pulls_layer() {
   return {"pulls",
           "Pulls by hand or by a script: from the point of the body to where it is drawn to.",
           true,
-          draw,
+          draw_pulls,
           {{LegendRow::arrow, role::kPull, "pulled to", has_pulls}}};
 }
 

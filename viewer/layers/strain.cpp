@@ -5,7 +5,9 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) { draw_heat(context, list, context.own<StrainSettings>().of); }
+void draw_strain(const LayerContext& context, DrawList& list) {
+  draw_heat(context, list, context.own<StrainSettings>().of);
+}
 
 }  // namespace
 
@@ -15,7 +17,7 @@ Layer strain_layer() {
       "Surfaces of deformable bodies coloured by equivalent strain or change of volume (view.strain.of); the colour "
       "bar gives its range.",
       false,
-      draw,
+      draw_strain,
       {},
       StrainSettings{}};
 }

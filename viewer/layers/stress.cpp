@@ -5,7 +5,9 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) { draw_heat(context, list, context.own<StressSettings>().of); }
+void draw_stress(const LayerContext& context, DrawList& list) {
+  draw_heat(context, list, context.own<StressSettings>().of);
+}
 
 }  // namespace
 
@@ -15,7 +17,7 @@ Layer stress_layer() {
       "Surfaces of deformable bodies coloured by von Mises or mean stress (view.stress.of); the colour bar gives its "
       "range.",
       false,
-      draw,
+      draw_stress,
       {},
       StressSettings{}};
 }

@@ -9,7 +9,7 @@
 namespace impinge {
 namespace {
 
-struct Settings {
+struct TetrahedraSettings {
   enum class Style { wire, shrunk } style = Style::wire;
   double shrink = 0.75;
 
@@ -63,7 +63,7 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
   const Vec3 origin = record.bounds.is_empty() ? body.center_of_mass() : record.bounds.center();
   const auto add = [&](const std::vector<int>& which, Color ink) -> DrawSurface& {
     auto solids = std::make_shared<ShadedSurface>(
-        shrunk_tets(mesh, body.position, which, context.own<Settings>().shrink, origin));
+        shrunk_tets(mesh, body.position, which, context.own<TetrahedraSettings>().shrink, origin));
     DrawSurface item{std::move(solids), {Mat3::Identity(), origin}, ink, false, false, body_pick(index)};
     item.clipped = false;
     list.surfaces.push_back(std::move(item));
@@ -84,9 +84,9 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
   }
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_tetrahedra(const LayerContext& context, DrawList& list) {
   const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
-  const bool wire = context.own<Settings>().style == Settings::Style::wire;
+  const bool wire = context.own<TetrahedraSettings>().style == TetrahedraSettings::Style::wire;
   const bool over_surfaces = context.settings.is_on("meshes");
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     if (context.record.bodies[i].deformable == nullptr) continue;
@@ -103,10 +103,10 @@ Layer tetrahedra_layer() {
   return {"tetrahedra",
           "The tetrahedra of deformable bodies, as edges or as solids with gaps (view.tetrahedra.style).",
           false,
-          draw,
+          draw_tetrahedra,
           {{LegendRow::line, role::kTetrahedron, "tetrahedra", has_deformable},
            {LegendRow::line, role::kOverlap, "tetrahedron, inside out", has_everted}},
-          Settings{}};
+          TetrahedraSettings{}};
 }
 
 }  // namespace impinge

@@ -6,7 +6,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_triangle_pairs(const LayerContext& context, DrawList& list) {
   std::map<std::pair<int, int>, bool> found;  // (body, triangle) -> in some intersection
   for (const TrianglePair& pair : context.record.triangle_pairs) {
     if (pair.triangle_a >= 0) found[{pair.a, pair.triangle_a}] |= pair.intersecting;
@@ -35,7 +35,7 @@ Layer triangle_pairs_layer() {
   return {"triangle_pairs",
           "Triangles that intersect others or are near enough to count.",
           false,
-          draw,
+          draw_triangle_pairs,
           {{LegendRow::area, role::kTriangle, "triangle, intersects"},
            {LegendRow::area, role::kNearTriangle, "triangle, near"}}};
 }

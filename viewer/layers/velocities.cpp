@@ -23,7 +23,7 @@ void draw_deformable(const LayerContext& context, DrawList& list, std::size_t in
   }
 }
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_velocities(const LayerContext& context, DrawList& list) {
   const double time = kFrames * context.record.frame_time;
   const float width = 1.7f * static_cast<float>(context.settings.line_width);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
@@ -51,7 +51,7 @@ Layer velocities_layer() {
       "velocities",
       "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).",
       false,
-      draw,
+      draw_velocities,
       {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"},
        {LegendRow::arrow, role::kSpin, "axis of rotation", has_rigid}}};
 }

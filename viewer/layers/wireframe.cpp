@@ -6,7 +6,7 @@
 namespace impinge {
 namespace {
 
-void draw(const LayerContext& context, DrawList& list) {
+void draw_wireframe(const LayerContext& context, DrawList& list) {
   const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
   const bool over_surfaces = context.settings.is_on("meshes");
   const float width = 0.7f * static_cast<float>(context.settings.line_width);
@@ -29,7 +29,7 @@ void draw(const LayerContext& context, DrawList& list) {
 }  // namespace
 
 Layer wireframe_layer() {
-  return {"wireframe", "The edges of all triangles that take part in contact.", false, draw, {}};
+  return {"wireframe", "The edges of all triangles that take part in contact.", false, draw_wireframe, {}};
 }
 
 }  // namespace impinge

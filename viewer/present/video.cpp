@@ -95,10 +95,10 @@ std::string first_line(const std::string& text) {
   return line.empty() ? "it gave no reason" : line;
 }
 
-using Words = std::vector<std::string>;
+using Arguments = std::vector<std::string>;
 
 /// What ffmpeg is told of the output, one set of words after another until one succeeds.
-std::vector<Words> ways_to_write(const std::string& ending, double frames_per_second, bool is_transparent) {
+std::vector<Arguments> ways_to_write(const std::string& ending, double frames_per_second, bool is_transparent) {
   if (ending == ".gif") {
     constexpr double kFastest = 50.0;  // many viewers take a shorter delay than two hundredths for ten
     const double rate = frames_per_second / std::ceil(frames_per_second / kFastest);
@@ -108,7 +108,7 @@ std::vector<Words> ways_to_write(const std::string& ending, double frames_per_se
              "-loop", "0"}};
   }
   if (ending == ".webp") {
-    Words words = {"-c:v", "libwebp_anim", "-quality", "85", "-loop", "0"};
+    Arguments words = {"-c:v", "libwebp_anim", "-quality", "85", "-loop", "0"};
     if (is_transparent) words.insert(words.end(), {"-pix_fmt", "yuva420p"});
     return {words};
   }
@@ -118,9 +118,10 @@ std::vector<Words> ways_to_write(const std::string& ending, double frames_per_se
           ? fmt::format("format=rgba,split[a][b];[a]lutrgb=r={}:g={}:b={}:a=255[c];[c][b]overlay=format=rgb,",
                         kBehind[0], kBehind[1], kBehind[2])
           : "";
-  std::vector<Words> ways;
-  for (const Words& codec : {Words{"libx264", "-preset", "medium", "-crf", "18"}, Words{"mpeg4", "-q:v", "2"}}) {
-    Words words = {"-vf", opaque + "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-c:v"};
+  std::vector<Arguments> ways;
+  for (const Arguments& codec :
+       {Arguments{"libx264", "-preset", "medium", "-crf", "18"}, Arguments{"mpeg4", "-q:v", "2"}}) {
+    Arguments words = {"-vf", opaque + "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709", "-c:v"};
     words.insert(words.end(), codec.begin(), codec.end());
     for (const char* word :
          {"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"})
@@ -153,21 +154,21 @@ bool make_video(const fs::path& frames, const fs::path& output, double frames_pe
     }
   } removed{temporary};
   std::string complaint;
-  for (const Words& way : ways_to_write(output.extension().string(), frames_per_second, any_has_alpha(frames))) {
-    Words words = {"ffmpeg",
-                   "-nostdin",
-                   "-loglevel",
-                   "error",
-                   "-xerror",
-                   "-y",
-                   "-f",
-                   "image2",
-                   "-framerate",
-                   fmt::format("{}", frames_per_second),
-                   "-pattern_type",
-                   "glob",
-                   "-i",
-                   "[0-9][0-9][0-9][0-9][0-9][0-9].png"};
+  for (const Arguments& way : ways_to_write(output.extension().string(), frames_per_second, any_has_alpha(frames))) {
+    Arguments words = {"ffmpeg",
+                       "-nostdin",
+                       "-loglevel",
+                       "error",
+                       "-xerror",
+                       "-y",
+                       "-f",
+                       "image2",
+                       "-framerate",
+                       fmt::format("{}", frames_per_second),
+                       "-pattern_type",
+                       "glob",
+                       "-i",
+                       "[0-9][0-9][0-9][0-9][0-9][0-9].png"};
     words.insert(words.end(), way.begin(), way.end());
     words.push_back(temporary.string());
     const Outcome outcome = run_program(words, frames);

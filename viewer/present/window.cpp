@@ -90,20 +90,6 @@ bool take(const SDL_Event& event, Ui& ui) {
   return true;
 }
 
-struct Desktop {
-  Desktop() {
-    SDL_SetHint(SDL_HINT_RENDER_DRIVER, "software");
-    SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
-    SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    if (!has_screen()) refuse("there is no screen");
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) refuse(SDL_GetError());
-    const std::string driver = SDL_GetCurrentVideoDriver();
-    if (driver != "x11" && driver != "wayland") refuse(fmt::format("SDL's video driver '{}' has none", driver));
-  }
-  ~Desktop() { SDL_Quit(); }
-};
-
 }  // namespace
 
 bool has_screen() {
@@ -116,6 +102,19 @@ bool has_screen() {
 
 /// In the order of making; what is made later goes first.
 struct Window::Parts {
+  struct Desktop {
+    Desktop() {
+      SDL_SetHint(SDL_HINT_RENDER_DRIVER, "software");
+      SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
+      SDL_SetHint(SDL_HINT_FRAMEBUFFER_ACCELERATION, "0");
+      SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+      if (!has_screen()) refuse("there is no screen");
+      if (SDL_Init(SDL_INIT_VIDEO) != 0) refuse(SDL_GetError());
+      const std::string driver = SDL_GetCurrentVideoDriver();
+      if (driver != "x11" && driver != "wayland") refuse(fmt::format("SDL's video driver '{}' has none", driver));
+    }
+    ~Desktop() { SDL_Quit(); }
+  };
   Desktop desktop;
   std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window{nullptr, SDL_DestroyWindow};
   std::unique_ptr<SDL_Renderer, void (*)(SDL_Renderer*)> renderer{nullptr, SDL_DestroyRenderer};

@@ -7,6 +7,7 @@
 
 #include "engine/core/parameter.hpp"
 #include "engine/io/meshes/mesh_unit.hpp"
+#include "viewer/report/json_values.hpp"
 #include "viewer/report/parts.hpp"
 
 namespace impinge {
@@ -49,13 +50,9 @@ std::string change_text(double before, double after) {
   return text;
 }
 
-std::string number(double x) { return std::isfinite(x) ? shortest(x + 0.0) : "null"; }
 template <class T>
 std::string optional_number(const std::optional<T>& x) {
-  return x ? number(static_cast<double>(*x)) : "null";
-}
-std::string vector_json(const Vec3& v) {
-  return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
+  return x ? json_number(static_cast<double>(*x)) : "null";
 }
 
 std::string facts_json(const MeshFacts& f) {
@@ -67,12 +64,12 @@ std::string facts_json(const MeshFacts& f) {
       "\"misoriented_edges\": {}, \"degenerate_triangles\": {}, \"duplicate_triangles\": {}, \"crossings\": {}, "
       "\"more_crossings\": {}, \"thinnest\": {}, \"thin_triangles\": {}, \"edge_min\": {}, \"edge_median\": {}, "
       "\"edge_max\": {}, \"problem\": {}}}",
-      f.box.is_empty() ? "null" : vector_json(f.box.min), f.box.is_empty() ? "null" : vector_json(f.box.max),
-      f.vertices, f.triangles, f.coinciding, f.unused, number(f.area), f.is_closed, number(volume),
-      number(kWater * volume), f.components, optional_number(f.genus), f.border_edges, f.holes, f.nonmanifold_edges,
-      f.nonmanifold_vertices, f.misoriented_edges, f.degenerate, f.duplicates, f.crossings, f.more_crossings,
-      optional_number(f.thinnest), f.thin, number(f.shortest_edge), number(f.median_edge), number(f.longest_edge),
-      f.problem ? json_text(*f.problem) : "null");
+      f.box.is_empty() ? "null" : json_vector(f.box.min), f.box.is_empty() ? "null" : json_vector(f.box.max),
+      f.vertices, f.triangles, f.coinciding, f.unused, json_number(f.area), f.is_closed, json_number(volume),
+      json_number(kWater * volume), f.components, optional_number(f.genus), f.border_edges, f.holes,
+      f.nonmanifold_edges, f.nonmanifold_vertices, f.misoriented_edges, f.degenerate, f.duplicates, f.crossings,
+      f.more_crossings, optional_number(f.thinnest), f.thin, json_number(f.shortest_edge), json_number(f.median_edge),
+      json_number(f.longest_edge), f.problem ? json_text(*f.problem) : "null");
 }
 
 std::string report_json(const MeshReport& r) {
@@ -85,15 +82,17 @@ std::string report_json(const MeshReport& r) {
     out += fmt::format(
         ", \"mend\": {{\"steps\": [{}], \"volume_before\": {}, \"volume_after\": {}, \"largest_move\": {}, "
         "\"problem\": {}, \"surface\": {}}}",
-        steps, number(r.mended->volume_before), number(r.mended->volume_after), number(r.mended->largest_move),
-        r.problem_left ? json_text(*r.problem_left) : "null", r.after ? facts_json(*r.after) : "null");
+        steps, json_number(r.mended->volume_before), json_number(r.mended->volume_after),
+        json_number(r.mended->largest_move), r.problem_left ? json_text(*r.problem_left) : "null",
+        r.after ? facts_json(*r.after) : "null");
   }
   if (r.decimated)
     out += fmt::format(
         ", \"decimate\": {{\"triangles_before\": {}, \"triangles_after\": {}, \"volume_before\": {}, "
         "\"volume_after\": {}, \"farthest\": {}, \"surface\": {}}}",
-        r.decimated->triangles_before, r.decimated->triangles_after, number(r.decimated->volume_before),
-        number(r.decimated->volume_after), number(r.decimated->farthest), r.after ? facts_json(*r.after) : "null");
+        r.decimated->triangles_before, r.decimated->triangles_after, json_number(r.decimated->volume_before),
+        json_number(r.decimated->volume_after), json_number(r.decimated->farthest),
+        r.after ? facts_json(*r.after) : "null");
   return out + "}";
 }
 

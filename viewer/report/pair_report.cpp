@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/parameter.hpp"
+#include "viewer/report/json_values.hpp"
 #include "viewer/report/parts.hpp"
 
 namespace impinge {
@@ -40,13 +41,8 @@ std::string history_text(const PairWatch& watch, int last_frame) {
                      std::abs(distance), distance < 0.0 ? "within each other" : "apart", place_text(*nearest));
 }
 
-/// JSON has no infinity: a plane's box ends nowhere. A zero has no sign.
-std::string number(double x) { return std::isfinite(x) ? shortest(x + 0.0) : "null"; }
-std::string vector_json(const Vec3& v) {
-  return fmt::format("[{}, {}, {}]", number(v.x()), number(v.y()), number(v.z()));
-}
 std::string box_json(const Aabb& box) {
-  return fmt::format("{{\"min\": {}, \"max\": {}}}", vector_json(box.min), vector_json(box.max));
+  return fmt::format("{{\"min\": {}, \"max\": {}}}", json_vector(box.min), json_vector(box.max));
 }
 std::string moment_json(const std::optional<PairWatch::Moment>& at) {
   return at ? fmt::format("{{\"frame\": {}, \"substep\": {}}}", at->frame, at->substep) : "null";
@@ -67,7 +63,7 @@ std::string body_json(const std::string& name, BodyKind kind, const std::string&
 std::string filter_json(const FilterVerdict& filter) {
   std::string numbers;
   for (const NamedNumber& n : filter.numbers)
-    numbers += fmt::format("{}\"{}\": {}", numbers.empty() ? "" : ", ", n.name, number(n.value));
+    numbers += fmt::format("{}\"{}\": {}", numbers.empty() ? "" : ", ", n.name, json_number(n.value));
   return fmt::format("{{\"filter\": \"{}\", \"outcome\": \"{}\", \"words\": {}, \"numbers\": {{{}}}}}", filter.filter,
                      name_of(filter.outcome), json_text(filter.words), numbers);
 }
@@ -78,7 +74,7 @@ std::string nearest_json(const PairVerdict& v) {
   return fmt::format(
       "{{\"distance_m\": {}, \"point_a\": {}, \"point_b\": {}, \"normal\": {}, \"triangle_a\": {}, \"triangle_b\": {}, "
       "\"feature_a\": {}, \"feature_b\": {}}}",
-      number(n.distance), vector_json(n.point_a), vector_json(n.point_b), vector_json(n.normal),
+      json_number(n.distance), json_vector(n.point_a), json_vector(n.point_b), json_vector(n.normal),
       triangle_json(n.triangle_a), triangle_json(n.triangle_b), feature_json(n.kind_a, n.index_a),
       feature_json(n.kind_b, n.index_b));
 }
@@ -87,8 +83,8 @@ std::string contact_json(const Collision& c) {
   return fmt::format(
       "{{\"triangle_a\": {}, \"triangle_b\": {}, \"point_a\": {}, \"point_b\": {}, \"normal\": {}, \"gap_m\": {}, "
       "\"pair_id\": \"{}\"}}",
-      triangle_json(c.triangle_a), triangle_json(c.triangle_b), vector_json(c.point_a), vector_json(c.point_b),
-      vector_json(c.normal), number(c.gap), c.feature);
+      triangle_json(c.triangle_a), triangle_json(c.triangle_b), json_vector(c.point_a), json_vector(c.point_b),
+      json_vector(c.normal), json_number(c.gap), c.feature);
 }
 
 template <class List, class Format>
@@ -149,8 +145,8 @@ std::string pair_json(const PairWatch& watch, int last_frame) {
   field("substep", fmt::format("{}", v.substep));
   field("substeps", fmt::format("{}", v.substeps));
   field("pieces", fmt::format("{}", v.pieces));
-  field("time_s", number(v.time));
-  field("time_step_s", number(v.time_step));
+  field("time_s", json_number(v.time));
+  field("time_step_s", json_number(v.time_step));
   field("in_contact", v.in_contact() ? "true" : "false");
   field("stopped_by", v.in_contact() || stop == nullptr ? "null" : fmt::format("\"{}\"", stop->filter));
   field("filters", lines_json(v.filters, filter_json));
@@ -166,7 +162,7 @@ std::string pair_json(const PairWatch& watch, int last_frame) {
   const auto miss = watch.first_contact() ? std::nullopt : watch.nearest_miss();
   text += fmt::format("    \"nearest_miss\": {}\n  }}\n",
                       miss ? fmt::format("{{\"frame\": {}, \"substep\": {}, \"distance_m\": {}}}", miss->frame,
-                                         miss->substep, number(watch.nearest_distance()))
+                                         miss->substep, json_number(watch.nearest_distance()))
                            : "null");
   return text + "}\n";
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kFrames = 20;
 constexpr double kPatience = 10.0, kLeastSeconds = 5.0;
-constexpr int kRepeats = 3;
+constexpr int kAblationRuns = 3;
 constexpr double kRepeatSeconds = 2.0;  // of one setting; what takes longer isn't repeated
 
 /// Points of each body's surface at one frame; those of exact shapes: where the body's axes leave its ball.
@@ -108,7 +108,7 @@ Run run_repeatedly(const RunOptions& options, const std::vector<std::string>& ch
   const auto begin = std::chrono::steady_clock::now();
   Run run = run_once(options, changes, last_frame, seconds, against, false);
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
-  for (int k = 1; k < kRepeats && spent() * (k + 1) / k < kRepeatSeconds; ++k) {
+  for (int k = 1; k < kAblationRuns && spent() * (k + 1) / k < kRepeatSeconds; ++k) {
     const Run again = run_once(options, changes, last_frame, seconds, against, false);
     for (std::size_t i = 0; i < std::min(run.frame_ms.size(), again.frame_ms.size()); ++i)
       run.frame_ms[i] = std::min(run.frame_ms[i], again.frame_ms[i]);

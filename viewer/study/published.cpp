@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kExact = 1e-12;
 constexpr int kMostExactIterations = 2000;
-constexpr double kQuick = 100.0;  // ms: shorter runs are repeated
-constexpr int kRepeats = 3;
+constexpr double kBrief = 100.0;  // ms: shorter runs are repeated
+constexpr int kAtMostRuns = 3;
 
 std::string regimes(const ConeProblem& problem, const std::vector<Vec3>& lambda) {
   int open = 0, stick = 0, slip = 0;
@@ -65,7 +65,7 @@ double distance(const ConeProblem& problem, std::vector<Vec3> lambda, const std:
 /// The shortest of several, where they are short: what else the machine does shows less.
 Solved timed(const LcpSolver& solver, const ConeProblem& problem, const LcpSettings& settings) {
   Solved solved = solve(solver, problem, settings);
-  for (int k = 1; k < kRepeats && solved.ms < kQuick; ++k)
+  for (int k = 1; k < kAtMostRuns && solved.ms < kBrief; ++k)
     solved.ms = std::min(solved.ms, solve(solver, problem, settings).ms);
   return solved;
 }

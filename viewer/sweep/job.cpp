@@ -15,7 +15,7 @@ namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 24;
+constexpr std::uint64_t kMostOfRecord = std::uint64_t{1} << 24;
 
 std::string text_list(const std::vector<std::string>& texts) {
   std::string out = "[\n";
@@ -96,7 +96,7 @@ void write_sweep_job(const fs::path& folder, const SweepJob& job) {
 
 SweepJob read_sweep_job(const fs::path& folder) {
   const fs::path file = folder / "job.toml";
-  const TomlNode table = parse_toml(file.string(), read_file(file, kMostBytes));
+  const TomlNode table = parse_toml(file.string(), read_file(file, kMostOfRecord));
   SweepJob job;
   job.hash = scene_text(need(table, "hash"), "hash");
   job.reference = scene_text(need(table, "reference"), "reference");
@@ -128,7 +128,7 @@ SweepOutcome read_sweep_outcome(const fs::path& folder) {
   for (const char* name : {"done", "failed"}) {
     const fs::path file = folder / name;
     if (!is_file(file)) continue;
-    const TomlNode table = parse_toml(file.string(), read_file(file, kMostBytes));
+    const TomlNode table = parse_toml(file.string(), read_file(file, kMostOfRecord));
     const std::string status = scene_text(need(table, "status"), "status");
     for (int s = 0; s <= SweepOutcome::open; ++s)
       if (status == status_name(static_cast<SweepOutcome::Status>(s)))

@@ -15,7 +15,7 @@ namespace impinge {
 
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
+constexpr std::uint64_t kMostOfTable = std::uint64_t{1} << 32;
 
 // comma-separated values: quoted where they hold a comma, a quote or a line end
 std::string cell(const std::string& text) {
@@ -99,7 +99,7 @@ bool is_sweep_column(const std::string& name) {
 
 std::vector<StatsLine> sweep_stats(const std::filesystem::path& run) {
   if (!is_file(run / "stats.csv")) return {};
-  return whole_rows(read_file(run / "stats.csv", kMostBytes), false);
+  return whole_rows(read_file(run / "stats.csv", kMostOfTable), false);
 }
 
 double median(std::vector<double> values) {

@@ -11,12 +11,12 @@ namespace {
 
 // sine of the fold below which an edge lies in a flat face: at the middle of the edge of a square the surfaces then
 // overlap by less than a thousandth of the edge before a corner does
-constexpr double kFlat = 2e-3;
+constexpr double kHardlyBent = 2e-3;
 bool lies_flat(const SurfaceView& view, int e) {
   const MeshTopology::Edge& edge = view.edge(e);
   if (edge.triangle1 < 0) return false;
   const Vec3 n0 = view.face_normal(edge.triangle0), n1 = view.face_normal(edge.triangle1);
-  return n0.dot(n1) > 0.0 && n0.cross(n1).norm() < kFlat;
+  return n0.dot(n1) > 0.0 && n0.cross(n1).norm() < kHardlyBent;
 }
 
 /// The contacts that the vertices of one body have.

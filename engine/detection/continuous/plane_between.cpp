@@ -6,7 +6,7 @@ namespace impinge {
 namespace {
 
 constexpr std::size_t kMostVertices = 32;  // of either: beyond, a search by trees is no dearer
-constexpr int kMostPieces = 8;             // of the path, as it comes
+constexpr int kMostStretches = 8;          // of the path, as it comes
 constexpr int kHalvings = 2;               // of such a piece: shorter ones bend less
 
 /// A surface where a piece of its path begins and ends.
@@ -64,7 +64,7 @@ bool stays_beside(const SurfacePath& a, const SurfacePath& b, double depth) {
   for (const SurfacePath* path : {&a, &b})
     if (path->of->surface->mesh.vertices.size() > kMostVertices) return false;
   const int pieces = std::max(a.pieces(), b.pieces());  // both are powers of two
-  if (pieces > kMostPieces) return false;
+  if (pieces > kMostStretches) return false;
   for (int i = pieces - 1; i >= 0; --i)  // where it ends it is the most likely to overlap
     if (!is_beside(a, b, depth, static_cast<double>(i) / pieces, (i + 1.0) / pieces, kHalvings)) return false;
   return true;

@@ -8,7 +8,7 @@ namespace {
 
 /// A corner of the clipped polygon. `edge` is where the polygon's side from this corner to the next lies: an edge of
 /// the incident box (>= 0) or, below zero, ~p on side plane p of the reference face.
-struct Corner {
+struct CutCorner {
   Vec3 point;
   int vertex = -1;   ///< of the incident box, if the corner is one
   int crossed = -1;  ///< side plane of the reference face that cut the incident edge `cut_edge` here
@@ -18,17 +18,17 @@ struct Corner {
 
 /// A clipped polygon has at most eight corners; a small array of our own keeps a stack of boxes free of allocations.
 struct Polygon {
-  std::array<Corner, 12> corner;
+  std::array<CutCorner, 12> corner;
   int count = 0;
-  void push(const Corner& c) { corner[count++] = c; }
+  void push(const CutCorner& c) { corner[count++] = c; }
 };
 
 /// The part of the polygon with normal·x <= offset (Sutherland-Hodgman), the side plane's number going into the labels.
-Polygon clip(const Polygon& polygon, const Vec3& normal, double offset, int plane) {
+Polygon clip_side(const Polygon& polygon, const Vec3& normal, double offset, int plane) {
   Polygon result;
   for (int i = 0; i < polygon.count; ++i) {
-    const Corner& from = polygon.corner[i];
-    const Corner& to = polygon.corner[(i + 1) % polygon.count];
+    const CutCorner& from = polygon.corner[i];
+    const CutCorner& to = polygon.corner[(i + 1) % polygon.count];
     const double d0 = normal.dot(from.point) - offset, d1 = normal.dot(to.point) - offset;
     if (d0 <= 0.0) {
       result.push(from);
@@ -36,7 +36,7 @@ Polygon clip(const Polygon& polygon, const Vec3& normal, double offset, int plan
     } else if (d1 > 0.0) {
       continue;
     }
-    Corner cut;
+    CutCorner cut;
     cut.point = from.point + (d0 / (d0 - d1)) * (to.point - from.point);
     cut.crossed = plane;
     cut.cut_edge = from.edge;
@@ -73,7 +73,7 @@ void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const Or
   const int cycle[4] = {base, base | 1 << u, base | 1 << u | 1 << v, base | 1 << v};
   Polygon polygon;
   for (int i = 0; i < 4; ++i) {
-    Corner c;
+    CutCorner c;
     c.point = incident.corner(cycle[i]);
     c.vertex = cycle[i];
     c.edge = OrientedBox::edge_of(i % 2 == 0 ? u : v, cycle[i]);
@@ -85,11 +85,11 @@ void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const Or
   for (int k : {ru, rv})
     for (int s = 0; s < 2 && polygon.count > 0; ++s) {
       const Vec3 normal = s == 0 ? Vec3(-reference.axes.col(k)) : Vec3(reference.axes.col(k));
-      polygon = clip(polygon, normal, normal.dot(reference.center) + reference.half[k], 2 * k + s);
+      polygon = clip_side(polygon, normal, normal.dot(reference.center) + reference.half[k], 2 * k + s);
     }
 
   // when the boxes overlap beside the clipped face, its deepest corner stands for the overlap
-  Corner deepest;
+  CutCorner deepest;
   double lowest = 0.0;
   for (int i : cycle) {
     const double height = outward.dot(incident.corner(i)) - face_offset;
@@ -113,7 +113,7 @@ void add_face_manifold(ContactSink& sink, const OrientedBox& reference, const Or
   std::array<Found, 12> found;
   int count = 0;
   for (int i = 0; i < polygon.count; ++i) {
-    const Corner& corner = polygon.corner[i];
+    const CutCorner& corner = polygon.corner[i];
     const double height = outward.dot(corner.point) - face_offset;
     const Vec3 foot = corner.point - height * outward;
     int inc_vertex = -1, ref_vertex = -1;

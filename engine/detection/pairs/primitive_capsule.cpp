@@ -9,11 +9,11 @@ namespace impinge {
 namespace {
 
 /// Capsules closer to parallel than this sine (about 3 degrees) are held at both ends of their common length.
-constexpr double kNearlyParallel = 0.05;
+constexpr double kAlong = 0.05;
 /// Ends of two capsules closer than this part of their length lie side by side.
 constexpr double kSameEnd = 1e-6;
 /// As for two boxes: normals within about 14 degrees of a face's get the points above that face too.
-constexpr double kNearlyFace = 0.97;
+constexpr double kFaces = 0.97;
 
 /// Features of a capsule: cap 0, cap 1, and (kind edge) places on the cylinder.
 void set_feature(Feature& kind, int& index, double t, int place) {
@@ -69,7 +69,7 @@ struct BoxSegment {
       const double t = end == 0 ? lo : hi;
       if (end == 1 && (hi - lo) * d.norm() <= 1e-6 * size) break;
       const bool cap = t <= 0.0 || t >= 1.0;
-      if (!cap && !all && std::abs(d[axis]) > kNearlyParallel * d.norm()) continue;
+      if (!cap && !all && std::abs(d[axis]) > kAlong * d.norm()) continue;
       // on the cylinder the surface lies across the axis
       const Vec3 x = at(t) - radius * (cap ? n : Vec3((n - d * (n.dot(d) / d.squaredNorm())).normalized()));
       Vec3 q = x.cwiseMax(-box.half).cwiseMin(box.half);
@@ -158,9 +158,9 @@ struct BoxSegment {
       add(t, at(t) - radius * n, at(t) - offset, n, beyond == 2 ? Feature::edge : Feature::vertex, region(offset), 0);
     for (int end = 0; end < 2; ++end) {
       const Vec3 other = excess(end);
-      if (other.norm() > 0.0 && other.normalized().dot(n) > kNearlyFace) add_end(end);
+      if (other.norm() > 0.0 && other.normalized().dot(n) > kFaces) add_end(end);
     }
-    if (std::abs(n[axis]) > kNearlyFace) add_face(axis, side, false);
+    if (std::abs(n[axis]) > kFaces) add_face(axis, side, false);
   }
 
   /// The segment meets the box: the direction that separates them with the least motion.
@@ -256,7 +256,7 @@ void capsule_capsule(ContactSink& sink) {
   // that lie side by side are found from both capsules and have one name.
   const double sine_scale = u.norm() * v.norm();
   bool held_at_ends = false;
-  if (sine_scale > 0.0 && u.cross(v).norm() < kNearlyParallel * sine_scale) {
+  if (sine_scale > 0.0 && u.cross(v).norm() < kAlong * sine_scale) {
     struct End {
       double s, t;
       Vec3 p, q;

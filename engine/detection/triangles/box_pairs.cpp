@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLeaf = 4;  // triangles; trees have at most 2
 constexpr std::size_t kTasksAPair = 32;
-constexpr int kFewest = 256;  // triangles of both that are worth more than one task
+constexpr int kWorthTasks = 256;  // triangles of both that are worth more than one task
 
 }  // namespace
 
@@ -82,7 +82,7 @@ void BoxPairs::open(std::span<const Collider> colliders, const BodyPair& pair, i
   const Side &a = sides_[pair.a], &b = sides_[pair.b];
   if (a.tree->is_empty() || b.tree->is_empty()) return;
   const auto count = [&](BodyIndex i) { return static_cast<int>(colliders[i].mesh().mesh.triangles.size()); };
-  const std::size_t most = count(pair.a) + count(pair.b) < kFewest ? 1 : kTasksAPair;
+  const std::size_t most = count(pair.a) + count(pair.b) < kWorthTasks ? 1 : kTasksAPair;
   std::vector<Task> waiting = {{index, 0, 0}}, next;
   while (!waiting.empty() && waiting.size() < most) {
     next.clear();

@@ -9,7 +9,7 @@ namespace impinge {
 namespace {
 
 constexpr std::size_t kPartsAPair = 32;
-constexpr int kFewest = 256;  // triangles of both that are worth more than one part
+constexpr int kWorthParts = 256;  // triangles of both that are worth more than one part
 
 /// A pair of triangles as a number that sorts like it.
 std::uint64_t key_of(int a, int b, bool is_intersecting) {
@@ -118,7 +118,7 @@ void DiscPairs::open(std::span<const Collider> colliders, std::span<const BodyPa
   const BodyPair& bodies = pairs[pair];
   const DiscTree &a = *trees_[bodies.a], &b = *trees_[bodies.b];
   if (a.triangle_count() == 0 || b.triangle_count() == 0) return;
-  const std::size_t most = a.triangle_count() + b.triangle_count() < kFewest ? 1 : kPartsAPair;
+  const std::size_t most = a.triangle_count() + b.triangle_count() < kWorthParts ? 1 : kPartsAPair;
   const DiscWalk& walk = walks_[static_cast<std::size_t>(pair)];
   std::vector<DiscWalk::Task> waiting = {walk.start()}, next;
   std::vector<std::uint64_t> found;

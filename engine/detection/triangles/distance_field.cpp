@@ -17,11 +17,11 @@ Entry<NarrowPhase> bvh_narrow_phase();
 
 namespace {
 
-struct Settings {
+struct FieldSettings {
   int voxels = 200000;
 };
 
-constexpr int kFewest = 256;        // triangles that are worth a field
+constexpr int kWorthField = 256;    // triangles that are worth a field
 constexpr std::size_t kATask = 64;  // triangles that a thread tests at a time
 
 bool is_rigid(const Collider& c) { return c.vertex_velocities.empty(); }
@@ -48,7 +48,7 @@ class DistanceFieldPhase final : public NarrowPhase {
     std::vector<Lookup> lookups;
     for (const BodyPair& pair : pairs) {
       const Collider &a = colliders[pair.a], &b = colliders[pair.b];
-      const auto can_be_asked = [&](const Collider& c) { return is_rigid(c) && count_of(c) >= kFewest; };
+      const auto can_be_asked = [&](const Collider& c) { return is_rigid(c) && count_of(c) >= kWorthField; };
       const bool may_a = can_be_asked(a), may_b = can_be_asked(b);
       if (pair.a == pair.b || !(may_a || may_b))
         without.push_back(pair);
@@ -143,7 +143,7 @@ class DistanceFieldPhase final : public NarrowPhase {
     });
   }
 
-  Settings settings_;
+  FieldSettings settings_;
   std::unique_ptr<NarrowPhase> trees_ = bvh_narrow_phase().make();
   std::vector<FittedTree> fitted_;  // by body
 };

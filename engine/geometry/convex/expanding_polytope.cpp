@@ -9,7 +9,7 @@
 namespace impinge {
 namespace {
 
-struct Facet {
+struct PolytopeFacet {
   std::array<int, 3> corner;
   std::array<int, 3> neighbour;  ///< across the side from corner k to corner k + 1
   Vec3 normal = Vec3::Zero();
@@ -33,7 +33,7 @@ class Polytope {
     }
     for (int step = 0; step < most_steps; ++step) {
       const int nearest = nearest_facet();
-      const Facet& facet = facets_[nearest];
+      const PolytopeFacet& facet = facets_[nearest];
       result.least = facet.distance;
       const MinkowskiPoint p = difference_.support(facet.normal);
       const double depth = facet.normal.dot(p.w);
@@ -53,7 +53,7 @@ class Polytope {
  private:
   const Vec3& w(int i) const { return points_[i].w; }
 
-  bool is_corner(const Facet& facet, const MinkowskiPoint& p) const {
+  bool is_corner(const PolytopeFacet& facet, const MinkowskiPoint& p) const {
     return std::any_of(facet.corner.begin(), facet.corner.end(),
                        [&](int c) { return points_[c].a == p.a && points_[c].b == p.b; });
   }
@@ -99,8 +99,8 @@ class Polytope {
 
   double volume(int a, int b, int c, int d) const { return (w(b) - w(a)).cross(w(c) - w(a)).dot(w(d) - w(a)); }
 
-  Facet make_facet(const std::array<int, 3>& corner, const std::array<int, 3>& neighbour) const {
-    Facet f{corner, neighbour};
+  PolytopeFacet make_facet(const std::array<int, 3>& corner, const std::array<int, 3>& neighbour) const {
+    PolytopeFacet f{corner, neighbour};
     f.normal = accurate_cross(w(corner[1]) - w(corner[0]), w(corner[2]) - w(corner[0]));
     const double length = f.normal.norm();
     if (length > 0.0) f.normal /= length;
@@ -129,7 +129,7 @@ class Polytope {
 
   /// For certain: a point that is in the plane as far as doubles can tell is not seen, so that flat sides of the
   /// difference stay flat.
-  bool sees(int p, const Facet& f) const {
+  bool sees(int p, const PolytopeFacet& f) const {
     const Vec3 &a = w(f.corner[0]), u = w(f.corner[1]) - a, v = w(f.corner[2]) - a, x = w(p) - a;
     const double height = u.cross(v).dot(x);
     return height > 1e-15 * size_ * u.norm() * v.norm();
@@ -163,7 +163,7 @@ class Polytope {
     }
     for (int i = 0; i < count; ++i) {
       facets_[base + rim_[i].next].neighbour[2] = base + i;
-      Facet& beyond = facets_[rim_[i].beyond];
+      PolytopeFacet& beyond = facets_[rim_[i].beyond];
       for (int k = 0; k < 3; ++k)
         if (beyond.corner[k] == rim_[i].to && beyond.corner[(k + 1) % 3] == rim_[i].from)
           beyond.neighbour[k] = base + i;
@@ -178,7 +178,7 @@ class Polytope {
   const MinkowskiDifference& difference_;
   double size_;
   std::vector<MinkowskiPoint> points_;
-  std::vector<Facet> facets_;
+  std::vector<PolytopeFacet> facets_;
   std::vector<std::pair<double, int>> queue_;  ///< a heap of distances and facets, those that are gone too
   std::vector<RimSide> rim_;
   std::vector<int> seen_;

@@ -12,8 +12,6 @@ constexpr double kFolded = -0.9999;  // cosine between the normals of neighbours
 
 bool has(const Triangle& t, int vertex) { return t[0] == vertex || t[1] == vertex || t[2] == vertex; }
 
-Vec3 normal_of(const TriangleCorners& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
-
 /// Of a triangle the sides that leave the corner it shares with another.
 struct Wedge {
   Vec3 left, right, normal;

@@ -40,8 +40,6 @@ Mat3 partial_inverse(const Mat3& a) {
   return own.eigenvectors() * inverse.asDiagonal() * own.eigenvectors().transpose();
 }
 
-Vec3 normal_of(const TriangleCorners& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
-
 double shape_of(const TriangleCorners& c) {
   const double longest_sq =
       std::max({(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()});

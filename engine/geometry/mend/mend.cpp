@@ -22,14 +22,8 @@ namespace {
 
 constexpr double kWeldOfDiagonal = 1e-6, kThicknessOfSide = 1e-2;
 constexpr int kMostRounds = 100;
-constexpr double kFlat = 1e-9;  // of the area to the power of 3/2: a closed part of less volume is a sheet laid double
-
-Aabb box_of(const TriangleMesh& mesh) {
-  Aabb box;
-  for (const Triangle& t : mesh.triangles)
-    for (const int v : t) box.include(mesh.vertices[v]);
-  return box;
-}
+constexpr double kDoubled =
+    1e-9;  // of the area to the power of 3/2: a closed part of less volume is a sheet laid double
 
 double area_of(const TriangleMesh& mesh) {
   double area = 0.0;
@@ -41,7 +35,7 @@ double area_of(const TriangleMesh& mesh) {
 }
 
 bool is_flat(const TriangleMesh& closed) {
-  return std::abs(signed_volume(closed)) <= kFlat * std::pow(area_of(closed), 1.5);
+  return std::abs(signed_volume(closed)) <= kDoubled * std::pow(area_of(closed), 1.5);
 }
 
 std::vector<TriangleMesh> parts_of(const TriangleMesh& mesh) {
@@ -112,7 +106,7 @@ class Mender {
   void join_and_drop() {
     if (settings_.drop_degenerate) report_.collapsed += drop_collapsed(mesh_);
     // a tolerance of 0 welds nothing at all: the file's vertices are as they are meant
-    const double tolerance = settings_.weld.value_or(kWeldOfDiagonal * box_of(mesh_).extent().norm());
+    const double tolerance = settings_.weld.value_or(kWeldOfDiagonal * bounds_of(mesh_).extent().norm());
     if (tolerance > 0.0 && !mesh_.triangles.empty() && !make_topology(mesh_).is_closed()) {
       WeldedMesh exact = weld(mesh_);
       report_.welded += static_cast<int>(mesh_.vertices.size() - exact.mesh.vertices.size());
@@ -236,7 +230,7 @@ class Mender {
         continue;
       }
       ThinSurface how;
-      how.thickness = settings_.thickness.value_or(kThicknessOfSide * box_of(sheet).extent().maxCoeff());
+      how.thickness = settings_.thickness.value_or(kThicknessOfSide * bounds_of(sheet).extent().maxCoeff());
       if (!(*how.thickness > 0.0) || !(area_of(sheet) > 0.0)) {
         ++report_.flat_parts;
         continue;

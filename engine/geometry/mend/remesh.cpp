@@ -8,6 +8,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/aabb.hpp"
+#include "engine/geometry/mass_properties.hpp"
 #include "engine/geometry/mend/winding_tree.hpp"
 #include "engine/geometry/nearest_triangle.hpp"
 
@@ -139,17 +140,10 @@ class Skin {
   std::vector<std::pair<std::size_t, std::size_t>> ends_;
 };
 
-Aabb box_of(const TriangleMesh& mesh) {
-  Aabb box;
-  for (const Triangle& t : mesh.triangles)
-    for (const int v : t) box.include(mesh.vertices[v]);
-  return box;
-}
-
 }  // namespace
 
 TriangleMesh remesh(const TriangleMesh& surface, int cells, double* largest_move) {
-  const Aabb box = box_of(surface);
+  const Aabb box = bounds_of(surface);
   if (!(box.extent().maxCoeff() > 0.0)) return {};
   const Grid grid(box, cells);
   const WindingTree winding(surface.triangles, surface.vertices);
@@ -168,7 +162,7 @@ TriangleMesh remesh(const TriangleMesh& surface, int cells, double* largest_move
 }
 
 double remesh_memory(const TriangleMesh& surface, int cells) {
-  const Grid grid(box_of(surface), cells);
+  const Grid grid(bounds_of(surface), cells);
   const double n = cells;
   // nodes, trees over the surface, and a skin of some 12 triangles a square of each of the box's sides
   return static_cast<double>(grid.count()) + 300.0 * static_cast<double>(surface.triangles.size()) +

@@ -16,7 +16,7 @@ constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
 constexpr std::uint64_t kMostPacked = 1032;                 // bytes that a packed one can stand for
 constexpr std::size_t kEnd = 22, kEntry = 46, kLocal = 30;  // bytes of an archive's records, without what follows them
 
-constexpr std::pair<std::string_view, double> kUnits[] = {
+constexpr std::pair<std::string_view, double> kUnitsOf3mf[] = {
     {"micron", 1e-6}, {"millimeter", 1e-3}, {"centimeter", 1e-2}, {"inch", 0.0254}, {"foot", 0.3048}, {"meter", 1.0},
 };
 
@@ -110,7 +110,7 @@ double metres_of_3mf(const std::string& path) {
   const std::string model = file_in_zip(read_file(path, kLargestFile), ".model");
   // which the format takes where nothing is said
   const std::string unit = attribute(model_tag(model), "unit").value_or("millimeter");
-  for (const auto& [name, metres] : kUnits)
+  for (const auto& [name, metres] : kUnitsOf3mf)
     if (name == unit) return metres;
   throw InputError(fmt::format("its unit is '{}'", unit.substr(0, 40)));
 }

@@ -11,9 +11,9 @@ namespace impinge {
 
 namespace {
 
-const std::vector<std::string> kKeys = {"version", "scene",  "folder",   "script_file",    "script",
-                                        "frames",  "images", "ids",      "contacts",       "judge",
-                                        "export",  "size",   "surfaces", "judge_substeps", "start"};
+const std::vector<std::string> kRunKeys = {"version", "scene",  "folder",   "script_file",    "script",
+                                           "frames",  "images", "ids",      "contacts",       "judge",
+                                           "export",  "size",   "surfaces", "judge_substeps", "start"};
 
 std::string table_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
 
@@ -34,7 +34,7 @@ std::string format_lines(const TomlNode& node) {
 }  // namespace
 
 RunRecord read_run_record(const TomlNode& table) {
-  check_keys(scene_table(table, "run"), "run", kKeys);
+  check_keys(scene_table(table, "run"), "run", kRunKeys);
   const auto need = [&](const char* key) -> const TomlNode& {
     const TomlEntry* entry = table.find(key);
     if (entry == nullptr)

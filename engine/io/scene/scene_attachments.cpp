@@ -21,7 +21,7 @@ const Body& body_named(const TomlNode& node, const std::string& what, const Bodi
 
 enum class Word { point, slide };
 
-Word read_kind(const TomlNode& table, const std::string& name) {
+Word read_link_kind(const TomlNode& table, const std::string& name) {
   const TomlEntry* kind = table.find("kind");
   if (kind == nullptr) return Word::point;
   const std::string& word = scene_text(kind->value, "attachment.kind");
@@ -107,7 +107,7 @@ AttachmentDescription read_attachment(const TomlNode& table, int index, const Bo
   if (!moves)
     refuse(table.place, fmt::format("{} joins nothing that can move", a.name),
            "a dynamic or deformable body is wanted at one end", "name one");
-  const Word kind = read_kind(table, a.name);
+  const Word kind = read_link_kind(table, a.name);
   if (point == nullptr)
     refuse(table.place, fmt::format("{} has no point", a.name),
            "point = [x, y, z] in metres, where both are at the start", "add it");

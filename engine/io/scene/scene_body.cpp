@@ -21,35 +21,35 @@ namespace {
 // beyond these a number is a slip, not a quantity
 constexpr double kMostScale = 1e6, kMostDensity = 1e9, kMostThickness = 1e6;
 
-const std::vector<std::string> kKeys = {"name",
-                                        "kind",
-                                        "shape",
-                                        "surface",
-                                        "scale",
-                                        "material",
-                                        "mass",
-                                        "position",
-                                        "rotation",
-                                        "velocity",
-                                        "angular_velocity",
-                                        "motion",
-                                        "friction",
-                                        "restitution",
-                                        "self_collision",
-                                        "self_exempt_distance",
-                                        "volume",
-                                        "fixed",
-                                        "sides",
-                                        "thickness",
-                                        "mend",
-                                        "unit",
-                                        "up",
-                                        "component",
-                                        "convex",
-                                        "decimate",
-                                        "copies"};
+const std::vector<std::string> kBodyKeys = {"name",
+                                            "kind",
+                                            "shape",
+                                            "surface",
+                                            "scale",
+                                            "material",
+                                            "mass",
+                                            "position",
+                                            "rotation",
+                                            "velocity",
+                                            "angular_velocity",
+                                            "motion",
+                                            "friction",
+                                            "restitution",
+                                            "self_collision",
+                                            "self_exempt_distance",
+                                            "volume",
+                                            "fixed",
+                                            "sides",
+                                            "thickness",
+                                            "mend",
+                                            "unit",
+                                            "up",
+                                            "component",
+                                            "convex",
+                                            "decimate",
+                                            "copies"};
 
-BodyKind read_kind(const TomlNode& table, const std::string& what) {
+BodyKind read_body_kind(const TomlNode& table, const std::string& what) {
   const TomlEntry* entry = table.find("kind");
   if (entry == nullptr)
     refuse(table.place, what + " has no kind", "static, scripted, dynamic or deformable is wanted",
@@ -192,8 +192,8 @@ BodyDescription read_body(const TomlNode& table, SurfaceFiles& surfaces) {
   body.name = scene_text(name->value, "body.name");
   check_name(name->value, body.name, "a body");
   const std::string what = "body." + body.name;
-  body.kind = read_kind(table, what);
-  check_keys(table, what, kKeys);
+  body.kind = read_body_kind(table, what);
+  check_keys(table, what, kBodyKeys);
   check_keys_of_kind(table, what, body.kind);
   check_surface_keys(table, what, body.kind);
   const auto with = [&](const char* key, auto&& read) {

@@ -15,7 +15,6 @@ namespace impinge {
 namespace {
 
 constexpr std::size_t kMostCopies = 100'000;
-constexpr Range kLength{-1e6, 1e6};
 
 Vec3 position_of(const TomlNode& body, const std::string& what) {
   const TomlEntry* entry = body.find("position");

@@ -15,8 +15,6 @@
 namespace impinge {
 namespace {
 
-constexpr Range kLength{-1e6, 1e6};
-
 /// Of `material` beside the rows of materials.
 const std::vector<std::string> kMaterialKeys = {"model",        "density", "damping", "damping_alpha",
                                                 "damping_beta", "mass",    "element"};

@@ -6,7 +6,7 @@ namespace impinge {
 namespace {
 
 // beyond these a number is a slip, not a quantity
-constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6}, kTime{0.0, 1e9};
+constexpr Range kTime{0.0, 1e9};
 
 }  // namespace
 

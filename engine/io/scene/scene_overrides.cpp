@@ -13,9 +13,9 @@ namespace impinge {
 namespace {
 
 /// The bodies of a scene's tree by their names, which no override can change.
-class Bodies {
+class BodyTables {
  public:
-  explicit Bodies(const TomlNode& root) {
+  explicit BodyTables(const TomlNode& root) {
     const TomlEntry* bodies = root.find("body");
     if (bodies == nullptr) return;
     for (std::size_t i = 0; i < bodies->value.items.size(); ++i) {
@@ -38,7 +38,7 @@ class Bodies {
   std::map<std::string, std::size_t> by_name_;
 };
 
-void apply_override(TomlNode& root, std::optional<Bodies>& bodies, const std::string& text) {
+void apply_override(TomlNode& root, std::optional<BodyTables>& bodies, const std::string& text) {
   const std::string place = "--set " + text;
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -90,7 +90,7 @@ void apply_override(TomlNode& root, std::optional<Bodies>& bodies, const std::st
 }  // namespace
 
 void apply_overrides(TomlNode& root, const std::vector<std::string>& texts) {
-  std::optional<Bodies> bodies;
+  std::optional<BodyTables> bodies;
   for (const std::string& text : texts) apply_override(root, bodies, text);
 }
 

@@ -12,7 +12,6 @@
 namespace impinge {
 namespace {
 
-constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6};
 constexpr std::size_t kMostPoints = 100000, kMostParts = 1000;
 
 /// What to write where a key is missing.

@@ -8,6 +8,9 @@
 
 namespace impinge {
 
+/// Of a place, metres, and of an angle, degrees.
+inline constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6};
+
 /// Throws InputError `place: found; allowed; remedy`.
 [[noreturn]] void refuse(const std::string& place, const std::string& found, const std::string& allowed,
                          const std::string& remedy);

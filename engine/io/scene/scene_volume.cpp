@@ -49,7 +49,7 @@ bool is_by_winding(const TomlNode& table, const std::string& what) {
   return word == "winding";
 }
 
-Aabb bounds_of(const std::vector<Vec3>& points) {
+Aabb box_round(const std::vector<Vec3>& points) {
   Aabb box;
   for (const Vec3& x : points) box.include(x);
   return box;
@@ -165,7 +165,7 @@ double distance_to_triangles(const Vec3& x, const TetMesh& volume, std::span<con
 void check_outside(const TomlNode& node, const std::string& what, const TriangleMesh& surface,
                    const DeformableDescription& soft) {
   if (soft.embedding.outside == 0) return;
-  const double size = bounds_of(soft.mesh.vertices).extent().maxCoeff(), allowed = kMostOutside * size;
+  const double size = box_round(soft.mesh.vertices).extent().maxCoeff(), allowed = kMostOutside * size;
   std::vector<Triangle> boundary;
   for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
     if (soft.embedding.weight[v].minCoeff() >= 0.0) continue;
@@ -271,7 +271,7 @@ void read_tetrahedralize(const TomlNode& table, const TomlEntry& way, const std:
   settings.max_size = scene_positive(size->value, name + ".max_size", 1e6);
   if (angle != nullptr) settings.min_angle = scene_real(angle->value, name + ".min_angle", {0.0, 20.0});
   const MeshPointer outer = outer_surface(table, what, scale, settings.max_size, 0, files, body);
-  const double longest = bounds_of(outer->mesh.vertices).extent().maxCoeff();
+  const double longest = box_round(outer->mesh.vertices).extent().maxCoeff();
   if (settings.max_size < longest / kMostCells)
     refuse(size->value.place, fmt::format("{}.max_size is {}", name, shortest(settings.max_size)),
            fmt::format("at least {:.3g} m, a {}th of the surface's longest side, is allowed", longest / kMostCells,

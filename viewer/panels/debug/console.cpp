@@ -5,7 +5,7 @@ namespace impinge {
 
 namespace {
 
-void draw(Ui&, const DebugModel& model, CommandLines&) {
+void draw_console(Ui&, const DebugModel& model, CommandLines&) {
   // newest last, and in sight
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float between = ImGui::GetTextLineHeightWithSpacing() - ImGui::GetTextLineHeight();
@@ -26,7 +26,7 @@ void draw(Ui&, const DebugModel& model, CommandLines&) {
   ImGui::PopTextWrapPos();
 }
 
-void draw_line(Ui& ui, const DebugModel&, CommandLines& lines) {
+void draw_command_line(Ui& ui, const DebugModel&, CommandLines& lines) {
   auto& text = ui.typing().line;
   ImGui::SetNextItemWidth(-1.0f);
   const bool entered = ImGui::InputTextWithHint("##line", "a command, e.g. set contact.friction 0.5", text.data(),
@@ -40,6 +40,8 @@ void draw_line(Ui& ui, const DebugModel&, CommandLines& lines) {
 
 }  // namespace
 
-Panel console_panel() { return {"console", "console", PanelPlace::below, {0.36f, 0.0f}, draw, nullptr, draw_line}; }
+Panel console_panel() {
+  return {"console", "console", PanelPlace::below, {0.36f, 0.0f}, draw_console, nullptr, draw_command_line};
+}
 
 }  // namespace impinge

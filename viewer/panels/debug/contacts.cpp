@@ -3,40 +3,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr std::size_t kColumns = 13;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kContactColumns = 13;
 
 Color state_color(ContactState state) {
   return state == ContactState::stick ? role::kStick : state == ContactState::slip ? role::kSlip : role::kOpen;
 }
 
-std::vector<double> numbers_of(const StepRecord& record) {
+std::vector<double> contact_numbers(const StepRecord& record) {
   std::vector<double> numbers;
-  numbers.reserve(kColumns * record.contacts.size());
+  numbers.reserve(kContactColumns * record.contacts.size());
   const double step = substep_time(record);
   for (std::size_t i = 0; i < record.contacts.size(); ++i) {
     const ContactRecord& c = record.contacts[i];
     const double friction = std::hypot(c.lambda.y(), c.lambda.z()), most = c.friction * c.lambda.x();
-    const double row[kColumns] = {static_cast<double>(i),
-                                  static_cast<double>(c.body_a.value()),
-                                  static_cast<double>(c.body_b.value()),
-                                  c.gap,
-                                  c.lambda.x(),
-                                  friction,
-                                  c.gap0,
-                                  step > 0.0 ? c.lambda.x() / step : kNone,
-                                  most > 0.0 ? 100.0 * friction / most : kNone,
-                                  static_cast<double>(c.friction),
-                                  c.group.is_none() ? kNone : static_cast<double>(c.group.value()),
-                                  c.residual,
-                                  static_cast<double>(c.state)};
+    const double row[kContactColumns] = {static_cast<double>(i),
+                                         static_cast<double>(c.body_a.value()),
+                                         static_cast<double>(c.body_b.value()),
+                                         c.gap,
+                                         c.lambda.x(),
+                                         friction,
+                                         c.gap0,
+                                         step > 0.0 ? c.lambda.x() / step : kNone,
+                                         most > 0.0 ? 100.0 * friction / most : kNone,
+                                         static_cast<double>(c.friction),
+                                         c.group.is_none() ? kNone : static_cast<double>(c.group.value()),
+                                         c.residual,
+                                         static_cast<double>(c.state)};
     numbers.insert(numbers.end(), std::begin(row), std::end(row));
   }
   return numbers;
@@ -50,15 +48,15 @@ void draw_state(ContactState state) {
                                               ImGui::ColorConvertFloat4ToU32({s.r, s.g, s.b, 1.0f}));
 }
 
-std::string count(const DebugModel& model) {
+std::string count_of_contacts(const DebugModel& model) {
   const int asleep = model.record->stats.asleep;  // their contacts are not looked for
   return fmt::format(": {}{}", model.record->contacts.size(), asleep > 0 ? fmt::format(" ({} asleep)", asleep) : "");
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_contacts(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const std::vector<ContactRecord>& contacts = model.record->contacts;
   TableRows rows;
-  rows.numbers = numbers_of(*model.record);
+  rows.numbers = contact_numbers(*model.record);
   rows.shown.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) rows.shown[i] = i;
   rows.words = [&](std::size_t row, std::size_t column) {
@@ -102,7 +100,7 @@ const Table& contacts_table() {
 }
 
 Panel contacts_panel() {
-  Panel panel{"contacts", "contacts", PanelPlace::right, {}, draw, count};
+  Panel panel{"contacts", "contacts", PanelPlace::right, {}, draw_contacts, count_of_contacts};
   panel.scrolls_inside = true;
   return panel;
 }

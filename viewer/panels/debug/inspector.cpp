@@ -77,7 +77,7 @@ void contact_rows(const DebugModel& model, const Selection& s) {
   row("slip", slip_speed(*model.record, c), "m/s");
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines&) {
+void draw_inspector(Ui& ui, const DebugModel& model, CommandLines&) {
   const Selection& s = model.selection;
   if (s.kind == Selection::none) {
     ImGui::TextColored(dim(), "nothing: click a body or a contact");
@@ -99,6 +99,6 @@ void draw(Ui& ui, const DebugModel& model, CommandLines&) {
 
 }  // namespace
 
-Panel inspector_panel() { return {"inspector", "selected", PanelPlace::right, {0.39f, 214.0f}, draw}; }
+Panel inspector_panel() { return {"inspector", "selected", PanelPlace::right, {0.39f, 214.0f}, draw_inspector}; }
 
 }  // namespace impinge

@@ -7,7 +7,7 @@ namespace impinge {
 
 namespace {
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_layers(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::Columns(2, nullptr, false);
   for (const LayerSwitch& layer : model.view->layers) {
     bool on = layer.on;
@@ -22,6 +22,6 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
 
 }  // namespace
 
-Panel layers_panel() { return {"layers", "layers", PanelPlace::left, {0.45f, 246.0f}, draw}; }
+Panel layers_panel() { return {"layers", "layers", PanelPlace::left, {0.45f, 246.0f}, draw_layers}; }
 
 }  // namespace impinge

@@ -21,7 +21,7 @@ void number(double value, double rounding = 0.0) {
 }
 
 /// Of a source in words, with its momentum: what the pointer over a row shows.
-std::string about(const LedgerSourceInfo& info, const LedgerEntry& now) {
+std::string about_source(const LedgerSourceInfo& info, const LedgerEntry& now) {
   return fmt::format("{}{}\nin this frame: momentum {}\nangular momentum about the origin {}", info.doc,
                      info.is_exchange ? "\nIt makes no energy: the other books lose as much." : "",
                      vector_text(now.momentum, "N s"), vector_text(now.angular_momentum, "N m s"));
@@ -40,7 +40,7 @@ void source_rows(Ui& ui, const Books& books, double rounding) {
     ImGui::TextColored(info.is_exchange ? dim() : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s",
                        std::string(info.name).c_str());
     ui.name(fmt::format("ledger/{}", info.name));
-    tooltip(about(info, books.now[info.source]));
+    tooltip(about_source(info, books.now[info.source]));
     number(now, rounding);
     number(sum, rounding);
   }
@@ -72,7 +72,7 @@ void draw_rise(Ui& ui, const DebugModel& model, const FrameLedger& ledger, doubl
       "the body");
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_ledger(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const Parameter* row = model.rows->find("record.ledger");
   bool keeps = row != nullptr && format_value(row->get()) == "true";
   const FrameLedger* ledger = model.tracks == nullptr ? nullptr : model.tracks->ledger(model.frame);
@@ -112,7 +112,7 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
 }  // namespace
 
 Panel ledger_panel() {
-  Panel panel{"ledger", "ledger", PanelPlace::right, {}, draw};
+  Panel panel{"ledger", "ledger", PanelPlace::right, {}, draw_ledger};
   panel.shares = "contacts";
   return panel;
 }

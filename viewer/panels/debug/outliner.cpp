@@ -140,7 +140,7 @@ void draw_deeds(Ui& ui, const DebugModel& model, CommandLines& lines) {
     lines.push_back("show all");
 }
 
-void draw_tabs(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_kinds(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const float gap = 4.0f * ui.unit();
   for (const std::string& tab : outliner_tabs()) {
     const bool is_open = tab == model.state.tab;
@@ -150,8 +150,8 @@ void draw_tabs(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (ImGui::GetContentRegionAvail().x < 80.0f * ui.unit()) ImGui::NewLine();
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
-  draw_tabs(ui, model, lines);
+void draw_outliner(Ui& ui, const DebugModel& model, CommandLines& lines) {
+  draw_kinds(ui, model, lines);
   const Table& table = model.state.tab == "bodies"   ? bodies_table()
                        : model.state.tab == "groups" ? groups_table()
                                                      : pairs_table();
@@ -168,7 +168,7 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
   ImGui::PopID();
 }
 
-std::string count(const DebugModel& model) {
+std::string count_of_bodies(const DebugModel& model) {
   const std::size_t hidden = model.view->hidden.size();
   return hidden == 0 ? "" : fmt::format(": {} hidden", hidden);
 }
@@ -202,7 +202,7 @@ double substep_time(const StepRecord& record) {
 }
 
 Panel outliner_panel() {
-  Panel panel{"outliner", "outliner", PanelPlace::left, {}, draw, count};
+  Panel panel{"outliner", "outliner", PanelPlace::left, {}, draw_outliner, count_of_bodies};
   panel.shares = "parameters";
   panel.scrolls_inside = true;
   return panel;

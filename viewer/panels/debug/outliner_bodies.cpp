@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "viewer/gl/packed_color.hpp"
 #include "viewer/layers/body_style.hpp"
 #include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// What contacts sum up to on a body.
 struct Touched {
@@ -52,7 +50,7 @@ std::vector<double> ranks(const StepRecord& record) {
   return rank;
 }
 
-std::vector<double> numbers_of(const DebugModel& model) {
+std::vector<double> body_numbers(const DebugModel& model) {
   const StepRecord& record = *model.record;
   const std::vector<double> rank = ranks(record);
   const std::vector<Touched> all = touched(record);
@@ -82,8 +80,6 @@ std::vector<double> numbers_of(const DebugModel& model) {
   }
   return numbers;
 }
-
-ImU32 ink(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
 
 void draw_eye(ImVec2 middle, float half, ImU32 color, bool is_open) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -129,7 +125,7 @@ void draw_icons(Ui& ui, const DebugModel& model, CommandLines& lines, const std:
   const bool hidden = has(model.view->hidden, name), locked = has(model.view->locked, name);
   const ImU32 faint = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   if (icon(ui, "outliner/hide:" + name, hidden ? "show" : "hide (h)",
-           [&](ImVec2 middle, float half) { draw_eye(middle, half, hidden ? faint : ink(colors[row]), !hidden); }))
+           [&](ImVec2 middle, float half) { draw_eye(middle, half, hidden ? faint : opaque(colors[row]), !hidden); }))
     lines.push_back(fmt::format("{} {}", hidden ? "show" : "hide", name));
   ImGui::SameLine(0.0f, 2.0f * ui.unit());
   if (icon(ui, "outliner/lock:" + name, locked ? "unlock" : "lock: clicks in the view go through it",
@@ -166,7 +162,7 @@ const Table& bodies_table() {
 
 TableRows body_rows(Ui& ui, const DebugModel& model, CommandLines& lines) {
   TableRows rows;
-  rows.numbers = numbers_of(model);
+  rows.numbers = body_numbers(model);
   for (std::size_t i = 0; i < model.record->bodies.size(); ++i)
     if (is_sought(model, model.record->bodies[i].name)) rows.shown.push_back(i);
   rows.words = [&](std::size_t row, std::size_t column) {

@@ -2,15 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "viewer/panels/debug/outliner.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kColumns = 7;
+constexpr std::size_t kGroupColumns = 7;
 
 struct Group {
   int contacts = 0, unknowns = 0;
@@ -81,13 +79,13 @@ TableRows group_rows(const DebugModel& model) {
   const std::vector<Group> groups = groups_of(record);
   const double step = substep_time(record);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const double row[kColumns] = {static_cast<double>(g),
-                                  static_cast<double>(record.groups[g].size()),
-                                  static_cast<double>(groups[g].contacts),
-                                  groups[g].deepest,
-                                  static_cast<double>(groups[g].unknowns),
-                                  groups[g].heaviest / groups[g].lightest,
-                                  step > 0.0 ? groups[g].impulse / step : kNone};
+    const double row[kGroupColumns] = {static_cast<double>(g),
+                                       static_cast<double>(record.groups[g].size()),
+                                       static_cast<double>(groups[g].contacts),
+                                       groups[g].deepest,
+                                       static_cast<double>(groups[g].unknowns),
+                                       groups[g].heaviest / groups[g].lightest,
+                                       step > 0.0 ? groups[g].impulse / step : kNone};
     rows.numbers.insert(rows.numbers.end(), std::begin(row), std::end(row));
     if (is_listed(model, record.groups[g])) rows.shown.push_back(g);
   }

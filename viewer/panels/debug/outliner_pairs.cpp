@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 
 #include "viewer/panels/debug/outliner.hpp"
@@ -10,8 +9,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kColumns = 6;
+constexpr std::size_t kPairColumns = 6;
 
 struct Pair {
   BodyIndex a, b;
@@ -62,12 +60,12 @@ TableRows pair_rows(const DebugModel& model) {
   const double step = substep_time(record);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Pair& p = pairs[i];
-    const double row[kColumns] = {static_cast<double>(p.a.value()),
-                                  static_cast<double>(p.b.value()),
-                                  static_cast<double>(p.contacts),
-                                  static_cast<double>(p.triangle_pairs),
-                                  p.deepest,
-                                  step > 0.0 && p.contacts > 0 ? p.impulse / step : kNone};
+    const double row[kPairColumns] = {static_cast<double>(p.a.value()),
+                                      static_cast<double>(p.b.value()),
+                                      static_cast<double>(p.contacts),
+                                      static_cast<double>(p.triangle_pairs),
+                                      p.deepest,
+                                      step > 0.0 && p.contacts > 0 ? p.impulse / step : kNone};
     rows.numbers.insert(rows.numbers.end(), std::begin(row), std::end(row));
     if (is_sought(model, name_of(model, p.a)) || is_sought(model, name_of(model, p.b))) rows.shown.push_back(i);
   }

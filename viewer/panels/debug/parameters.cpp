@@ -39,7 +39,7 @@ Range slider_range(const Parameter& row, double now) {
   return {std::max(r.low, r.low < 0.0 ? -reach : r.low), std::min(r.high, reach), false};
 }
 
-std::string about(const Parameter& row) {
+std::string about_parameter(const Parameter& row) {
   std::string text =
       row.path + "\n" + row.doc + "\n" + describe_allowed(row) + "; at first " + format_value(row.initial);
   if (!row.live) text += "\ncan't change while running";
@@ -138,7 +138,7 @@ void draw_widget(Ui& ui, const Parameter& row, CommandLines& lines) {
   }
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_parameters(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const std::optional<std::string> typed = search_field(ui, "parameters/search", model.state.filter);
   if (typed) lines.push_back("panel filter " + *typed);
   const std::string word = typed.value_or(model.state.filter);
@@ -170,12 +170,12 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
                                                     : dim());
     ImGui::TextUnformatted(short_name(row).c_str());
     ImGui::PopStyleColor();
-    tooltip(about(row));
+    tooltip(about_parameter(row));
     ImGui::SameLine(label);
     ImGui::BeginDisabled(!row.live);
     ImGui::SetNextItemWidth(changed ? -22.0f * ui.unit() : -1.0f);
     draw_widget(ui, row, lines);
-    tooltip(about(row));
+    tooltip(about_parameter(row));
     ImGui::EndDisabled();
     if (changed) {
       ImGui::SameLine(0.0f, 3.0f * ui.unit());
@@ -189,6 +189,6 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
 
 }  // namespace
 
-Panel parameters_panel() { return {"parameters", "parameters", PanelPlace::left, {}, draw}; }
+Panel parameters_panel() { return {"parameters", "parameters", PanelPlace::left, {}, draw_parameters}; }
 
 }  // namespace impinge

@@ -45,7 +45,7 @@ void draw_within(Ui& ui, const DebugModel& model, CommandLines& lines) {
   }
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_stages(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (model.stages != nullptr) return draw_within(ui, model, lines);
   const FrameStats& s = model.record->stats;
   struct Row {
@@ -95,6 +95,6 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
 
 }  // namespace
 
-Panel stages_panel() { return {"stages", "stages of the frame", PanelPlace::right, {0.28f, 150.0f}, draw}; }
+Panel stages_panel() { return {"stages", "stages of the frame", PanelPlace::right, {0.28f, 150.0f}, draw_stages}; }
 
 }  // namespace impinge

@@ -2,6 +2,8 @@
 // others are left out rather than squeezed. A table declares its columns once; commands name them as they stand there.
 #pragma once
 
+#include <limits>
+
 #include "viewer/panels/debug/widgets.hpp"
 
 namespace impinge {
@@ -30,6 +32,9 @@ const Table& bodies_table();
 const Table& groups_table();
 const Table& pairs_table();
 const Table& contacts_table();
+
+/// What a table has where there is no number.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// What a table shows of a frame. Functions are asked only for rows in sight.
 struct TableRows {

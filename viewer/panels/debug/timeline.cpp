@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/gl/packed_color.hpp"
 #include "viewer/panels/debug/outliner.hpp"
 #include "viewer/panels/debug/series.hpp"
 
 namespace impinge {
 namespace {
 
-ImU32 ink(std::uint32_t rgb, float alpha = 1.0f) {
-  const Color c = hex(rgb, alpha);
-  return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
-}
+ImU32 ink(std::uint32_t rgb, float alpha = 1.0f) { return packed(hex(rgb, alpha)); }
 
 constexpr float kNames = 146.0f, kValues = 100.0f, kDigits = 56.0f;  // room for them beside the strips
 
@@ -195,7 +193,7 @@ void draw_hovered(const DebugModel& model, const std::vector<Series>& all, int f
   tooltip(text);
 }
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_timeline(Ui& ui, const DebugModel& model, CommandLines& lines) {
   const float u = ui.unit();
   draw_header(ui, model, lines);
   std::vector<Series> all;
@@ -238,6 +236,6 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
 
 }  // namespace
 
-Panel timeline_panel() { return {"timeline", "", PanelPlace::below, {}, draw}; }
+Panel timeline_panel() { return {"timeline", "", PanelPlace::below, {}, draw_timeline}; }
 
 }  // namespace impinge

@@ -10,7 +10,7 @@ namespace impinge {
 
 namespace {
 
-void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
+void draw_transport(Ui& ui, const DebugModel& model, CommandLines& lines) {
   if (named_button(ui, "transport/first", "|<")) lines.push_back("seek 0");
   tooltip("first frame (home)");
   ImGui::SameLine();
@@ -58,6 +58,6 @@ void draw(Ui& ui, const DebugModel& model, CommandLines& lines) {
 
 }  // namespace
 
-Panel transport_panel() { return {"transport", "", PanelPlace::bar, {0.0f, 34.0f}, draw}; }
+Panel transport_panel() { return {"transport", "", PanelPlace::bar, {0.0f, 34.0f}, draw_transport}; }
 
 }  // namespace impinge

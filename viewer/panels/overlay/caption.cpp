@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostLines = 4;  // of the script
 constexpr float kWidest = 0.56f;       // of the picture
-constexpr Color kInk = hex(0xf2f4f7), kLine = hex(0xb9d7f0);
+constexpr Color kCaptionInk = hex(0xf2f4f7), kCaptionLine = hex(0xb9d7f0);
 
 /// Cut at words, and within one that is wider alone.
 std::vector<std::string> wrapped(const Pen& pen, const std::string& text, float width) {
@@ -37,8 +37,9 @@ PanelArea draw_caption(const Pen& pen, const ViewSettings& settings, const std::
     for (std::string& line : wrapped(pen, text, widest)) rows.push_back({std::move(line), color});
   };
   const std::vector<std::string>& lines = settings.lines_shown;
-  for (std::size_t i = lines.size() - std::min(lines.size(), kMostLines); i < lines.size(); ++i) add(lines[i], kLine);
-  if (!settings.caption.empty()) add(settings.caption, kInk);
+  for (std::size_t i = lines.size() - std::min(lines.size(), kMostLines); i < lines.size(); ++i)
+    add(lines[i], kCaptionLine);
+  if (!settings.caption.empty()) add(settings.caption, kCaptionInk);
   if (rows.empty()) return {};
   PanelArea area;
   for (const Row& row : rows) area.width = std::max(area.width, pen.text_width(row.text));

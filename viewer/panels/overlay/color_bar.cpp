@@ -4,15 +4,14 @@
 #include <cmath>
 
 #include "viewer/draw/color_map.hpp"
+#include "viewer/gl/packed_color.hpp"
 #include "viewer/panels/overlay/picture_panels.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr Color kInk = hex(0xf2f4f7), kTitle = hex(0xd9dee6);
+constexpr Color kBarInk = hex(0xf2f4f7), kTitle = hex(0xd9dee6);
 constexpr float kWidth = 220.0f, kHeight = 12.0f, kTick = 4.0f;  // of the bar, in text pixels
-
-ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
 
 }  // namespace
 
@@ -46,18 +45,18 @@ PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings
   for (std::size_t k = 0; k + 1 < colors.size(); ++k) {
     const float from = left + width * static_cast<float>(k) / (kHeatColors - 1),
                 to = left + width * static_cast<float>(k + 1) / (kHeatColors - 1);
-    const ImU32 a = packed(colors[k]), b = packed(colors[k + 1]);
+    const ImU32 a = opaque(colors[k]), b = opaque(colors[k + 1]);
     pen.list.AddRectFilledMultiColor({from, top}, {to, bottom}, a, b, b, a);
   }
   const auto number = [&](float share, const std::string& text) {
     const float x = left + share * width, half = 0.5f * pen.text_width(text);
-    pen.list.AddLine({x, bottom}, {x, bottom + kTick * u}, packed(kInk), u);
-    pen.text(std::max(left, x - half), bottom + (kTick + 1.0f) * u, kInk, text);
+    pen.list.AddLine({x, bottom}, {x, bottom + kTick * u}, opaque(kBarInk), u);
+    pen.text(std::max(left, x - half), bottom + (kTick + 1.0f) * u, kBarInk, text);
   };
   if (by_logarithm)  // a mark for each power of ten
     for (double v = std::pow(10.0, std::ceil(std::log10(scale.low))); v < scale.high; v *= 10.0) {
       const float x = left + static_cast<float>(scale.place(v)) * width;
-      pen.list.AddLine({x, bottom}, {x, bottom + 0.6f * kTick * u}, packed(kTitle), u);
+      pen.list.AddLine({x, bottom}, {x, bottom + 0.6f * kTick * u}, opaque(kTitle), u);
     }
   number(0.0f, low);
   number(0.5f, middle);

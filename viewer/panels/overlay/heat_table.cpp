@@ -8,18 +8,19 @@
 #include <optional>
 
 #include "viewer/draw/color_scale.hpp"
+#include "viewer/gl/packed_color.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr Color kInk = hex(0x20242a), kPaper = hex(0xffffff), kNone = hex(0xe9ecef), kLine = hex(0xb9c0c8),
+constexpr Color kTableInk = hex(0x20242a), kTablePaper = hex(0xffffff), kNoValue = hex(0xe9ecef), kLine = hex(0xb9c0c8),
                 kWhite = hex(0xffffff);
 constexpr double kWide = 20.0;  // from this ratio on, colours go by the logarithm
 
-ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
 Color ink_on(Color c) {
-  return 0.2126f * std::pow(c.r, 2.2f) + 0.7152f * std::pow(c.g, 2.2f) + 0.0722f * std::pow(c.b, 2.2f) > 0.2f ? kInk
-                                                                                                              : kWhite;
+  return 0.2126f * std::pow(c.r, 2.2f) + 0.7152f * std::pow(c.g, 2.2f) + 0.0722f * std::pow(c.b, 2.2f) > 0.2f
+             ? kTableInk
+             : kWhite;
 }
 
 /// Colours from the least to the largest value; none where there is no number.
@@ -51,9 +52,9 @@ void draw_bar(const Pen& pen, const HeatTable& table, const ColorScale& scale, f
                            {x + width * static_cast<float>(k + 1) / kSteps, y + height},
                            packed(heat_color((k + 0.5) / kSteps)));
   const std::string low = fmt::format("{:.3g}", scale.low), high = fmt::format("{:.3g}", scale.high);
-  pen.text(x - pen.text_width(low) - 8.0f * pen.unit, y, kInk, low);
+  pen.text(x - pen.text_width(low) - 8.0f * pen.unit, y, kTableInk, low);
   pen.text(
-      x + width + 8.0f * pen.unit, y, kInk,
+      x + width + 8.0f * pen.unit, y, kTableInk,
       fmt::format("{}   {}{}", high, table.value_label, scale.form == ScaleForm::logarithmic ? ", logarithmic" : ""));
 }
 
@@ -61,8 +62,8 @@ void draw_bar(const Pen& pen, const HeatTable& table, const ColorScale& scale, f
 
 void draw_heat_table(const Pen& pen, const HeatTable& table) {
   const float u = pen.unit, line = 1.5f * pen.text_size, margin = 18.0f * u;
-  pen.list.AddRectFilled({0, 0}, {pen.picture_width, pen.picture_height}, packed(kPaper));
-  pen.text(margin, margin, kInk,
+  pen.list.AddRectFilled({0, 0}, {pen.picture_width, pen.picture_height}, packed(kTablePaper));
+  pen.text(margin, margin, kTableInk,
            shortened(pen, fmt::format("{}: {}", table.title, table.value_label), pen.picture_width - 2.0f * margin));
   float heads = pen.text_width(table.row_label);
   for (const std::string& row : table.rows) heads = std::max(heads, pen.text_width(row));
@@ -71,22 +72,22 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
               bottom = pen.picture_height - margin - 2.0f * line;
   const float width = std::min((right - left) / static_cast<float>(table.columns.size()), 300.0f * u),
               height = std::min((bottom - top) / static_cast<float>(table.rows.size()), 120.0f * u);
-  pen.text(left, margin + 1.9f * line, kInk, table.column_label);
-  pen.text(margin, margin + 3.0f * line, kInk, shortened(pen, table.row_label, heads));
+  pen.text(left, margin + 1.9f * line, kTableInk, table.column_label);
+  pen.text(margin, margin + 3.0f * line, kTableInk, shortened(pen, table.row_label, heads));
   const std::optional<ColorScale> scale = scale_of(table.values);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string head = shortened(pen, table.columns[c], width - 4.0f * u);
-    pen.text(left + (static_cast<float>(c) + 0.5f) * width - 0.5f * pen.text_width(head), margin + 3.0f * line, kInk,
-             head);
+    pen.text(left + (static_cast<float>(c) + 0.5f) * width - 0.5f * pen.text_width(head), margin + 3.0f * line,
+             kTableInk, head);
   }
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const float y = top + static_cast<float>(r) * height;
-    pen.text(margin, y + 0.5f * (height - pen.text_size), kInk, shortened(pen, table.rows[r], heads));
+    pen.text(margin, y + 0.5f * (height - pen.text_size), kTableInk, shortened(pen, table.rows[r], heads));
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       const float x = left + static_cast<float>(c) * width;
       const std::size_t cell = r * table.columns.size() + c;
       const bool has_value = std::isfinite(table.values[cell]);
-      const Color color = has_value ? color_of(*scale, table.values[cell]) : kNone;
+      const Color color = has_value ? color_of(*scale, table.values[cell]) : kNoValue;
       pen.list.AddRectFilled({x + u, y + u}, {x + width - u, y + height - u}, packed(color));
       if (!has_value) pen.list.AddRect({x + u, y + u}, {x + width - u, y + height - u}, packed(kLine), 0.0f, 0, u);
       const std::string text = shortened(
@@ -97,7 +98,7 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
                                       : table.notes[cell],
           width - 4.0f * u);
       pen.text(x + 0.5f * (width - pen.text_width(text)), y + 0.5f * (height - pen.text_size),
-               has_value ? ink_on(color) : kInk, text);
+               has_value ? ink_on(color) : kTableInk, text);
     }
   }
   if (scale)

@@ -2,20 +2,19 @@
 #include <algorithm>
 #include <optional>
 
+#include "viewer/gl/packed_color.hpp"
 #include "viewer/panels/overlay/picture_panels.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr Color kInk = hex(0xd9dee6);
+constexpr Color kLegendInk = hex(0xd9dee6);
 constexpr float kMark = 20.0f, kAfterMark = 9.0f;
-
-ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}); }
 
 /// Draws a mark as it looks in the picture, in a cell of kMark x kTextSize whose top left is (x, y).
 void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
   const float u = pen.unit, middle = y + 0.5f * pen.text_size, right = x + kMark * u;
-  const ImU32 ink = packed(row.color), dark = packed(role::kOutline);
+  const ImU32 ink = opaque(row.color), dark = opaque(role::kOutline);
   ImDrawList& list = pen.list;
   switch (row.mark) {
     case LegendRow::area:
@@ -41,7 +40,7 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
   }
 }
 
-std::vector<LegendRow> rows_of(const StepRecord& record, const ViewSettings& settings) {
+std::vector<LegendRow> legend_rows(const StepRecord& record, const ViewSettings& settings) {
   std::vector<LegendRow> rows;
   for (const Layer& layer : layers())
     if (settings.is_on(layer.name))
@@ -74,7 +73,7 @@ PanelArea draw_folded(const Pen& pen, const PanelArea& other, const PanelArea& p
   area = free_corner(pen, area, other, picked).value_or(in_corner(pen, area, 0));
   if (panels_meet(area, other)) return {};
   pen.sheet(area.x, area.y, area.width, area.height);
-  pen.text(area.x + pad, area.y + pad, kInk, text);
+  pen.text(area.x + pad, area.y + pad, kLegendInk, text);
   return area;
 }
 
@@ -83,7 +82,7 @@ PanelArea draw_folded(const Pen& pen, const PanelArea& other, const PanelArea& p
 PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other,
                       const PanelArea& picked) {
   if (!settings.show_legend) return {};
-  const std::vector<LegendRow> rows = rows_of(record, settings);
+  const std::vector<LegendRow> rows = legend_rows(record, settings);
   if (rows.empty()) return {};
   if (settings.legend_form == LegendForm::folded) return draw_folded(pen, other, picked, rows.size());
   const float mark = (kMark + (pen.is_small() ? 0.5f : 1.0f) * kAfterMark) * pen.unit, pad = pen.padding();
@@ -109,7 +108,7 @@ PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettin
   float y = area.y + pad;
   for (const LegendRow& row : rows) {
     draw_mark(pen, row, area.x + pad, y);
-    pen.text(area.x + pad + mark, y, kInk, row.text);
+    pen.text(area.x + pad + mark, y, kLegendInk, row.text);
     y += pen.row();
   }
   return area;

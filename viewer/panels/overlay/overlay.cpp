@@ -3,6 +3,8 @@
 #include <imgui.h>
 #include <mutex>
 
+#include "viewer/gl/packed_color.hpp"
+
 namespace impinge {
 namespace {
 
@@ -10,8 +12,6 @@ std::mutex& imgui_mutex() {
   static std::mutex mutex;  // Dear ImGui's current context is one for the whole process
   return mutex;
 }
-
-ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
 
 }  // namespace
 

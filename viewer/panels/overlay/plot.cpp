@@ -8,10 +8,12 @@
 #include <cctype>
 #include <cmath>
 
+#include "viewer/gl/packed_color.hpp"
+
 namespace impinge {
 namespace {
 
-constexpr Color kInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPaper = hex(0xffffff), kFront = hex(0x8a939c);
+constexpr Color kPlotInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPlotPaper = hex(0xffffff), kFront = hex(0x8a939c);
 constexpr std::array<Color, 7> kColors = {hex(0x0072b2), hex(0xd55e00), hex(0x009e73), hex(0xcc79a7),
                                           hex(0x56b4e9), hex(0xe69f00), hex(0x000000)};
 constexpr int kMarks = 4;                          // circle, square, triangle, cross
@@ -19,8 +21,6 @@ constexpr double kLowest = 1e-18, kHighest = 1e6;  // y beyond these is drawn at
 constexpr double kZeroShift = 0.3;                 // decades left of 1 where a count of 0 stands
 constexpr std::size_t kLegendLetters = 24;         // of a line of its note
 constexpr int kMarkEvery = 26;                     // pixels between marks of one line
-
-ImU32 packed(Color c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
 
 /// One axis: decades, and where they are on the picture.
 struct Axis {
@@ -34,15 +34,15 @@ class Painter {
   Painter(const Pen& pen, const Plot& plot) : pen_(pen), plot_(plot), u_(pen.unit) {}
 
   void draw() {
-    pen_.list.AddRectFilled({0, 0}, {pen_.picture_width, pen_.picture_height}, packed(kPaper));
+    pen_.list.AddRectFilled({0, 0}, {pen_.picture_width, pen_.picture_height}, packed(kPlotPaper));
     find_ranges();
     const float legend = legend_width(), margin = 14.0f * u_;
     x_.from = margin + 7.0f * letter(), x_.to = pen_.picture_width - legend - 2.0f * margin;
     y_.from = pen_.picture_height - margin - 3.2f * pen_.text_size, y_.to = margin + 3.4f * pen_.text_size;
-    pen_.text(margin, margin * 0.8f, kInk, plot_.title);
-    pen_.text(margin, margin * 0.8f + 1.5f * pen_.text_size, kInk, plot_.y_label);
+    pen_.text(margin, margin * 0.8f, kPlotInk, plot_.title);
+    pen_.text(margin, margin * 0.8f + 1.5f * pen_.text_size, kPlotInk, plot_.y_label);
     pen_.text(0.5f * (x_.from + x_.to - pen_.text_width(plot_.x_label)), pen_.picture_height - margin - pen_.text_size,
-              kInk, plot_.x_label);
+              kPlotInk, plot_.x_label);
     draw_grid();
     pen_.list.PushClipRect({x_.from - 5.0f * u_, y_.to - 5.0f * u_}, {x_.to + 5.0f * u_, y_.from + 5.0f * u_});
     draw_front();
@@ -84,13 +84,13 @@ class Painter {
   }
 
   void draw_grid() const {
-    const ImU32 line = packed(kGrid), ink = packed(kInk);
+    const ImU32 line = packed(kGrid), ink = packed(kPlotInk);
     const int every = y_.high - y_.low > 12.0 ? 2 : 1;
     for (int d = static_cast<int>(y_.low); d <= static_cast<int>(y_.high); d += every) {
       const float y = std::round(y_.at(d)) + 0.5f;
       pen_.list.AddLine({x_.from, y}, {x_.to, y}, line, u_);
       const std::string text = d == 0 ? "1" : fmt::format("1e{}", d);
-      pen_.text(x_.from - pen_.text_width(text) - 7.0f * u_, y - 0.5f * pen_.text_size, kInk, text);
+      pen_.text(x_.from - pen_.text_width(text) - 7.0f * u_, y - 0.5f * pen_.text_size, kPlotInk, text);
     }
     if (plot_.x_linear) {
       const double raw = x_.high / 10.0, power = std::pow(10.0, std::floor(std::log10(raw))), mantissa = raw / power;
@@ -115,12 +115,12 @@ class Painter {
   void tick_x(double decade, const std::string& text, ImU32 line) const {
     const float x = std::round(x_.at(decade)) + 0.5f;
     pen_.list.AddLine({x, y_.from}, {x, y_.to}, line, u_);
-    pen_.text(x - 0.5f * pen_.text_width(text), y_.from + 5.0f * u_, kInk, text);
+    pen_.text(x - 0.5f * pen_.text_width(text), y_.from + 5.0f * u_, kPlotInk, text);
   }
 
   void draw_mark(float x, float y, std::size_t i) const {
     const float r = 4.5f * u_;
-    const ImU32 fill = packed(color(i)), paper = packed(kPaper);
+    const ImU32 fill = packed(color(i)), paper = packed(kPlotPaper);
     switch (i % kMarks) {
       case 0:
         pen_.list.AddCircleFilled({x, y}, r + u_, paper, 16);
@@ -191,7 +191,7 @@ class Painter {
   }
   void draw_rings() const {
     for (const Vec2& p : plot_.best)
-      if (is_drawn(p)) pen_.list.AddCircle(place(p), 9.5f * u_, packed(kInk), 32, 1.4f * u_);
+      if (is_drawn(p)) pen_.list.AddCircle(place(p), 9.5f * u_, packed(kPlotInk), 32, 1.4f * u_);
   }
 
   static Color color(std::size_t i) { return kColors[i % kColors.size()]; }
@@ -221,16 +221,16 @@ class Painter {
       draw_mark(x + 14.0f * u_, middle, i);
       for (const std::string& line : lines) {
         if (line.empty()) continue;
-        pen_.text(x + 36.0f * u_, y, kInk, line);
+        pen_.text(x + 36.0f * u_, y, kPlotInk, line);
         y += pen_.text_size + 2.0f * u_;
       }
       y += 5.0f * u_;
     }
     if (plot_.best.empty() || plot_.best_label.empty()) return;
     y += 6.0f * u_;
-    pen_.list.AddCircle({x + 14.0f * u_, y + 0.5f * pen_.text_size}, 9.5f * u_, packed(kInk), 32, 1.4f * u_);
+    pen_.list.AddCircle({x + 14.0f * u_, y + 0.5f * pen_.text_size}, 9.5f * u_, packed(kPlotInk), 32, 1.4f * u_);
     for (const std::string& line : wrapped(plot_.best_label)) {
-      pen_.text(x + 36.0f * u_, y, kInk, line);
+      pen_.text(x + 36.0f * u_, y, kPlotInk, line);
       y += pen_.text_size + 2.0f * u_;
     }
   }
