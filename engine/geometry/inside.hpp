@@ -1,5 +1,5 @@
-// Whether a point lies inside a closed surface, and how deep: slow, exact in what it decides, and used by nobody but
-// judges.
+// Whether a point lies inside a closed surface, and how deep: slow, exact in what it decides, and used by judges, and
+// where nothing quicker can tell.
 #pragma once
 
 #include <span>

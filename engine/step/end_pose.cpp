@@ -15,7 +15,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kAllowed = 0.25;  // of the activation distance: overlap at the end that is left to recovery
+constexpr double kAllowed = 0.04;  // of the activation distance: overlap at the end that is left to recovery
 constexpr double kOfRigid = 0.02;  // of the same: where neither deforms, and nothing of the answer is smooth over nodes
 constexpr double kSwift = 10.0;    // of the same: an approach in which rigid bodies meet where their start doesn't show
 constexpr double kDeepest = 100.0;        // of the same: what ends deeper has passed, and its normal says nothing
@@ -184,7 +184,8 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   return found;
 }
 
-std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std::vector<BodyPair> pairs) {
+std::vector<std::optional<Collision>> deepest_now(const Bodies& bodies, const Detecting& by,
+                                                  std::vector<BodyPair> pairs) {
   std::vector<Collider> colliders;
   make_colliders(bodies, colliders);
   for (Collider& c : colliders) c.velocity = c.angular_velocity = Vec3::Zero();
@@ -192,11 +193,19 @@ std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std:
   std::vector<TrianglePair> triangles;
   std::vector<Collision> found;
   find_collisions(colliders, pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
-  std::vector<double> depths;
+  std::vector<std::optional<Collision>> deepest;
   for (const BodyPair& pair : pairs) {
-    depths.push_back(0.0);
-    for (const Collision& c : of_pair(found, pair)) depths.back() = std::max(depths.back(), -c.gap);
+    std::optional<Collision>& of = deepest.emplace_back();
+    for (const Collision& c : of_pair(found, pair))
+      if (c.gap < (of ? of->gap : 0.0)) of = c;
   }
+  return deepest;
+}
+
+std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std::vector<BodyPair> pairs) {
+  std::vector<double> depths;
+  for (const std::optional<Collision>& c : deepest_now(bodies, by, std::move(pairs)))
+    depths.push_back(c ? -c->gap : 0.0);
   return depths;
 }
 

@@ -4,6 +4,8 @@
 // overlap there is a contact of the sub-step that ends so: the same material points, the normal of the end.
 #pragma once
 
+#include <optional>
+
 #include "engine/step/detect.hpp"
 
 namespace impinge {
@@ -19,7 +21,11 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
 std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by, const SubStep& step,
                                        std::span<const Collider> solved, std::span<const BodyPair> pairs);
 
-/// By pair, of rigid bodies: how deep their deepest contact is where they stand, metres; 0: they don't overlap.
+/// By pair: their deepest contact where they stand, if they overlap.
+std::vector<std::optional<Collision>> deepest_now(const Bodies& bodies, const Detecting& by,
+                                                  std::vector<BodyPair> pairs);
+
+/// By pair, of rigid bodies: how deep that is, metres; 0: they don't overlap.
 std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std::vector<BodyPair> pairs);
 
 /// Whether one of the two hangs in the other, as a pin does in its hole: their contacts push to all sides.

@@ -4,6 +4,8 @@
 
 #include "engine/contact/pair_coefficients.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
+#include "engine/shapes/primitives.hpp"
+#include "engine/step/end_pose.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
 #include "engine/world/finite_record.hpp"
@@ -15,7 +17,7 @@ namespace impinge {
 namespace {
 
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
-/// The deepest of two meshes is put where they overlap most, and none shows an overlap where there is none, or more than
+/// The deepest of a pair is put where they overlap most, and none shows an overlap where there is none, or more than
 /// twice what there is. `of_pair`: theirs, as places in the record.
 void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<const std::size_t> of_pair,
                   const Bodies& bodies, StepRecord& record) {
@@ -41,12 +43,36 @@ void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<co
   deepest->gap = where.gap;
 }
 
+using ContactsOfPairs = std::map<std::pair<BodyIndex, BodyIndex>, std::vector<std::size_t>>;
+
+ContactsOfPairs contacts_of_pairs(const StepRecord& record) {
+  ContactsOfPairs contacts;
+  for (std::size_t i = 0; i < record.contacts.size(); ++i)
+    contacts[{record.contacts[i].body_a, record.contacts[i].body_b}].push_back(i);
+  return contacts;
+}
+
+/// A surface that bends slides over a round shape by more than its contacts' tangents tell.
+void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Parameters& parameters,
+                             StepRecord& record) {
+  const auto bends = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
+  const auto is_round = [&](BodyIndex b) {
+    return bodies[b].shape->mesh() == nullptr && bodies[b].shape->as<Plane>() == nullptr;
+  };
+  std::vector<BodyPair> pairs;
+  for (const BodyPair& pair : step.pairs)
+    if ((bends(pair.a) && is_round(pair.b)) || (bends(pair.b) && is_round(pair.a))) pairs.push_back({pair.a, pair.b});
+  if (pairs.empty()) return;
+  ContactsOfPairs contacts = contacts_of_pairs(record);
+  const std::vector<std::optional<Collision>> deepest = deepest_now(bodies, detecting(parameters), pairs);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    show_overlap(pairs[i], {deepest[i].has_value(), deepest[i]}, contacts[{pairs[i].a, pairs[i].b}], bodies, record);
+}
+
 void show_overlaps(const Bodies& bodies, std::span<const Collider> colliders, std::span<const TrianglePair> triangles,
                    StepRecord& record) {
   if (triangles.empty()) return;
-  std::map<std::pair<BodyIndex, BodyIndex>, std::vector<std::size_t>> contacts;
-  for (std::size_t i = 0; i < record.contacts.size(); ++i)
-    contacts[{record.contacts[i].body_a, record.contacts[i].body_b}].push_back(i);
+  ContactsOfPairs contacts = contacts_of_pairs(record);
   for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
     const BodyPair pair{triangles[first].a, triangles[first].b};
     while (last < triangles.size() && triangles[last].a == pair.a && triangles[last].b == pair.b) ++last;
@@ -57,6 +83,7 @@ void show_overlaps(const Bodies& bodies, std::span<const Collider> colliders, st
 }
 
 void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters& parameters, StepRecord& record) {
+  show_overlaps_of_shapes(bodies, step, parameters, record);
   std::vector<BodyPair> mesh_pairs;
   for (const BodyPair& pair : step.pairs)
     if (bodies[pair.a].shape->mesh() != nullptr && bodies[pair.b].shape->mesh() != nullptr)

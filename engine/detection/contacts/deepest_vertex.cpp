@@ -5,6 +5,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/surface_view.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
+#include "engine/geometry/inside.hpp"
 #include "engine/geometry/nearest_triangle.hpp"
 
 namespace impinge {
@@ -25,6 +26,11 @@ class Surface {
     NearestTriangle found = nearest(x);
     const Vec3 normal = view_.normal(view_.feature(found.triangle, found.at.feature));
     return (x - found.at.point).dot(normal) < 0.0 ? std::optional(found) : std::nullopt;
+  }
+
+  /// Of what is inside by the nearest normal: where a surface that bends has folded over, that doesn't tell.
+  bool winds_round(const Vec3& x) const {
+    return !view_.is_deforming() || winding_number(x, collider_.vertices, surface().mesh.triangles) > 0.5;
   }
 
  private:
@@ -63,7 +69,10 @@ class Search {
       const std::optional<NearestTriangle> out = other_.if_inside(own_.vertex(v));
       if (!out) continue;
       const double depth = std::sqrt(out->at.squared_distance);
-      if (depth > 0.0 && (!deepest || depth > -deepest->gap)) deepest = contact(v, *out, depth);
+      if (depth > 0.0 && (!deepest || depth > -deepest->gap)) {
+        if (!other_.winds_round(own_.vertex(v))) continue;
+        deepest = contact(v, *out, depth);
+      }
       for (const int t : own_.triangles_round(v))
         for (const int next : own_.triangle(t)) visit(next);
     }

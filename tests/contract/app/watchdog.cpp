@@ -9,6 +9,7 @@
 #include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/program/program.hpp"
+#include "tests/support/program/sweep_results.hpp"
 #include "tests/support/program/temp_folder.hpp"
 #include "viewer/app/watchdog_note.hpp"
 
@@ -272,4 +273,27 @@ velocity = [0, -8, 0]
   REQUIRE(impinge_run(folder.path(), {"run", "coarse/run.toml", "--no-images", "--out", "again"}).code == 0);
   CHECK(column(slurp(folder / "again/stats.csv"), "judged_penetration_m") == column(coarse, "judged_penetration_m"));
   CHECK(impinge_run(folder.path(), {"replay", "coarse"}).code == 0);
+}
+
+TEST_CASE("the dragons on their posts overlap by less than a tenth of a millimetre, which is what is shown") {
+  const TempFolder folder;
+  REQUIRE(impinge_run(folder.path(),
+                      {"run", IMPINGE_SOURCE_DIR "/scenes/dragon_stiffness.toml", "--set", "simulation.substeps=2",
+                       "--frames", "24", "--no-images", "--judge", "--quiet", "--out", "run"})
+              .code == 0);
+  const std::vector<Row> rows = csv_rows(folder / "run/stats.csv");
+  REQUIRE(rows.size() == 25);
+  int overlapping = 0;
+  for (const Row& row : rows) {
+    const double truth = std::stod(row.at("judged_penetration_m")), shown = std::stod(row.at("max_penetration_m"));
+    CAPTURE(row.at("frame"), truth, shown);
+    CHECK(truth < 1e-4);
+    CHECK(shown < 1e-4);
+    CHECK(std::stod(row.at("substep_penetration_m")) < 1e-4);
+    if (truth < 1e-6) continue;
+    ++overlapping;
+    CHECK(shown >= 0.5 * truth);
+    CHECK(shown <= 2.0 * truth);
+  }
+  CHECK(overlapping > 3);
 }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/geometry/inside.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
@@ -84,4 +85,39 @@ TEST_CASE("max_penetration of meshes that meet faster than contacts see is the j
     }
   }
   CHECK(overlapping > 100);
+}
+
+TEST_CASE("of a bending surface that has folded over no vertex is in that it doesn't wind round") {
+  Random random(22);
+  ColliderSet bodies;
+  const MeshPointer cube = surface(box({0.5, 0.5, 0.5}, {4, 4, 4}));
+  const int bending = bodies.add(cube), ball = bodies.add(surface(icosphere(2, 0.2)));
+  std::vector<TrianglePair> all;
+  for (int ta = 0; ta < static_cast<int>(cube->mesh.triangles.size()); ++ta)
+    for (int tb = 0; tb < static_cast<int>(bodies[ball].mesh().mesh.triangles.size()); ++tb)
+      all.push_back({BodyIndex(bending), BodyIndex(ball), TriangleIndex(ta), TriangleIndex(tb)});
+  int overlapping = 0, only_edges = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::vector<Vec3> vertices = cube->mesh.vertices;
+    for (Vec3& v : vertices)  // of the top, over their neighbours, which are 0.25 away
+      if (v.y() == 0.5 && random.sym() > 0.5) v += Vec3(0.5, 0.02, 0.5).cwiseProduct(random.vector());
+    bodies.place(bending, vertices);
+    bodies.place(ball,
+                 Pose{random.rotation(), Vec3(0.3 * random.sym(), 0.7 + 0.02 * random.sym(), 0.3 * random.sym())});
+    double truth = 0.0;
+    const auto take = [&](const Collider& own, const Collider& other) {
+      for (const Vec3& x : own.vertices)
+        if (winding_number(x, other.vertices, other.mesh().mesh.triangles) > 0.5)
+          truth = std::max(truth, distance_to_surface(x, other.vertices, other.mesh().mesh.triangles));
+    };
+    take(bodies[bending], bodies[ball]);
+    take(bodies[ball], bodies[bending]);
+    const MeshOverlap found = find_overlap(bodies.all(), {BodyIndex(bending), BodyIndex(ball)}, all);
+    const double shown = found.deepest ? -found.deepest->gap : 0.0;
+    CAPTURE(i, truth, shown);
+    CHECK(shown <= truth + 1e-12);
+    overlapping += shown > 0.0, only_edges += found.crosses && truth == 0.0;
+  }
+  CHECK(overlapping > 100);
+  CHECK(only_edges > 5);
 }

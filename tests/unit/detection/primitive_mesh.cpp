@@ -2,6 +2,8 @@
 // contact would be felt.
 #include <catch2/catch.hpp>
 
+#include "engine/detection/contacts/surface_view.hpp"
+#include "engine/geometry/inside.hpp"
 #include "tests/support/geometry/shapes.hpp"
 
 using namespace impinge;
@@ -50,6 +52,46 @@ TEST_CASE("a sphere against a cube's mesh is the sphere against the box") {
     REQUIRE((mesh[0].normal - exact[0].normal).norm() < 1e-9);
     REQUIRE((mesh[0].point_b - exact[0].point_b).norm() < 1e-9);
   }
+}
+
+TEST_CASE(
+    "a ball against a bending surface that has folded over is as deep as the distance and the winding number say") {
+  Random r(16);
+  TestColliders bodies;
+  const double radius = 0.2;
+  bodies.add(Sphere{radius});
+  const MeshPointer cube = surface(box({0.5, 0.5, 0.5}, {4, 4, 4}));
+  bodies.add(cube);
+  const std::vector<Vec3> still(cube->mesh.vertices.size(), Vec3::Zero());
+  int outside = 0, folded = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Vec3> vertices = cube->mesh.vertices;
+    for (Vec3& v : vertices)  // of the top, over their neighbours, which are 0.25 away
+      if (v.y() == 0.5 && v.cwiseAbs().maxCoeff() == 0.5 && r.sym() > 0.5)
+        v += Vec3(0.5, 0.02, 0.5).cwiseProduct(r.vector());
+    Collider& bending = bodies[1];
+    bending.vertices = vertices;
+    bending.vertex_velocities = still;
+    bending.bounds = {};
+    for (const Vec3& v : vertices) bending.bounds.include(v);
+    const Vec3 x(0.5 * r.sym(), 0.6 + 0.2 * r.sym(), 0.5 * r.sym());
+    bodies.place(0, at(x));
+    const double distance = distance_to_surface(x, vertices, cube->mesh.triangles);
+    if (winding_number(x, vertices, cube->mesh.triangles) > 0.5) continue;
+    const auto contacts = bodies.contacts(0, 1, {true, 1.0, 0.0});
+    REQUIRE(!contacts.empty());
+    const Collision* deepest = &contacts.front();
+    for (const Collision& c : contacts)
+      if (c.gap < deepest->gap) deepest = &c;
+    INFO(i << ": " << x.transpose());
+    ++outside;
+    REQUIRE(std::abs(deepest->gap - (distance - radius)) < 1e-9);
+    REQUIRE((deepest->point_b - x).norm() < distance + 1e-9);
+    const SurfaceView view(bodies.colliders()[1], 1);
+    if (deepest->normal.dot(view.face_normal(deepest->triangle_b.value())) < -0.1) ++folded;
+  }
+  CHECK(outside > 1000);
+  CHECK(folded > 20);
 }
 
 TEST_CASE("shapes against a fine icosphere agree with the sphere within the chord error") {
