@@ -9,6 +9,7 @@
 
 #include "engine/core/types.hpp"
 #include "tests/support/pictures/text_faults.hpp"
+#include "tests/support/pictures/view_scenes.hpp"
 #include "tests/support/program/temp_folder.hpp"
 #include "viewer/debugger/loop.hpp"
 #include "viewer/draw/palette.hpp"
@@ -66,11 +67,6 @@ Image crop(const Image& whole, const UiArea& area) {
              std::min(static_cast<int>(area.height), whole.height - y0));
   for (int y = 0; y < part.height; ++y) std::copy_n(whole.pixel(x0, y0 + y), 3 * part.width, part.pixel(0, y));
   return part;
-}
-
-bool updating() {
-  const char* word = std::getenv("IMPINGE_UPDATE_BASELINES");
-  return word != nullptr && std::string(word) == "1";
 }
 
 void check_baseline(const std::string& name, const Image& now, std::uintmax_t most_bytes) {

@@ -183,10 +183,6 @@ const std::vector<Baseline>& baselines() {
 }
 
 std::filesystem::path folder() { return std::filesystem::path(IMPINGE_SOURCE_DIR) / "tests/images/baselines"; }
-bool updating() {
-  const char* word = std::getenv("IMPINGE_UPDATE_BASELINES");
-  return word != nullptr && std::string(word) == "1";
-}
 
 }  // namespace
 

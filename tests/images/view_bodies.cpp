@@ -11,7 +11,7 @@ using namespace impinge::test;
 namespace {
 
 /// A slab, a ball on it and a box beside it, with a contact each; `left_out` is not made at all.
-void make(HandMadeRecord& scene, const std::string& left_out = "", const Vec3& shift = Vec3::Zero()) {
+void make_bodies(HandMadeRecord& scene, const std::string& left_out = "", const Vec3& shift = Vec3::Zero()) {
   const auto add = [&](const char* name, BodyKind kind, SharedShape shape, const Vec3& at) {
     return name == left_out ? -1 : scene.add(name, kind, std::move(shape), at + shift);
   };
@@ -22,19 +22,13 @@ void make(HandMadeRecord& scene, const std::string& left_out = "", const Vec3& s
   if (box >= 0) scene.touch(slab, box, Vec3(0.5, 0, 0) + shift, Vec3::UnitY(), ContactState::slip);
 }
 
-std::vector<std::string> all_layers() {
-  std::vector<std::string> names;
-  for (const Layer& layer : layers()) names.emplace_back(layer.name);
-  return names;
-}
-
 }  // namespace
 
 TEST_CASE("a hidden body leaves the picture of a scene without it, but for the contact with what is seen",
           "[methods]") {
   HandMadeRecord whole, without;
-  make(whole);
-  make(without, "box");  // the last: colours go by the order
+  make_bodies(whole);
+  make_bodies(without, "box");  // the last: colours go by the order
   ViewSettings settings = settings_with({"meshes", "aabbs", "mass_centers", "labels", "velocities"});
   const Image wanted = painted(without.record(), settings);
   CHECK(painted(whole.record(), settings).rgb != wanted.rgb);
@@ -59,8 +53,8 @@ TEST_CASE("where all is hidden no layer draws anything", "[methods]") {
 
 TEST_CASE("a body that is followed stands still in the picture while the world goes by") {
   HandMadeRecord here, there;
-  make(here);
-  make(there, "", {16.0, 0.5, -8.0});  // sums that are exact
+  make_bodies(here);
+  make_bodies(there, "", {16.0, 0.5, -8.0});  // sums that are exact
   FrameView view;
   ParameterSet rows;
   view.bind(rows);
@@ -84,7 +78,7 @@ TEST_CASE("a body that is followed stands still in the picture while the world g
 TEST_CASE("a body that is framed fills the picture, wherever the camera was and whatever it follows") {
   for (const char* followed : {"", "ball"}) {
     HandMadeRecord scene;
-    make(scene);
+    make_bodies(scene);
     FrameView view;
     ParameterSet rows;
     view.bind(rows);

@@ -16,7 +16,7 @@ using namespace impinge::test;
 namespace {
 
 /// Three contacts beside each other: of `a` and `b`, of `b` and `c`, and one that carries nothing.
-void make(HandMadeRecord& scene, double first, double second, bool with_open = true) {
+void make_contacts(HandMadeRecord& scene, double first, double second, bool with_open = true) {
   const int a = scene.add("a", BodyKind::dynamic, Sphere{0.1}, {0, 9, 0}),
             b = scene.add("b", BodyKind::dynamic, Sphere{0.1}, {0, 9, 0}),
             c = scene.add("c", BodyKind::fixed, Sphere{0.1}, {0, 9, 0});
@@ -33,7 +33,7 @@ ViewSettings contacts_only() {
 }
 
 /// Pixels that differ from an empty picture, left and right of the middle.
-std::pair<int, int> covered(const Image& image) {
+std::pair<int, int> covered_halves(const Image& image) {
   const Image empty = painted(StepRecord{}, contacts_only());
   std::pair<int, int> count;
   for (int y = 0; y < image.height; ++y)
@@ -53,10 +53,10 @@ const std::uint8_t* pixel_at(const Image& image, const ViewSettings& settings, d
 
 TEST_CASE("contacts that carry nothing, or are of nothing selected, can be left out") {
   HandMadeRecord whole, carrying, of_a, one;
-  make(whole, 1.0, 4.0);
-  make(carrying, 1.0, 4.0, false);
-  make(of_a, 1.0, 0.0);
-  make(one, 1.0, 0.0, false);
+  make_contacts(whole, 1.0, 4.0);
+  make_contacts(carrying, 1.0, 4.0, false);
+  make_contacts(of_a, 1.0, 0.0);
+  make_contacts(one, 1.0, 0.0, false);
   ViewSettings settings = contacts_only(), plain = contacts_only();
   set(settings, "view.contacts.carrying", "true");
   CHECK((painted(whole.record(), settings).rgb == painted(carrying.record(), plain).rgb));
@@ -71,12 +71,12 @@ TEST_CASE("contacts that carry nothing, or are of nothing selected, can be left 
 
 TEST_CASE("areas of contacts are like their forces") {
   HandMadeRecord scene;
-  make(scene, 1.0, 4.0, false);
+  make_contacts(scene, 1.0, 4.0, false);
   ViewSettings settings = contacts_only();
-  const auto [left, right] = covered(painted(scene.record(), settings));
+  const auto [left, right] = covered_halves(painted(scene.record(), settings));
   CHECK(std::abs(left - right) < 0.1 * left);
   set(settings, "view.contacts.size", "force");
-  const auto [small, large] = covered(painted(scene.record(), settings));
+  const auto [small, large] = covered_halves(painted(scene.record(), settings));
   CAPTURE(small, large);
   CHECK(large > 3.0 * small);  // a rim of a pixel is added to both
   CHECK(large < 5.0 * small);
@@ -84,7 +84,7 @@ TEST_CASE("areas of contacts are like their forces") {
 
 TEST_CASE("colours of contacts are those of their quantity by the bar's end") {
   HandMadeRecord scene;
-  make(scene, 1.0, 4.0, false);
+  make_contacts(scene, 1.0, 4.0, false);
   // a mark is shaded (shaders/point.frag): by how much at that pixel, a colour that is known says
   const Image known = painted(scene.record(), contacts_only());
   const auto shade_at = [&](double x, Color color) {

@@ -44,7 +44,7 @@ int count_unlike(const Image& a, const Image& b, int levels) {
   return count;
 }
 
-int covered(const Image& image) {
+int covered_pixels(const Image& image) {
   const Image nothing = painted(StepRecord{}, settings_with({}), image.width, image.height);
   return count_unlike(image, nothing, 0);
 }
@@ -62,7 +62,7 @@ TEST_CASE("a deformed body looks like a rigid one of the same form") {
   for (const char* layer : {"meshes", "wireframe", "aabbs"}) {
     CAPTURE(layer);
     const Image a = painted(soft.record(), settings_with({layer})), b = painted(rigid.record(), settings_with({layer}));
-    CHECK(covered(a) > 500);
+    CHECK(covered_pixels(a) > 500);
     CHECK(count_unlike(a, b, 3) < 8);
   }
 }
@@ -95,8 +95,8 @@ TEST_CASE("what is turned inside out is not left out of the picture") {
   });
   ViewSettings settings = settings_with({"meshes"});
   settings.camera.look_at({0.0, 1.0, 4.0}, Vec3::Zero());
-  const int right = covered(painted(upright.record(), settings)),
-            mirrored = covered(painted(everted.record(), settings));
+  const int right = covered_pixels(painted(upright.record(), settings)),
+            mirrored = covered_pixels(painted(everted.record(), settings));
   CHECK(mirrored == Approx(right).epsilon(0.01));
   // and marked among the tetrahedra
   ViewSettings tetrahedra = settings_with({"tetrahedra"});
@@ -171,8 +171,8 @@ TEST_CASE("with backs only, a closed body covers the same pixels with its inside
   CHECK(painted(scene.record(), settings) == fronts);
   settings.backs = Backs::only;
   const Image backs = painted(scene.record(), settings);
-  CHECK(covered(backs) == Approx(covered(fronts)).margin(4));
-  CHECK(count_unlike(fronts, backs, 10) > 0.9 * covered(fronts));
+  CHECK(covered_pixels(backs) == Approx(covered_pixels(fronts)).margin(4));
+  CHECK(count_unlike(fronts, backs, 10) > 0.9 * covered_pixels(fronts));
 }
 
 TEST_CASE("marks are not cut") {

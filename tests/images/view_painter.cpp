@@ -15,12 +15,6 @@ Image paint_with(FramePainter& painter, const StepRecord& record, const ViewSett
   return image;
 }
 
-std::vector<std::string> all_layers() {
-  std::vector<std::string> names;
-  for (const Layer& layer : layers()) names.emplace_back(layer.name);
-  return names;
-}
-
 }  // namespace
 
 TEST_CASE("the same record and settings give the same pixels, whatever was painted before") {

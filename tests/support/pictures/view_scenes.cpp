@@ -140,6 +140,17 @@ ViewSettings settings_with(const std::vector<std::string>& layers) {
   return settings;
 }
 
+std::vector<std::string> all_layers() {
+  std::vector<std::string> names;
+  for (const Layer& layer : layers()) names.emplace_back(layer.name);
+  return names;
+}
+
+bool updating() {
+  const char* word = std::getenv("IMPINGE_UPDATE_BASELINES");
+  return word != nullptr && std::string(word) == "1";
+}
+
 Image painted(const StepRecord& record, const ViewSettings& settings, int width, int height) {
   // never destroyed: OSMesa tears itself down at exit before statics of ours would be
   static auto& painters = *new std::map<std::pair<int, int>, std::unique_ptr<FramePainter>>;

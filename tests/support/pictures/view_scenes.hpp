@@ -24,6 +24,10 @@ const StepRecord& soft_record();
 void set(ViewSettings& settings, const std::string& path, const std::string& value);
 /// Settings with exactly these layers, no panels, a fixed camera.
 ViewSettings settings_with(const std::vector<std::string>& layers);
+std::vector<std::string> all_layers();
+
+/// Whether pictures are to be written anew, not compared (IMPINGE_UPDATE_BASELINES=1).
+bool updating();
 
 /// Painted by a painter that lives as long as the program (one a size).
 Image painted(const StepRecord& record, const ViewSettings& settings, int width = 320, int height = 180);
