@@ -2,7 +2,6 @@
 // anew; look at them before they are committed.
 #include <catch2/catch.hpp>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include <imgui.h>

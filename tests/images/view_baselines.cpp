@@ -2,7 +2,6 @@
 // committed.
 #include <catch2/catch.hpp>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "tests/support/pictures/view_scenes.hpp"

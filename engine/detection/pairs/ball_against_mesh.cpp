@@ -29,7 +29,7 @@ class BallTest {
     if (nearest_.triangle < 0) return false;  // nothing within reach, and the centre is outside the mesh's bounds
     const double distance = std::sqrt(nearest_.distance_sq);
     const bool is_behind = (ball_.center - nearest_.point).dot(mesh_.normal(nearest_.feature)) < 0.0;
-    if (is_behind && !(mesh_.is_deforming() && is_outside())) {
+    if (is_behind && !(mesh_.is_deforming() && distance > touch_ && is_outside())) {
       // all around a point inside are local minima; only the nearest is the way out
       add(nearest_,
           distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
@@ -38,7 +38,7 @@ class BallTest {
     // faces before edges before vertices: a centre right above an edge belongs to the face
     std::stable_sort(close_.begin(), close_.end(),
                      [](const Nearest& l, const Nearest& r) { return l.feature.kind > r.feature.kind; });
-    if (is_behind && distance > touch_ && distance <= ball_.radius + sink_.reach()) {
+    if (is_behind && distance <= ball_.radius + sink_.reach()) {
       known_.push_back(nearest_);
       add(nearest_, (ball_.center - nearest_.point).normalized());
     }

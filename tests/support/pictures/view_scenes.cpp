@@ -2,6 +2,7 @@
 #include "tests/support/geometry/indices.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <memory>
 

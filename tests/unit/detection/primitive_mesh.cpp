@@ -67,8 +67,7 @@ TEST_CASE(
   for (int i = 0; i < 2000; ++i) {
     std::vector<Vec3> vertices = cube->mesh.vertices;
     for (Vec3& v : vertices)  // of the top, over their neighbours, which are 0.25 away
-      if (v.y() == 0.5 && v.cwiseAbs().maxCoeff() == 0.5 && r.sym() > 0.5)
-        v += Vec3(0.5, 0.02, 0.5).cwiseProduct(r.vector());
+      if (v.y() == 0.5 && r.sym() > 0.5) v += Vec3(0.5, 0.02, 0.5).cwiseProduct(r.vector());
     Collider& bending = bodies[1];
     bending.vertices = vertices;
     bending.vertex_velocities = still;
