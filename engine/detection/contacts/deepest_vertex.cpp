@@ -5,7 +5,6 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/surface_view.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
-#include "engine/geometry/inside.hpp"
 #include "engine/geometry/nearest_triangle.hpp"
 
 namespace impinge {
@@ -28,10 +27,7 @@ class Surface {
     return (x - found.at.point).dot(normal) < 0.0 ? std::optional(found) : std::nullopt;
   }
 
-  /// Of what is inside by the nearest normal: where a surface that bends has folded over, that doesn't tell.
-  bool winds_round(const Vec3& x) const {
-    return !view_.is_deforming() || winding_number(x, collider_.vertices, surface().mesh.triangles) > 0.5;
-  }
+  bool winds_round(const Vec3& x) const { return view_.winds_round(x); }
 
  private:
   const SurfaceMesh& surface() const { return collider_.mesh(); }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/geometry/inside.hpp"
+
 namespace impinge {
 namespace {
 
@@ -15,7 +17,7 @@ Vec3 unit_or_zero(const Vec3& v) {
 Vec3 SurfaceView::velocity_at(int t, const Vec3& point) const {
   if (collider_->vertex_velocities.empty()) return collider_->velocity_at(point);
   const TriangleCorners c = corners(t);
-  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  const Vec3 normal = normal_of(c);
   const double area2 = normal.squaredNorm();
   const Triangle& v = triangle(t);
   if (!(area2 > 0.0)) return vertex_velocity(v[0]);
@@ -35,9 +37,10 @@ int SurfaceView::triangle_of(const SurfaceFeature& f) const {
   return f.kind == Feature::edge ? edge(f.index).triangle0 : f.index;
 }
 
-Vec3 SurfaceView::face_normal(int t) const {
-  const TriangleCorners c = corners(t);
-  return unit_or_zero((c[1] - c[0]).cross(c[2] - c[0]));
+Vec3 SurfaceView::face_normal(int t) const { return unit_or_zero(normal_of(corners(t))); }
+
+bool SurfaceView::winds_round(const Vec3& x) const {
+  return !is_deforming() || winding_number(x, collider_->vertices, mesh_->triangles) > 0.5;
 }
 
 Vec3 SurfaceView::normal(const SurfaceFeature& f) const {

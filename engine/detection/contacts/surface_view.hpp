@@ -53,6 +53,9 @@ class SurfaceView {
   /// mean of its faces [Baerentzen05], whose sign tells inside from outside for every point that is closest to the
   /// feature.
   Vec3 normal(const SurfaceFeature& f) const;
+  /// Whether x is inside, of what is by the normal of the feature nearest to it: where a surface that bends has folded
+  /// over, that doesn't tell, but how often it winds round x does. True of a rigid one; slow of one that deforms.
+  bool winds_round(const Vec3& x) const;
   /// Outward normals of the faces that meet in the feature.
   void adjacent_normals(const SurfaceFeature& f, std::vector<Vec3>& normals) const;
   /// Unit directions along the surface away from a point of the feature: a vertex's edges; both ways along an edge and

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "engine/detection/pairs/triangles_near.hpp"
-#include "engine/geometry/inside.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
 namespace impinge {
@@ -29,7 +28,7 @@ class BallTest {
     if (nearest_.triangle < 0) return false;  // nothing within reach, and the centre is outside the mesh's bounds
     const double distance = std::sqrt(nearest_.distance_sq);
     const bool is_behind = (ball_.center - nearest_.point).dot(mesh_.normal(nearest_.feature)) < 0.0;
-    if (is_behind && !(mesh_.is_deforming() && distance > touch_ && is_outside())) {
+    if (is_behind && (distance <= touch_ || mesh_.winds_round(ball_.center))) {
       // all around a point inside are local minima; only the nearest is the way out
       add(nearest_,
           distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
@@ -64,12 +63,6 @@ class BallTest {
       if (n.distance_sq < nearest_.distance_sq) nearest_ = n;
       if (n.distance_sq <= limit_sq) close_.push_back(n);
     }
-  }
-
-  /// By how often the surface winds round the centre: where one that bends has folded over, normals don't tell.
-  bool is_outside() const {
-    const Collider& mesh = sink_.second();
-    return winding_number(ball_.center, mesh.vertices, mesh.mesh().mesh.triangles) < 0.5;
   }
 
   /// The same feature, or a place that is the same within rounding (the projection falls on an edge).
