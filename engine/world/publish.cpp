@@ -3,6 +3,7 @@
 #include <map>
 
 #include "engine/contact/pair_coefficients.hpp"
+#include "engine/contact/pair_scale.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "engine/step/end_pose.hpp"
@@ -16,31 +17,39 @@
 namespace impinge {
 namespace {
 
+constexpr double kLeastOfEdges = 4e-4;  // of the activation distance: what edges are deeper by counts from there
+constexpr double kOfVertices = 0.04;    // of the same: deeper vertices than that tell how deep a pair is, within 2
+
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
 /// The deepest of a pair is put where they overlap most, and none shows an overlap where there is none, or more than
-/// twice what there is. `of_pair`: theirs, as places in the record.
-void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<const std::size_t> of_pair,
-                  const Bodies& bodies, StepRecord& record) {
-  const double depth = overlap.deepest ? -overlap.deepest->gap : 0.0;
-  const bool is_known = !overlap.crosses || depth > 0.0;  // how deep edges cross, only their contacts tell
+/// twice what there is. `activation`: distance of theirs, metres; `of_pair`: theirs, as places in the record.
+void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, double activation,
+                  std::span<const std::size_t> of_pair, const Bodies& bodies, StepRecord& record) {
+  const Collision* where = overlap.edge ? &*overlap.edge : overlap.deepest ? &*overlap.deepest : nullptr;
+  const double of_vertices = overlap.deepest ? -overlap.deepest->gap : 0.0;
+  const bool is_known = !overlap.crosses || where != nullptr;  // how deep edges graze, only their contacts tell
+  // judged_penetration_m is of vertices: where these are deep no more than twice of it is shown
+  const double most = of_vertices > kOfVertices * activation ? 2.0 * of_vertices
+                      : where != nullptr                     ? -2.0 * where->gap
+                                                             : 0.0;
+  const double depth = where != nullptr ? std::min(-where->gap, most) : 0.0;
   ContactRecord* deepest = nullptr;
   for (const std::size_t i : of_pair) {
     ContactRecord& c = record.contacts[i];
-    if (is_known && c.gap < -2.0 * depth) c.point_b += (c.gap + 2.0 * depth) * c.normal, c.gap = -2.0 * depth;
+    if (is_known && c.gap < -most) c.point_b += (c.gap + most) * c.normal, c.gap = -most;
     if (deepest == nullptr || c.gap < deepest->gap) deepest = &c;
   }
   if (depth == 0.0 || (deepest != nullptr && deepest->gap <= -depth)) return;
-  const Collision& where = *overlap.deepest;
   if (deepest == nullptr) {
     deepest = &record.contacts.emplace_back();
     deepest->body_a = pair.a, deepest->body_b = pair.b;
-    deepest->pair_id = where.feature;
+    deepest->pair_id = where->feature;
     deepest->group = record.bodies[bodies[pair.a].is_moving() ? pair.a : pair.b].group;
   }
-  deepest->triangle_a = where.triangle_a, deepest->triangle_b = where.triangle_b;
-  deepest->point_a = where.point_a, deepest->point_b = where.point_b;
-  deepest->normal = where.normal;
-  deepest->gap = where.gap;
+  deepest->triangle_a = where->triangle_a, deepest->triangle_b = where->triangle_b;
+  deepest->point_a = where->point_a, deepest->point_b = where->point_b + (where->gap + depth) * where->normal;
+  deepest->normal = where->normal;
+  deepest->gap = -depth;
 }
 
 using ContactsOfPairs = std::map<std::pair<BodyIndex, BodyIndex>, std::vector<std::size_t>>;
@@ -66,19 +75,22 @@ void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Pa
   ContactsOfPairs contacts = contacts_of_pairs(record);
   const std::vector<std::optional<Collision>> deepest = deepest_now(bodies, detecting(parameters), pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    show_overlap(pairs[i], {deepest[i].has_value(), deepest[i]}, contacts[{pairs[i].a, pairs[i].b}], bodies, record);
+    show_overlap(pairs[i], {deepest[i].has_value(), deepest[i], {}}, 0.0, contacts[{pairs[i].a, pairs[i].b}], bodies,
+                 record);
 }
 
-void show_overlaps(const Bodies& bodies, std::span<const Collider> colliders, std::span<const TrianglePair> triangles,
-                   StepRecord& record) {
+void show_overlaps(const Bodies& bodies, const ContactSettings& contact, std::span<const Collider> colliders,
+                   std::span<const TrianglePair> triangles, StepRecord& record) {
   if (triangles.empty()) return;
   ContactsOfPairs contacts = contacts_of_pairs(record);
   for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
     const BodyPair pair{triangles[first].a, triangles[first].b};
     while (last < triangles.size() && triangles[last].a == pair.a && triangles[last].b == pair.b) ++last;
     if (pair.a == pair.b) continue;
-    const MeshOverlap overlap = find_overlap(colliders, pair, triangles.subspan(first, last - first));
-    show_overlap(pair, overlap, contacts[{pair.a, pair.b}], bodies, record);
+    const double activation = contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
+    const MeshOverlap overlap =
+        find_overlap(colliders, pair, triangles.subspan(first, last - first), kLeastOfEdges * activation);
+    show_overlap(pair, overlap, activation, contacts[{pair.a, pair.b}], bodies, record);
   }
 }
 
@@ -95,9 +107,9 @@ void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters&
   if (watching(parameters) == Continuous::off || parameters.response.method->lives_on_overlap()) {
     std::vector<TrianglePair> now;
     parameters.narrow_phase.method->find(colliders, mesh_pairs, now);
-    return show_overlaps(bodies, colliders, now, record);
+    return show_overlaps(bodies, parameters.contact, colliders, now, record);
   }
-  show_overlaps(bodies, colliders, step.triangle_pairs, record);
+  show_overlaps(bodies, parameters.contact, colliders, step.triangle_pairs, record);
 }
 
 /// Nothing of one that is deleted.

@@ -55,6 +55,27 @@ TEST_CASE("the links of a chain that swings stay in one another; unless their tu
   CHECK(straight.deepest > 1.5 * chain.deepest);
 }
 
+TEST_CASE("what a chain that swings shows of its overlaps is the judge's where its links meet edge on edge",
+          "[interlocked]") {
+  World world;
+  assemble({"chain", 12, 1}, world);
+  world.start();
+  int edge_on_edge = 0;
+  for (int frame = 1; frame <= 60; ++frame) {
+    world.step();
+    const OverlapVerdict truth = judge_overlap(world.bodies());
+    const double shown = world.record().stats.max_penetration;
+    CAPTURE(frame, truth.penetration, truth.deepest, shown);
+    if (truth.deepest <= 1e-6) continue;
+    CHECK(shown >= truth.penetration);
+    CHECK(shown <= 2.0 * truth.deepest);
+    if (truth.deepest > 2.0 * truth.penetration) ++edge_on_edge;
+    // where vertices are deeper than 1e-4 of a link's size (0.06 m) no more is shown than twice that
+    if (truth.penetration < 6e-6) CHECK(shown >= truth.deepest / 1.06);
+  }
+  CHECK(edge_on_edge > 10);
+}
+
 TEST_CASE("hardly a motion of a chain that swings at one sub-step of 10 ms has to be undone", "[interlocked]") {
   World world;
   assemble({"chain", 12, 1}, world);

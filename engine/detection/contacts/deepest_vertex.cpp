@@ -3,54 +3,17 @@
 #include <cmath>
 
 #include "engine/core/interrupt.hpp"
-#include "engine/detection/contacts/surface_view.hpp"
+#include "engine/detection/contacts/deepest_edge.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
-#include "engine/geometry/nearest_triangle.hpp"
 
 namespace impinge {
 namespace {
 
-/// A surface that is asked for the point nearest to others: a rigid one in its own frame, one that deforms where it
-/// stands.
-class Surface {
- public:
-  Surface(const Collider& collider, BodyIndex body) : collider_(collider), view_(collider, body) {
-    if (view_.is_deforming())
-      surface().tree().fit(triangle_boxes(surface().mesh.triangles, collider.vertices), fitted_);
-  }
-
-  /// The point of the surface nearest to x if x lies inside.
-  std::optional<NearestTriangle> if_inside(const Vec3& x) const {
-    if (!overlap(collider_.bounds, Aabb{x, x})) return std::nullopt;
-    NearestTriangle found = nearest(x);
-    const Vec3 normal = view_.normal(view_.feature(found.triangle, found.at.feature));
-    return (x - found.at.point).dot(normal) < 0.0 ? std::optional(found) : std::nullopt;
-  }
-
-  bool winds_round(const Vec3& x) const { return view_.winds_round(x); }
-
- private:
-  const SurfaceMesh& surface() const { return collider_.mesh(); }
-
-  NearestTriangle nearest(const Vec3& x) const {
-    const TriangleMesh& mesh = surface().mesh;
-    if (view_.is_deforming()) return nearest_triangle(surface().tree(), mesh.triangles, collider_.vertices, x, fitted_);
-    NearestTriangle found =
-        nearest_triangle(surface().tree(), mesh.triangles, mesh.vertices, collider_.pose.apply_inverse(x));
-    found.at.point = collider_.pose.apply(found.at.point);
-    return found;
-  }
-
-  const Collider& collider_;
-  SurfaceView view_;
-  std::vector<Aabb> fitted_;  // of what deforms, by node
-};
-
 /// Looks from the vertices of crossing triangles of `own` on to all that lie inside `other` with them.
 class Search {
  public:
-  Search(const Collider& own, BodyIndex own_body, const Collider& other, BodyIndex other_body, bool own_is_a)
-      : own_(own, own_body), other_(other, other_body), own_is_a_(own_is_a), seen_(own.vertices.size(), 0) {}
+  Search(const Collider& own, const SurfaceView& view, const EnclosingSurface& other, bool own_is_a)
+      : own_(view), other_(other), own_is_a_(own_is_a), seen_(own.vertices.size(), 0) {}
 
   void start_at(int triangle) {
     for (const int v : own_.triangle(triangle)) visit(v);
@@ -97,8 +60,8 @@ class Search {
     return c;
   }
 
-  SurfaceView own_;
-  Surface other_;
+  const SurfaceView& own_;
+  const EnclosingSurface& other_;
   bool own_is_a_;
   std::vector<char> seen_;
   std::vector<int> waiting_;
@@ -107,7 +70,7 @@ class Search {
 }  // namespace
 
 MeshOverlap find_overlap(std::span<const Collider> colliders, const BodyPair& pair,
-                         std::span<const TrianglePair> triangles) {
+                         std::span<const TrianglePair> triangles, double least_of_edges) {
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
   std::vector<const TrianglePair*> crossing;
   InterruptPoll poll;
@@ -120,12 +83,20 @@ MeshOverlap find_overlap(std::span<const Collider> colliders, const BodyPair& pa
   }
   if (crossing.empty()) return {};
   std::optional<Collision> deepest;
-  Search a_in_b(a, pair.a, b, pair.b, true), b_in_a(b, pair.b, a, pair.a, false);
+  const EnclosingSurface surface_a(a, pair.a), surface_b(b, pair.b);
+  Search a_in_b(a, surface_a.view(), surface_b, true), b_in_a(b, surface_b.view(), surface_a, false);
   for (const TrianglePair* t : crossing) a_in_b.start_at(t->triangle_a), b_in_a.start_at(t->triangle_b);
   a_in_b.run(deepest);
   b_in_a.run(deepest);
-  if (deepest) deepest->body_a = pair.a, deepest->body_b = pair.b;
-  return {true, deepest};
+  std::optional<Collision> edge;
+  if (std::isfinite(least_of_edges)) {
+    const double known = std::max(least_of_edges, deepest ? -deepest->gap : 0.0);
+    find_deepest_edge(surface_a, surface_b, crossing, true, known, edge);
+    find_deepest_edge(surface_b, surface_a, crossing, false, known, edge);
+  }
+  for (std::optional<Collision>* c : {&deepest, &edge})
+    if (*c) (*c)->body_a = pair.a, (*c)->body_b = pair.b;
+  return {true, deepest, edge};
 }
 
 }  // namespace impinge

@@ -1,0 +1,133 @@
+// An edge is cut into parts where it meets the other surface. The distance from one triangle is convex along a part, so
+// that of its two ends bounds how deep the part can be: branch and bound on halves, each with the triangles that were
+// nearest to what it was halved from.
+#include "engine/detection/contacts/deepest_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "engine/core/interrupt.hpp"
+#include "engine/geometry/triangle_intersection.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kNearlyDeepest = 1.05;  // what is no deeper than so many times the deepest known isn't looked for
+constexpr double kSlack = 1e-9;          // an edge through one of the other's meets either triangle there
+constexpr int kMostLooks = 400;          // of a part
+
+/// Where an edge meets the other surface.
+struct Cut {
+  double t;  ///< 0 at the edge's first vertex, 1 at its second
+  bool enters;
+  int triangle;
+};
+
+/// A part of an edge, and triangles of the other surface that are near.
+struct Part {
+  Vec3 p, q;
+  int near_p, near_q;  ///< -1: none is known
+};
+
+class EdgeSearch {
+ public:
+  EdgeSearch(const EnclosingSurface& own, const EnclosingSurface& other, bool own_is_a, double known,
+             std::optional<Collision>& deepest)
+      : own_(own.view()), other_(other), own_is_a_(own_is_a), known_(known), deepest_(deepest) {}
+
+  void add(int own_triangle, int other_triangle) {
+    const TriangleCorners corners = other_.view().corners(other_triangle);
+    const Vec3 normal = normal_of(corners);
+    for (const int e : own_.triangle_edges(own_triangle)) {
+      const Vec3 &p = own_.vertex(own_.edge(e).v0), along = own_.vertex(own_.edge(e).v1) - p;
+      const std::optional<RayHit> hit = intersect_line(p, along, corners, kSlack);
+      if (hit && hit->t > 0.0 && hit->t < 1.0) cuts_[e].push_back({hit->t, along.dot(normal) < 0.0, other_triangle});
+    }
+  }
+
+  void run() {
+    InterruptPoll poll;
+    for (auto& [e, cuts] : cuts_) {
+      poll();
+      std::sort(cuts.begin(), cuts.end(), [](const Cut& l, const Cut& r) {
+        return std::tuple(l.t, l.enters, l.triangle) < std::tuple(r.t, r.enters, r.triangle);
+      });
+      const Vec3 &p = own_.vertex(own_.edge(e).v0), along = own_.vertex(own_.edge(e).v1) - p;
+      Cut from{0.0, false, -1};  // its other side says whether the first part is inside
+      for (const Cut& to : cuts) {
+        if (to.t > from.t && (from.enters || !to.enters))
+          look_at(e, {p + from.t * along, p + to.t * along, from.triangle, to.triangle});
+        from = to.t > from.t ? to : Cut{to.t, from.enters || to.enters, to.triangle};
+      }
+      if (from.enters) look_at(e, {p + from.t * along, p + along, from.triangle, -1});
+    }
+  }
+
+ private:
+  double best() const { return std::max(known_, deepest_ ? -deepest_->gap : 0.0); }
+
+  double distance(const Vec3& x, int triangle) const {
+    return std::sqrt(closest_on_triangle(x, other_.view().corners(triangle)).squared_distance);
+  }
+
+  /// What no point of the part is deeper than.
+  double bound(const Part& part) const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const int t : {part.near_p, part.near_q})
+      if (t >= 0) smallest = std::min(smallest, std::max(distance(part.p, t), distance(part.q, t)));
+    return smallest;
+  }
+
+  void look_at(int e, const Part& whole) {
+    std::vector<Part> waiting{whole};
+    for (int looks = 0; !waiting.empty() && looks < kMostLooks; ++looks) {
+      const Part part = waiting.back();
+      waiting.pop_back();
+      if (bound(part) <= kNearlyDeepest * best()) continue;
+      const Vec3 middle = 0.5 * (part.p + part.q);
+      const NearestTriangle out = other_.nearest(middle);
+      const double depth = std::sqrt(out.at.squared_distance);
+      if (depth > best() && other_.is_behind(middle, out) && other_.winds_round(middle))
+        deepest_ = contact(e, middle, out, depth);
+      waiting.push_back({middle, part.q, out.triangle, part.near_q});
+      waiting.push_back({part.p, middle, part.near_p, out.triangle});
+    }
+  }
+
+  Collision contact(int e, const Vec3& x, const NearestTriangle& out, double depth) const {
+    const Vec3 way = (out.at.point - x) / depth;
+    const TriangleIndex own_triangle(own_.triangle_of({Feature::edge, e})), other_triangle(out.triangle);
+    Collision c;
+    c.triangle_a = own_is_a_ ? own_triangle : other_triangle;
+    c.triangle_b = own_is_a_ ? other_triangle : own_triangle;
+    c.point_a = own_is_a_ ? x : out.at.point;
+    c.point_b = own_is_a_ ? out.at.point : x;
+    c.normal = own_is_a_ ? way : Vec3(-way);
+    c.gap = -depth;
+    c.feature = own_is_a_ ? feature_key(Feature::edge, e, Feature::face, out.triangle)
+                          : feature_key(Feature::face, out.triangle, Feature::edge, e);
+    return c;
+  }
+
+  const SurfaceView& own_;
+  const EnclosingSurface& other_;
+  bool own_is_a_;
+  double known_;
+  std::optional<Collision>& deepest_;
+  std::map<int, std::vector<Cut>> cuts_;  // by edge
+};
+
+}  // namespace
+
+void find_deepest_edge(const EnclosingSurface& own, const EnclosingSurface& other,
+                       std::span<const TrianglePair* const> crossing, bool own_is_a, double known,
+                       std::optional<Collision>& deepest) {
+  EdgeSearch search(own, other, own_is_a, known, deepest);
+  for (const TrianglePair* t : crossing)
+    search.add(own_is_a ? t->triangle_a : t->triangle_b, own_is_a ? t->triangle_b : t->triangle_a);
+  search.run();
+}
+
+}  // namespace impinge
