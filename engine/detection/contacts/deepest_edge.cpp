@@ -90,25 +90,10 @@ class EdgeSearch {
       const NearestTriangle out = other_.nearest(middle);
       const double depth = std::sqrt(out.at.squared_distance);
       if (depth > best() && other_.is_behind(middle, out) && other_.winds_round(middle))
-        deepest_ = contact(e, middle, out, depth);
+        deepest_ = contact_inside(own_, {Feature::edge, e}, middle, out, own_is_a_);
       waiting.push_back({middle, part.q, out.triangle, part.near_q});
       waiting.push_back({part.p, middle, part.near_p, out.triangle});
     }
-  }
-
-  Collision contact(int e, const Vec3& x, const NearestTriangle& out, double depth) const {
-    const Vec3 way = (out.at.point - x) / depth;
-    const TriangleIndex own_triangle(own_.triangle_of({Feature::edge, e})), other_triangle(out.triangle);
-    Collision c;
-    c.triangle_a = own_is_a_ ? own_triangle : other_triangle;
-    c.triangle_b = own_is_a_ ? other_triangle : own_triangle;
-    c.point_a = own_is_a_ ? x : out.at.point;
-    c.point_b = own_is_a_ ? out.at.point : x;
-    c.normal = own_is_a_ ? way : Vec3(-way);
-    c.gap = -depth;
-    c.feature = own_is_a_ ? feature_key(Feature::edge, e, Feature::face, out.triangle)
-                          : feature_key(Feature::face, out.triangle, Feature::edge, e);
-    return c;
   }
 
   const SurfaceView& own_;

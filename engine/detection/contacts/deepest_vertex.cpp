@@ -30,7 +30,7 @@ class Search {
       const double depth = std::sqrt(out->at.squared_distance);
       if (depth > 0.0 && (!deepest || depth > -deepest->gap)) {
         if (!other_.winds_round(own_.vertex(v))) continue;
-        deepest = contact(v, *out, depth);
+        deepest = contact_inside(own_, {Feature::vertex, v}, own_.vertex(v), *out, own_is_a_);
       }
       for (const int t : own_.triangles_round(v))
         for (const int next : own_.triangle(t)) visit(next);
@@ -42,22 +42,6 @@ class Search {
     if (seen_[v] != 0) return;
     seen_[v] = 1;
     waiting_.push_back(v);
-  }
-
-  Collision contact(int v, const NearestTriangle& out, double depth) const {
-    const Vec3& x = own_.vertex(v);
-    const Vec3 way = (out.at.point - x) / depth;
-    const TriangleIndex own_triangle(own_.triangle_of({Feature::vertex, v})), other_triangle(out.triangle);
-    Collision c;
-    c.triangle_a = own_is_a_ ? own_triangle : other_triangle;
-    c.triangle_b = own_is_a_ ? other_triangle : own_triangle;
-    c.point_a = own_is_a_ ? x : out.at.point;
-    c.point_b = own_is_a_ ? out.at.point : x;
-    c.normal = own_is_a_ ? way : Vec3(-way);
-    c.gap = -depth;
-    c.feature = own_is_a_ ? feature_key(Feature::vertex, v, Feature::face, out.triangle)
-                          : feature_key(Feature::face, out.triangle, Feature::vertex, v);
-    return c;
   }
 
   const SurfaceView& own_;

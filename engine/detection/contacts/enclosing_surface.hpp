@@ -50,4 +50,23 @@ class EnclosingSurface {
   std::vector<Aabb> fitted_;  // of what deforms, by node
 };
 
+/// Of a place x on a feature of `own` that lies inside another surface, whose nearest point is `out`: gap = -depth, the normal
+/// along the way out. `own_is_a`: whose is which.
+inline Collision contact_inside(const SurfaceView& own, const SurfaceFeature& feature, const Vec3& x,
+                                const NearestTriangle& out, bool own_is_a) {
+  const double depth = std::sqrt(out.at.squared_distance);
+  const Vec3 way = (out.at.point - x) / depth;
+  const TriangleIndex own_triangle(own.triangle_of(feature)), other_triangle(out.triangle);
+  Collision c;
+  c.triangle_a = own_is_a ? own_triangle : other_triangle;
+  c.triangle_b = own_is_a ? other_triangle : own_triangle;
+  c.point_a = own_is_a ? x : out.at.point;
+  c.point_b = own_is_a ? out.at.point : x;
+  c.normal = own_is_a ? way : Vec3(-way);
+  c.gap = -depth;
+  c.feature = own_is_a ? feature_key(feature.kind, feature.index, Feature::face, out.triangle)
+                       : feature_key(Feature::face, out.triangle, feature.kind, feature.index);
+  return c;
+}
+
 }  // namespace impinge
