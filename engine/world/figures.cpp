@@ -23,7 +23,7 @@ constexpr Figure kFigures[] = {
     {"contacts", "", state, &S::contacts, "Contacts handed to the response, last sub-step."},
     {"groups", "", state, &S::groups, "Collision groups, last sub-step."},
     {"max_penetration_m", "m", state, &S::max_penetration,
-     "Largest overlap at the end of the frame, of meshes by vertices and edges."},
+     "Largest overlap at the end of the frame, of meshes by vertices, by edges where none is inside."},
     {"residual", "m/s", state, &S::residual, "Largest residual of the frame's solves, by the judge of responses."},
     {"lcp_iterations", "", state, &S::lcp_iterations, "Iterations of solvers and sweeps, summed."},
     {"outer_iterations", "", state, &S::outer_iterations, "Outer iterations of the responses that have some, summed."},

@@ -17,21 +17,22 @@
 namespace impinge {
 namespace {
 
-constexpr double kLeastOfEdges = 4e-4;  // of the activation distance: what edges are deeper by counts from there
-constexpr double kOfVertices = 0.04;    // of the same: deeper vertices than that tell how deep a pair is, within 2
+constexpr double kLeastOfEdges = 4e-4;  // of the activation distance: edges are shown that are deeper
+constexpr double kOfVertices = 1e-6;  // of the smaller body's extent: deeper vertices tell how deep a pair is, within 2
 
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
 /// The deepest of a pair is put where they overlap most, and none shows an overlap where there is none, or more than
-/// twice what there is. `activation`: distance of theirs, metres; `of_pair`: theirs, as places in the record.
-void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, double activation,
-                  std::span<const std::size_t> of_pair, const Bodies& bodies, StepRecord& record) {
+/// twice what there is. `of_pair`: theirs, as places in the record.
+void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<const std::size_t> of_pair,
+                  const Bodies& bodies, StepRecord& record) {
   const Collision* where = overlap.edge ? &*overlap.edge : overlap.deepest ? &*overlap.deepest : nullptr;
   const double of_vertices = overlap.deepest ? -overlap.deepest->gap : 0.0;
   const bool is_known = !overlap.crosses || where != nullptr;  // how deep edges graze, only their contacts tell
-  // judged_penetration_m is of vertices: where these are deep no more than twice of it is shown
-  const double most = of_vertices > kOfVertices * activation ? 2.0 * of_vertices
-                      : where != nullptr                     ? -2.0 * where->gap
-                                                             : 0.0;
+  // judged_penetration_m is of vertices: where they are in one another no more than twice of it is shown
+  const double extent = std::min(bodies[pair.a].bounds().extent().norm(), bodies[pair.b].bounds().extent().norm());
+  const double most = of_vertices > kOfVertices * extent ? 2.0 * of_vertices
+                      : where != nullptr                 ? -2.0 * where->gap
+                                                         : 0.0;
   const double depth = where != nullptr ? std::min(-where->gap, most) : 0.0;
   ContactRecord* deepest = nullptr;
   for (const std::size_t i : of_pair) {
@@ -75,7 +76,7 @@ void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Pa
   ContactsOfPairs contacts = contacts_of_pairs(record);
   const std::vector<std::optional<Collision>> deepest = deepest_now(bodies, detecting(parameters), pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
-    show_overlap(pairs[i], {deepest[i].has_value(), deepest[i], {}}, 0.0, contacts[{pairs[i].a, pairs[i].b}], bodies,
+    show_overlap(pairs[i], {deepest[i].has_value(), deepest[i], {}}, contacts[{pairs[i].a, pairs[i].b}], bodies,
                  record);
 }
 
@@ -87,10 +88,9 @@ void show_overlaps(const Bodies& bodies, const ContactSettings& contact, std::sp
     const BodyPair pair{triangles[first].a, triangles[first].b};
     while (last < triangles.size() && triangles[last].a == pair.a && triangles[last].b == pair.b) ++last;
     if (pair.a == pair.b) continue;
-    const double activation = contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
-    const MeshOverlap overlap =
-        find_overlap(colliders, pair, triangles.subspan(first, last - first), kLeastOfEdges * activation);
-    show_overlap(pair, overlap, activation, contacts[{pair.a, pair.b}], bodies, record);
+    const double least = kLeastOfEdges * contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
+    const MeshOverlap overlap = find_overlap(colliders, pair, triangles.subspan(first, last - first), least);
+    show_overlap(pair, overlap, contacts[{pair.a, pair.b}], bodies, record);
   }
 }
 

@@ -1,11 +1,13 @@
 // An edge is cut into parts where it meets the other surface. The distance from one triangle is convex along a part, so
-// that of its two ends bounds how deep the part can be: branch and bound on halves, each with the triangles that were
-// nearest to what it was halved from.
+// that of its two ends bounds how deep the part can be: branch and bound on halves, the one that may be deepest first, each
+// with the triangles that were nearest to what it was halved from. Where its middle is outside, all that is nearer to the
+// middle than the surface is left out.
 #include "engine/detection/contacts/deepest_edge.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <queue>
 #include <tuple>
 
 #include "engine/core/interrupt.hpp"
@@ -16,7 +18,7 @@ namespace {
 
 constexpr double kNearlyDeepest = 1.05;  // what is no deeper than so many times the deepest known isn't looked for
 constexpr double kSlack = 1e-9;          // an edge through one of the other's meets either triangle there
-constexpr int kMostLooks = 400;          // of a part
+constexpr int kMostLooks = 400;          // of a part, in case of rounding
 
 /// Where an edge meets the other surface.
 struct Cut {
@@ -29,6 +31,8 @@ struct Cut {
 struct Part {
   Vec3 p, q;
   int near_p, near_q;  ///< -1: none is known
+  double most = 0.0;   ///< metres: no point of it is deeper
+  friend bool operator<(const Part& l, const Part& r) { return l.most < r.most; }
 };
 
 class EdgeSearch {
@@ -68,31 +72,37 @@ class EdgeSearch {
  private:
   double best() const { return std::max(known_, deepest_ ? -deepest_->gap : 0.0); }
 
-  double distance(const Vec3& x, int triangle) const {
+  double distance_to(int triangle, const Vec3& x) const {
     return std::sqrt(closest_on_triangle(x, other_.view().corners(triangle)).squared_distance);
   }
 
-  /// What no point of the part is deeper than.
-  double bound(const Part& part) const {
-    double smallest = std::numeric_limits<double>::infinity();
+  Part bounded(Part part) const {
+    part.most = std::numeric_limits<double>::infinity();
     for (const int t : {part.near_p, part.near_q})
-      if (t >= 0) smallest = std::min(smallest, std::max(distance(part.p, t), distance(part.q, t)));
-    return smallest;
+      if (t >= 0) part.most = std::min(part.most, std::max(distance_to(t, part.p), distance_to(t, part.q)));
+    return part;
   }
 
   void look_at(int e, const Part& whole) {
-    std::vector<Part> waiting{whole};
+    std::priority_queue<Part> waiting;
+    waiting.push(bounded(whole));
     for (int looks = 0; !waiting.empty() && looks < kMostLooks; ++looks) {
-      const Part part = waiting.back();
-      waiting.pop_back();
-      if (bound(part) <= kNearlyDeepest * best()) continue;
-      const Vec3 middle = 0.5 * (part.p + part.q);
+      const Part part = waiting.top();
+      waiting.pop();
+      if (part.most <= kNearlyDeepest * best()) return;
+      const Vec3 half = 0.5 * (part.q - part.p), middle = part.p + half;
       const NearestTriangle out = other_.nearest(middle);
-      const double depth = std::sqrt(out.at.squared_distance);
-      if (depth > best() && other_.is_behind(middle, out) && other_.winds_round(middle))
-        deepest_ = contact_inside(own_, {Feature::edge, e}, middle, out, own_is_a_);
-      waiting.push_back({middle, part.q, out.triangle, part.near_q});
-      waiting.push_back({part.p, middle, part.near_p, out.triangle});
+      const double distance = std::sqrt(out.at.squared_distance);
+      bool is_inside = other_.is_behind(middle, out);
+      if (is_inside && distance > best()) {
+        is_inside = other_.winds_round(middle);
+        if (is_inside) deepest_ = contact_inside(own_, {Feature::edge, e}, middle, out, own_is_a_);
+      }
+      // within that distance of a place that is outside nothing is inside
+      const Vec3 skipped = is_inside ? Vec3::Zero() : Vec3(distance * half.normalized());
+      if (skipped.squaredNorm() >= half.squaredNorm()) continue;
+      waiting.push(bounded({part.p, middle - skipped, part.near_p, out.triangle}));
+      waiting.push(bounded({middle + skipped, part.q, out.triangle, part.near_q}));
     }
   }
 

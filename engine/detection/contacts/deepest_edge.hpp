@@ -6,7 +6,7 @@
 
 namespace impinge {
 
-/// Puts into `deepest` the place on an edge of `own` that lies deeper inside `other` than it and than `known`, metres: within
+/// Puts into `deepest` the place between the ends of an edge of `own` that lies deeper inside `other` than it and than `known`, metres: within
 /// 5 % of the deepest there is. `crossing`: the triangles of both that cross; `own_is_a`: whose is which.
 void find_deepest_edge(const EnclosingSurface& own, const EnclosingSurface& other,
                        std::span<const TrianglePair* const> crossing, bool own_is_a, double known,
