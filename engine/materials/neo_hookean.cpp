@@ -31,7 +31,7 @@ class NeoHookean : public IsotropicMaterial {
   bool unwinds() const override { return true; }
   double density(const Lame& lame, const Vec3& s) const override {
     const double log_j = logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2]);
-    return 0.5 * lame.mu * (s.squaredNorm() - 3.0) - lame.mu * log_j + 0.5 * lame.lambda * log_j * log_j;
+    return lame.mu * (shear_part(s[0]) + shear_part(s[1]) + shear_part(s[2])) + 0.5 * lame.lambda * log_j * log_j;
   }
   Vec3 density_gradient(const Lame& lame, const Vec3& s) const override {
     const Vec3 slope(first(s[0]), first(s[1]), first(s[2]));
@@ -52,6 +52,12 @@ class NeoHookean : public IsotropicMaterial {
   }
 
  private:
+  /// (s² − 1)/2 − L(s), whose two parts are equal but for the square of a small strain.
+  double shear_part(double s) const {
+    const double strain = s - 1.0;
+    if (s < threshold_) return 0.5 * (s * s - 1.0) - logarithm(s);
+    return 0.5 * strain * strain + (strain - std::log1p(strain));
+  }
   double log_weight(const Lame& lame, const Vec3& s) const {
     return lame.lambda * (logarithm(s[0]) + logarithm(s[1]) + logarithm(s[2])) - lame.mu;
   }

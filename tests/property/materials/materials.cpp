@@ -133,6 +133,22 @@ TEST_CASE("neo_hookean is twice differentiable at its threshold and matches the 
             .norm() < 1e-6 * isotropic.density_hessian(isotropic.lame(), above).principal.norm());
 }
 
+TEST_CASE("the energy of every isotropic material is that of Hooke's law in a small strain, to the strain's own size") {
+  const Vec3 direction = Vec3(0.6, -0.3, 0.7);
+  for (const auto& entry : materials()) {
+    const auto material = test::make_material(entry.name, 1e5, 0.4);
+    const auto* isotropic = dynamic_cast<const IsotropicMaterial*>(material.get());
+    if (isotropic == nullptr) continue;
+    CAPTURE(std::string(entry.name));
+    const double mu = material->settings().mu(), lambda = material->settings().lambda();
+    for (const double size : {1e-3, 1e-5, 1e-7}) {
+      const Vec3 stretch = Vec3::Ones() + size * direction, strain = stretch - Vec3::Ones();
+      const double hooke = mu * strain.squaredNorm() + 0.5 * lambda * strain.sum() * strain.sum();
+      CHECK(isotropic->density(isotropic->lame(), stretch) == Approx(hooke).epsilon(3.0 * size + 1e-7));
+    }
+  }
+}
+
 TEST_CASE("warped and projected tangents are positive semidefinite", "[methods]") {
   for (const auto& entry : materials()) {
     test::Random random(25);
