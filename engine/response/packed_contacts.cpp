@@ -379,6 +379,18 @@ void PackedContacts::close_step() {
   for (std::size_t i = 0; i < joints_.size(); ++i) joint_sum_[i] += joints_[i].impulse;
 }
 
+std::vector<char> PackedContacts::only_pinned() const {
+  std::vector<char> bodies(bodies_.size(), 0);
+  const auto mark = [&](int a, int b, char value) {
+    for (const int body : {a, b})
+      if (body >= 0) bodies[static_cast<std::size_t>(body)] = value;
+  };
+  for (const Joint& joint : joints_)
+    if (joint.kind == RowKind::attachment) mark(joint.a, joint.b, 1);
+  for (const Pair& pair : pairs_) mark(pair.a, pair.b, 0);
+  return bodies;
+}
+
 void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Mat3& d = group.contacts[rows_[i]].directions;
@@ -390,11 +402,16 @@ void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, doub
     group.position_velocity.resize(bodies_.size());
     group.position_angular_velocity.resize(bodies_.size());
   }
+  const std::vector<char> is_only_pinned = only_pinned();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = bodies_[b];
     group.delta_velocity[b] = vector(body.velocity) - (start_velocity_[b] + velocity_change);
     group.delta_angular_velocity[b] = vector(body.angular_velocity) - group.rigid[b].angular_velocity;
     if (!(moved_for > 0.0)) continue;
+    if (is_only_pinned[b] != 0) {
+      group.position_velocity[b] = group.position_angular_velocity[b] = Vec3::Zero();
+      continue;
+    }
     group.position_velocity[b] = vector(body.shift) / moved_for - vector(body.velocity);
     group.position_angular_velocity[b] = vector(body.turn) / moved_for - vector(body.angular_velocity);
   }

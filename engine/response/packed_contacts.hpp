@@ -48,6 +48,9 @@ class PackedContacts {
   void write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const;
 
  private:
+  /// By body: whether it is attached in points and touches nothing.
+  std::vector<char> only_pinned() const;
+
   /// Three numbers: what compilers keep in registers, where a matrix library's vectors go through calls.
   struct Triple {
     double x = 0.0, y = 0.0, z = 0.0;

@@ -5,6 +5,8 @@
 // nothing each time, and piles sink. Built for a frame rate, so to be known exactly:
 // - the number of steps and sweeps is fixed, and nothing is said of convergence: the judge says how far it came.
 // - arms and normals stay those of the sub-step's start, so Δv = A⁻¹ J^T λ to rounding, with λ the sum of all steps.
+// - what is only pinned to others moves by its velocity at the end, as with the exact methods: by the mean over the solver steps, as
+//   what touches does, a pendulum would win energy from arms of the start (its amplitude doubled in a minute).
 // - friction is Coulomb's cone in each solver step, by projection. Impacts come first, each as a collision of its pair.
 // - groups with deformable bodies, whose positions follow from A as a whole, go to sequential impulses.
 #include <fmt/format.h>
@@ -32,8 +34,9 @@ class Quick : public Response {
     rows.add("frequency", settings_.frequency, {0.0, 1e6, true}, "Hz",
              "Of the spring that takes overlap out; at most a quarter of the solver steps' rate is used.");
     rows.add("damping_ratio", settings_.damping_ratio, {0.0, 1e6}, "", "Of that spring, 1 is critical.");
-    rows.add("deformable_iterations", *others_->iteration_setting().count, {1, 1000000, true}, "",
-             "Sweeps at most for a group with deformable bodies, which goes to sequential impulses.");
+    others_limit_ = rows.add("deformable_iterations", *others_->iteration_setting().count, {1, 1000000, true}, "",
+                             "Sweeps at most for a group with deformable bodies, which goes to sequential impulses.")
+                        .path();
   }
 
   bool uses_cone_solver() const override { return false; }
@@ -44,7 +47,11 @@ class Quick : public Response {
   }
 
   ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseContext& context) const override {
-    if (!group.deformable.empty() || context.recovers_overlap) return others_->solve(group, solver, context);
+    if (!group.deformable.empty() || context.recovers_overlap) {
+      ResponseResult of_others = others_->solve(group, solver, context);
+      if (of_others.ended == StopReason::iteration_cap) of_others.limit = others_limit_;
+      return of_others;
+    }
     const int steps = settings_.steps;
     const double h = context.time_step / steps;
     const Vec3 change = context.time_step * context.gravity, part = change / steps;
@@ -90,6 +97,7 @@ class Quick : public Response {
     double frequency = 1e6;  // Hz
     double damping_ratio = 1.0;
   } settings_;
+  std::string others_limit_;
   std::unique_ptr<Response> others_ = sequential_impulse_response().make();
 };
 
