@@ -3,6 +3,7 @@
 
 #include "engine/integrators/deformable_integrator.hpp"
 #include "engine/world/judge.hpp"
+#include "tests/support/geometry/sample_shapes.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 
 using namespace impinge;
@@ -300,4 +301,39 @@ TEST_CASE("a deformable body that touches itself stays out of itself") {
   const auto [contacts, inside] = run_case(true);
   CHECK(contacts > 0);
   CHECK(inside == 0);
+}
+
+TEST_CASE("a soft ball that falls on the point of a cone stays outside of it") {
+  // the point makes a dent, and is below no face there: it went 38 mm in
+  for (const int substeps : {1, 4})
+    for (const double speed : {1.0, 2.0}) {
+      CAPTURE(substeps, speed);
+      World world;
+      world.parameters.simulation.substeps = substeps;
+      BodyDescription spike = dynamic_body("spike", cone(0.03, 0.15), {0.0, 0.075, 0.0});
+      spike.kind = BodyKind::fixed;
+      world.add_body(spike);
+      BodyDescription ball =
+          soft_cube("ball", 0.11, 6, {-0.052, 0.151, -0.054}, {2e5, 0.4, 1000.0, 0.002, "neo_hookean"});
+      auto soft = std::make_shared<DeformableDescription>(*ball.deformable);
+      TriangleMesh skin = icosphere(3, 0.05);
+      for (Vec3& x : skin.vertices) x += Vec3::Constant(0.055);
+      soft->embedding = embed(soft->mesh, skin.vertices);
+      ball.shape = surface(std::move(skin));
+      ball.deformable = soft;
+      ball.velocity = {0.0, -speed, 0.0};
+      world.add_body(ball);
+      world.start();
+      double deepest = 0.0, shown = 0.0;
+      std::int64_t contacts = 0;
+      for (int i = 0; i < 15; ++i) {
+        world.step();
+        contacts += world.record().stats.contacts;
+        deepest = std::max(deepest, judge_overlap(world.bodies()).deepest);
+        shown = std::max(shown, world.record().stats.max_penetration);
+      }
+      CHECK(deepest < 1e-4);
+      CHECK(shown < 2e-4);
+      CHECK(contacts > 3);
+    }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/detection/contacts/contact_points.hpp"
 #include "engine/detection/contacts/edge_cone.hpp"
 #include "engine/detection/pairs/ball_against_mesh.hpp"
 #include "engine/detection/pairs/convex_manifold.hpp"
@@ -70,6 +71,7 @@ class CurvedTest {
       found_.clear();
       for (int t : near_) add_face(t);
     }
+    add_tips();
     add_edges();
     add_corners();
     look_ahead();
@@ -179,6 +181,29 @@ class CurvedTest {
     std::vector<int> nearest = triangles_round(sink_.second(), x, 0.0, true);
     std::erase_if(nearest, [&](int t) { return !overlap(triangle_bounds(mesh_, t), around_); });
     return nearest.empty() ? triangles_near(sink_.second(), around_) : nearest;
+  }
+
+  /// Where the solid ends in a point that is inside: in a dent, as it makes one in what bends, it is below no face, and
+  /// nothing stands out of the mesh there.
+  void add_tips() {
+    int index = 0;
+    for (const Vec3& tip : solid_.set->tips()) {
+      const std::optional<Collision> way = way_out(sink_, mesh_, solid_.pose.apply(tip));
+      const int own = index++;
+      if (!way || -way->gap <= touch_) continue;
+      const FeaturePair features = features_of_key(way->feature);
+      if (features.kind_b == Feature::face) continue;  // it has that one
+      Candidate c;
+      c.normal = way->normal;
+      c.point_first = way->point_a;
+      c.point_second = way->point_b;
+      c.kind_first = Feature::vertex;
+      c.index_first = own;
+      c.kind_second = features.kind_b;
+      c.index_second = features.index_b;
+      c.triangle_second = way->triangle_b;
+      keep(c);
+    }
   }
 
   /// Edges that stand out, each as a segment.

@@ -42,6 +42,8 @@ class ConvexSet {
     face.add(support(direction) + rounding() * direction);
     return face;
   }
+  /// Points in which a curved surface ends; of a polyhedron none, its corners are known.
+  virtual std::vector<Vec3> tips() const { return {}; }
   /// The corners, edges and faces of a set that has no other surface; null for all others.
   virtual const ConvexPolyhedron* polyhedron() const { return nullptr; }
 };
