@@ -8,12 +8,16 @@
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/edges_inside.hpp"
 #include "engine/geometry/inside.hpp"
+#include "engine/geometry/surface/inner_points.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/wall.hpp"
 #include "engine/world/judge_convex.hpp"
 
 namespace impinge {
 namespace {
+
+constexpr double kOnSurface = 1e-9;  // of the smaller box: a depth that is rounding
 
 /// A solid that the judge looks at by itself: a body, or a part of one that is a compound.
 struct Solid {
@@ -110,6 +114,26 @@ double edges_in_solid(const Solid& mesh, const Solid& solid, const std::vector<d
   return known;
 }
 
+/// Solids in one place have every vertex and edge of the one on the other's surface, as solids that touch have: the deepest
+/// in the other of points well inside either, metres. `depth_in`: of a point in a solid.
+template <class DepthIn>
+double inner_overlap(const Solid& a, const Solid& b, DepthIn depth_in) {
+  constexpr std::size_t kMostPoints = 64;
+  double deepest = 0.0;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    if (own->shape->mesh() == nullptr) continue;
+    check_interrupt();
+    for (const Vec3& x : inner_points({own->vertices, triangles_of(*own)}, kMostPoints))
+      if (overlap(other->bounds, Aabb{x, x})) deepest = std::max(deepest, depth_in(*other, x));
+  }
+  return deepest;
+}
+
+/// Whether a depth is what rounding makes of a surface that lies on another.
+bool may_coincide(const Solid& a, const Solid& b, double depth) {
+  return depth <= kOnSurface * std::min(a.bounds.extent().norm(), b.bounds.extent().norm());
+}
+
 Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
   double depth = 0.0;
   check_interrupt();
@@ -137,7 +161,12 @@ Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
     depth = std::max(depth, points_in_mesh(points, mesh));
   }
   if (solid.shape->as<Plane>() != nullptr) return {depth, depth};
-  return {depth, edges_in_solid(mesh, solid, of_vertices, depth)};
+  const double edges = edges_in_solid(mesh, solid, of_vertices, depth);
+  if (!may_coincide(mesh, solid, edges)) return {depth, edges};
+  return {depth, std::max(edges, inner_overlap(mesh, solid, [](const Solid& other, const Vec3& x) {
+                            return other.shape->mesh() != nullptr ? depth_in_mesh(other, x)
+                                                                  : -signed_distance(other, x);
+                          }))};
 }
 
 Overlap mesh_with_mesh(const Solid& a, const Solid& b) {
@@ -165,6 +194,8 @@ Overlap mesh_with_mesh(const Solid& a, const Solid& b) {
   found.vertices = std::max(points_in_mesh(a.vertices, b), points_in_mesh(b.vertices, a));
   found.edges = deepest_of_edges(std::move(of_a), a.vertices, {b.vertices, triangles_of(b)}, found.vertices);
   found.edges = deepest_of_edges(std::move(of_b), b.vertices, {a.vertices, triangles_of(a)}, found.edges);
+  if (found.crossings > 0 && may_coincide(a, b, found.edges))
+    found.edges = std::max(found.edges, inner_overlap(a, b, depth_in_mesh));
   return found;
 }
 
@@ -211,7 +242,7 @@ OverlapVerdict judge_overlap(const Bodies& bodies) {
           verdict.intersections += found.crossings;
           if (found.edges == 0.0) continue;
           verdict.deepest = std::max(verdict.deepest, found.edges);
-          const double thickness = std::min(thickness_of(*bodies[i].shape), thickness_of(*bodies[j].shape));
+          const double thickness = std::min(wall_of(*bodies[i].shape), wall_of(*bodies[j].shape));
           if (found.edges / thickness > verdict.crossing.share())
             verdict.crossing = {bodies[i].name, bodies[j].name, found.edges, thickness, 0};
           if (found.vertices <= verdict.penetration) continue;

@@ -16,8 +16,7 @@ struct OverlapVerdict {
   double penetration = 0.0;
   int body_a = -1, body_b = -1;  ///< where it is deepest
   double deepest = 0.0;          ///< metres; that, or edges of meshes between their ends where these run deeper
-  /// The pair whose overlap, edges included, is the largest share of the thinner one's thickness, which is the smallest
-  /// side of its box at rest.
+  /// The pair whose overlap, edges included, is the largest share of the thinner one's thickness (shapes/wall).
   Crossing crossing;
   std::int64_t intersections = 0;  ///< triangle pairs of different meshes that share a point
 };

@@ -11,6 +11,13 @@ using namespace impinge::test;
 
 namespace {
 
+OverlapVerdict verdict_of(const SharedShape& a, const Vec3& xa, const SharedShape& b) {
+  Bodies bodies;
+  bodies.add(make_body(dynamic_body("a", a, xa)));
+  bodies.add(make_body(dynamic_body("b", b, Vec3::Zero())));
+  return judge_overlap(bodies);
+}
+
 double penetration(const SharedShape& a, const Vec3& xa, const Vec3& ra, const SharedShape& b, const Vec3& xb,
                    std::int64_t* crossings = nullptr) {
   BodyDescription da = dynamic_body("a", a, xa), db = dynamic_body("b", b, xb);
@@ -157,4 +164,34 @@ TEST_CASE("winding number and distance of a box are those of the box") {
     const double distance = q.maxCoeff() < 0.0 ? -q.maxCoeff() : q.cwiseMax(0.0).norm();
     CHECK(distance_to_surface(x, box->mesh.vertices, box->mesh.triangles) == Approx(distance).margin(1e-12));
   }
+}
+
+TEST_CASE("meshes in one place overlap, though every vertex and edge of the one is on the other's surface") {
+  const SharedShape ball = surface(icosphere(2, 0.1)), ring = surface(torus(0.1, 0.02, 24, 12));
+  const Vec3 o = Vec3::Zero();
+  for (const SharedShape& shape : {ball, ring}) {
+    const OverlapVerdict verdict = verdict_of(shape, o, shape);
+    CHECK(verdict.penetration < 1e-12);  // of vertices, as ever
+    CHECK(verdict.deepest > 0.3 * thickness_of(*shape));
+    CHECK(verdict.deepest <= 0.5 * thickness_of(*shape));
+    CHECK(verdict.crossing.share() > 0.1);
+  }
+  const SharedShape cube = make_box_mesh(Vec3::Constant(0.1));
+  // boxes that share the planes of four sides; points half way through tell two thirds of the 0.05 and 0.1 m at least
+  CHECK(verdict_of(cube, {0.1, 0.0, 0.0}, cube).deepest > 0.033);
+  CHECK(verdict_of(cube, o, Box{Vec3::Constant(0.1)}).deepest > 0.066);
+  // and those that only touch don't
+  CHECK(verdict_of(cube, {0.2, 0.0, 0.0}, cube).deepest < 1e-12);
+  CHECK(verdict_of(cube, {0.0, 0.2, 0.05}, cube).deepest < 1e-12);
+  CHECK(verdict_of(cube, {0.2, 0.0, 0.0}, Box{Vec3::Constant(0.1)}).deepest < 1e-12);
+}
+
+TEST_CASE("how much of a thickness an overlap is goes by the wall of a hollow body") {
+  TriangleMesh shell = icosphere(3, 0.2);
+  append(shell, inside_out(icosphere(3, 0.19)));
+  // a ball of 50 mm whose side is 2 mm in the wall from within
+  const OverlapVerdict verdict = verdict_of(surface(icosphere(3, 0.05)), {0.142, 0.0, 0.0}, surface(std::move(shell)));
+  CHECK(verdict.deepest == Approx(2e-3).epsilon(0.2));
+  CHECK(verdict.crossing.thickness == Approx(0.01).epsilon(0.1));
+  CHECK(verdict.crossing.share() > 0.1);
 }
