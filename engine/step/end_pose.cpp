@@ -9,6 +9,7 @@
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/wall.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 constexpr double kAllowed = 0.04;  // of the activation distance: overlap at the end that is left to recovery
 constexpr double kOfRigid = 0.02;  // of the same: where neither deforms, and nothing of the answer is smooth over nodes
 constexpr double kSwift = 10.0;    // of the same: an approach in which rigid bodies meet where their start doesn't show
+constexpr double kInHollow = 5.0;  // of the same: where one is hollow, from the inside of which nothing slides away
 constexpr double kDeepest = 100.0;        // of the same: what ends deeper has passed, and its normal says nothing
 constexpr std::size_t kMostOfMeshes = 3;  // contacts of two rigid meshes that a look brings
 
@@ -39,6 +41,15 @@ bool may_hide(const Bodies& bodies, const BodyPair& pair, std::span<const Collis
   if (a.shape->as<Plane>() != nullptr || b.shape->as<Plane>() != nullptr) return false;
   return !are_meshes(a, b) || !are_interlocked(collisions, pair);
 }
+
+/// Whether a look of this piece found what the pair overlaps with: rows of others may have led it elsewhere since.
+bool has_brought(const SubStep& step, const BodyPair& pair) {
+  return std::binary_search(step.seen_at_end.begin(), step.seen_at_end.end(), pair) &&
+         std::any_of(step.brought.begin(), step.brought.end(),
+                     [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; });
+}
+
+bool is_hollow(const Shape& shape) { return wall_of(shape) < thickness_of(shape); }
 
 /// Bodies of some pairs where the velocities of a solved step lead; the others stay as they are.
 class EndPose {
@@ -146,9 +157,11 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
     const double activation = contact.activation(pair_size(a, b));
     const auto is_swift = [&] {
       const double way = approach(solved[pair.a], a.radius, solved[pair.b], b.radius, step.time_step);
-      return way > kSwift * activation && may_hide(bodies, pair, step.collisions);
+      if (way <= kInHollow * activation || !may_hide(bodies, pair, step.collisions)) return false;
+      return way > kSwift * activation || is_hollow(*a.shape) || is_hollow(*b.shape);
     };
-    if (deforms(a) || deforms(b) || std::binary_search(step.passing.begin(), step.passing.end(), pair) || is_swift())
+    if (deforms(a) || deforms(b) || std::binary_search(step.passing.begin(), step.passing.end(), pair) ||
+        has_brought(step, pair) || is_swift())
       pairs.push_back({pair.a, pair.b, activation});
   }
   return pairs;

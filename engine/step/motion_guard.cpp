@@ -88,8 +88,13 @@ const PathSurface& MotionGuard::surface_of(const Body& body) {
 }
 
 double MotionGuard::safe_approach(const Body& body) {
-  const double share = kSafe * thickness_of(body);
+  const double share = safe_share(body);
   return body.world_vertices.empty() ? share : std::min(share, body.mean_edge);
+}
+
+/// Where a rigid body is hollow, of its walls. What bends is held to its edges in any case.
+double MotionGuard::safe_share(const Body& body) {
+  return kSafe * (deforms(body) ? thickness_of(body) : wall_of(body));
 }
 
 double MotionGuard::thickness_of(const Body& body) {
@@ -232,7 +237,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
     if (!may_respond(bodies, a, b) || is_plane(of_a) || is_plane(of_b)) continue;
-    const double safe = safe_for(of_a, kSafe * thickness_of(of_a), of_b, kSafe * thickness_of(of_b));
+    const double safe = safe_for(of_a, safe_share(of_a), of_b, safe_share(of_b));
     const double both = approach(sweeps_[a], sweeps_[b]);
     if (all || both > seen * safe) pairs.push_back({a, b, {}, sweeps_[a].way(), sweeps_[b].way(), both, safe});
   }
@@ -304,7 +309,7 @@ MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a
   const Sweep of_a = sweep_of(bodies[a], a), of_b = sweep_of(bodies[b], b);
   PairMotion motion{is_plane(bodies[a]) || is_plane(bodies[b]), overlap(of_a.box, of_b.box), of_a.way(), of_b.way(),
                     approach(of_a, of_b)};
-  motion.safe = safe_for(bodies[a], kSafe * thickness_of(bodies[a]), bodies[b], kSafe * thickness_of(bodies[b]));
+  motion.safe = safe_for(bodies[a], safe_share(bodies[a]), bodies[b], safe_share(bodies[b]));
   return motion;
 }
 

@@ -84,6 +84,7 @@ class MotionGuard {
   const PathSurface& surface_of(const Body& body);
   double thickness_of(const Body& body);
   double wall_of(const Body& body);
+  double safe_share(const Body& body);
   double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
   void add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs);
