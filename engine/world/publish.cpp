@@ -1,5 +1,6 @@
 // Stage 12: the step record, with every quantity at the end of the frame.
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "engine/contact/pair_coefficients.hpp"
@@ -20,11 +21,18 @@ namespace {
 constexpr double kLeastOfEdges = 4e-4;  // of the activation distance: edges are shown that are deeper
 constexpr double kOfVertices = 1e-6;  // of the smaller body's extent: deeper vertices tell how deep a pair is, within 2
 
+/// Whether the two points of a contact have left each other sideways: what is between them is no longer what is between
+/// their bodies.
+bool has_slid(const ContactRecord& c, double activation) {
+  const Vec3 apart = c.point_a - c.point_b;
+  return (apart - apart.dot(c.normal) * c.normal).norm() > activation;
+}
+
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
 /// The deepest of a pair is put where they overlap most, and none shows an overlap where there is none, or more than
 /// twice what there is. `of_pair`: theirs, as places in the record.
 void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<const std::size_t> of_pair,
-                  const Bodies& bodies, StepRecord& record) {
+                  const Bodies& bodies, double activation, StepRecord& record) {
   const Collision* where = overlap.edge ? &*overlap.edge : overlap.deepest ? &*overlap.deepest : nullptr;
   const double of_vertices = overlap.deepest ? -overlap.deepest->gap : 0.0;
   const bool is_known = !overlap.crosses || where != nullptr;  // how deep edges graze, only their contacts tell
@@ -37,7 +45,7 @@ void show_overlap(const BodyPair& pair, const MeshOverlap& overlap, std::span<co
   ContactRecord* deepest = nullptr;
   for (const std::size_t i : of_pair) {
     ContactRecord& c = record.contacts[i];
-    if (is_known && c.gap < -most) c.point_b += (c.gap + most) * c.normal, c.gap = -most;
+    if ((is_known || has_slid(c, activation)) && c.gap < -most) c.point_b += (c.gap + most) * c.normal, c.gap = -most;
     if (deepest == nullptr || c.gap < deepest->gap) deepest = &c;
   }
   if (depth == 0.0 || (deepest != nullptr && deepest->gap <= -depth)) return;
@@ -62,36 +70,69 @@ ContactsOfPairs contacts_of_pairs(const StepRecord& record) {
   return contacts;
 }
 
-/// A surface that bends slides over a round shape by more than its contacts' tangents tell.
+/// A surface that bends slides over a round shape by more than its contacts' tangents tell, and so does any other in a
+/// motion that is long.
 void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Parameters& parameters,
                              StepRecord& record) {
   const auto bends = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
-  const auto is_round = [&](BodyIndex b) {
-    return bodies[b].shape->mesh() == nullptr && bodies[b].shape->as<Plane>() == nullptr;
+  const auto is_mesh = [&](BodyIndex b) { return bodies[b].shape->mesh() != nullptr; };
+  const auto is_plane = [&](BodyIndex b) { return bodies[b].shape->as<Plane>() != nullptr; };
+  ContactsOfPairs contacts = contacts_of_pairs(record);
+  const auto activation = [&](const BodyPair& pair) {
+    return parameters.contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
+  };
+  const auto have_slid = [&](const BodyPair& pair) {
+    const auto own = contacts.find({pair.a, pair.b});
+    return own != contacts.end() && std::any_of(own->second.begin(), own->second.end(), [&](std::size_t i) {
+             return has_slid(record.contacts[i], activation(pair));
+           });
   };
   std::vector<BodyPair> pairs;
-  for (const BodyPair& pair : step.pairs)
-    if ((bends(pair.a) && is_round(pair.b)) || (bends(pair.b) && is_round(pair.a))) pairs.push_back({pair.a, pair.b});
+  for (const BodyPair& pair : step.pairs) {
+    if (is_plane(pair.a) || is_plane(pair.b) || (is_mesh(pair.a) && is_mesh(pair.b))) continue;
+    if (bends(pair.a) || bends(pair.b) || have_slid(pair)) pairs.push_back({pair.a, pair.b});
+  }
   if (pairs.empty()) return;
-  ContactsOfPairs contacts = contacts_of_pairs(record);
   const std::vector<std::optional<Collision>> deepest = deepest_now(bodies, detecting(parameters), pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     show_overlap(pairs[i], {deepest[i].has_value(), deepest[i], {}}, contacts[{pairs[i].a, pairs[i].b}], bodies,
-                 record);
+                 activation(pairs[i]), record);
 }
 
+/// Of the pairs that there are triangles of, and of those of `also` that there are none of.
 void show_overlaps(const Bodies& bodies, const ContactSettings& contact, std::span<const Collider> colliders,
-                   std::span<const TrianglePair> triangles, StepRecord& record) {
-  if (triangles.empty()) return;
+                   std::span<const TrianglePair> triangles, StepRecord& record, std::vector<BodyPair> also = {}) {
+  if (triangles.empty() && also.empty()) return;
   ContactsOfPairs contacts = contacts_of_pairs(record);
   for (std::size_t first = 0, last = 0; first < triangles.size(); first = last) {
     const BodyPair pair{triangles[first].a, triangles[first].b};
     while (last < triangles.size() && triangles[last].a == pair.a && triangles[last].b == pair.b) ++last;
     if (pair.a == pair.b) continue;
-    const double least = kLeastOfEdges * contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
-    const MeshOverlap overlap = find_overlap(colliders, pair, triangles.subspan(first, last - first), least);
-    show_overlap(pair, overlap, contacts[{pair.a, pair.b}], bodies, record);
+    const double activation = contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
+    const MeshOverlap overlap =
+        find_overlap(colliders, pair, triangles.subspan(first, last - first), kLeastOfEdges * activation);
+    show_overlap(pair, overlap, contacts[{pair.a, pair.b}], bodies, activation, record);
+    std::erase(also, pair);
   }
+  for (const BodyPair& pair : also) {  // the one may be inside the other, where its contact is all that tells how deep
+    const double activation = contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
+    show_overlap(pair, {true, {}, {}}, contacts[{pair.a, pair.b}], bodies, activation, record);
+  }
+}
+
+/// Pairs of meshes with an overlap to show that detection has no triangles of: a look at the motion asked for their contacts.
+std::vector<BodyPair> asked_pairs(const Bodies& bodies, std::span<const TrianglePair> known, const StepRecord& record) {
+  std::vector<BodyPair> pairs;
+  for (const ContactRecord& c : record.contacts) {
+    const bool are_meshes = bodies[c.body_a].shape->mesh() != nullptr && bodies[c.body_b].shape->mesh() != nullptr;
+    if (!(c.gap < 0.0) || !are_meshes || c.body_a == c.body_b) continue;
+    const auto bodies_of = [](const TrianglePair& t) { return std::pair(t.a, t.b); };
+    if (!std::ranges::binary_search(known, std::pair(c.body_a, c.body_b), std::less(), bodies_of))
+      pairs.push_back({c.body_a, c.body_b, 0.0});
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters& parameters, StepRecord& record) {
@@ -103,13 +144,19 @@ void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters&
   if (mesh_pairs.empty()) return;
   make_colliders(bodies, step.later);
   const std::span<const Collider> colliders = step.later;
+  std::vector<TrianglePair> now;
+  std::span<const TrianglePair> known = step.triangle_pairs;
   // where motions are not kept short, triangles may meet that were out of reach when contacts were sought
   if (watching(parameters) == Continuous::off || parameters.response.method->lives_on_overlap()) {
-    std::vector<TrianglePair> now;
     parameters.narrow_phase.method->find(colliders, mesh_pairs, now);
-    return show_overlaps(bodies, parameters.contact, colliders, now, record);
+    known = now;
   }
-  show_overlaps(bodies, parameters.contact, colliders, step.triangle_pairs, record);
+  show_overlaps(bodies, parameters.contact, colliders, known, record);
+  const std::vector<BodyPair> asked = asked_pairs(bodies, known, record);
+  if (asked.empty()) return;
+  std::vector<TrianglePair> of_asked;
+  parameters.narrow_phase.method->find(colliders, asked, of_asked);
+  show_overlaps(bodies, parameters.contact, colliders, of_asked, record, asked);
 }
 
 /// Nothing of one that is deleted.
