@@ -79,7 +79,7 @@ class Assembly {
     if (!add(index, std::move(rows), {a, b})) return;
     const double free_velocity = system().contact_velocity(system().contacts.size() - 1, false).x();
     ContactRows& row = system().contacts.back();
-    if (input_.rebounds) row.restitution = pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
+    row.restitution = rebound_share(c) * pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
@@ -127,6 +127,11 @@ class Assembly {
   }
 
  private:
+  double rebound_share(const Collision& c) const {
+    if (input_.rebounds == nullptr) return 1.0;
+    const auto known = input_.rebounds->find({c.body_a, c.body_b});
+    return known == input_.rebounds->end() ? 1.0 : known->second;
+  }
   GroupSystem& system() { return result_.system; }
 
   /// When the gap of two rigid bodies closes, with the velocity that they have by then: what is given back is a part of

@@ -5,6 +5,7 @@
 #include "engine/contact/collision_groups.hpp"
 #include "engine/contact/contact_settings.hpp"
 #include "engine/contact/group_system.hpp"
+#include "engine/contact/rebound_shares.hpp"
 
 namespace impinge {
 
@@ -15,9 +16,9 @@ struct AssemblyInput {
   /// By contact, what its impulse starts from: on A, world axes, N·s; empty: from nothing.
   std::span<const Vec3> start;
   const ContactSettings& settings;
-  double time_step = 0.0;  ///< s
-  double gravity = 0.0;    ///< that automatic thresholds go by, m/s²
-  bool rebounds = true;    ///< false: no contact gives anything back
+  double time_step = 0.0;                   ///< s
+  double gravity = 0.0;                     ///< that automatic thresholds go by, m/s²
+  const ReboundShares* rebounds = nullptr;  ///< none: all of them whole
   VelocityTime velocities = VelocityTime::end;
 };
 

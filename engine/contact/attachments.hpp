@@ -36,4 +36,10 @@ AttachmentHold hold_of(const Attachment& attachment, const Bodies& bodies);
 /// place) for names that aren't there, and where neither end can move.
 std::vector<Attachment> make_attachment(const AttachmentDescription& description, const Bodies& bodies, int number);
 
+/// The part of a motion of `time_step` seconds in which what is held in one point and spins can be followed straight: such a
+/// body's axis goes round its angular momentum, and rows that see it where the motion begins drive a gyroscope off its pin
+/// where it goes round by more than a radian or two. At least 1/32; 1: nothing spins so fast. Rigid bodies; what is held
+/// in two points keeps its axis.
+double share_of_spins(std::span<const Attachment> attachments, const Bodies& bodies, double time_step);
+
 }  // namespace impinge

@@ -16,6 +16,9 @@ constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut i
 constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
 constexpr double kWorth = 0.1;        // of an impact's energy: what returns less may as well be braked
 constexpr double kRounding = 1e-9;    // of the work that impulses do
+constexpr double kWon = 1e-6;         // of the same: what friction and rebounds win together
+constexpr double kNear = 1e-3;        // of that work, or of a rebound: how near to winning nothing is near enough
+constexpr double kShy = 0.02;         // of the shares left: how far from their ends the next one is
 constexpr double kRising = 1e-3;      // of the threshold of rebounds: what parts more slowly is rounding
 
 /// Velocities of a step and what impulses make of them.
@@ -34,11 +37,8 @@ class Motion {
 
   /// Of A's point from B's along the normal, m/s: by free velocities, by solved ones, and by those without what the two
   /// do to each other.
-  double free(const Collision& c) const {
-    return c.normal.dot(step_.colliders[c.body_a].velocity_at(c.common_point()) -
-                        step_.colliders[c.body_b].velocity_at(c.common_point()));
-  }
-  double solved(const Collision& c) const { return along(c, solved_[c.body_a], solved_[c.body_b]); }
+  double free(const Collision& c) const { return c.normal.dot(free_slip(c)); }
+  double solved(const Collision& c) const { return c.normal.dot(solved_slip(c)); }
   bool rebounds(const Collision& c, double threshold) const { return solved(c) > kRising * threshold; }
   double without(const Collision& c, std::span<const SolvedContact* const> of_pair) const {
     Twist a = solved_[c.body_a], b = solved_[c.body_b];
@@ -47,15 +47,21 @@ class Motion {
       take(c.body_a, other->collision.common_point(), -impulse, a);
       take(c.body_b, other->collision.common_point(), impulse, b);
     }
-    return along(c, a, b);
+    return c.normal.dot(between(c, a, b));
   }
+  /// The first two as vectors.
+  Vec3 free_slip(const Collision& c) const {
+    return step_.colliders[c.body_a].velocity_at(c.common_point()) -
+           step_.colliders[c.body_b].velocity_at(c.common_point());
+  }
+  Vec3 solved_slip(const Collision& c) const { return between(c, solved_[c.body_a], solved_[c.body_b]); }
 
  private:
-  double along(const Collision& c, const Twist& a, const Twist& b) const {
+  Vec3 between(const Collision& c, const Twist& a, const Twist& b) const {
     const auto at = [&](BodyIndex body, const Twist& t) {
       return Vec3(t.linear + t.angular.cross(c.common_point() - step_.colliders[body].pose.position));
     };
-    return c.normal.dot(at(c.body_a, a) - at(c.body_b, b));
+    return at(c.body_a, a) - at(c.body_b, b);
   }
   void take(BodyIndex index, const Vec3& at, const Vec3& impulse, Twist& twist) const {
     const RigidBody* body = bodies_[index].as<RigidBody>();
@@ -73,19 +79,79 @@ class Motion {
 
 bool is_worth_a_cut(double restitution) { return restitution * restitution >= kWorth; }
 
+/// Of a group's impulses, J.
+struct Work {
+  double normal = 0.0, friction = 0.0, moved = 0.0;
+  double all() const { return normal + friction; }
+  /// Friction that takes as much as it should says nothing of what a slow push of forces adds to a rebound.
+  bool is_won(bool was_cut) const {
+    return (was_cut && normal > kRounding * moved) || (friction > 0.0 && all() > kWon * moved);
+  }
+};
+
+Work work_of(const Motion& motion, const GroupResult& result) {
+  Work work;
+  for (const SolvedContact& c : result.solved) {
+    if (c.collision.gap < 0.0) continue;  // what is pushed out may
+    const Mat3 axes = contact_axes(c.collision.normal);
+    const Vec3 before = axes * motion.free_slip(c.collision), after = axes * motion.solved_slip(c.collision);
+    const Vec3 done = 0.5 * c.lambda.cwiseProduct(before + after);
+    work.normal += done.x(), work.friction += done.y() + done.z();
+    work.moved += 0.5 * c.lambda.x() * (std::abs(before.x()) + std::abs(after.x()));
+  }
+  return work;
+}
+
+/// Without a part that deforms, whose velocities aren't among those of a motion, with a contact that rebounds, and one that
+/// carries friction.
+bool may_win(const Bodies& bodies, const CollisionGroup& group, const GroupResult& result,
+             const ContactSettings& settings, bool was_cut) {
+  const auto is_rigid = [&](BodyIndex b) { return bodies[b].kind() != BodyKind::deformable; };
+  const auto rubs = [](const SolvedContact& c) {
+    return c.lambda.x() > 0.0 && (c.lambda.y() != 0.0 || c.lambda.z() != 0.0);
+  };
+  const auto rebounds = [&](const SolvedContact& c) {
+    return c.lambda.x() > 0.0 &&
+           is_worth_a_cut(pair_restitution(bodies[c.collision.body_a], bodies[c.collision.body_b], settings));
+  };
+  return std::all_of(group.bodies.begin(), group.bodies.end(), is_rigid) &&
+         std::any_of(result.solved.begin(), result.solved.end(), rebounds) &&
+         (was_cut || std::any_of(result.solved.begin(), result.solved.end(), rubs));
+}
+
 }  // namespace
 
-bool wins_energy(const Bodies& bodies, const SubStep& step) {
-  const Motion motion(bodies, step);
-  double won = 0.0, moved = 0.0;  // J
-  for (const GroupResult& result : step.results)
-    for (const SolvedContact& c : result.solved) {
-      if (c.collision.gap < 0.0) continue;  // what is pushed out may
-      const double before = motion.free(c.collision), after = motion.solved(c.collision);
-      won += 0.5 * c.lambda.x() * (before + after);
-      moved += 0.5 * c.lambda.x() * (std::abs(before) + std::abs(after));
+bool PassiveRebounds::weaken(const Bodies& bodies, SubStep& step, const ContactSettings& settings, bool was_cut) {
+  bool is_anew = false;
+  std::optional<Motion> motion;
+  for (std::size_t g = 0; g < step.groups.size(); ++g) {
+    const GroupResult& result = step.results[g];
+    const auto known = groups_.find(step.groups[g].bodies.front());
+    if (known == groups_.end() && !may_win(bodies, step.groups[g], result, settings, was_cut)) continue;
+    if (!motion) motion.emplace(bodies, step);
+    const Work work = work_of(*motion, result);
+    if (known == groups_.end() && !work.is_won(was_cut)) continue;
+    Search& search = groups_[step.groups[g].bodies.front()];
+    if (search.left <= 0) continue;
+    if (work.is_won(was_cut))
+      search.high = search.share, search.won = work.all();
+    else
+      search.low = search.share, search.taken = -work.all();
+    --search.left;
+    double next = 0.5 * (search.low + search.high);
+    if (search.taken > 0.0) {  // a little less than where a line between the two crosses 0
+      const double crossing = search.taken / (search.taken + search.won);
+      next = search.low + std::clamp(crossing - kShy, kShy, 1.0 - kShy) * (search.high - search.low);
     }
-  return won > kRounding * moved;
+    const bool is_over = search.left == 0 || (search.low > 0.0 && search.high - search.low < kNear) ||
+                         (search.share == search.low && search.taken < kNear * work.moved);
+    if (is_over) next = search.low, search.left = 0;
+    if (next == search.share) continue;
+    search.share = next;
+    for (const SolvedContact& c : result.solved) step.rebounds[{c.collision.body_a, c.collision.body_b}] = next;
+    is_anew = true;
+  }
+  return is_anew;
 }
 
 bool has_rebounds(const Bodies& bodies, const ContactSettings& settings) {

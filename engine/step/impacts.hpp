@@ -4,6 +4,7 @@
 // approach. (Gaps of nothing close together: they are one impact, solved as one.)
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "engine/bodies/bodies.hpp"
@@ -20,8 +21,26 @@ bool has_rebounds(const Bodies& bodies, const ContactSettings& settings);
 std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep& step, const ContactSettings& settings,
                                             double gravity);
 
-/// Of a step that is solved: whether its normal impulses do more work than they take, as they may where one row rebounds
-/// while another, which its bodies' free motion leaves open, is braked: neither knows that the other came first.
-bool wins_energy(const Bodies& bodies, const SubStep& step);
+/// Rebounds that would win energy are made weaker until they don't. Two ways lead there. Where one row rebounds while
+/// another, which its bodies' free motion leaves open, is braked, neither knows that the other came first. And where
+/// friction turns the slip of a point round that rebounds (a rod that strikes the floor aslant), its work and that of
+/// Newton's restitution may be more than nothing [Stronge90]. Without any rebound impulses only take.
+/// Of each group of rigid bodies one share of all its rebounds is sought, the largest that wins nothing, by motions that
+/// are made anew.
+class PassiveRebounds {
+ public:
+  /// Of a step that is solved: changes SubStep::rebounds and says true where the motion has to be made anew. `was_cut`:
+  /// for impacts one after another; the first of the two ways is looked at only there.
+  bool weaken(const Bodies& bodies, SubStep& step, const ContactSettings& settings, bool was_cut);
+
+ private:
+  struct Search {
+    double low = 0.0, high = 1.0;   // shares that win nothing, and something
+    double taken = 0.0, won = 0.0;  // J, more than 0 each: what impulses took with the lower, won with the higher
+    double share = 1.0;             // of the motion that is looked at
+    int left = 6;                   // motions
+  };
+  std::map<BodyIndex, Search> groups_;  // by lowest body
+};
 
 }  // namespace impinge

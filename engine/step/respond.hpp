@@ -16,9 +16,9 @@ struct Solving {
   const DeformableIntegrator& integrator;
   double gravity;  ///< that automatic thresholds go by, m/s²
   VelocityTime velocities = VelocityTime::end;
-  bool rebounds = true;     ///< as SubStep has it
-  bool freezes = false;     ///< the groups are wanted as they were handed to the response
-  bool keeps_rows = false;  ///< what rows gave to bodies is wanted
+  const ReboundShares* rebounds = nullptr;  ///< as SubStep has them
+  bool freezes = false;                     ///< the groups are wanted as they were handed to the response
+  bool keeps_rows = false;                  ///< what rows gave to bodies is wanted
   /// Contacts may still be added: large groups are solved as GroupResult::is_provisional has it.
   bool is_provisional = false;
   /// By body, with the velocities of the answer before: large groups are told what turning takes by these.

@@ -3,6 +3,7 @@
 // can be looked at between any two stages, and a stage done again.
 #pragma once
 
+#include "engine/contact/rebound_shares.hpp"
 #include "engine/detection/collider.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/group_result.hpp"
@@ -11,7 +12,7 @@ namespace impinge {
 
 struct SubStep {
   double time = 0.0, time_step = 0.0;  ///< s, at its start; Δt
-  bool rebounds = true;                ///< false: whatever closes is braked, restitution or not
+  ReboundShares rebounds;              ///< where they would win energy
 
   // 5, 6: detection at the free velocities
   std::vector<Collider> colliders;           ///< by body

@@ -82,6 +82,11 @@ void begin(SubStep& step) {
   step.tried.reset();
 }
 
+void begin_piece(SubStep& step, PassiveRebounds& passive) {
+  begin(step);
+  step.rebounds.clear(), passive = {};
+}
+
 /// Contacts of the features that pass, begin no farther from one another than `reach` of their pair says, and have none
 /// of this normal yet. False: each had one.
 bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
@@ -149,19 +154,18 @@ double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const Pair
   return ask_for(motion, any, asked) ? 1.0 : 0.5;
 }
 
-/// The share with which a motion is made anew, so that it ends at its first impact, or what is left of impacts is solved as
-/// one; none: it may stand.
+/// The share with which a motion is made anew, so that it ends at its first impact, or that its rebounds win no energy;
+/// none: it may stand.
 std::optional<double> share_for_impacts(const Bodies& bodies, SubStep& step, const ContactSettings& contact,
-                                        double gravity, int& impacts, StepWatcher* watcher) {
-  if (impacts < contact.successive_impacts) {
-    const auto before = share_to_first_impact(bodies, step, contact, gravity);
-    if (!before) return std::nullopt;
-    ++impacts;
-    if (watcher != nullptr) watcher->struck(bodies, step, *before);
-    return *before;
-  }
-  if (impacts == 0 || !step.rebounds || !wins_energy(bodies, step)) return std::nullopt;
-  step.rebounds = false;
+                                        double gravity, int& impacts, PassiveRebounds& passive, StepWatcher* watcher) {
+  const bool may_cut = impacts < contact.successive_impacts;
+  if (may_cut)
+    if (const auto before = share_to_first_impact(bodies, step, contact, gravity)) {
+      ++impacts;
+      if (watcher != nullptr) watcher->struck(bodies, step, *before);
+      return *before;
+    }
+  if (!passive.weaken(bodies, step, contact, !may_cut && impacts > 0)) return std::nullopt;
   return 1.0;
 }
 
@@ -220,6 +224,12 @@ class PieceStart {
   std::vector<std::size_t> begin_;  // by active body
 };
 
+/// Nobody stays where motions are not undone, and no start is known.
+void let_stay(const std::optional<PieceStart>& start, Bodies& bodies, const std::set<BodyIndex>& which,
+              MotionGuard& guard) {
+  for (const BodyIndex b : which) start->let_stay(bodies[b], b), guard.stayed(b);
+}
+
 }  // namespace
 
 void World::note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause) {
@@ -251,16 +261,16 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   if (bodies_.all_active()) has_rebounds_ = has_rebounds(bodies_, parameters.contact);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds_;
   int impacts = 0;
+  PassiveRebounds passive;
   double rest = 1.0, next = 1.0;  // of the sub-step: what is left, and what the next piece tries
   Asking asking;
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
     if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
-    begin(*sub_step_);
-    sub_step_->rebounds = true;
+    begin_piece(*sub_step_, passive);
     guard_.open(bodies_);
-    double share = std::min(rest, next);
+    double share = std::min({rest, next, share_of_spins(attachments_, bodies_, h)});
     asking.has = false;
     int motion = 1;
     for (;; ++motion) {
@@ -269,12 +279,11 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         start->bring_back(bodies_, sleeping_);
         continue;
       }
-      const auto hold_back = [&] {
-        for (const BodyIndex b : stay) start->let_stay(bodies_[b], b), guard_.stayed(b);
-      };
+      const auto hold_back = [&] { let_stay(start, bodies_, stay, guard_); };
       if (rebounds && motion < kMostMotions)
-        if (const auto before = share_for_impacts(bodies_, *sub_step_, parameters.contact,
-                                                  scale_gravity(parameters.simulation.gravity), impacts, watcher_)) {
+        if (const auto before =
+                share_for_impacts(bodies_, *sub_step_, parameters.contact, scale_gravity(parameters.simulation.gravity),
+                                  impacts, passive, watcher_)) {
           share *= *before;
           start->take_back(*sub_step_, bodies_, sleeping_);
           continue;

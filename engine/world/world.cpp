@@ -198,7 +198,7 @@ void World::make_motion(double h, double share, bool freezes) {
   Solving solve = solving(parameters);
   solve.context.time_step = h;
   solve.context.share = h / parameters.simulation.time_step();
-  solve.rebounds = s.rebounds;
+  solve.rebounds = &s.rebounds;
   solve.freezes = freezes;
   solve.keeps_rows = ledger_ != nullptr;
   if (watcher_ != nullptr) solve.watcher = watcher_->solve_watcher(s);
