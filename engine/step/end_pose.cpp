@@ -42,13 +42,6 @@ bool may_hide(const Bodies& bodies, const BodyPair& pair, std::span<const Collis
   return !are_meshes(a, b) || !are_interlocked(collisions, pair);
 }
 
-/// Whether a look of this piece found what the pair overlaps with: rows of others may have led it elsewhere since.
-bool has_brought(const SubStep& step, const BodyPair& pair) {
-  return std::binary_search(step.seen_at_end.begin(), step.seen_at_end.end(), pair) &&
-         std::any_of(step.brought.begin(), step.brought.end(),
-                     [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; });
-}
-
 bool is_hollow(const Shape& shape) { return wall_of(shape) < thickness_of(shape); }
 
 /// Bodies of some pairs where the velocities of a solved step lead; the others stay as they are.
@@ -160,8 +153,7 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
       if (way <= kInHollow * activation || !may_hide(bodies, pair, step.collisions)) return false;
       return way > kSwift * activation || is_hollow(*a.shape) || is_hollow(*b.shape);
     };
-    if (deforms(a) || deforms(b) || std::binary_search(step.passing.begin(), step.passing.end(), pair) ||
-        has_brought(step, pair) || is_swift())
+    if (deforms(a) || deforms(b) || std::binary_search(step.passing.begin(), step.passing.end(), pair) || is_swift())
       pairs.push_back({pair.a, pair.b, activation});
   }
   return pairs;

@@ -11,8 +11,7 @@
 namespace impinge {
 
 /// Of a step that is solved: pairs whose end is worth a look. Those with a deforming body, rigid bodies that approach fast,
-/// unless one hangs in the other, those that are known to pass, and those that a look of this motion brought something for: where
-/// they end then nobody has seen. `solved`: the colliders with the velocities that the
+/// unless one hangs in the other, and those that are known to pass. `solved`: the colliders with the velocities that the
 /// response gave to rigid bodies. Sorted.
 std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& contact, const SubStep& step,
                                    std::span<const Collider> solved);
