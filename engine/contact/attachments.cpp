@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "engine/bodies/rigid_body.hpp"
 #include "engine/contact/contact_frame.hpp"
@@ -119,18 +118,17 @@ std::vector<Attachment> make_attachment(const AttachmentDescription& d, const Bo
 double share_of_spins(std::span<const Attachment> attachments, const Bodies& bodies, double time_step) {
   constexpr double kMostRound = 1.25;  // radians: from 2 on a disc on a pin was seen to leave it
   constexpr double kLeast = 1.0 / 32.0;
-  if (attachments.empty()) return 1.0;
-  std::map<BodyIndex, int> held;
-  for (const Attachment& a : attachments)
-    for (const BodyIndex b : {a.a.body, a.b.body})
-      if (!b.is_none()) held[b] += a.kind == AttachmentKind::point ? 1 : 2;
-  double most = 0.0;  // radians
-  for (const auto& [b, count] : held) {
-    const RigidBody* body = bodies[b].as<RigidBody>();
-    if (count != 1 || body == nullptr || body->asleep || !body->has_freedom()) continue;
-    most = std::max(most, time_step * body->angular_momentum.norm() / body->principal.moments[1]);
-  }
-  return most > kMostRound ? std::max(kLeast, kMostRound / most) : 1.0;
+  double most = kMostRound;
+  for (const Attachment& attachment : attachments)
+    for (const BodyIndex b : {attachment.a.body, attachment.b.body}) {
+      const RigidBody* body = b.is_none() ? nullptr : bodies[b].as<RigidBody>();
+      if (body == nullptr || body->asleep || !body->has_freedom()) continue;
+      const double round = time_step * body->angular_momentum.norm() / body->principal.moments[1];
+      const auto holds = [&](const Attachment& a) { return a.a.body == b || a.b.body == b; };
+      if (round <= most || attachment.kind != AttachmentKind::point) continue;
+      if (std::count_if(attachments.begin(), attachments.end(), holds) == 1) most = round;
+    }
+  return std::max(kLeast, kMostRound / most);
 }
 
 }  // namespace impinge

@@ -49,7 +49,7 @@ class FastBody : public Warning {
     if (watching(p) != Continuous::off && !p.response.method->lives_on_overlap()) return {};
     const Bodies& bodies = start.world.bodies();
     std::vector<double> thickness;
-    for (const Body& body : bodies) thickness.push_back(thickness_of(*body.shape));
+    for (const Body& body : bodies) thickness.push_back(body.shape->thickness());
     std::vector<std::pair<double, Finding>> all;
     for (BodyIndex a(0); a < bodies.size(); ++a) {
       const double way = way_of(bodies[a], p.simulation.time_step());

@@ -51,11 +51,13 @@ double Shape::size() const {
   return size_.get([&] { return size_of(*this); });
 }
 
-double thickness_of(const Shape& shape) {
-  if (shape.mesh() == nullptr) return shape.bounds({}).extent().minCoeff();
-  Aabb box;
-  for (const Vec3& x : shape.mesh()->mesh.vertices) box.include(x);
-  return box.extent().minCoeff();
+double Shape::thickness() const {
+  return thickness_.get([&] {
+    if (mesh() == nullptr) return bounds({}).extent().minCoeff();
+    Aabb box;
+    for (const Vec3& x : mesh()->mesh.vertices) box.include(x);
+    return box.extent().minCoeff();
+  });
 }
 
 }  // namespace impinge

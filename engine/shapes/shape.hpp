@@ -54,6 +54,9 @@ class Shape : public std::enable_shared_from_this<Shape> {
 
   /// How large it is where it matters for contact, metres: size_of (shape_size.hpp), found when it is first asked for.
   double size() const;
+  /// Smallest side of the box round it at rest, metres: what an overlap or a motion is held against; likewise. A plane's is
+  /// infinite.
+  double thickness() const;
 
   /// The triangles if it is a mesh, else null; quicker than form().
   const SurfaceMesh* mesh() const { return mesh_; }
@@ -78,7 +81,7 @@ class Shape : public std::enable_shared_from_this<Shape> {
  private:
   int type_;
   const SurfaceMesh* mesh_;
-  Lazily<double> size_;
+  Lazily<double> size_, thickness_;
 };
 
 /// A shape that many share; made from any concrete one, or from the triangles of a mesh.
@@ -98,9 +101,6 @@ class SharedShape {
  private:
   std::shared_ptr<const Shape> shape_;
 };
-
-/// Smallest side of the box round it at rest, metres: what an overlap or a motion is held against. A plane's is infinite.
-double thickness_of(const Shape& shape);
 
 /// A convex solid as a part of a compound, at its place in the compound's frame.
 struct ShapePart {

@@ -42,7 +42,7 @@ bool may_hide(const Bodies& bodies, const BodyPair& pair, std::span<const Collis
   return !are_meshes(a, b) || !are_interlocked(collisions, pair);
 }
 
-bool is_hollow(const Shape& shape) { return wall_of(shape) < thickness_of(shape); }
+bool is_hollow(const Shape& shape) { return wall_of(shape) < shape.thickness(); }
 
 /// Bodies of some pairs where the velocities of a solved step lead; the others stay as they are.
 class EndPose {

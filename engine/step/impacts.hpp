@@ -36,7 +36,7 @@ class PassiveRebounds {
  private:
   struct Search {
     double low = 0.0, high = 1.0;   // shares that win nothing, and something
-    double taken = 0.0, won = 0.0;  // J, more than 0 each: what impulses took with the lower, won with the higher
+    double taken = 0.0, won = 0.0;  // J: what impulses took with the lower, won with the higher; 0: nobody has looked
     double share = 1.0;             // of the motion that is looked at
     int left = 6;                   // motions
   };

@@ -44,14 +44,25 @@ double self_approach(const Body& body, const std::vector<Vec3>& nodes) {
   return 2.0 * std::sqrt(most);
 }
 
-/// The approach that contacts of two bodies see well: a share of the thinner one's thickness each, and where the search is
-/// one for triangles of two surfaces, or a surface bends, no more than an edge of theirs.
-double safe_for(const Body& a, double share_a, const Body& b, double share_b) {
-  const double share = std::min(share_a, share_b);
+/// A share of the thickness, metres: where a rigid body is hollow, of its walls'. What bends is held to its edges in any case.
+double safe_share(const Body& body) { return kSafe * (deforms(body) ? body.shape->thickness() : wall_of(*body.shape)); }
+
+double safe_approach(const Body& body) {
+  const double share = safe_share(body);
+  return body.world_vertices.empty() ? share : std::min(share, body.mean_edge);
+}
+
+/// The approach that contacts of two bodies see well, metres: the smaller share, and where the search is one for triangles
+/// of two surfaces, or a surface bends, no more than an edge of theirs.
+double safe_for(const Body& a, const Body& b) {
   const bool has_shape = a.world_vertices.empty() || b.world_vertices.empty();
-  if (has_shape && !deforms(a) && !deforms(b)) return share;
-  const auto edge = [](const Body& body) { return body.world_vertices.empty() ? INFINITY : body.mean_edge; };
-  return std::min({share, edge(a), edge(b)});
+  if (has_shape && !deforms(a) && !deforms(b)) return std::min(safe_share(a), safe_share(b));
+  return std::min(safe_approach(a), safe_approach(b));
+}
+
+/// As the pair's safe approach is, but of walls also where what is hollow bends, metres.
+double seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair) {
+  return std::min(pair.safe, kSafe * std::min(wall_of(*bodies[pair.a].shape), wall_of(*bodies[pair.b].shape)));
 }
 
 /// Of a ball or capsule and another, or a rigid mesh, as far as distances tell it: they touch all along their way as a rule.
@@ -68,9 +79,7 @@ bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const
 }  // namespace
 
 struct MotionGuard::Known {
-  double thickness = 0.0;  // smallest side of its box at rest, metres; 0: not looked at
-  double wall = 0.0;       // what it is made of is as thick, metres; likewise
-  MeshPointer made;        // the triangles of a shape that is no mesh
+  MeshPointer made;  // the triangles of a shape that is no mesh
   std::unique_ptr<PathSurface> surface;
 };
 
@@ -85,28 +94,6 @@ const PathSurface& MotionGuard::surface_of(const Body& body) {
     known.surface = std::make_unique<PathSurface>(*mesh);
   }
   return *known.surface;
-}
-
-double MotionGuard::safe_approach(const Body& body) {
-  const double share = safe_share(body);
-  return body.world_vertices.empty() ? share : std::min(share, body.mean_edge);
-}
-
-/// Where a rigid body is hollow, of its walls. What bends is held to its edges in any case.
-double MotionGuard::safe_share(const Body& body) {
-  return kSafe * (deforms(body) ? thickness_of(body) : wall_of(body));
-}
-
-double MotionGuard::thickness_of(const Body& body) {
-  Known& known = known_[body.shape.get()];
-  if (known.thickness == 0.0) known.thickness = impinge::thickness_of(*body.shape);
-  return known.thickness;
-}
-
-double MotionGuard::wall_of(const Body& body) {
-  Known& known = known_[body.shape.get()];
-  if (known.wall == 0.0) known.wall = impinge::wall_of(*body.shape);
-  return known.wall;
 }
 
 void MotionGuard::open(const Bodies& bodies) {
@@ -237,7 +224,7 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
     if (!may_respond(bodies, a, b) || is_plane(of_a) || is_plane(of_b)) continue;
-    const double safe = safe_for(of_a, safe_share(of_a), of_b, safe_share(of_b));
+    const double safe = safe_for(of_a, of_b);
     const double both = approach(sweeps_[a], sweeps_[b]);
     if (all || both > seen * safe) pairs.push_back({a, b, {}, sweeps_[a].way(), sweeps_[b].way(), both, safe});
   }
@@ -252,31 +239,25 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
   paths.reserve(pairs.size());
   for (const UnsafeMotion::Pair& pair : pairs)
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
-  std::vector<double> seen;  // by pair: found before threads begin, as wall_of keeps what it knows
-  for (const UnsafeMotion::Pair& pair : pairs) seen.push_back(seen_of(bodies, pair));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const Body &of_a = bodies[pairs[i].a], &of_b = bodies[pairs[i].b];
     PassageSettings own = settings(of_a, of_b);
+    const double seen = seen_of(bodies, pairs[i]);
     if (depth == Depth::safe)
       own.depth = pairs[i].safe;
     else if (depth == Depth::rough && !deforms(of_a) && !deforms(of_b))
       own.depth = std::max(own.depth, pairs[i].safe);
     else if (deforms(of_a) || deforms(of_b))
-      own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * seen[i]) : own.depth;
+      own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * seen) : own.depth;
     else {
-      own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * seen[i]);
-      if (depth == Depth::graze) own.depth = std::max(own.depth, std::min(kGraze * seen[i], kWithin * own.reach));
+      own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * seen);
+      if (depth == Depth::graze) own.depth = std::max(own.depth, std::min(kGraze * seen, kWithin * own.reach));
       own.creep = kCreep * own.depth;
     }
     if (is_known_clear(of_a, of_b, paths[i].first, paths[i].second, own.depth)) return;
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)
                                                  : first_passages(paths[i].first, paths[i].second, own);
   });
-}
-
-/// As the pair's safe approach is, but of a wall where one of the two is hollow, metres.
-double MotionGuard::seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair) {
-  return std::min(pair.safe, kSafe * std::min(wall_of(bodies[pair.a]), wall_of(bodies[pair.b])));
 }
 
 /// Takes out the pairs of rigid bodies that slide through one another's corners by little and are out again at the end: a
@@ -309,7 +290,7 @@ MotionGuard::PairMotion MotionGuard::motion_of(const Bodies& bodies, BodyIndex a
   const Sweep of_a = sweep_of(bodies[a], a), of_b = sweep_of(bodies[b], b);
   PairMotion motion{is_plane(bodies[a]) || is_plane(bodies[b]), overlap(of_a.box, of_b.box), of_a.way(), of_b.way(),
                     approach(of_a, of_b)};
-  motion.safe = safe_for(bodies[a], safe_share(bodies[a]), bodies[b], safe_share(bodies[b]));
+  motion.safe = safe_for(bodies[a], bodies[b]);
   return motion;
 }
 

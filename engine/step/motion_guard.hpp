@@ -82,14 +82,9 @@ class MotionGuard {
   static double approach(const Sweep& a, const Sweep& b) { return (a.shift - b.shift).norm() + a.turn + b.turn; }
   void look_at_all(const Bodies& bodies);
   const PathSurface& surface_of(const Body& body);
-  double thickness_of(const Body& body);
-  double wall_of(const Body& body);
-  double safe_share(const Body& body);
-  double safe_approach(const Body& body);
   SurfacePath path_of(const Body& body, BodyIndex b);
   void add_self(const Bodies& bodies, Continuous which, std::vector<UnsafeMotion::Pair>& pairs);
   std::vector<UnsafeMotion::Pair> pairs_at_risk(const Bodies& bodies, Continuous which, bool is_rough);
-  double seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair);
   void search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings, Depth depth);
   void forgive_grazes(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& pairs, const PassagesOf& settings,
                       const OverlapsOf& overlaps);

@@ -115,16 +115,16 @@ double edges_in_solid(const Solid& mesh, const Solid& solid, const std::vector<d
 }
 
 /// Solids in one place have every vertex and edge of the one on the other's surface, as solids that touch have: the deepest
-/// in the other of points well inside either, metres. `depth_in`: of a point in a solid.
-template <class DepthIn>
-double inner_overlap(const Solid& a, const Solid& b, DepthIn depth_in) {
+/// in the other of points well inside either, metres.
+double inner_overlap(const Solid& a, const Solid& b) {
   constexpr std::size_t kMostPoints = 64;
   double deepest = 0.0;
   for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     if (own->shape->mesh() == nullptr) continue;
     check_interrupt();
     for (const Vec3& x : inner_points({own->vertices, triangles_of(*own)}, kMostPoints))
-      if (overlap(other->bounds, Aabb{x, x})) deepest = std::max(deepest, depth_in(*other, x));
+      if (overlap(other->bounds, Aabb{x, x}))
+        deepest = std::max(deepest, other->shape->mesh() ? depth_in_mesh(*other, x) : -signed_distance(*other, x));
   }
   return deepest;
 }
@@ -162,11 +162,7 @@ Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
   }
   if (solid.shape->as<Plane>() != nullptr) return {depth, depth};
   const double edges = edges_in_solid(mesh, solid, of_vertices, depth);
-  if (!may_coincide(mesh, solid, edges)) return {depth, edges};
-  return {depth, std::max(edges, inner_overlap(mesh, solid, [](const Solid& other, const Vec3& x) {
-                            return other.shape->mesh() != nullptr ? depth_in_mesh(other, x)
-                                                                  : -signed_distance(other, x);
-                          }))};
+  return {depth, may_coincide(mesh, solid, edges) ? std::max(edges, inner_overlap(mesh, solid)) : edges};
 }
 
 Overlap mesh_with_mesh(const Solid& a, const Solid& b) {
@@ -194,8 +190,7 @@ Overlap mesh_with_mesh(const Solid& a, const Solid& b) {
   found.vertices = std::max(points_in_mesh(a.vertices, b), points_in_mesh(b.vertices, a));
   found.edges = deepest_of_edges(std::move(of_a), a.vertices, {b.vertices, triangles_of(b)}, found.vertices);
   found.edges = deepest_of_edges(std::move(of_b), b.vertices, {a.vertices, triangles_of(a)}, found.edges);
-  if (found.crossings > 0 && may_coincide(a, b, found.edges))
-    found.edges = std::max(found.edges, inner_overlap(a, b, depth_in_mesh));
+  if (found.crossings > 0 && may_coincide(a, b, found.edges)) found.edges = std::max(found.edges, inner_overlap(a, b));
   return found;
 }
 

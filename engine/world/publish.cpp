@@ -77,22 +77,23 @@ void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Pa
   const auto bends = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
   const auto is_mesh = [&](BodyIndex b) { return bodies[b].shape->mesh() != nullptr; };
   const auto is_plane = [&](BodyIndex b) { return bodies[b].shape->as<Plane>() != nullptr; };
-  ContactsOfPairs contacts = contacts_of_pairs(record);
+  const auto is_of_shapes = [&](const BodyPair& pair) {
+    return !is_plane(pair.a) && !is_plane(pair.b) && !(is_mesh(pair.a) && is_mesh(pair.b));
+  };
   const auto activation = [&](const BodyPair& pair) {
     return parameters.contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
   };
-  const auto have_slid = [&](const BodyPair& pair) {
-    const auto own = contacts.find({pair.a, pair.b});
-    return own != contacts.end() && std::any_of(own->second.begin(), own->second.end(), [&](std::size_t i) {
-             return has_slid(record.contacts[i], activation(pair));
-           });
-  };
   std::vector<BodyPair> pairs;
-  for (const BodyPair& pair : step.pairs) {
-    if (is_plane(pair.a) || is_plane(pair.b) || (is_mesh(pair.a) && is_mesh(pair.b))) continue;
-    if (bends(pair.a) || bends(pair.b) || have_slid(pair)) pairs.push_back({pair.a, pair.b});
+  for (const BodyPair& pair : step.pairs)
+    if ((bends(pair.a) || bends(pair.b)) && is_of_shapes(pair)) pairs.push_back({pair.a, pair.b});
+  for (const ContactRecord& c : record.contacts) {
+    const BodyPair pair{c.body_a, c.body_b};
+    if (is_of_shapes(pair) && has_slid(c, activation(pair))) pairs.push_back(pair);
   }
   if (pairs.empty()) return;
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  ContactsOfPairs contacts = contacts_of_pairs(record);
   const std::vector<std::optional<Collision>> deepest = deepest_now(bodies, detecting(parameters), pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     show_overlap(pairs[i], {deepest[i].has_value(), deepest[i], {}}, contacts[{pairs[i].a, pairs[i].b}], bodies,

@@ -35,7 +35,7 @@ TEST_CASE("a gyroscope stays on its pin and goes round as its weight has it, wha
       error = std::max(error, world.record().stats.attachment_error);
       const Vec3 x = rigid(world, 0).pose.position;
       const double at = std::atan2(-x.z(), x.x());
-      angle += std::remainder(at - before, 2.0 * 3.14159265358979323846), before = at;
+      angle += std::remainder(at - before, 2.0 * M_PI), before = at;
     }
     CHECK(error < 0.02 * c.arm);
     CHECK(world.record().stats.kinetic == Approx(kinetic).epsilon(0.01));

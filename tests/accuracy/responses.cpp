@@ -334,8 +334,7 @@ TEST_CASE("a sub-step is cut between impacts for what rebounds, and for nothing 
 
 namespace {
 
-/// A body that strikes the floor as the numbers say, without gravity: kinetic energy after by before, the most it ever was
-/// and in the end; 0: it missed.
+/// Of a body that strikes the floor without gravity: its kinetic energy by that of the start, the most it was and in the end.
 struct Blow {
   double most = 0.0, last = 0.0;
 };

@@ -172,8 +172,8 @@ TEST_CASE("meshes in one place overlap, though every vertex and edge of the one 
   for (const SharedShape& shape : {ball, ring}) {
     const OverlapVerdict verdict = verdict_of(shape, o, shape);
     CHECK(verdict.penetration < 1e-12);  // of vertices, as ever
-    CHECK(verdict.deepest > 0.3 * thickness_of(*shape));
-    CHECK(verdict.deepest <= 0.5 * thickness_of(*shape));
+    CHECK(verdict.deepest > 0.3 * shape->thickness());
+    CHECK(verdict.deepest <= 0.5 * shape->thickness());
     CHECK(verdict.crossing.share() > 0.1);
   }
   const SharedShape cube = make_box_mesh(Vec3::Constant(0.1));
