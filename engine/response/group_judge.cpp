@@ -28,6 +28,17 @@ double rounding(const GroupSystem& group) {
 
 }  // namespace
 
+bool starts_too_high(const GroupSystem& group, std::span<const Vec3> start) {
+  constexpr double kTooHigh = 1e10;
+  double given = 0.0, wanted = 0.0;  // m/s
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    wanted = std::max(wanted, asked(group, i));
+    for (const ContactSide* side : {&group.contacts[i].a, &group.contacts[i].b})
+      if (side->rigid >= 0) given = std::max(given, group.rigid[side->rigid].inverse_mass * start[i].norm());
+  }
+  return wanted <= rounding(group) || given > kTooHigh * wanted;
+}
+
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal) {
   GroupVerdict verdict;
   double scale = 0.0;

@@ -1,6 +1,8 @@
 // The judge of a solved group, independent of response and solver: it sees A, J, the bounds, λ and Δv, nothing else.
 #pragma once
 
+#include <span>
+
 #include "engine/contact/group_system.hpp"
 #include "engine/core/finite.hpp"
 
@@ -18,5 +20,9 @@ struct GroupVerdict {
 /// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them;
 /// otherwise a deformable body enters by its nodes' own blocks.
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr);
+
+/// Whether that is no start for λ: nothing is asked for beyond rounding, or so much less than it gives to rigid bodies that it would
+/// leave rounding of its own size. So it is with what a blow gave, in bodies that fly on together.
+bool starts_too_high(const GroupSystem& group, std::span<const Vec3> start);
 
 }  // namespace impinge

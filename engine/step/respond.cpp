@@ -85,15 +85,19 @@ class GroupSolve {
   }
 
   /// Solves, by rows that know already what turning would take with the velocities expected; without where those have no
-  /// answer.
+  /// answer; and from nothing, where what is started from was in the way.
   void solve_expecting_turns() {
     const std::vector<Vec3> start = system().lambda;
     const bool are_told = expect_turns();
     solve();
-    if (!are_told || (is_usable() && !wins_energy())) return;
-    for (std::size_t i = 0; i < bounds_.size(); ++i)
-      system().contacts[i].bound = bounds_[i], system().contacts[i].turning = 0.0;
-    system().lambda = start;
+    if (are_told && (!is_usable() || wins_energy())) {
+      for (std::size_t i = 0; i < bounds_.size(); ++i)
+        system().contacts[i].bound = bounds_[i], system().contacts[i].turning = 0.0;
+      system().lambda = start;
+      solve();
+    }
+    if (is_usable() || !starts_too_high(system(), start)) return;
+    std::fill(system().lambda.begin(), system().lambda.end(), Vec3::Zero());
     solve();
   }
 
