@@ -51,6 +51,8 @@ struct GroupSystem {
   /// Out, or empty: velocities beside v* + Δv by which positions move in this sub-step and no later one, by rigid body,
   /// in groups without deformable ones: of responses that tell recovery from overlap and motion apart.
   std::vector<Vec3> position_velocity, position_angular_velocity;
+  /// What the same contacts are to start from next time, as λ, where the response has something better; empty: from λ.
+  std::vector<Vec3> next_start;
   /// W = J A⁻¹ J^T, 1/kg, once a response has assembled it. Copies share it; whoever changes A, directions, arms or
   /// nodes resets it. Velocities, bounds, kinds and friction are free to change; the solvers keep their factorizations
   /// with it.

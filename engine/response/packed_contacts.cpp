@@ -325,7 +325,7 @@ void PackedContacts::relax(const Pair& pair, const SweepLaw& law) {
   Sides sides(bodies_, pair.a, pair.b);
   Body &a = sides.a, &b = sides.b;
   const SoftLaw& spring = pair.a < 0 || pair.b < 0 ? law.fixed : law.between;
-  const double inverse_step = 1.0 / law.time_step;
+  const double inverse_step = 1.0 / law.time_step, over = law.recovers ? 1.0 : law.over_relaxation;
   for (int i = pair.first; i < pair.first + pair.count; ++i) {
     Contact& c = contacts_[i];
     double un = dot(c.normal, difference(a.velocity, b.velocity)) + dot(c.moment_a, a.angular_velocity) -
@@ -334,12 +334,12 @@ void PackedContacts::relax(const Pair& pair, const SweepLaw& law) {
     const double gap = gap_of(pair, i, sides, law.elapsed), before = c.impulse;
     double next = before;
     if (gap > 0.0)
-      next -= c.inverse_n * (un + gap * inverse_step);
+      next -= over * c.inverse_n * (un + gap * inverse_step);
     else if (law.recovers)
       next -= c.inverse_n * spring.mass_scale * (un + std::max(spring.bias_rate * gap, -c.max_push_out)) +
               spring.impulse_scale * before;
     else
-      next -= c.inverse_n * un;
+      next -= over * c.inverse_n * un;
     next = std::max(0.0, next);
     if (before == 0.0 && next == 0.0) continue;
     const double change = next - before;
@@ -372,6 +372,7 @@ void PackedContacts::move(double time_step) {
 }
 
 void PackedContacts::close_step() {
+  ++steps_;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     sum_n_[i] += contacts_[i].impulse;
     add(sum_t_[i], 1.0, contacts_[i].tangent);
@@ -392,13 +393,17 @@ std::vector<char> PackedContacts::only_pinned() const {
 }
 
 void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const {
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+  const auto along_rows = [&](std::size_t i, double normal, const Triple& tangent) {
     const Mat3& d = group.contacts[rows_[i]].directions;
-    const Vec3 across = vector(sum_t_[i]);
-    group.lambda[rows_[i]] = {sum_n_[i], d.row(1).dot(across), d.row(2).dot(across)};
-  }
+    return Vec3(normal, d.row(1).dot(vector(tangent)), d.row(2).dot(vector(tangent)));
+  };
+  for (std::size_t i = 0; i < contacts_.size(); ++i) group.lambda[rows_[i]] = along_rows(i, sum_n_[i], sum_t_[i]);
   for (std::size_t i = 0; i < joints_.size(); ++i) group.lambda[joints_[i].row] = joint_sum_[i];
   if (moved_for > 0.0) {
+    group.next_start.resize(group.lambda.size());
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      group.next_start[rows_[i]] = steps_ * along_rows(i, contacts_[i].impulse, contacts_[i].tangent);
+    for (const Joint& joint : joints_) group.next_start[joint.row] = steps_ * joint.impulse;
     group.position_velocity.resize(bodies_.size());
     group.position_angular_velocity.resize(bodies_.size());
   }

@@ -19,10 +19,11 @@ SoftLaw soft_law(double hertz, double ratio, double h);
 
 /// How a sweep answers.
 struct SweepLaw {
-  double time_step = 0.0;  ///< of a solver step, s: what gaps may be closed in
-  double elapsed = 0.0;    ///< since the sub-step began, s: how long prescribed motions have moved their points
-  bool recovers = false;   ///< whether overlap is taken out; else it may not grow
-  SoftLaw between, fixed;  ///< of two that move; of one with a body that doesn't
+  double time_step = 0.0;        ///< of a solver step, s: what gaps may be closed in
+  double elapsed = 0.0;          ///< since the sub-step began, s: how long prescribed motions have moved their points
+  bool recovers = false;         ///< whether overlap is taken out; else it may not grow
+  SoftLaw between, fixed;        ///< of two that move; of one with a body that doesn't
+  double over_relaxation = 1.0;  ///< of sweeps that recover nothing, along normals: what rolls would slip
 };
 
 class PackedContacts {
@@ -44,7 +45,8 @@ class PackedContacts {
   void move(double time_step);
   /// Adds the impulses of this solver step to the sum.
   void close_step();
-  /// λ, Δv and position velocities of the group, whose velocities have changed by `velocity_change` since the start.
+  /// λ, Δv, position velocities and the next start of the group, whose velocities have changed by `velocity_change` since
+  /// the start.
   void write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const;
 
  private:
@@ -110,6 +112,7 @@ class PackedContacts {
   std::vector<Triple> sum_t_;
   std::vector<Joint> joints_;
   std::vector<Vec3> joint_sum_;
+  int steps_ = 0;  // closed
 };
 
 }  // namespace impinge

@@ -59,6 +59,7 @@ struct GroupResult {
   // what it hands on, by contact
   std::vector<ContactIndex> contacts;        ///< those that something responds to
   std::vector<ContactCache::Item> impulses;  ///< of each of them, zero ones too
+  std::vector<Vec3> starts;                  ///< what each is to start from next time, likewise; empty: from these
   std::vector<SolvedContact> solved;         ///< of collisions, in order
   std::optional<FrozenGroup> frozen;         ///< where it was asked for
   std::vector<RowImpulse> rows;              ///< where it was asked for

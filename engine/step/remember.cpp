@@ -2,20 +2,29 @@
 
 namespace impinge {
 
-void remember_impulses(const Bodies& bodies, std::span<const GroupResult> results, ContactCache& cache) {
+namespace {
+
+/// What the contacts are to start from next time.
+std::vector<ContactCache::Item> starts_of(std::span<const GroupResult> results) {
   std::vector<ContactCache::Item> items;
-  for (const GroupResult& result : results)
-    for (const ContactCache::Item& item : result.impulses)
-      if (!item.impulse.isZero(0.0)) items.push_back(item);
+  for (const GroupResult& r : results)
+    for (std::size_t i = 0; i < r.impulses.size(); ++i)
+      items.push_back(r.starts.empty() ? r.impulses[i] : ContactCache::Item{r.impulses[i].key, r.starts[i]});
+  return items;
+}
+
+}  // namespace
+
+void remember_impulses(const Bodies& bodies, std::span<const GroupResult> results, ContactCache& cache) {
+  std::vector<ContactCache::Item> items = starts_of(results);
+  std::erase_if(items, [](const ContactCache::Item& item) { return item.impulse.isZero(0.0); });
   cache.renew(std::move(items), bodies.active(),
               [&](BodyIndex b) { return b.is_none() || bodies[b].asleep || !bodies[b].has_freedom(); });
 }
 
 ContactCache impulses_of(std::span<const GroupResult> results) {
-  std::vector<ContactCache::Item> items;
-  for (const GroupResult& r : results) items.insert(items.end(), r.impulses.begin(), r.impulses.end());
   ContactCache cache;
-  cache.assign(std::move(items));
+  cache.assign(starts_of(results));
   return cache;
 }
 

@@ -259,6 +259,7 @@ class GroupSolve {
     for (std::size_t i = 0; i < now_.contacts.size(); ++i) {
       const ContactIndex c = now_.contacts[i];
       result_.impulses.push_back({input_.contacts.key(c), s.contacts[i].directions.transpose() * s.lambda[i]});
+      if (!s.next_start.empty()) result_.starts.push_back(s.contacts[i].directions.transpose() * s.next_start[i]);
       const Collision* collision = input_.contacts.collision(c);
       if (collision == nullptr) continue;
       const auto& [a, b] = now_.points[i];
