@@ -64,8 +64,9 @@ constexpr Figure kFigures[] = {
     {"residual_coulomb", "", state, &S::residual_coulomb,
      "Largest natural map of the frame's solves, as a share of the velocity that its group's contacts ask for."},
     {"ended", "", state, &S::ended,
-     "Why the worst of the frame's solves ended (the numbers 0 to 4): converged, cap, stalled, contradiction, "
-     "refused."},
+     "Why the worst of the frame's solves ended (the numbers 0 to 5): converged, cap, stalled, contradiction, "
+     "refused; fixed: the method makes so many sweeps in any case and claims nothing, residual_coulomb says how far "
+     "they came."},
     {"attachment_error_m", "m", state, &S::attachment_error,
      "Largest distance of an attached point from where it is held, at the end of the frame."},
 };

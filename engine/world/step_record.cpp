@@ -3,7 +3,7 @@
 namespace impinge {
 
 std::string_view name_of(SolveEnd end) {
-  constexpr std::string_view kNames[] = {"converged", "cap", "stalled", "contradiction", "refused"};
+  constexpr std::string_view kNames[] = {"converged", "cap", "stalled", "contradiction", "refused", "fixed"};
   return kNames[static_cast<int>(end)];
 }
 

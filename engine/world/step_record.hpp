@@ -66,10 +66,11 @@ struct AttachmentRecord {
   double error() const { return (point_a - point_b).norm(); }
 };
 
-/// Why a group's solve ended, the later the less it is an answer.
-enum class SolveEnd : std::uint8_t { converged, cap, stalled, contradiction, refused };
-constexpr SolveEnd kSolveEnds[] = {SolveEnd::converged, SolveEnd::cap, SolveEnd::stalled, SolveEnd::contradiction,
-                                   SolveEnd::refused};
+/// Why a group's solve ended, the later the less it is an answer; the last is of methods whose work is fixed beforehand, and
+/// claims nothing.
+enum class SolveEnd : std::uint8_t { converged, cap, stalled, contradiction, refused, fixed };
+constexpr SolveEnd kSolveEnds[] = {SolveEnd::converged,     SolveEnd::cap,     SolveEnd::stalled,
+                                   SolveEnd::contradiction, SolveEnd::refused, SolveEnd::fixed};
 std::string_view name_of(SolveEnd end);
 
 /// Group solves that ended without an answer, by what ended them.
@@ -129,6 +130,8 @@ struct FrameStats {
   double unsolved_residual = 0.0;        ///< their largest residual_coulomb
   double attachment_error = 0.0;         ///< metres, over attachments at the end of the frame
   void take_unsolved(const UnsolvedGroups& cause, double residual);
+  /// A solve of fixed work that is not within the tolerance.
+  void take_fixed() { ended = unconverged == 0 ? SolveEnd::fixed : ended; }
   double kinetic = 0.0, potential = 0.0, elastic = 0.0;  ///< J
   Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
   void take(std::span<const BodyShare> shares);

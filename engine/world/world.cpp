@@ -270,13 +270,17 @@ bool World::may_look_again() const {
 
 void World::take_results(FrozenStep* frozen) {
   SubStep& s = *sub_step_;
+  const bool work_is_fixed = parameters.response.method->iteration_setting().is_exact;
   remember_impulses(bodies_, s.results, cache_);
   for (GroupIndex g(0); g < s.groups.size(); ++g) {
     const GroupResult& result = s.results[g];
     s.groups[g].contacts = result.contacts;
     stats_.lcp_iterations += result.iterations;
     stats_.outer_iterations += result.outer_iterations;
-    if (!result.is_answered()) stats_.take_unsolved(cause_of(result), result.verdict.relative);
+    if (!result.is_answered())
+      stats_.take_unsolved(cause_of(result), result.verdict.relative);
+    else if (work_is_fixed && !(result.verdict.relative <= parameters.lcp.tolerance))
+      stats_.take_fixed();
     stats_.residual_coulomb = larger(stats_.residual_coulomb, result.verdict.relative);
     stats_.residual = larger(stats_.residual, result.verdict.residual());
     for (const SolvedContact& c : result.solved)

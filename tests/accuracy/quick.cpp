@@ -89,6 +89,50 @@ TEST_CASE("quick: a pile of 200 boxes is never deeper in one another than 5 mm o
   CHECK(fastest(world) < 1e-2);
 }
 
+TEST_CASE("quick: stacks of cubes come to rest and stay where they stand for a minute, small ones too") {
+  for (const double side : {1.0, 0.01})
+    for (const int count : {2, 3, 5, 10}) {
+      if (side < 0.1 && count > 5) continue;  // falls: a cube is two frames high then
+      CAPTURE(side, count);
+      World world;
+      prepare(world);
+      world.parameters.contact.friction = 0.5;
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+      for (int i = 0; i < count; ++i) {
+        BodyDescription box = cube("cube" + std::to_string(i), side, Vec3(0, (i + 0.5) * side, 0));
+        box.mass = 1.0;
+        world.add_body(box);
+      }
+      world.start();
+      run(world, 600);
+      const double falls = 9.81 * side * count;  // J, of the stack by the side of a cube
+      CHECK(world.record().stats.kinetic < 1e-4 * falls);
+      const Vec3 top = rigid(world, count).pose.position;
+      CHECK((top - Vec3(0, (count - 0.5) * side, 0)).norm() < 0.1 * side);
+      run(world, 3000);
+      CHECK(world.record().stats.kinetic < 1e-7 * falls);
+      CHECK((rigid(world, count).pose.position - top).norm() < 0.01 * side);
+    }
+}
+
+TEST_CASE("quick: it claims no convergence where there is no answer, and none is missed where there is") {
+  World world;
+  prepare(world);
+  world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+  world.add_body(dynamic_body("ball", Sphere{0.1}, Vec3(0, 0.1, 0)));
+  BodyDescription press = dynamic_body("press", Box{Vec3(0.5, 0.05, 0.5)}, Vec3(0, 0.26, 0));
+  press.kind = BodyKind::scripted;
+  press.motion = {{0.0, Vec3(0, 0.26, 0), {}}, {1.0, Vec3(0, 0.2, 0), {}}};
+  world.add_body(press);
+  world.start();
+  run(world, 5);
+  CHECK(world.record().stats.ended == SolveEnd::converged);
+  run(world, 35);
+  CHECK(world.record().stats.residual_coulomb > 0.1);
+  CHECK(world.record().stats.ended == SolveEnd::fixed);
+  CHECK(world.record().stats.unconverged == 0);
+}
+
 TEST_CASE("quick: piles have the same bits for 1, 2 and 4 threads, and go on from a snapshot bit for bit") {
   const auto make = [](World& world) {
     prepare(world);

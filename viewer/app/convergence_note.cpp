@@ -10,6 +10,7 @@ std::string count(std::int64_t n, const char* what) { return fmt::format("{} {}{
 std::string what_ended(const UnsolvedGroups& cause) {
   switch (cause.reason) {
     case SolveEnd::converged:
+    case SolveEnd::fixed:
       break;
     case SolveEnd::cap:
       return "stopped at " + cause.limit;

@@ -26,7 +26,7 @@ double number_of(std::string_view word, std::string_view column) {
   for (const SolveEnd end : kSolveEnds)
     if (name_of(end) == word) return static_cast<double>(end);
   throw InputError(
-      fmt::format("'{}' in column {}; converged, cap, stalled, contradiction or refused is wanted; run the "
+      fmt::format("'{}' in column {}; converged, cap, stalled, contradiction, refused or fixed is wanted; run the "
                   "scene again",
                   word, column));
 }
