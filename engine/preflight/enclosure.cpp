@@ -4,6 +4,7 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/geometry/inside.hpp"
+#include "engine/geometry/surface/inner_points.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
@@ -35,6 +36,8 @@ double depth_in(const Body& body, const Vec3& world) {
   if (winding_number(world, body.world_vertices, mesh->mesh.triangles) < 0.5) return 0.0;
   return distance_to_surface(world, body.world_vertices, mesh->mesh.triangles);
 }
+
+bool is_solid(const Body& body) { return body.shape->mesh() == nullptr || body.shape->mesh()->topology.is_closed(); }
 
 bool is_plane(const Body& body) { return body.shape->as<Plane>() != nullptr; }
 
@@ -72,6 +75,22 @@ std::vector<Enclosure> find_enclosures(const Bodies& bodies) {
         found.push_back({inner, outer, depth});
     }
   return found;
+}
+
+double depth_in_one_place(const Body& a, const Body& b) {
+  constexpr std::size_t kPoints = 32, kFewest = 4;
+  double deepest = 0.0;
+  for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    const SurfaceMesh* mesh = own->shape->mesh();
+    if (mesh == nullptr || !is_solid(*own) || !is_solid(*other)) continue;
+    check_interrupt();
+    const std::size_t triangles = std::max<std::size_t>(mesh->mesh.triangles.size(), 1);
+    const Aabb box = other->bounds();
+    for (const Vec3& x :
+         inner_points({own->world_vertices, mesh->mesh.triangles}, std::clamp(kMostWork / triangles, kFewest, kPoints)))
+      if (overlap(box, Aabb{x, x})) deepest = std::max(deepest, depth_in(*other, x));
+  }
+  return deepest;
 }
 
 }  // namespace impinge

@@ -14,6 +14,14 @@ namespace {
 /// Of the smaller body's size. A quarter of the automatic activation distance, which recovery takes back unnoticed.
 constexpr double kHarmless = 6e-4;
 
+/// Whether the boxes of two are in one another by more than half of the smaller one's each way: what only touches mostly is
+/// not.
+bool share_most(const Body& a, const Body& b) {
+  const Aabb of_a = a.bounds(), of_b = b.bounds();
+  const Vec3 shared = of_a.max.cwiseMin(of_b.max) - of_a.min.cwiseMax(of_b.min);
+  return (shared.array() >= 0.5 * of_a.extent().cwiseMin(of_b.extent()).array()).all();
+}
+
 class StartOverlap : public Warning {
  public:
   std::vector<Finding> look(const SceneAtStart& start) const override {
@@ -24,6 +32,13 @@ class StartOverlap : public Warning {
       if (c.body_a == c.body_b || -c.gap <= kHarmless * pair_size(bodies[c.body_a], bodies[c.body_b])) continue;
       double& depth = deepest[{c.body_a, c.body_b}];
       depth = std::max(depth, -c.gap);
+    }
+    for (const BodyPair& pair : start.world.record().broad_pairs) {
+      const Body &a = bodies[pair.a], &b = bodies[pair.b];
+      if (pair.a == pair.b || deepest.contains({pair.a, pair.b}) || !share_most(a, b)) continue;
+      if (!a.has_freedom() && !b.has_freedom()) continue;
+      const double depth = depth_in_one_place(a, b);
+      if (depth > kHarmless * pair_size(a, b)) deepest[{pair.a, pair.b}] = depth;
     }
     for (const Enclosure& e : start.enclosures) {  // which body-inside tells
       deepest.erase({e.inner, e.outer});

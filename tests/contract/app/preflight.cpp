@@ -78,6 +78,15 @@ TEST_CASE("preflight: meshes that start in another, and one wholly inside") {
                       0.5,
                       {},
                       0.05});
+  // in one place every vertex of the one lies on the other's surface
+  check_trap(folder, {"two meshes in one place",
+                      "start-overlap",
+                      body("one", large) + body("again", large),
+                      {"'one'", "'again'"},
+                      "start ",
+                      1.0,  // the centre
+                      {},
+                      0.1});
   // a cavity is outside
   TriangleMesh hollow = icosphere(3, 1.0);
   const TriangleMesh cavity = icosphere(3, 0.8);
