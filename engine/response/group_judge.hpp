@@ -21,8 +21,8 @@ struct GroupVerdict {
 /// otherwise a deformable body enters by its nodes' own blocks.
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr);
 
-/// Whether that is no start for λ: nothing is asked for beyond rounding, or so much less than it gives to rigid bodies that it would
-/// leave rounding of its own size. So it is with what a blow gave, in bodies that fly on together.
+/// Whether that is no start for λ: nothing is asked for beyond rounding, or so much less than it gives to rigid bodies that
+/// it would leave rounding of its own size. So it is with what a blow gave, in bodies that fly on together.
 bool starts_too_high(const GroupSystem& group, std::span<const Vec3> start);
 
 }  // namespace impinge

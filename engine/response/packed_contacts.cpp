@@ -94,7 +94,7 @@ struct PackedContacts::Sides {
 };
 
 PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share,
-                               const Threshold& max_push_out) {
+                               const Threshold& max_push_out, const Threshold& restitution_threshold) {
   bodies_.resize(group.rigid.size());
   start_velocity_.resize(group.rigid.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -142,11 +142,12 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
   const std::size_t tasks = (rows_.size() + kRowsPerTask - 1) / kRowsPerTask;
   parallel_for(tasks, 1, [&](std::size_t task) {
     const std::size_t end = std::min(rows_.size(), (task + 1) * kRowsPerTask);
-    for (std::size_t i = task * kRowsPerTask; i < end; ++i) fill(group, i, share, max_push_out);
+    for (std::size_t i = task * kRowsPerTask; i < end; ++i) fill(group, i, share, max_push_out, restitution_threshold);
   });
 }
 
-void PackedContacts::fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out) {
+void PackedContacts::fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out,
+                          const Threshold& restitution_threshold) {
   const ContactRows& row = group.contacts[rows_[place]];
   Contact& c = contacts_[place];
   const Mat3& d = row.directions;
@@ -162,6 +163,7 @@ void PackedContacts::fill(const GroupSystem& group, std::size_t place, double sh
   c.gap = row.gap;
   c.friction = row.friction;
   c.max_push_out = max_push_out.at(row.scale.speed);
+  c.bounces_from = row.restitution > 0.0 ? restitution_threshold.at(row.scale.speed) : INFINITY;
   const Vec3 start = share * group.lambda[rows_[place]];
   c.impulse = start.x();
   c.tangent = triple(start.y() * d.row(1) + start.z() * d.row(2));
@@ -188,12 +190,11 @@ void PackedContacts::add_joint(const GroupSystem& group, std::size_t row, double
   joint_sum_.push_back(Vec3::Zero());
 }
 
-int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_change, double time_step,
-                            const Threshold& threshold, int most) {
+int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most) {
   struct Impact {
     const Pair* pair;
     std::size_t contact;
-    double restitution, least;
+    double restitution;
   };
   std::vector<Impact> impacts;
   double fastest = 0.0;
@@ -203,7 +204,7 @@ int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_chang
       const ContactRows& row = group.contacts[rows_[place]];
       if (row.restitution == 0.0 || contacts_[place].inverse_n == 0.0) continue;
       fastest = std::max(fastest, -row.velocity_before);
-      impacts.push_back({&pair, place, row.restitution, threshold.at(row.scale.speed)});
+      impacts.push_back({&pair, place, row.restitution});
     }
   if (impacts.empty()) return 0;
   // the order of the scene, not of the colours: a shot runs through a row of balls
@@ -224,7 +225,7 @@ int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_chang
       // what closes by forces alone rests, and doesn't bounce
       const double forced = (at.pair->a >= 0 ? 1 : 0) - (at.pair->b >= 0 ? 1 : 0);
       const double moved = time_step * (closing + forced * dot(c.normal, change));
-      if (!(closing < -std::max(slow, at.least)) || c.gap + moved >= 0.0) continue;
+      if (!(closing < -std::max(slow, c.bounces_from)) || c.gap + moved >= 0.0) continue;
       const double given = -(1.0 + at.restitution) * closing * c.inverse_n, before = sum_n_[at.contact];
       Triple impulse;
       add(impulse, given, c.normal);
@@ -325,21 +326,23 @@ void PackedContacts::relax(const Pair& pair, const SweepLaw& law) {
   Sides sides(bodies_, pair.a, pair.b);
   Body &a = sides.a, &b = sides.b;
   const SoftLaw& spring = pair.a < 0 || pair.b < 0 ? law.fixed : law.between;
-  const double inverse_step = 1.0 / law.time_step, over = law.recovers ? 1.0 : law.over_relaxation;
+  const double inverse_step = 1.0 / law.time_step;
   for (int i = pair.first; i < pair.first + pair.count; ++i) {
     Contact& c = contacts_[i];
     double un = dot(c.normal, difference(a.velocity, b.velocity)) + dot(c.moment_a, a.angular_velocity) -
                 dot(c.moment_b, b.angular_velocity);
     if (pair.is_driven) un += dot(c.normal, surface_[i]);
     const double gap = gap_of(pair, i, sides, law.elapsed), before = c.impulse;
+    // what has come up to a surface bounces in the next sub-step, with the speed that it comes with
+    if (!law.recovers && before == 0.0 && un < -c.bounces_from) continue;
     double next = before;
     if (gap > 0.0)
-      next -= over * c.inverse_n * (un + gap * inverse_step);
+      next -= c.inverse_n * (un + gap * inverse_step);
     else if (law.recovers)
       next -= c.inverse_n * spring.mass_scale * (un + std::max(spring.bias_rate * gap, -c.max_push_out)) +
               spring.impulse_scale * before;
     else
-      next -= over * c.inverse_n * un;
+      next -= c.inverse_n * un;
     next = std::max(0.0, next);
     if (before == 0.0 && next == 0.0) continue;
     const double change = next - before;

@@ -19,23 +19,22 @@ SoftLaw soft_law(double hertz, double ratio, double h);
 
 /// How a sweep answers.
 struct SweepLaw {
-  double time_step = 0.0;        ///< of a solver step, s: what gaps may be closed in
-  double elapsed = 0.0;          ///< since the sub-step began, s: how long prescribed motions have moved their points
-  bool recovers = false;         ///< whether overlap is taken out; else it may not grow
-  SoftLaw between, fixed;        ///< of two that move; of one with a body that doesn't
-  double over_relaxation = 1.0;  ///< of sweeps that recover nothing, along normals: what rolls would slip
+  double time_step = 0.0;  ///< of a solver step, s: what gaps may be closed in
+  double elapsed = 0.0;    ///< since the sub-step began, s: how long prescribed motions have moved their points
+  bool recovers = false;   ///< whether overlap is taken out; else it may not grow
+  SoftLaw between, fixed;  ///< of two that move; of one with a body that doesn't
 };
 
 class PackedContacts {
  public:
   /// `velocity_change`: what v* holds beside the velocities that the sub-step begins with. Solver steps
-  /// start from this share of λ.
-  PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share, const Threshold& max_push_out);
+  /// start from this share of λ. Thresholds are parts of the speed of a contact's scale.
+  PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share, const Threshold& max_push_out,
+                 const Threshold& restitution_threshold);
 
-  /// Bounces: each contact that closes in the sub-step faster than `threshold` (a part of its scale's speed) gets what
-  /// returns e of it, until none does, `most` rounds at most. Returns the rounds.
-  int collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, const Threshold& threshold,
-              int most);
+  /// Bounces: each contact that closes in the sub-step faster than its threshold gets what returns e of it, until none
+  /// does, `most` rounds at most. Returns the rounds.
+  int collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most);
   /// All velocities change by this.
   void accelerate(const Vec3& change);
   /// Gives what the last solver step gave.
@@ -69,6 +68,7 @@ class PackedContacts {
     Triple spin_a, spin_b;               // angular velocity that a unit of normal impulse makes
     double inverse_n, inverse_t;         // of the mobilities; 0: nothing can respond
     double gap, friction, max_push_out;  // at the start
+    double bounces_from;                 // closing speed, m/s
     double impulse;                      // of this solver step, along the normal
     Triple tangent;                      // and across
   };
@@ -87,7 +87,8 @@ class PackedContacts {
   /// The two bodies of a pair as a sweep changes them; one that doesn't move stands in for none.
   struct Sides;
 
-  void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out);
+  void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out,
+            const Threshold& restitution_threshold);
   void add_joint(const GroupSystem& group, std::size_t row, double share);
   void relax(const Pair& pair, const SweepLaw& law);
   double gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const;

@@ -2,9 +2,9 @@
 // sub-step ("small steps"), each with a sweep or two over packed contacts. A solver step gives its share of the forces,
 // starts from the last one's impulses, answers to gaps as they are by now, moves, and then relaxes the velocities without
 // recovery, so that what was pushed out doesn't fly on. Recovery on positions alone was tried in its place: it starts from
-// nothing each time, and piles sink. What a stack owes its rest to [tests/README.md, "What keeps stacks awake"]: a sub-step
-// starts from the last solver step's impulses, not from the mean of the one before, which is half of it late; the springs are
-// no stiffer than a sweep can follow; and what relaxes along normals goes a third too far. Built for a frame rate, so to be known exactly:
+// nothing each time, and piles sink. What a stack owes its rest to (tests/README.md, "What keeps stacks awake"): a
+// sub-step starts from the last solver step's impulses, not from the mean of all, which is half a sub-step late, and the
+// springs are no stiffer than a sweep can follow. Built for a frame rate, so to be known exactly:
 // - the number of steps and sweeps is fixed, and nothing is said of convergence: the judge says how far it came.
 // - arms and normals stay those of the sub-step's start, so Δv = A⁻¹ J^T λ to rounding, with λ the sum of all steps.
 // - what is only pinned to others moves by its velocity at the end, as with the exact methods: by the mean over the solver steps, as
@@ -58,16 +58,15 @@ class Quick : public Response {
     const double h = context.time_step / steps;
     const Vec3 change = context.time_step * context.gravity, part = change / steps;
     group.clear_delta();
-    PackedContacts packed(group, change, context.share / steps, context.max_push_out);
+    PackedContacts packed(group, change, context.share / steps, context.max_push_out, context.restitution_threshold);
     ResponseResult result;
-    result.iterations = packed.collide(group, change, context.time_step, context.restitution_threshold, kMostRounds);
+    result.iterations = packed.collide(group, change, context.time_step, kMostRounds);
     show(group, packed, Vec3::Zero(), context);
     const double hertz = std::min(settings_.frequency, kStiffest / h);
     SweepLaw law;
     law.time_step = h;
     law.between = soft_law(hertz, settings_.damping_ratio, h);
     law.fixed = soft_law(2.0 * hertz, settings_.damping_ratio, h);
-    law.over_relaxation = kOverRelaxation;
     for (int k = 1; k <= steps; ++k) {
       packed.accelerate(part);
       packed.warm_start();
@@ -87,7 +86,6 @@ class Quick : public Response {
  private:
   static constexpr int kMostRounds = 200;    // of impacts
   static constexpr double kStiffest = 0.22;  // of the solver steps' rate
-  static constexpr double kOverRelaxation = 1.3;
 
   static void show(GroupSystem& group, const PackedContacts& packed, const Vec3& change,
                    const ResponseContext& context) {

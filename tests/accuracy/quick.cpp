@@ -115,6 +115,33 @@ TEST_CASE("quick: stacks of cubes come to rest and stay where they stand for a m
     }
 }
 
+TEST_CASE("quick: what comes up to a surface where a sub-step ends bounces all the same, with all its energy") {
+  for (const int substeps : {1, 2, 3, 4, 6})
+    for (const int balls : {1, 4, 10}) {
+      CAPTURE(substeps, balls);
+      World world;
+      prepare(world);
+      world.parameters.simulation.substeps = substeps;
+      world.parameters.contact.restitution = 1.0;
+      world.parameters.contact.friction = 0.0;
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+      world.add_body(fixed_plane("left", Vec3::UnitX(), -1.0));
+      world.add_body(fixed_plane("right", -Vec3::UnitX(), -0.11 * balls - 0.3));
+      for (int i = 0; i < balls; ++i) {
+        BodyDescription ball =
+            dynamic_body("ball" + std::to_string(i), Sphere{0.05}, {0.11 * i - (i == 0 ? 0.3 : 0.0), 0.05, 0});
+        ball.mass = 1.0;
+        if (i == 0) ball.velocity = Vec3::UnitX();
+        world.add_body(ball);
+      }
+      world.start();
+      for (int frame = 0; frame < 600; ++frame) {
+        world.step();
+        CHECK(world.record().stats.kinetic == Approx(0.5).epsilon(1e-9));
+      }
+    }
+}
+
 TEST_CASE("quick: it claims no convergence where there is no answer, and none is missed where there is") {
   World world;
   prepare(world);
