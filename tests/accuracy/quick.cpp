@@ -142,6 +142,34 @@ TEST_CASE("quick: what comes up to a surface where a sub-step ends bounces all t
     }
 }
 
+TEST_CASE("quick: a shot at a rack of 55 balls neither wins nor loses energy where nothing is lost") {
+  for (const int substeps : {1, 4})
+    for (const double gap : {1e-6, 1e-4}) {
+      CAPTURE(substeps, gap);
+      World world;
+      prepare(world);
+      world.parameters.simulation.substeps = substeps;
+      world.parameters.simulation.gravity.setZero();
+      world.parameters.contact.restitution = 1.0;
+      world.parameters.contact.friction = 0.0;
+      const auto add = [&](double x, double z, double speed) {
+        BodyDescription ball =
+            dynamic_body("ball" + std::to_string(world.bodies().size().value()), Sphere{0.05}, {x, 0, z});
+        ball.mass = 1.0;
+        ball.velocity = Vec3(speed, 0, 0);
+        world.add_body(ball);
+      };
+      add(-0.5, 0.003, 5.0);
+      for (int row = 0; row < 10; ++row)
+        for (int k = 0; k <= row; ++k) add(row * (0.1 + gap) * std::sqrt(0.75), (k - 0.5 * row) * (0.1 + gap), 0.0);
+      world.start();
+      for (int frame = 0; frame < 60; ++frame) {
+        world.step();
+        CHECK(world.record().stats.kinetic == Approx(12.5).epsilon(1e-9));
+      }
+    }
+}
+
 TEST_CASE("quick: it claims no convergence where there is no answer, and none is missed where there is") {
   World world;
   prepare(world);
