@@ -14,6 +14,13 @@ namespace {
 constexpr double kCarries = 2.0;  // of gravity: an acceleration by impulses that is no blow
 constexpr double kStands = 1e-3;  // of what gravity makes of a speed in `lag`: a speed that is none
 
+double rounding_of(const Shape& shape) {
+  if (shape.mesh() != nullptr) return 0.0;
+  const ShapeForm form = shape.form();
+  const auto* convex = std::get_if<const ConvexSet*>(&form);
+  return convex != nullptr ? (*convex)->rounding() : 0.0;
+}
+
 }  // namespace
 
 Vec3 Stagger::agreed(const Vec3& last, const Vec3& now) {
@@ -52,7 +59,7 @@ void RigidBody::find_free_velocity(const TimeIntegration& how) {
 }
 
 SystemBlock RigidBody::system_block() const {
-  return RigidBlock{1.0 / mass, world_inertia_inverse(), velocity, angular_velocity()};
+  return RigidBlock{1.0 / mass, world_inertia_inverse(), velocity, angular_velocity(), rounding_of(*shape)};
 }
 
 CarriedPoint RigidBody::carry(const MaterialPoint&, const Vec3& at) const {

@@ -14,6 +14,7 @@ struct RigidBlock {
   Mat3 inverse_inertia = Mat3::Zero();   ///< world axes, 1/(kg·m²)
   Vec3 velocity = Vec3::Zero();          ///< v*, m/s
   Vec3 angular_velocity = Vec3::Zero();  ///< rad/s
+  double rounding = 0.0;  ///< metres: all that touches is the skin of a ball or rod as thick, which rolls
 };
 
 /// A deformable body's part of A over its free nodes. Rows act on the velocity v at the end of the sub-step. Positions

@@ -13,7 +13,7 @@ namespace impinge {
 namespace {
 
 constexpr std::string_view kMagic = "impinge frozen step\n";
-constexpr std::uint32_t kVersion = 4, kOldest = 2;
+constexpr std::uint32_t kVersion = 5, kOldest = 2;
 constexpr std::size_t kHead = kMagic.size() + 24;
 constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
 
@@ -29,7 +29,7 @@ void put_group(LittleEndianWriter& out, const FrozenGroup& group) {
   for (std::size_t b = 0; b < system.rigid.size(); ++b) {
     const RigidBlock& block = system.rigid[b];
     out.put(std::int32_t{group.rigid_bodies[b]}), out.put(block.inverse_mass), out.put(block.inverse_inertia);
-    out.put(block.velocity), out.put(block.angular_velocity);
+    out.put(block.velocity), out.put(block.angular_velocity), out.put(block.rounding);
   }
   out.put_count(system.deformable.size());
   for (std::size_t s = 0; s < system.deformable.size(); ++s) {
@@ -192,12 +192,13 @@ void read_contact(Reader& in, std::uint32_t version, std::int64_t bodies, Frozen
 
 FrozenGroup read_group(Reader& in, std::uint32_t version, std::int64_t bodies) {
   FrozenGroup group;
-  const std::size_t rigid = in.count("rigid bodies", 132);
+  const std::size_t rigid = in.count("rigid bodies", version >= 5 ? 140 : 132);
   for (std::size_t b = 0; b < rigid; ++b) {
     group.rigid_bodies.emplace_back(in.index("a body", 0, bodies));
     RigidBlock block;
     block.inverse_mass = in.positive("1/m", false);
     block.inverse_inertia = in.mat3(), block.velocity = in.vec3(), block.angular_velocity = in.vec3();
+    if (version >= 5) block.rounding = in.positive("a rounding", true);
     group.system.rigid.push_back(block);
   }
   const std::size_t deformable = in.count("deformable bodies", 17);

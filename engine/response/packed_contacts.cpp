@@ -44,10 +44,11 @@ inline T times(const double* m, const T& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
           m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
-/// How far an arm r that turned by t has come along n in the second order: n·(t × (t × r))/2.
+/// How far an arm r that turned by t has come along n in the second order, n·(t × (t × r))/2, without what `skin` of it along
+/// n would do: that of a ball or rod is as thick wherever it is turned.
 template <class T>
-inline double bend(const T& t, const T& r, const T& n) {
-  return 0.5 * (dot(t, r) * dot(t, n) - dot(t, t) * dot(r, n));
+inline double bend(const T& t, const T& r, const T& n, double skin) {
+  return 0.5 * (dot(t, r) * dot(t, n) - dot(t, t) * dot(r, n) + skin * (dot(t, t) - dot(t, n) * dot(t, n)));
 }
 
 double largest_across(const Mat3& w) {
@@ -103,7 +104,7 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
     start_velocity_[b] = block.velocity - velocity_change;
     body.velocity = triple(start_velocity_[b]);
     body.angular_velocity = triple(block.angular_velocity);
-    body.inverse_mass = block.inverse_mass;
+    body.inverse_mass = block.inverse_mass, body.rounding = block.rounding;
     const Mat3& m = block.inverse_inertia;
     const double upper[6] = {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
     std::copy(upper, upper + 6, body.inverse_inertia);
@@ -316,8 +317,8 @@ inline double PackedContacts::gap_of(const Pair& pair, int contact, const Sides&
   const Contact& c = contacts_[contact];
   const Body &a = sides.a, &b = sides.b;
   double gap = c.gap + dot(c.normal, difference(a.shift, b.shift)) + dot(c.moment_a, a.turn) - dot(c.moment_b, b.turn);
-  if (dot(a.turn, a.turn) > kNoTurn) gap += bend(a.turn, c.arm_a, c.normal);
-  if (dot(b.turn, b.turn) > kNoTurn) gap -= bend(b.turn, c.arm_b, c.normal);
+  if (dot(a.turn, a.turn) > kNoTurn) gap += bend(a.turn, c.arm_a, c.normal, -a.rounding);
+  if (dot(b.turn, b.turn) > kNoTurn) gap -= bend(b.turn, c.arm_b, c.normal, b.rounding);
   if (pair.is_driven) gap += elapsed * dot(c.normal, surface_[contact]);
   return gap;
 }

@@ -59,7 +59,7 @@ class PackedContacts {
   struct Body {
     Triple velocity, angular_velocity;
     Triple shift, turn;  // since the sub-step began
-    double inverse_mass = 0.0;
+    double inverse_mass = 0.0, rounding = 0.0;
     double inverse_inertia[6] = {};  // xx, xy, xz, yy, yz, zz
   };
   struct Contact {

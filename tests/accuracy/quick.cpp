@@ -170,6 +170,29 @@ TEST_CASE("quick: a shot at a rack of 55 balls neither wins nor loses energy whe
     }
 }
 
+TEST_CASE("quick: what rolls a radian and more in a sub-step neither sinks nor slows") {
+  for (const double radius : {1e-3, 1e-2, 0.1})
+    for (const bool rod : {false, true}) {
+      CAPTURE(radius, rod);
+      const double speed = 1.4 * radius * 60.0 * 1.5;  // slides at first; rolls by about 1.4 radians a frame
+      World world;
+      prepare(world);
+      world.parameters.contact.friction = 5.0;
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+      BodyDescription body = dynamic_body(
+          "body", rod ? SharedShape(Capsule{radius, 2.0 * radius}) : SharedShape(Sphere{radius}), {0, radius, 0});
+      body.mass = 1.0;
+      body.velocity = Vec3(speed, 0, 0);
+      if (rod) body.rotation = Vec3(90, 0, 0);
+      world.add_body(body);
+      world.start();
+      const double share = 1.0 / (1.0 + rigid(world, 1).world_inertia()(2, 2) / (radius * radius));  // of the speed
+      run(world, 300);
+      CHECK(rigid(world, 1).velocity.x() == Approx(share * speed).epsilon(0.01));
+      CHECK(rigid(world, 1).pose.position.y() == Approx(radius).epsilon(0.02));
+    }
+}
+
 TEST_CASE("quick: it claims no convergence where there is no answer, and none is missed where there is") {
   World world;
   prepare(world);

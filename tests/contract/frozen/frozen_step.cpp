@@ -199,8 +199,8 @@ TEST_CASE("a damaged frozen step is refused, with the byte and a remedy") {
     check(bytes, "");
   }
   std::string other = whole;
-  other[20] = 5;
-  check(other, "version 5 of the format; version 2 to 4 is wanted");
+  other[20] = 6;
+  check(other, "version 6 of the format; version 2 to 5 is wanted");
   check("3\n1\n0\n", "no frozen step");
   CHECK(refusal(folder / "none.step").find("no such file") != std::string::npos);
 }
