@@ -45,6 +45,7 @@ class StartOverlap : public Warning {
       deepest.erase({e.outer, e.inner});
     }
     std::vector<std::pair<double, Pair>> pairs;
+    pairs.reserve(deepest.size());
     for (const auto& [pair, depth] : deepest) pairs.emplace_back(depth, pair);
     std::stable_sort(pairs.begin(), pairs.end(), [](const auto& l, const auto& r) { return l.first > r.first; });
     std::vector<Finding> found;
