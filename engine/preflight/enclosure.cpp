@@ -84,11 +84,11 @@ double depth_in_one_place(const Body& a, const Body& b) {
     const SurfaceMesh* mesh = own->shape->mesh();
     if (mesh == nullptr || !is_solid(*own) || !is_solid(*other)) continue;
     check_interrupt();
-    const std::size_t triangles = std::max<std::size_t>(mesh->mesh.triangles.size(), 1);
-    const Aabb box = other->bounds();
-    for (const Vec3& x :
-         inner_points({own->world_vertices, mesh->mesh.triangles}, std::clamp(kMostWork / triangles, kFewest, kPoints)))
-      if (overlap(box, Aabb{x, x})) deepest = std::max(deepest, depth_in(*other, x));
+    const std::size_t most =
+        std::clamp(kMostWork / std::max<std::size_t>(mesh->mesh.triangles.size(), 1), kFewest, kPoints);
+    const auto depth = [&, body = other](const Vec3& x) { return depth_in(*body, x); };
+    deepest = std::max(deepest,
+                       deepest_inner_point({own->world_vertices, mesh->mesh.triangles}, most, other->bounds(), depth));
   }
   return deepest;
 }

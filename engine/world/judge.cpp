@@ -122,9 +122,11 @@ double inner_overlap(const Solid& a, const Solid& b) {
   for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     if (own->shape->mesh() == nullptr) continue;
     check_interrupt();
-    for (const Vec3& x : inner_points({own->vertices, triangles_of(*own)}, kMostPoints))
-      if (overlap(other->bounds, Aabb{x, x}))
-        deepest = std::max(deepest, other->shape->mesh() ? depth_in_mesh(*other, x) : -signed_distance(*other, x));
+    const auto depth = [&, solid = other](const Vec3& x) {
+      return solid->shape->mesh() ? depth_in_mesh(*solid, x) : -signed_distance(*solid, x);
+    };
+    deepest =
+        std::max(deepest, deepest_inner_point({own->vertices, triangles_of(*own)}, kMostPoints, other->bounds, depth));
   }
   return deepest;
 }

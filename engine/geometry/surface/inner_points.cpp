@@ -30,4 +30,12 @@ std::vector<Vec3> inner_points(const PlacedMesh& mesh, std::size_t most) {
   return points;
 }
 
+double deepest_inner_point(const PlacedMesh& mesh, std::size_t most, const Aabb& box,
+                           const std::function<double(const Vec3&)>& depth) {
+  double deepest = 0.0;
+  for (const Vec3& x : inner_points(mesh, most))
+    if (overlap(box, Aabb{x, x})) deepest = std::max(deepest, depth(x));
+  return deepest;
+}
+
 }  // namespace impinge
