@@ -23,10 +23,14 @@ void apply_pull(RigidBody& body, const Pull& pull, double kick, double time_step
 Pose free_flight(const RigidBody& body, const Vec3& velocity, const Vec3& angular_momentum, double time_step) {
   Pose end = body.pose;
   end.position += time_step * velocity;
-  if (angular_momentum.isZero(0.0)) return end;
-  const Vec3 momentum = end.rotation.transpose() * angular_momentum;
-  end.rotation = orthonormalized(end.rotation * free_rotation(body.principal, momentum, time_step));
+  end.rotation = free_turn(body, end.rotation, angular_momentum, time_step);
   return end;
+}
+
+Mat3 free_turn(const RigidBody& body, const Mat3& attitude, const Vec3& angular_momentum, double time_step) {
+  if (angular_momentum.isZero(0.0)) return attitude;
+  const Vec3 momentum = attitude.transpose() * angular_momentum;
+  return orthonormalized(attitude * free_rotation(body.principal, momentum, time_step));
 }
 
 void advance_rigid(RigidBody& body, double time_step) {

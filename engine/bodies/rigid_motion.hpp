@@ -17,6 +17,9 @@ void apply_pull(RigidBody& body, const Pull& pull, double kick, double time_step
 /// far (or not finite) that rounding leaves nothing of the attitude.
 Pose free_flight(const RigidBody& body, const Vec3& velocity, const Vec3& angular_momentum, double time_step);
 
+/// The attitude that the body has Δt after another one, likewise.
+Mat3 free_turn(const RigidBody& body, const Mat3& attitude, const Vec3& angular_momentum, double time_step);
+
 /// Moves the body by free_flight: contact changes L between two such turns, nothing within one. L is kept to the last
 /// bit, the energy to rounding. [Haapaoja16 §2.1]
 void advance_rigid(RigidBody& body, double time_step);

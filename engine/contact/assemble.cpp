@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bodies/rigid_motion.hpp"
 #include "engine/contact/contact_frame.hpp"
 #include "engine/contact/mobility.hpp"
 #include "engine/contact/pair_coefficients.hpp"
@@ -61,29 +62,36 @@ class Assembly {
       }
     }
     system().contacts.reserve(group.contacts.size());
+    is_flight_ = input.velocities == VelocityTime::end &&
+                 std::all_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex c) {
+                   const Collision* collision = input.contacts.collision(c);
+                   return collision != nullptr && collision->met > 0.0;
+                 });
+    if (is_flight_) turn_on(input.contacts.collision(group.contacts.front())->met);
   }
 
   void add_collision(ContactIndex index, const Collision& c) {
     ContactRows rows;
     rows.directions = contact_axes(c.normal);
-    const Vec3 common = c.common_point();
     const MaterialPoint a = bodies_[c.body_a].surface_point(c.triangle_a, c.point_a),
                         b = bodies_[c.body_b].surface_point(c.triangle_b, c.point_b);
     Vec3 velocity_before = Vec3::Zero();
     lead_.setZero();
-    fill_side(c.body_a, a, common, 1.0, rows, rows.a, velocity_before);
-    fill_side(c.body_b, b, common, -1.0, rows, rows.b, velocity_before);
+    fill_side(c.body_a, a, c.acts_on_a(), 1.0, rows, rows.a, velocity_before);
+    fill_side(c.body_b, b, c.acts_on_b(), -1.0, rows, rows.b, velocity_before);
     rows.gap = c.gap;
     if (c.body_a == c.body_b) rows.gap -= kSelfDistance * input_.settings.activation(bodies_[c.body_a].size);
     rows.friction = pair_friction(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     if (!add(index, std::move(rows), {a, b})) return;
     const double free_velocity = system().contact_velocity(system().contacts.size() - 1, false).x();
     ContactRows& row = system().contacts.back();
-    row.restitution = rebound_share(c) * pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
+    if (!c.is_after)
+      row.restitution = rebound_share(c) * pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
     if (input_.velocities == VelocityTime::middle && row.restitution > 0.0) find_impact(c, row, motion);
+    if (is_flight_) return take_flight(c, row, motion);
     row.bound = row_bound(motion, input_.settings, input_.time_step);
     if (!(row.bound > 0.0)) row.impact = 0.0;  // it is too slow to rebound
   }
@@ -133,6 +141,37 @@ class Assembly {
     return known == input_.rebounds->end() ? 1.0 : known->second;
   }
   GroupSystem& system() { return result_.system; }
+
+  /// The bodies as they will have turned by then.
+  void turn_on(double time) {
+    for (std::size_t i = 0; i < result_.rigid.size(); ++i) {
+      const RigidBody& body = *bodies_[result_.rigid[i]].as<RigidBody>();
+      const Mat3 rotation = free_turn(body, body.pose.rotation, body.angular_momentum, time);
+      RigidBlock& block = system().rigid[i];
+      block.inverse_inertia = rotation * body.inertia_inverse * rotation.transpose();
+      block.angular_velocity = block.inverse_inertia * body.angular_momentum;
+    }
+  }
+
+  /// What forces add to a body's velocity in the sub-step.
+  Vec3 gain_of(BodyIndex index) const {
+    const RigidBody* body = bodies_[index].as<RigidBody>();
+    if (body == nullptr) return Vec3::Zero();
+    return body->velocity - body->carry({}, body->pose.position).velocity_before;
+  }
+
+  /// Of two that nothing else touches: what their gap is when they meet has to last for the rest of the sub-step, and what
+  /// rebounds is the velocity that they have by then. That of the sub-step is what forces make of it half way.
+  void take_flight(const Collision& c, ContactRows& row, NormalMotion motion) const {
+    motion.gap += c.met * motion.free_velocity;
+    const double h = input_.time_step, acceleration = c.normal.dot(gain_of(c.body_a) - gain_of(c.body_b)) / h;
+    motion.velocity_before = motion.free_velocity + acceleration * (c.met - 0.5 * h);
+    motion.after = acceleration * (0.5 * h - c.met);
+    row.velocity_before = motion.velocity_before;
+    row.bound = row_bound(motion, input_.settings, h - c.met);
+    row.impact = c.met;
+    row.a.way = c.met * bodies_[c.body_a].twist().linear, row.b.way = c.met * bodies_[c.body_b].twist().linear;
+  }
 
   /// When the gap of two rigid bodies closes, with the velocity that they have by then: what is given back is a part of
   /// that one, and forces go on from there.
@@ -237,6 +276,7 @@ class Assembly {
   const CollisionGroup& group_;
   std::vector<BlockIndex> blocks_;  // by body of the group
   Vec3 lead_ = Vec3::Zero();        // of A's point against B's in the row that is made
+  bool is_flight_ = false;          // two that nothing else touches meet on their way
   AssembledGroup result_;
 };
 

@@ -40,9 +40,16 @@ struct Collision {
   double gap = 0.0;                      ///< normal·(point_a - point_b), metres; negative: overlap
   BodyIndex normal_owner;                ///< the body whose surface gives the normal and turns it along; none: neither
   std::uint64_t feature = 0;  ///< which features touch: stable from step to step, unique within the body pair
+  /// Where two meet in flight: when, in seconds from now, and from the common point to where the row acts on A and on B,
+  /// which come together then. 0: it acts from now on, and on both at the common point.
+  double met = 0.0;
+  Vec3 met_a = Vec3::Zero(), met_b = Vec3::Zero();
+  bool is_after = false;  ///< the two meet elsewhere before: what it meets with is not their free velocity
 
-  /// Where its row acts on both bodies.
   Vec3 common_point() const { return 0.5 * (point_a + point_b); }
+  /// Where its row acts on either body.
+  Vec3 acts_on_a() const { return common_point() + met_a; }
+  Vec3 acts_on_b() const { return common_point() + met_b; }
 };
 
 /// Identity of a feature pair for warm starting: kinds and indices of the features on a and b.

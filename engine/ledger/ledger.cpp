@@ -75,6 +75,7 @@ void Ledger::open_frame(Bodies& bodies, const Vec3& gravity) {
   elastic_.assign(n, 0.0);
   known_.resize(n);
   pull_.assign(n, Vec3::Zero());
+  flight_.assign(n, std::nullopt);
   motion_.assign(n, {});
   substep_.assign(n, {});
   largest_.assign(n, {});
@@ -89,6 +90,7 @@ void Ledger::open_motion(Bodies& bodies) {
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
     motion_[b] = {};
     pull_[b].setZero();
+    flight_[b].reset();
     if (!body.has_freedom()) return;
     know(body, known_[b]);
     known_[b].elastic = elastic_[b];
@@ -116,8 +118,15 @@ LedgerEntry Ledger::node_entry(BodyIndex index, const VecX& impulse) const {
   return entry_of_nodes(impulse, known_[index].node_mean, known_[index].nodes);
 }
 
-LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse) const {
-  if (side.rigid >= 0) return rigid_entry(index, impulse, side.arm.cross(impulse));
+LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse) {
+  if (side.rigid >= 0) {
+    LedgerEntry entry = rigid_entry(index, impulse, side.arm.cross(impulse));
+    if (side.way.isZero(0.0)) return entry;
+    const Vec3 on_the_way = side.way.cross(impulse);  // it meets elsewhere than where the books have it
+    flight_[index] = flight_[index].value_or(Vec3::Zero()) + on_the_way;
+    entry.angular_momentum += on_the_way;
+    return entry;
+  }
   const DeformableBody& soft = *body.as<DeformableBody>();
   const Known& k = known_[index];
   LedgerEntry entry;
@@ -283,7 +292,15 @@ void Ledger::advanced(Bodies& bodies) {
         of(entries, LedgerSource::gravity).stored + of(entries, LedgerSource::elastic).stored;
 }
 
-void Ledger::pushed_out(Bodies& bodies) { take_moves(bodies, LedgerSource::push_out); }
+/// Of those that met in flight it is no recovery: their way was another than that of the velocity they end with.
+void Ledger::pushed_out(Bodies& bodies) {
+  for_each_body(bodies, [&](BodyIndex b, Body& body) {
+    if (!body.has_freedom() || body.asleep) return;
+    LedgerEntry& entry = of(motion_[b], flight_[b] ? LedgerSource::integrator : LedgerSource::push_out);
+    take_move(body, known_[b], entry);
+    if (flight_[b]) entry.angular_momentum -= *flight_[b];
+  });
+}
 
 void Ledger::kept(Bodies& bodies) {
   take_moves(bodies, LedgerSource::held_back);

@@ -44,6 +44,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/bodies/bodies.hpp"
 #include "engine/bodies/time_integration.hpp"
@@ -107,18 +108,19 @@ class Ledger {
   void take_moves(Bodies& bodies, LedgerSource source);
   LedgerEntry rigid_entry(BodyIndex index, const Vec3& impulse, const Vec3& torque) const;
   LedgerEntry node_entry(BodyIndex index, const VecX& impulse) const;
-  LedgerEntry side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse) const;
+  LedgerEntry side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse);
   LedgerEntry pushed(Body& body, const Act& act, const std::function<void()>& doing) const;
 
   Vec3 gravity_ = Vec3::Zero();
   std::vector<BodyLedger> acts_;  // since the last frame; empty: none
   FrameLedger frame_;
-  std::vector<Balance> begin_;                               // by body, when the frame began
-  std::vector<double> elastic_;                              // by body, where the last kept motion left it
-  std::vector<Known> known_;                                 // by body, of the open motion
-  std::vector<Vec3> pull_;                                   // by body: on a rigid one in the open motion, N·s
-  std::vector<Entries> motion_;                              // by body, of the open motion
-  std::vector<Entries> substep_;                             // of its kept motions
+  std::vector<Balance> begin_;               // by body, when the frame began
+  std::vector<double> elastic_;              // by body, where the last kept motion left it
+  std::vector<Known> known_;                 // by body, of the open motion
+  std::vector<Vec3> pull_;                   // by body: on a rigid one in the open motion, N·s
+  std::vector<std::optional<Vec3>> flight_;  // by body that met in flight: what its impact did on the way
+  std::vector<Entries> motion_;              // by body, of the open motion
+  std::vector<Entries> substep_;             // of its kept motions
   std::vector<std::array<double, kLedgerSources>> largest_;  // by body, of a sub-step of the frame, J
   std::vector<BeforeRest> before_rest_;
 };

@@ -1,6 +1,7 @@
 #include "engine/step/detect.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "engine/core/interrupt.hpp"
 #include "engine/step/find_collisions.hpp"
@@ -36,10 +37,50 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
                    [&](const Collision& l, const Collision& r) { return pair_of(l) < pair_of(r); });
 }
 
+/// Of two that approach and have no contact with anybody else, those where they meet take the place of those that planes
+/// between them would make at the start: impulses can wait until then without anybody noticing (step/late_impacts).
+void follow_flights(const Bodies& bodies, std::span<const Attachment> attachments, const ContactSettings& contact,
+                    const std::vector<Approach>& approaches, SubStep& step) {
+  if (approaches.empty()) return;
+  std::set<BodyPair> touching;
+  for (const Collision& c : step.collisions) touching.insert({c.body_a, c.body_b});
+  for (const Approach& approach : approaches) touching.insert(approach.pair);
+  std::vector<int> count(step.colliders.size(), 0);
+  for (const BodyPair& pair : touching) ++count[pair.a], ++count[pair.b];
+  for (const Attachment& a : attachments)
+    for (const BodyIndex b : {a.a.body, a.b.body})
+      if (!b.is_none()) ++count[b];
+  const auto is_alone = [&](BodyIndex b) { return !bodies[b].has_freedom() || count[b] == 1; };
+  const auto was_asked = [&](const BodyPair& pair) {
+    const auto is_of = [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; };
+    return std::any_of(step.asked.begin(), step.asked.end(), is_of) ||
+           std::any_of(step.brought.begin(), step.brought.end(), is_of);
+  };
+  std::vector<Collision> met;
+  std::vector<BodyPair> changed;
+  for (const Approach& approach : approaches) {
+    const auto& [a, b, margin] = approach.pair;
+    if (!is_alone(a) || !is_alone(b) || was_asked(approach.pair)) continue;
+    const std::vector<Collision> found = collisions_of(approach, step.colliders, contact, step.time_step);
+    if (found.empty()) continue;
+    met.insert(met.end(), found.begin(), found.end());
+    changed.push_back(approach.pair);
+  }
+  if (met.empty()) return;
+  std::erase_if(step.collisions, [&](const Collision& c) {
+    return std::binary_search(changed.begin(), changed.end(), BodyPair{c.body_a, c.body_b});
+  });
+  step.collisions.insert(step.collisions.end(), met.begin(), met.end());
+  std::stable_sort(step.collisions.begin(), step.collisions.end(), [](const Collision& l, const Collision& r) {
+    return std::pair(l.body_a, l.body_b) < std::pair(r.body_a, r.body_b);
+  });
+}
+
 }  // namespace
 
 void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detecting& by, const TimeIntegration& how,
             Sleeping& sleeping, SubStep& step, StageTimes& times) {
+  std::vector<Approach> approaches;
   for (;;) {
     {
       const StageTimer timer(times.broad_ms);
@@ -50,10 +91,11 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
     check_interrupt();
     {
       const StageTimer timer(times.narrow_ms);
-      find_collisions(step.colliders, step.pairs, by.contact, step.time_step, by.either_may_stop, by.narrow_phase,
-                      step.triangle_pairs, step.collisions);
+      find_collisions(step.colliders, step.pairs, by, step.time_step, step.triangle_pairs, step.collisions,
+                      by.follows_flights ? &approaches : nullptr);
       add_asked(step.brought, step.collisions);
       add_asked(step.asked, step.collisions);
+      follow_flights(bodies, attachments, by.contact, approaches, step);
     }
     const std::vector<BodyIndex> woken = sleeping.wake_touched(bodies, touching(bodies, step.contacts(attachments)));
     if (woken.empty()) break;

@@ -50,15 +50,17 @@ class EndPose {
   EndPose(const Bodies& bodies, const SubStep& step, std::span<const Collider> solved, std::span<const BodyPair> pairs)
       : bodies_(bodies), step_(step), vertices_(step.colliders.size()) {
     make_colliders(bodies, colliders_);
-    std::vector<const BodyVector*> changes(colliders_.size(), nullptr);
+    std::vector<const BodyVector*> changes(colliders_.size(), nullptr), flights(colliders_.size(), nullptr);
     for (std::size_t g = 0; g < step.groups.size(); ++g)
-      for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i)
+      for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i) {
         changes[step.groups[g].bodies[i]] = &step.results[g].velocity[i];
+        if (step.results[g].follows_flight) flights[step.groups[g].bodies[i]] = &step.results[g].displacement[i];
+      }
     std::set<BodyIndex> wanted;
     for (const BodyPair& pair : pairs) wanted.insert({pair.a, pair.b});
     std::size_t most = 0;
     for (const BodyIndex b : wanted) {
-      move(b, changes[b], {solved[b].velocity, solved[b].angular_velocity});
+      move(b, changes[b], {solved[b].velocity, solved[b].angular_velocity}, flights[b]);
       most = std::max(most, vertices_[b].size());
     }
     resting_.assign(most, Vec3::Zero());
@@ -80,7 +82,8 @@ class EndPose {
   }
 
  private:
-  void move(BodyIndex b, const BodyVector* change, const Twist& twist) {
+  /// `flight`: what it is put back by, or null.
+  void move(BodyIndex b, const BodyVector* change, const Twist& twist, const BodyVector* flight) {
     const Body& body = bodies_[b];
     Collider& c = colliders_[b];
     if (deforms(body)) {
@@ -96,6 +99,10 @@ class EndPose {
       } else {
         c.pose.position += step_.time_step * twist.linear;
         c.pose.rotation = rotation_exp(step_.time_step * twist.angular) * c.pose.rotation;
+      }
+      if (flight != nullptr) {
+        c.pose.position += flight->twist.linear;
+        c.pose.rotation = rotation_exp(flight->twist.angular) * c.pose.rotation;
       }
       if (body.world_vertices.empty()) {
         c.bounds = body.shape->bounds(c.pose);
@@ -114,6 +121,11 @@ class EndPose {
   std::vector<std::vector<Vec3>> vertices_;  // by body, of meshes that move
   std::vector<Vec3> resting_;                // velocities of what has arrived
 };
+
+Detecting at_rest(Detecting by) {
+  by.either_may_stop = by.looks_ahead = by.follows_flights = false;
+  return by;
+}
 
 /// Of two rigid meshes, which meet in many features at once: few of them hold the others too.
 void keep_deepest(const Bodies& bodies, std::span<const double> ends, std::vector<Collision>& found) {
@@ -145,7 +157,7 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
   std::vector<BodyPair> pairs;
   for (const BodyPair& pair : step.pairs) {
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
-    if (pair.a == pair.b || a.asleep || b.asleep) continue;
+    if (pair.a == pair.b || a.asleep || b.asleep || step.is_flight(pair.a, pair.b)) continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
     const double activation = contact.activation(pair_size(a, b));
     const auto is_swift = [&] {
@@ -169,7 +181,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   if (pairs.empty()) return {};
   std::vector<TrianglePair> triangles;
   std::vector<Collision> found;
-  find_collisions(end.colliders(), pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
+  find_collisions(end.colliders(), pairs, at_rest(by), 0.0, triangles, found);
   std::vector<double> ends;  // gaps there, of those that stay
   std::erase_if(found, [&](Collision& c) {
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
@@ -197,7 +209,7 @@ std::vector<std::optional<Collision>> deepest_now(const Bodies& bodies, const De
   for (BodyPair& pair : pairs) pair.margin = by.contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
   std::vector<TrianglePair> triangles;
   std::vector<Collision> found;
-  find_collisions(colliders, pairs, by.contact, 0.0, false, by.narrow_phase, triangles, found);
+  find_collisions(colliders, pairs, at_rest(by), 0.0, triangles, found);
   std::vector<std::optional<Collision>> deepest;
   for (const BodyPair& pair : pairs) {
     std::optional<Collision>& of = deepest.emplace_back();

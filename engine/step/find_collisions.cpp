@@ -5,8 +5,8 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/pairs/flight.hpp"
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
-#include "engine/detection/pairs/primitive.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/surface/exempt_pairs.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -25,6 +25,28 @@ std::span<const TrianglePair> part_of(std::span<const TrianglePair> all, const B
   auto last = first;
   while (last != all.end() && last->a == pair.a && last->b == pair.b) ++last;
   return {first, last};
+}
+
+ContactQuery query_for(std::span<const Collider> colliders, const BodyPair& pair, const ContactSettings& settings,
+                       double time_step, bool either_may_stop) {
+  const double size = std::min(colliders[pair.a].size, colliders[pair.b].size);
+  return {settings.points == ContactPoints::proximity, settings.activation_distance.at(size), time_step,
+          either_may_stop};
+}
+
+/// Of two meshes, by their triangles that are near.
+void near_contacts(std::span<const Collider> colliders, const BodyPair& pair, std::span<const TrianglePair> triangles,
+                   const ContactQuery& query, std::vector<Collision>& contacts) {
+  if (mesh_in_mesh(colliders, pair, triangles, query, contacts) || triangles.empty()) return;
+  proximity_contacts(colliders, pair, triangles, query.activation, query.time_step, contacts);
+}
+
+/// The same from nothing.
+void mesh_contacts(std::span<const Collider> colliders, const BodyPair& pair, const ContactQuery& query,
+                   std::vector<Collision>& contacts) {
+  std::vector<TrianglePair> triangles;
+  make_named(narrow_phases(), "bvh")->find(colliders, std::span(&pair, 1), triangles);
+  near_contacts(colliders, pair, triangles, query, contacts);
 }
 
 /// The colliders, those of deforming meshes that several shapes are near with their trees' boxes where they are now: one
@@ -60,15 +82,15 @@ class FittedColliders {
 
 }  // namespace
 
-void find_collisions(std::span<const Collider> colliders, std::span<const BodyPair> pairs,
-                     const ContactSettings& settings, double time_step, bool either_may_stop, NarrowPhase& narrow_phase,
-                     std::vector<TrianglePair>& triangle_pairs, std::vector<Collision>& collisions) {
-  const bool proximity = settings.points == ContactPoints::proximity;
+void find_collisions(std::span<const Collider> colliders, std::span<const BodyPair> pairs, const Detecting& by,
+                     double time_step, std::vector<TrianglePair>& triangle_pairs, std::vector<Collision>& collisions,
+                     std::vector<Approach>* approaches) {
+  const bool proximity = by.contact.points == ContactPoints::proximity;
   std::vector<BodyPair> mesh_pairs;
   for (const BodyPair& pair : pairs)
     if (is_mesh_pair(colliders, pair)) mesh_pairs.push_back(pair);
   triangle_pairs.clear();
-  if (!mesh_pairs.empty()) narrow_phase.find(colliders, mesh_pairs, triangle_pairs);
+  if (!mesh_pairs.empty()) by.narrow_phase.find(colliders, mesh_pairs, triangle_pairs);
   std::erase_if(triangle_pairs, [&](const TrianglePair& t) {
     const ExemptPairs* exempt = t.a == t.b ? colliders[t.a].exempt_pairs : nullptr;
     return exempt != nullptr && exempt->has(t.triangle_a, t.triangle_b);
@@ -77,21 +99,39 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
 
   const FittedColliders fitted(colliders, pairs);
   std::vector<std::vector<Collision>> found(pairs.size());  // one slot a pair, so that threads don't share
+  std::vector<double> meeting(pairs.size(), 0.0);
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const BodyPair& pair = pairs[i];
-    const double size = std::min(colliders[pair.a].size, colliders[pair.b].size);
-    const ContactQuery query{proximity, settings.activation_distance.at(size), time_step, either_may_stop};
-    if (!is_mesh_pair(colliders, pair)) return primitive_contacts(fitted.all(), pair, query, found[i]);
-    const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
-    if (proximity && mesh_in_mesh(colliders, pair, triangles, query, found[i])) return;
-    if (triangles.empty()) return;
-    if (proximity)
-      proximity_contacts(colliders, pair, triangles, query.activation, time_step, found[i]);
+    const ContactQuery query = query_for(colliders, pair, by.contact, time_step, by.either_may_stop);
+    if (!is_mesh_pair(colliders, pair)) {
+      primitive_contacts(fitted.all(), pair, query, found[i]);
+    } else {
+      const std::span<const TrianglePair> triangles = part_of(triangle_pairs, pair);
+      if (proximity)
+        near_contacts(colliders, pair, triangles, query, found[i]);
+      else if (!triangles.empty())
+        intersection_contacts(colliders, pair, triangles, found[i]);
+    }
+    if (!by.looks_ahead || !fly_together(colliders[pair.a], colliders[pair.b], query, found[i])) return;
+    const std::optional<double> time = time_of_meeting(colliders[pair.a], colliders[pair.b], query);
+    if (!time)
+      found[i].clear();  // it is a plane that they would meet, not each other
     else
-      intersection_contacts(colliders, pair, triangles, found[i]);
+      meeting[i] = *time;
   });
   collisions.clear();
   for (const std::vector<Collision>& list : found) collisions.insert(collisions.end(), list.begin(), list.end());
+  if (approaches == nullptr) return;
+  approaches->clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (meeting[i] > 0.0) approaches->push_back({pairs[i], meeting[i]});
+}
+
+std::vector<Collision> collisions_of(const Approach& approach, std::span<const Collider> colliders,
+                                     const ContactSettings& settings, double time_step) {
+  return contacts_where_they_meet(colliders, approach.pair,
+                                  query_for(colliders, approach.pair, settings, time_step, false), approach.time,
+                                  is_mesh_pair(colliders, approach.pair) ? mesh_contacts : primitive_contacts);
 }
 
 }  // namespace impinge

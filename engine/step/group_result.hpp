@@ -21,6 +21,8 @@ struct SolvedContact {
   ContactState state = ContactState::open;
   GroupIndex group;
   double residual = 0.0;  ///< its own natural map, as the judge measures it (GroupVerdict::of_contacts)
+  /// Of what is met in flight: A's velocity against B's when they meet, before and after, (n, t1, t2), m/s.
+  Vec3 slip_before = Vec3::Zero(), slip_after = Vec3::Zero();
 };
 
 /// The collision at the bodies' present poses, not solved.
@@ -44,6 +46,7 @@ struct GroupResult {
   // the answer, by body of the group
   std::vector<BodyVector> velocity;      ///< Δv
   std::vector<BodyVector> displacement;  ///< recovery from overlap, metres and radians; empty: none
+  bool follows_flight = false;           ///< it is no recovery, but what the bodies went freely before they met
   std::vector<double> push_out;          ///< how fast that is at each body's fastest point, m/s; empty: none
 
   // how it was found

@@ -44,24 +44,23 @@ class Motion {
     Twist a = solved_[c.body_a], b = solved_[c.body_b];
     for (const SolvedContact* other : of_pair) {
       const Vec3 impulse = contact_axes(other->collision.normal).transpose() * other->lambda;
-      take(c.body_a, other->collision.common_point(), -impulse, a);
-      take(c.body_b, other->collision.common_point(), impulse, b);
+      take(c.body_a, other->collision.acts_on_a(), -impulse, a);
+      take(c.body_b, other->collision.acts_on_b(), impulse, b);
     }
     return c.normal.dot(between(c, a, b));
   }
   /// The first two as vectors.
   Vec3 free_slip(const Collision& c) const {
-    return step_.colliders[c.body_a].velocity_at(c.common_point()) -
-           step_.colliders[c.body_b].velocity_at(c.common_point());
+    return step_.colliders[c.body_a].velocity_at(c.acts_on_a()) - step_.colliders[c.body_b].velocity_at(c.acts_on_b());
   }
   Vec3 solved_slip(const Collision& c) const { return between(c, solved_[c.body_a], solved_[c.body_b]); }
 
  private:
   Vec3 between(const Collision& c, const Twist& a, const Twist& b) const {
-    const auto at = [&](BodyIndex body, const Twist& t) {
-      return Vec3(t.linear + t.angular.cross(c.common_point() - step_.colliders[body].pose.position));
+    const auto at = [&](BodyIndex body, const Twist& t, const Vec3& x) {
+      return Vec3(t.linear + t.angular.cross(x - step_.colliders[body].pose.position));
     };
-    return at(c.body_a, a) - at(c.body_b, b);
+    return at(c.body_a, a, c.acts_on_a()) - at(c.body_b, b, c.acts_on_b());
   }
   void take(BodyIndex index, const Vec3& at, const Vec3& impulse, Twist& twist) const {
     const RigidBody* body = bodies_[index].as<RigidBody>();
@@ -94,7 +93,9 @@ Work work_of(const Motion& motion, const GroupResult& result) {
   for (const SolvedContact& c : result.solved) {
     if (c.collision.gap < 0.0) continue;  // what is pushed out may
     const Mat3 axes = contact_axes(c.collision.normal);
-    const Vec3 before = axes * motion.free_slip(c.collision), after = axes * motion.solved_slip(c.collision);
+    const bool is_flight = c.collision.met > 0.0;
+    const Vec3 before = is_flight ? c.slip_before : Vec3(axes * motion.free_slip(c.collision)),
+               after = is_flight ? c.slip_after : Vec3(axes * motion.solved_slip(c.collision));
     const Vec3 done = 0.5 * c.lambda.cwiseProduct(before + after);
     work.normal += done.x(), work.friction += done.y() + done.z();
     work.moved += 0.5 * c.lambda.x() * (std::abs(before.x()) + std::abs(after.x()));

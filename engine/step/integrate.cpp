@@ -24,14 +24,16 @@ std::optional<Vec3> free_velocity_of(const Bodies& bodies, const CollisionGroup&
   return mean / mass;
 }
 
-/// Recovery from overlap; where a group is free of the rest of the world it keeps its angular momentum too.
+/// Recovery from overlap; where a group is free of the rest of the world it keeps its angular momentum too. That of a flight
+/// is right as it is: the impulse acted on a common point, on the way.
 void displace(Bodies& bodies, const SubStep& step) {
   const ContactList contacts = step.contacts({});
   for (GroupIndex g(0); g < step.groups.size(); ++g) {
     const CollisionGroup& group = step.groups[g];
     const std::vector<BodyVector>& by = step.results[g].displacement;
     if (by.empty()) continue;
-    const std::optional<Vec3> velocity = free_velocity_of(bodies, group, contacts);
+    const std::optional<Vec3> velocity =
+        step.results[g].follows_flight ? std::nullopt : free_velocity_of(bodies, group, contacts);
     for (std::size_t i = 0; i < group.bodies.size(); ++i) bodies[group.bodies[i]].displace(by[i], velocity);
   }
 }

@@ -1,4 +1,5 @@
-// Where velocities are those of the middle (VelocityTime::middle): what rebounds within a sub-step.
+// What acts within a sub-step and not from its start on: impacts of two bodies that meet in flight, and where velocities are
+// those of the middle (VelocityTime::middle) what rebounds.
 #pragma once
 
 #include <optional>

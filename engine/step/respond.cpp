@@ -4,11 +4,13 @@
 
 #include <algorithm>
 
+#include "engine/bodies/rigid_motion.hpp"
 #include "engine/bodies/scale.hpp"
 #include "engine/contact/push_out.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/geometry/rotation.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/tasks.hpp"
@@ -203,7 +205,7 @@ class GroupSolve {
     result_.is_usable = result_.is_at_root && is_usable();
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
-    result_.velocity = now_.by_body(group_, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta);
+    result_.velocity = now_.by_body(group_, s.delta_velocity, spin_changes(), s.deformable_delta);
     push_out();
     hand_on();
   }
@@ -232,10 +234,46 @@ class GroupSolve {
     displace(std::move(velocity), share);
   }
 
-  /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities.
+  /// Impacts in flight, and rebounds, act when their gaps close, not when the sub-step begins: until then bodies move by
+  /// their free velocities.
   void follow_impacts() {
-    const std::optional<LateImpacts> late = late_impacts(system(), input_.time_step);
-    if (late) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
+    const std::optional<LateImpacts> late = meeting() > 0.0 ? ways_before() : late_impacts(system(), input_.time_step);
+    if (!late) return;
+    result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
+    result_.follows_flight = meeting() > 0.0;
+  }
+
+  /// When the group's two bodies meet in flight, s; 0: they don't.
+  double meeting() const {
+    return input_.velocities == VelocityTime::end && !now_.system.contacts.empty() ? now_.system.contacts.front().impact
+                                                                                   : 0.0;
+  }
+
+  /// The changes of angular velocity that change angular momenta, as the bodies stand now, by what impulses did.
+  std::vector<Vec3> spin_changes() const {
+    std::vector<Vec3> changes = now_.system.delta_angular_velocity;
+    if (meeting() == 0.0) return changes;
+    for (std::size_t i = 0; i < changes.size(); ++i)
+      changes[i] = bodies_[now_.rigid[i]].as<RigidBody>()->world_inertia_inverse() *
+                   (now_.system.rigid[i].inverse_inertia.inverse() * changes[i]);
+    return changes;
+  }
+
+  /// Until then the bodies go freely: what that is beside the way of the velocities that they end with.
+  LateImpacts ways_before() const {
+    LateImpacts ways;
+    const std::vector<Vec3> spins = spin_changes();
+    const double h = input_.time_step, met = meeting();
+    for (std::size_t i = 0; i < now_.rigid.size(); ++i) {
+      const RigidBody& body = *bodies_[now_.rigid[i]].as<RigidBody>();
+      const Mat3& start = body.pose.rotation;
+      const Vec3 momentum = body.angular_momentum + body.world_inertia() * spins[i];
+      const Mat3 taken = free_turn(body, start, momentum, h),
+                 wanted = free_turn(body, free_turn(body, start, body.angular_momentum, met), momentum, h - met);
+      ways.linear.push_back(-met * now_.system.delta_velocity[i]);
+      ways.angular.push_back(rotation_log(wanted * taken.transpose()));
+    }
+    return ways;
   }
 
   void displace(std::vector<BodyVector> velocity, double share) {
@@ -268,6 +306,8 @@ class GroupSolve {
       solved.state = state_of(solved.lambda, solved.friction);
       solved.group = index_;
       solved.residual = result_.verdict.of_contacts[i];
+      if (collision->met > 0.0)
+        solved.slip_before = s.contact_velocity(i, false), solved.slip_after = s.contact_velocity(i, true);
       result_.solved.push_back(std::move(solved));
     }
     if (result_.frozen) {

@@ -146,7 +146,7 @@ void SecondLook::find_driven(StageTimes& times) {
   for (const BodyPair& pair : pairs_)
     sought_[{pair.a, pair.b}] = {twist_of(colliders_[pair.a]), twist_of(colliders_[pair.b])};
   const StageTimer timer(times.narrow_ms);
-  find_collisions(colliders_, pairs_, by_.contact, step_.time_step, false, by_.narrow_phase, triangles_, found_);
+  find_collisions(colliders_, pairs_, by_, step_.time_step, triangles_, found_);
   std::vector<ContactKey> known;
   for (const std::vector<Collision>* list : {&step_.collisions, &step_.dropped})
     for (const Collision& c : *list) known.push_back(key_of(c));
@@ -250,10 +250,11 @@ bool SecondLook::is_awake_and_rigid(BodyIndex a, BodyIndex b) const {
   return is_rigid(bodies_[a]) && is_rigid(bodies_[b]) && !bodies_[a].asleep && !bodies_[b].asleep;
 }
 
-/// Two whose free motion is theirs still, or who hardly approach, have all their contacts.
+/// Two whose free motion is theirs still, or who hardly approach, have all their contacts. What two that meet in flight come
+/// upon after that is for a cut of the sub-step: rows from its start know nothing of it.
 bool SecondLook::is_driven(BodyIndex a, BodyIndex b) const {
   const Body &of_a = bodies_[a], &of_b = bodies_[b];
-  if (!is_awake_and_rigid(a, b) || !may_respond(bodies_, a, b)) return false;
+  if (!is_awake_and_rigid(a, b) || !may_respond(bodies_, a, b) || step_.is_flight(a, b)) return false;
   const double activation = by_.contact.activation(pair_size(of_a, of_b));
   if (!(approach(colliders_[a], of_a.radius, colliders_[b], of_b.radius, step_.time_step) > activation)) return false;
   const auto sought = sought_.find({a, b});
@@ -270,8 +271,8 @@ bool SecondLook::is_driven(BodyIndex a, BodyIndex b) const {
 
 /// As the contact's row says, or the row would not mend what is missed here.
 double SecondLook::end_gap(const Collision& c) const {
-  const Vec3 common = c.common_point();
-  const Vec3 closing = colliders_[c.body_a].velocity_at(common) - colliders_[c.body_b].velocity_at(common);
+  const Vec3 closing =
+      colliders_[c.body_a].velocity_at(c.acts_on_a()) - colliders_[c.body_b].velocity_at(c.acts_on_b());
   return c.gap + step_.time_step * c.normal.dot(closing);
 }
 

@@ -48,6 +48,8 @@ struct SubStep {
   /// `later` as `colliders` are: of active bodies, or of all where nothing is known of it.
   void begin_later(const Bodies& bodies);
   ContactList contacts(std::span<const Attachment> attachments) const { return {collisions, attachments}; }
+  /// Whether the contacts of two are those of where they meet within the sub-step.
+  bool is_flight(BodyIndex a, BodyIndex b) const;
   /// None: nothing touches the body.
   GroupIndex group_of(BodyIndex body) const;
 };

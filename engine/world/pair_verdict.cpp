@@ -7,6 +7,7 @@
 
 #include "engine/contact/pair_scale.hpp"
 #include "engine/detection/pairs/contact_sink.hpp"
+#include "engine/detection/pairs/flight.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/world/world.hpp"
 
@@ -210,18 +211,28 @@ class Report {
     add("distance", is_near || meets || v_.in_contact(), std::move(words), std::move(numbers));
   }
 
+  bool fly_past() const {
+    const Detecting by = detecting(world_.parameters);
+    const ContactQuery query{by.contact.points == ContactPoints::proximity, activation(), step_.time_step,
+                             by.either_may_stop};
+    return by.looks_ahead && fly_together(of_a_, of_b_, query, {}) && !time_of_meeting(of_a_, of_b_, query);
+  }
+
   void contacts() {
     if (is_stopped_) return add_idle("contacts", "");
     if (!v_.in_contact())
       return add("contacts", false,
-                 fmt::format("no features are in contact by contact.points = \"{}\"",
-                             name_of(world_.parameters.contact.points)));
+                 fly_past() ? "on their ways they come no nearer to each other than contacts are looked for"
+                            : fmt::format("no features are in contact by contact.points = \"{}\"",
+                                          name_of(world_.parameters.contact.points)));
     const Collision& c = deepest();
     add("contacts", true,
-        fmt::format("{}, the smallest gap is {}, normal ({:.4g}, {:.4g}, {:.4g}) from '{}' to '{}'",
+        fmt::format("{}, the smallest gap is {}, normal ({:.4g}, {:.4g}, {:.4g}) from '{}' to '{}'{}",
                     several(v_.contacts.size(), "contact"), metres(c.gap), c.normal.x() + 0.0, c.normal.y() + 0.0,
-                    c.normal.z() + 0.0, v_.name_b, v_.name_a),
+                    c.normal.z() + 0.0, v_.name_b, v_.name_a,
+                    c.met > 0.0 ? fmt::format(": of where they meet, {:.4g} s later", c.met) : ""),
         {{"contacts", static_cast<double>(v_.contacts.size())},
+         {"met_after_s", c.met},
          {"gap_m", c.gap},
          {"normal_x", c.normal.x()},
          {"normal_y", c.normal.y()},

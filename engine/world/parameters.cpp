@@ -100,8 +100,13 @@ Continuous watching(const Parameters& p) {
 
 Detecting detecting(const Parameters& p) {
   const Response& response = *p.response.method;
-  return {p.contact, *p.broad_phase.method, *p.narrow_phase.method,
-          response.is_approximate() && !response.lives_on_overlap()};
+  const bool looks_ahead = watching(p) != Continuous::off;
+  return {p.contact,
+          *p.broad_phase.method,
+          *p.narrow_phase.method,
+          response.is_approximate() && !response.lives_on_overlap(),
+          looks_ahead,
+          looks_ahead && !response.is_approximate() && p.simulation.velocities == VelocityTime::end};
 }
 
 Solving solving(const Parameters& p) {

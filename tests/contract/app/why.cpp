@@ -241,6 +241,7 @@ TEST_CASE("why tells of a motion that was taken back") {
   TempFolder folder;
   folder.write("s.toml", R"([simulation]
 substeps = 1
+velocities = "middle"
 gravity = [0, 0, 0]
 [[body]]
 name = "plate"
