@@ -35,6 +35,10 @@ using SystemBlock = std::variant<RigidBlock, DeformableBlock>;
 struct Twist {
   Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
   bool is_zero() const { return linear.isZero(0.0) && angular.isZero(0.0); }
+  Twist& operator+=(const Twist& more) {
+    linear += more.linear, angular += more.angular;
+    return *this;
+  }
 };
 
 /// A velocity or displacement of a body, in the unknowns of its block.

@@ -62,12 +62,8 @@ class Assembly {
       }
     }
     system().contacts.reserve(group.contacts.size());
-    is_flight_ = input.velocities == VelocityTime::end &&
-                 std::all_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex c) {
-                   const Collision* collision = input.contacts.collision(c);
-                   return collision != nullptr && collision->met > 0.0;
-                 });
-    if (is_flight_) turn_on(input.contacts.collision(group.contacts.front())->met);
+    find_meeting();
+    if (meeting_ > 0.0) turn_on(meeting_);
   }
 
   void add_collision(ContactIndex index, const Collision& c) {
@@ -91,7 +87,7 @@ class Assembly {
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
     if (input_.velocities == VelocityTime::middle && row.restitution > 0.0) find_impact(c, row, motion);
-    if (is_flight_) return take_flight(c, row, motion);
+    if (meeting_ > 0.0 && c.met > 0.0) return take_flight(c, row, motion);
     row.bound = row_bound(motion, input_.settings, input_.time_step);
     if (!(row.bound > 0.0)) row.impact = 0.0;  // it is too slow to rebound
   }
@@ -142,6 +138,18 @@ class Assembly {
   }
   GroupSystem& system() { return result_.system; }
 
+  void find_meeting() {
+    if (input_.velocities != VelocityTime::end) return;
+    double met = 0.0;
+    for (const ContactIndex i : group_.contacts) {
+      const Collision* c = input_.contacts.collision(i);
+      if (c == nullptr) return;
+      met = std::max(met, c->met);
+      if (c->met == 0.0 && bodies_[c->body_a].has_freedom() && bodies_[c->body_b].has_freedom()) return;
+    }
+    meeting_ = met;
+  }
+
   /// The bodies as they will have turned by then.
   void turn_on(double time) {
     for (std::size_t i = 0; i < result_.rigid.size(); ++i) {
@@ -160,7 +168,7 @@ class Assembly {
     return body->velocity - body->carry({}, body->pose.position).velocity_before;
   }
 
-  /// Of two that nothing else touches: what their gap is when they meet has to last for the rest of the sub-step, and what
+  /// Of two that nothing else touches that can move: what their gap is when they meet has to last for the rest of the sub-step, and what
   /// rebounds is the velocity that they have by then. That of the sub-step is what forces make of it half way.
   void take_flight(const Collision& c, ContactRows& row, NormalMotion motion) const {
     motion.gap += c.met * motion.free_velocity;
@@ -276,7 +284,7 @@ class Assembly {
   const CollisionGroup& group_;
   std::vector<BlockIndex> blocks_;  // by body of the group
   Vec3 lead_ = Vec3::Zero();        // of A's point against B's in the row that is made
-  bool is_flight_ = false;          // two that nothing else touches meet on their way
+  double meeting_ = 0.0;  // s, when two that nothing else touches that can move meet on their way; 0: they don't
   AssembledGroup result_;
 };
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
 
@@ -37,16 +38,22 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
                    [&](const Collision& l, const Collision& r) { return pair_of(l) < pair_of(r); });
 }
 
-/// Of two that approach and have no contact with anybody else, those where they meet take the place of those that planes
-/// between them would make at the start: impulses can wait until then without anybody noticing (step/late_impacts).
+/// Of two that approach and touch nobody else, those where they meet take the place of those that planes between them would
+/// make at the start: impulses can wait until then without anybody noticing (step/late_impacts). Balls may touch what can't
+/// move as well; of others that do new places come round in a turn, which only looks at the end find.
 void follow_flights(const Bodies& bodies, std::span<const Attachment> attachments, const ContactSettings& contact,
                     const std::vector<Approach>& approaches, SubStep& step) {
   if (approaches.empty()) return;
   std::set<BodyPair> touching;
-  for (const Collision& c : step.collisions) touching.insert({c.body_a, c.body_b});
-  for (const Approach& approach : approaches) touching.insert(approach.pair);
-  std::vector<int> count(step.colliders.size(), 0);
-  for (const BodyPair& pair : touching) ++count[pair.a], ++count[pair.b];
+  std::vector<int> count(step.colliders.size(),
+                         0);  // by body: of whom it touches or comes upon, but for what may be left out
+  const auto touch = [&](const BodyPair& pair, bool is_approach) {
+    if (!touching.insert(pair).second) return;
+    for (const auto& [own, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
+      if (is_approach || bodies[other].has_freedom() || bodies[own].shape->as<Sphere>() == nullptr) ++count[own];
+  };
+  for (const Approach& approach : approaches) touch(approach.pair, true);
+  for (const Collision& c : step.collisions) touch({c.body_a, c.body_b}, false);
   for (const Attachment& a : attachments)
     for (const BodyIndex b : {a.a.body, a.b.body})
       if (!b.is_none()) ++count[b];

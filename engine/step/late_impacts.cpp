@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/bodies/rigid_motion.hpp"
+#include "engine/geometry/rotation.hpp"
+
 namespace impinge {
 namespace {
 
@@ -47,6 +50,47 @@ std::optional<LateImpacts> late_impacts(const GroupSystem& solved, double time_s
   for (Vec3& v : by.linear) v *= share;
   for (Vec3& v : by.angular) v *= share;
   return by;
+}
+
+double time_of_meeting(const GroupSystem& system) {
+  double met = 0.0;
+  for (const ContactRows& row : system.contacts) met = std::max(met, row.impact);
+  return met;
+}
+
+GroupSystem without_meeting(GroupSystem system) {
+  const auto is_later = [](const ContactRows& row) { return row.impact > 0.0; };
+  std::vector<Vec3> lambda;
+  for (std::size_t i = 0; i < system.lambda.size(); ++i)
+    if (!is_later(system.contacts[i])) lambda.push_back(system.lambda[i]);
+  system.lambda = std::move(lambda);
+  std::erase_if(system.contacts, is_later);
+  system.clear_delta();
+  return system;
+}
+
+std::vector<Vec3> spins_as_they_stand(const Bodies& bodies, const AssembledGroup& group, std::vector<Vec3> changes) {
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    changes[i] = bodies[group.rigid[i]].as<RigidBody>()->world_inertia_inverse() *
+                 (group.system.rigid[i].inverse_inertia.inverse() * changes[i]);
+  return changes;
+}
+
+LateImpacts ways_until_meeting(const Bodies& bodies, const AssembledGroup& group, const VelocityChanges& before,
+                               double met, double time_step) {
+  LateImpacts ways;
+  for (std::size_t i = 0; i < group.rigid.size(); ++i) {
+    const RigidBody& body = *bodies[group.rigid[i]].as<RigidBody>();
+    const RigidBlock& then = group.system.rigid[i];
+    const Mat3 &start = body.pose.rotation, inertia = then.inverse_inertia.inverse();
+    const Vec3 momentum = body.angular_momentum, first = momentum + inertia * before.angular[i],
+               last = momentum + inertia * group.system.delta_angular_velocity[i];
+    const Mat3 taken = free_turn(body, start, last, time_step),
+               wanted = free_turn(body, free_turn(body, start, first, met), last, time_step - met);
+    ways.linear.push_back(met * (before.linear[i] - group.system.delta_velocity[i]));
+    ways.angular.push_back(rotation_log(wanted * taken.transpose()));
+  }
+  return ways;
 }
 
 }  // namespace impinge

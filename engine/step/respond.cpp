@@ -4,13 +4,11 @@
 
 #include <algorithm>
 
-#include "engine/bodies/rigid_motion.hpp"
 #include "engine/bodies/scale.hpp"
 #include "engine/contact/push_out.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
-#include "engine/geometry/rotation.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/tasks.hpp"
@@ -47,6 +45,7 @@ class GroupSolve {
   GroupResult run() {
     make_system();
     is_rough_ = may_wait() && now_.deformable.empty();
+    solve_before_meeting();
     solve_expecting_turns();
     find_root();
     follow_turns();
@@ -103,6 +102,14 @@ class GroupSolve {
     solve();
   }
 
+  /// What can't move holds two that meet in flight until they do, too: what it makes of their velocities without the meeting.
+  void solve_before_meeting() {
+    if (meeting() == 0.0) return;
+    GroupSystem before = without_meeting(system());
+    if (!before.contacts.empty()) count(how_.response.solve(before, how_.lcp, how_.context));
+    before_meeting_ = {before.delta_velocity, before.delta_angular_velocity};
+  }
+
   bool expect_turns() {
     if (how_.expected.empty() || !follows_turns() || !is_large()) return false;
     GroupSystem& s = system();
@@ -123,6 +130,7 @@ class GroupSolve {
   bool is_large() const { return now_.contacts.size() >= kManyContacts; }
   bool follows_turns() const {
     if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
+    if (meeting() > 0.0) return false;                                      // its ways are no straight ones
     return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
   }
 
@@ -205,8 +213,9 @@ class GroupSolve {
     result_.is_usable = result_.is_at_root && is_usable();
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
-    result_.velocity = now_.by_body(group_, s.delta_velocity, spin_changes(), s.deformable_delta);
+    result_.velocity = now_.by_body(group_, s.delta_velocity, spins(), s.deformable_delta);
     push_out();
+    follow_flight();
     hand_on();
   }
 
@@ -215,7 +224,7 @@ class GroupSolve {
     if (!s.position_velocity.empty())
       return displace(now_.by_body(group_, s.position_velocity, s.position_angular_velocity, {}), 1.0);
     if (how_.response.lives_on_overlap()) return;
-    if (!needs_push_out(s, how_.contact, input_.time_step)) return follow_impacts();
+    if (!needs_push_out(s, how_.contact, input_.time_step)) return follow_rebounds();
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, how_.contact, input_.time_step);
     ResponseContext loose = how_.context;
@@ -234,46 +243,28 @@ class GroupSolve {
     displace(std::move(velocity), share);
   }
 
-  /// Impacts in flight, and rebounds, act when their gaps close, not when the sub-step begins: until then bodies move by
-  /// their free velocities.
-  void follow_impacts() {
-    const std::optional<LateImpacts> late = meeting() > 0.0 ? ways_before() : late_impacts(system(), input_.time_step);
-    if (!late) return;
-    result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
-    result_.follows_flight = meeting() > 0.0;
+  /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities.
+  void follow_rebounds() {
+    const std::optional<LateImpacts> late = meeting() == 0.0 ? late_impacts(system(), input_.time_step) : std::nullopt;
+    if (late) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
   }
 
-  /// When the group's two bodies meet in flight, s; 0: they don't.
-  double meeting() const {
-    return input_.velocities == VelocityTime::end && !now_.system.contacts.empty() ? now_.system.contacts.front().impact
-                                                                                   : 0.0;
+  double meeting() const { return input_.velocities == VelocityTime::end ? time_of_meeting(now_.system) : 0.0; }
+
+  /// Until then the bodies go on: what that is beside the way of the velocities that they end with.
+  void follow_flight() {
+    const double met = meeting();
+    if (met == 0.0) return;
+    const LateImpacts ways = ways_until_meeting(bodies_, now_, before_meeting_, met, input_.time_step);
+    std::vector<BodyVector> all = now_.by_body(group_, ways.linear, ways.angular, {});
+    for (std::size_t i = 0; i < result_.displacement.size(); ++i) all[i].twist += result_.displacement[i].twist;
+    result_.displacement = std::move(all);
+    result_.follows_flight = true;
   }
 
-  /// The changes of angular velocity that change angular momenta, as the bodies stand now, by what impulses did.
-  std::vector<Vec3> spin_changes() const {
-    std::vector<Vec3> changes = now_.system.delta_angular_velocity;
-    if (meeting() == 0.0) return changes;
-    for (std::size_t i = 0; i < changes.size(); ++i)
-      changes[i] = bodies_[now_.rigid[i]].as<RigidBody>()->world_inertia_inverse() *
-                   (now_.system.rigid[i].inverse_inertia.inverse() * changes[i]);
-    return changes;
-  }
-
-  /// Until then the bodies go freely: what that is beside the way of the velocities that they end with.
-  LateImpacts ways_before() const {
-    LateImpacts ways;
-    const std::vector<Vec3> spins = spin_changes();
-    const double h = input_.time_step, met = meeting();
-    for (std::size_t i = 0; i < now_.rigid.size(); ++i) {
-      const RigidBody& body = *bodies_[now_.rigid[i]].as<RigidBody>();
-      const Mat3& start = body.pose.rotation;
-      const Vec3 momentum = body.angular_momentum + body.world_inertia() * spins[i];
-      const Mat3 taken = free_turn(body, start, momentum, h),
-                 wanted = free_turn(body, free_turn(body, start, body.angular_momentum, met), momentum, h - met);
-      ways.linear.push_back(-met * now_.system.delta_velocity[i]);
-      ways.angular.push_back(rotation_log(wanted * taken.transpose()));
-    }
-    return ways;
+  std::vector<Vec3> spins() const {
+    const std::vector<Vec3>& changes = now_.system.delta_angular_velocity;
+    return meeting() == 0.0 ? changes : spins_as_they_stand(bodies_, now_, changes);
   }
 
   void displace(std::vector<BodyVector> velocity, double share) {
@@ -367,6 +358,7 @@ class GroupSolve {
   std::vector<double> bounds_;  // by row, before anybody asked for turning
   const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
+  VelocityChanges before_meeting_;
   bool is_rough_ = false;
   GroupResult result_;
 };

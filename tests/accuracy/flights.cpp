@@ -175,3 +175,35 @@ TEST_CASE("where one impact is all that happens, a sub-step of two sizes makes t
   CHECK(at(0.5) < 2e-4);
   CHECK(at(0.95) < 0.01);
 }
+
+TEST_CASE("two balls on a floor that meet aslant part as the formula says, and stay on it") {
+  constexpr double kRadius = 0.1;
+  for (const bool is_plane : {true, false})
+    for (const double restitution : {0.0, 1.0})
+      for (const double ways : {0.1, 0.5, 2.0}) {  // diameters a sub-step
+        Random random(9);
+        for (int k = 0; k < 12; ++k) {
+          const double speed = ways * 2.0 * kRadius / kStep, aside = random.in(0.0, 0.9) * 2.0 * kRadius;
+          CAPTURE(is_plane, restitution, ways, aside);
+          World world;
+          prepare(world, restitution);
+          world.parameters.simulation.gravity = Vec3(0.0, -kGravity, 0.0);
+          BodyDescription floor = fixed_plane("floor", Vec3::UnitY(), 0.0);
+          if (!is_plane) floor.shape = Box{Vec3(200.0, 1.0, 200.0)}, floor.position = Vec3(0.0, -1.0, 0.0);
+          world.add_body(floor);
+          world.add_body(dynamic_body("one", Sphere{kRadius}, Vec3(0.0, kRadius, 0.0)));
+          BodyDescription other = dynamic_body(
+              "other", Sphere{kRadius}, Vec3(-2.0 * kRadius - 0.05 - random.u() * speed * kStep, kRadius, aside));
+          other.velocity = Vec3(speed, 0.0, 0.0);
+          world.add_body(other);
+          world.start();
+          const int frames = 3 + static_cast<int>((4.0 * kRadius + 0.1 + speed * kStep) / (speed * kStep));
+          run(world, frames);
+          const Vec3 normal = Vec3(-std::sqrt(4.0 * kRadius * kRadius - aside * aside), 0.0, aside).normalized();
+          const Vec3 change = -(1.0 + restitution) * 0.5 * normal.dot(other.velocity) * normal;
+          CHECK((rigid(world, 2).velocity - other.velocity - change).norm() < 4e-3 * speed);
+          CHECK((rigid(world, 1).velocity + change).norm() < 4e-3 * speed);
+          for (const int i : {1, 2}) CHECK(std::abs(rigid(world, i).pose.position.y() - kRadius) < 1e-3 * kRadius);
+        }
+      }
+}

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/detection/pairs/primitive_pairs.hpp"
-#include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/mesh_hull.hpp"
 #include "engine/geometry/rotation.hpp"
 
 namespace impinge {
@@ -15,33 +15,7 @@ constexpr double kNear = 0.1;        // of the activation distance: where they a
 constexpr double kAim = 0.5;         // of that: how near an advance may lead, so that few are needed
 constexpr double kSameFace = 0.999;  // of the normals' cosine: what is met later with what is met first
 constexpr int kMostAdvances =
-    64;  // what turns fast gets on slowly; where it has got to is as safe a place to look from
-
-/// The hull of a mesh in its own frame, as its tree tells it.
-class MeshHull final : public ConvexSet {
- public:
-  explicit MeshHull(const SurfaceMesh& surface) : surface_(&surface) {}
-  Vec3 support(const Vec3& direction) const override {
-    double most = -INFINITY;
-    Vec3 farthest = Vec3::Zero();
-    const std::vector<BoxTree::Node>& nodes = surface_->tree().nodes();
-    surface_->tree().search(
-        [&](int n) {
-          const Aabb& box = nodes[static_cast<std::size_t>(n)].box;
-          return direction.dot(box.center()) + 0.5 * direction.cwiseAbs().dot(box.extent()) > most;
-        },
-        [&](int t) {
-          for (const int v : surface_->mesh.triangles[static_cast<std::size_t>(t)]) {
-            const Vec3& x = surface_->mesh.vertices[static_cast<std::size_t>(v)];
-            if (const double reach = direction.dot(x); reach > most) most = reach, farthest = x;
-          }
-        });
-    return farthest;
-  }
-
- private:
-  const SurfaceMesh* surface_;
-};
+    64;  // what turns fast gets on slowly; where it has got to is as good a place to look from
 
 bool is_plane(const Collider& c) { return c.shape->as<Plane>() != nullptr; }
 
@@ -73,12 +47,12 @@ class Flyer {
   explicit Flyer(const Collider& c) : c_(c) {
     if (const SurfaceMesh* mesh = c.shape->mesh()) {
       hull_.emplace(*mesh);
-      parts_.push_back({&*hull_, Pose()});
+      parts_.push_back({{&*hull_, Pose()}, c.shape->bounding_radius()});
     } else if (const std::vector<ShapePart>* parts = c.shape->parts()) {
       for (const ShapePart& part : *parts)
-        parts_.push_back({std::get<const ConvexSet*>(part.shape->form()), part.pose});
+        parts_.push_back({{std::get<const ConvexSet*>(part.shape->form()), part.pose}, part.shape->bounding_radius()});
     } else {
-      parts_.push_back({std::get<const ConvexSet*>(c.shape->form()), Pose()});
+      parts_.push_back({{std::get<const ConvexSet*>(c.shape->form()), Pose()}, c.shape->bounding_radius()});
     }
   }
   Flyer(const Flyer&) = delete;
@@ -86,15 +60,20 @@ class Flyer {
 
   std::size_t parts() const { return parts_.size(); }
   PlacedConvex part(std::size_t k, const Pose& pose) const {
-    const PlacedConvex& own = parts_[k];
+    const PlacedConvex& own = parts_[k].solid;
     return {own.set, {pose.rotation * own.pose.rotation, pose.apply(own.pose.position)}};
   }
+  double radius(std::size_t k) const { return parts_[k].radius; }  ///< about the part's frame, metres
   Pose at(double time) const { return pose_after(c_, time); }
 
  private:
+  struct Part {
+    PlacedConvex solid;
+    double radius;
+  };
   const Collider& c_;
   std::optional<MeshHull> hull_;
-  std::vector<PlacedConvex> parts_;
+  std::vector<Part> parts_;
 };
 
 /// All that a flyer may pass in a time step, at whatever time it is stopped, but for what the arcs of its points stand out.
@@ -190,7 +169,11 @@ std::optional<double> time_until_near(const Collider& a, const Collider& b, doub
       }
       const Pose at_b = of_b->at(time);
       for (std::size_t j = 0; j < of_b->parts(); ++j) {
-        const ConvexGap g = convex_gap(part, of_b->part(j, at_b), near + fastest * left);
+        const PlacedConvex other = of_b->part(j, at_b);
+        // spheres round the two tell most of many parts apart
+        const double least = (part.pose.position - other.pose.position).norm() - of_a.radius(i) - of_b->radius(j);
+        if (least - near > fastest * std::min(step, left)) continue;
+        const ConvexGap g = convex_gap(part, other, near + fastest * left);
         if (g.is_within_reach) advance_to(g.gap, g.normal);
       }
     }
