@@ -81,13 +81,13 @@ class Assembly {
     if (!add(index, std::move(rows), {a, b})) return;
     const double free_velocity = system().contact_velocity(system().contacts.size() - 1, false).x();
     ContactRows& row = system().contacts.back();
-    if (!c.is_after)
+    if (!c.meeting || !c.meeting->is_after)
       row.restitution = rebound_share(c) * pair_restitution(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
     if (input_.velocities == VelocityTime::middle && row.restitution > 0.0) find_impact(c, row, motion);
-    if (meeting_ > 0.0 && c.met > 0.0) return take_flight(c, row, motion);
+    if (meeting_ > 0.0 && c.meeting) return take_flight(c, row, motion);
     row.bound = row_bound(motion, input_.settings, input_.time_step);
     if (!(row.bound > 0.0)) row.impact = 0.0;  // it is too slow to rebound
   }
@@ -144,8 +144,8 @@ class Assembly {
     for (const ContactIndex i : group_.contacts) {
       const Collision* c = input_.contacts.collision(i);
       if (c == nullptr) return;
-      met = std::max(met, c->met);
-      if (c->met == 0.0 && bodies_[c->body_a].has_freedom() && bodies_[c->body_b].has_freedom()) return;
+      if (c->meeting) met = c->meeting->time;
+      if (!c->meeting && bodies_[c->body_a].has_freedom() && bodies_[c->body_b].has_freedom()) return;
     }
     meeting_ = met;
   }
@@ -171,14 +171,13 @@ class Assembly {
   /// Of two that nothing else touches that can move: what their gap is when they meet has to last for the rest of the sub-step, and what
   /// rebounds is the velocity that they have by then. That of the sub-step is what forces make of it half way.
   void take_flight(const Collision& c, ContactRows& row, NormalMotion motion) const {
-    motion.gap += c.met * motion.free_velocity;
+    motion.gap += meeting_ * motion.free_velocity;
     const double h = input_.time_step, acceleration = c.normal.dot(gain_of(c.body_a) - gain_of(c.body_b)) / h;
-    motion.velocity_before = motion.free_velocity + acceleration * (c.met - 0.5 * h);
-    motion.after = acceleration * (0.5 * h - c.met);
+    motion.velocity_before = motion.free_velocity + acceleration * (meeting_ - 0.5 * h);
+    motion.after = acceleration * (0.5 * h - meeting_);
     row.velocity_before = motion.velocity_before;
-    row.bound = row_bound(motion, input_.settings, h - c.met);
-    row.impact = c.met;
-    row.a.way = c.met * bodies_[c.body_a].twist().linear, row.b.way = c.met * bodies_[c.body_b].twist().linear;
+    row.bound = row_bound(motion, input_.settings, h - meeting_);
+    row.impact = meeting_;
   }
 
   /// When the gap of two rigid bodies closes, with the velocity that they have by then: what is given back is a part of

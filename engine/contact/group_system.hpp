@@ -18,7 +18,6 @@ struct ContactSide {
   Vec3 arm = Vec3::Zero();        ///< rigid: from the centre of mass to the common point
   std::vector<NodeWeight> nodes;  ///< deformable; held nodes are left out
   Vec3 driven = Vec3::Zero();     ///< what prescribed motion is of the point's velocity, m/s
-  Vec3 way = Vec3::Zero();        ///< of an impact in flight: how far its body goes freely until then, metres
 };
 
 /// Rows (n, t1, t2) of J for one contact. Two rigid bodies act at one common point, or impulses would not keep angular

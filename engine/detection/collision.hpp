@@ -1,6 +1,7 @@
 // What detection hands on to response: a list of collisions, each one point pair with a normal. [Haapaoja16 §3.2.1]
 #pragma once
 
+#include <memory>
 #include <tuple>
 
 #include "engine/core/index.hpp"
@@ -30,6 +31,14 @@ struct TrianglePair {
   }
 };
 
+/// Where two meet in flight.
+struct Meeting {
+  double time = 0.0;  ///< s, from now
+  /// From the common point to where the row acts on A and on B, metres, which come together then.
+  Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();
+  bool is_after = false;  ///< the two meet elsewhere before: what this contact meets with is not their free velocity
+};
+
 /// One contact found by detection. Everything in world coordinates at the instant of detection.
 struct Collision {
   BodyIndex body_a, body_b;              ///< scene order, a <= b
@@ -40,16 +49,13 @@ struct Collision {
   double gap = 0.0;                      ///< normal·(point_a - point_b), metres; negative: overlap
   BodyIndex normal_owner;                ///< the body whose surface gives the normal and turns it along; none: neither
   std::uint64_t feature = 0;  ///< which features touch: stable from step to step, unique within the body pair
-  /// Where two meet in flight: when, in seconds from now, and from the common point to where the row acts on A and on B,
-  /// which come together then. 0: it acts from now on, and on both at the common point.
-  double met = 0.0;
-  Vec3 met_a = Vec3::Zero(), met_b = Vec3::Zero();
-  bool is_after = false;  ///< the two meet elsewhere before: what it meets with is not their free velocity
+  std::shared_ptr<const Meeting> meeting =
+      nullptr;  ///< none: its row acts from now on, and on both at the common point
 
   Vec3 common_point() const { return 0.5 * (point_a + point_b); }
   /// Where its row acts on either body.
-  Vec3 acts_on_a() const { return common_point() + met_a; }
-  Vec3 acts_on_b() const { return common_point() + met_b; }
+  Vec3 acts_on_a() const { return meeting ? Vec3(common_point() + meeting->on_a) : common_point(); }
+  Vec3 acts_on_b() const { return meeting ? Vec3(common_point() + meeting->on_b) : common_point(); }
 };
 
 /// Identity of a feature pair for warm starting: kinds and indices of the features on a and b.

@@ -118,11 +118,12 @@ LedgerEntry Ledger::node_entry(BodyIndex index, const VecX& impulse) const {
   return entry_of_nodes(impulse, known_[index].node_mean, known_[index].nodes);
 }
 
-LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse) {
+LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& way,
+                               const Vec3& impulse) {
   if (side.rigid >= 0) {
     LedgerEntry entry = rigid_entry(index, impulse, side.arm.cross(impulse));
-    if (side.way.isZero(0.0)) return entry;
-    const Vec3 on_the_way = side.way.cross(impulse);  // it meets elsewhere than where the books have it
+    if (way.isZero(0.0)) return entry;
+    const Vec3 on_the_way = way.cross(impulse);  // it meets elsewhere than where the books have it
     flight_[index] = flight_[index].value_or(Vec3::Zero()) + on_the_way;
     entry.angular_momentum += on_the_way;
     return entry;
@@ -196,9 +197,9 @@ void Ledger::take_rows(const Bodies& bodies, const SubStep& step) {
             std::pair(row.tangent, LedgerSource::friction)}) {
         if (on_a.isZero(0.0)) continue;
         const auto has_part = [](const ContactSide& side) { return side.rigid >= 0 || side.deformable >= 0; };
-        const auto take = [&](BodyIndex index, const ContactSide& side, const Vec3& impulse, BodyIndex other,
-                              bool other_has_part) {
-          if (has_part(side)) of(motion_[index], source) += side_entry(index, bodies[index], side, impulse);
+        const auto take = [&](BodyIndex index, const ContactSide& side, const Vec3& way, const Vec3& impulse,
+                              BodyIndex other, bool other_has_part) {
+          if (has_part(side)) of(motion_[index], source) += side_entry(index, bodies[index], side, way, impulse);
           // what is driven works on its own body, or on the other one
           const double given = -impulse.dot(side.driven);
           if (given == 0.0) return;
@@ -207,8 +208,8 @@ void Ledger::take_rows(const Bodies& bodies, const SubStep& step) {
           of(motion_[to], LedgerSource::script).motion += given;
           of(motion_[to], source).motion -= given;
         };
-        take(row.body_a, row.a, on_a, row.body_b, has_part(row.b));
-        take(row.body_b, row.b, -on_a, row.body_a, has_part(row.a));
+        take(row.body_a, row.a, row.way_a, on_a, row.body_b, has_part(row.b));
+        take(row.body_b, row.b, row.way_b, -on_a, row.body_a, has_part(row.a));
       }
     }
 }

@@ -108,7 +108,8 @@ class Ledger {
   void take_moves(Bodies& bodies, LedgerSource source);
   LedgerEntry rigid_entry(BodyIndex index, const Vec3& impulse, const Vec3& torque) const;
   LedgerEntry node_entry(BodyIndex index, const VecX& impulse) const;
-  LedgerEntry side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& impulse);
+  LedgerEntry side_entry(BodyIndex index, const Body& body, const ContactSide& side, const Vec3& way,
+                         const Vec3& impulse);
   LedgerEntry pushed(Body& body, const Act& act, const std::function<void()>& doing) const;
 
   Vec3 gravity_ = Vec3::Zero();

@@ -112,6 +112,7 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
       else if (!triangles.empty())
         intersection_contacts(colliders, pair, triangles, found[i]);
     }
+    if (found[i].empty() && approaches == nullptr) return;
     if (!by.looks_ahead || !fly_together(colliders[pair.a], colliders[pair.b], query, found[i])) return;
     const std::optional<double> time = time_of_meeting(colliders[pair.a], colliders[pair.b], query);
     if (!time)

@@ -21,8 +21,6 @@ struct SolvedContact {
   ContactState state = ContactState::open;
   GroupIndex group;
   double residual = 0.0;  ///< its own natural map, as the judge measures it (GroupVerdict::of_contacts)
-  /// Of what is met in flight: A's velocity against B's when they meet, before and after, (n, t1, t2), m/s.
-  Vec3 slip_before = Vec3::Zero(), slip_after = Vec3::Zero();
 };
 
 /// The collision at the bodies' present poses, not solved.
@@ -40,6 +38,7 @@ struct RowImpulse {
   ContactSide a, b;
   Vec3 normal = Vec3::Zero(),
        tangent = Vec3::Zero();  ///< its two parts on A, world axes, N·s; of attachments: all of it, 0
+  Vec3 way_a = Vec3::Zero(), way_b = Vec3::Zero();  ///< of what meets in flight: how far either went until then, metres
 };
 
 struct GroupResult {
@@ -64,9 +63,11 @@ struct GroupResult {
   std::vector<ContactCache::Item> impulses;  ///< of each of them, zero ones too
   std::vector<Vec3> starts;                  ///< what each is to start from next time, likewise; empty: from these
   std::vector<SolvedContact> solved;         ///< of collisions, in order
-  std::optional<FrozenGroup> frozen;         ///< where it was asked for
-  std::vector<RowImpulse> rows;              ///< where it was asked for
-  std::vector<BodyVector> row_impulse;       ///< with `rows`: J^T λ by body of the group, N·s and N·m·s
+  /// Where two meet in flight, likewise: A's velocity against B's then, before and after, (n, t1, t2), m/s; else empty.
+  std::vector<std::pair<Vec3, Vec3>> slips;
+  std::optional<FrozenGroup> frozen;    ///< where it was asked for
+  std::vector<RowImpulse> rows;         ///< where it was asked for
+  std::vector<BodyVector> row_impulse;  ///< with `rows`: J^T λ by body of the group, N·s and N·m·s
   double assemble_ms = 0.0, response_ms = 0.0;
 };
 

@@ -90,12 +90,13 @@ struct Work {
 
 Work work_of(const Motion& motion, const GroupResult& result) {
   Work work;
-  for (const SolvedContact& c : result.solved) {
+  for (std::size_t i = 0; i < result.solved.size(); ++i) {
+    const SolvedContact& c = result.solved[i];
     if (c.collision.gap < 0.0) continue;  // what is pushed out may
     const Mat3 axes = contact_axes(c.collision.normal);
-    const bool is_flight = c.collision.met > 0.0;
-    const Vec3 before = is_flight ? c.slip_before : Vec3(axes * motion.free_slip(c.collision)),
-               after = is_flight ? c.slip_after : Vec3(axes * motion.solved_slip(c.collision));
+    const bool is_flight = !result.slips.empty();
+    const Vec3 before = is_flight ? result.slips[i].first : Vec3(axes * motion.free_slip(c.collision)),
+               after = is_flight ? result.slips[i].second : Vec3(axes * motion.solved_slip(c.collision));
     const Vec3 done = 0.5 * c.lambda.cwiseProduct(before + after);
     work.normal += done.x(), work.friction += done.y() + done.z();
     work.moved += 0.5 * c.lambda.x() * (std::abs(before.x()) + std::abs(after.x()));

@@ -23,7 +23,7 @@ struct VelocityChanges {
 /// what else they touch, a part of it. None: nothing rebounds, or something of the group deforms.
 std::optional<LateImpacts> late_impacts(const GroupSystem& solved, double time_step);
 
-/// When the two of a group that meet in flight do (Collision::met), s; 0: none do.
+/// When the two of a group that meet in flight do (Collision::meeting), s; 0: none do.
 double time_of_meeting(const GroupSystem& system);
 
 /// The group without the contacts of that meeting, and with no answer yet.

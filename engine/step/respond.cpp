@@ -297,8 +297,7 @@ class GroupSolve {
       solved.state = state_of(solved.lambda, solved.friction);
       solved.group = index_;
       solved.residual = result_.verdict.of_contacts[i];
-      if (collision->met > 0.0)
-        solved.slip_before = s.contact_velocity(i, false), solved.slip_after = s.contact_velocity(i, true);
+      if (meeting() > 0.0) result_.slips.emplace_back(s.contact_velocity(i, false), s.contact_velocity(i, true));
       result_.solved.push_back(std::move(solved));
     }
     if (result_.frozen) {
@@ -322,6 +321,9 @@ class GroupSolve {
                                ? Vec3(rows.directions.transpose() * Vec3(0.0, lambda.y(), lambda.z()))
                                : Vec3(Vec3::Zero());
       result_.rows.push_back({rows.kind, a, b, rows.a, rows.b, on_a - tangent, tangent});
+      if (meeting() > 0.0)
+        result_.rows.back().way_a = rows.impact * bodies_[a].twist().linear,
+        result_.rows.back().way_b = rows.impact * bodies_[b].twist().linear;
       for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)})
         if (side->rigid >= 0) linear[side->rigid] += sign * on_a, angular[side->rigid] += side->arm.cross(sign * on_a);
     }

@@ -7,7 +7,7 @@ namespace impinge {
 bool SubStep::is_flight(BodyIndex a, BodyIndex b) const {
   const auto ends = [](const Collision& c) { return std::pair(c.body_a, c.body_b); };
   const auto own = std::ranges::lower_bound(collisions, std::pair(a, b), std::less(), ends);
-  return own != collisions.end() && ends(*own) == std::pair(a, b) && own->met > 0.0;
+  return own != collisions.end() && ends(*own) == std::pair(a, b) && own->meeting != nullptr;
 }
 
 GroupIndex SubStep::group_of(BodyIndex body) const {

@@ -53,7 +53,7 @@ std::vector<double> end_gaps(const Bodies& bodies, const AssembledGroup& group, 
   std::vector<double> gaps(group.contacts.size(), INFINITY);
   for (std::size_t i = 0; i < gaps.size(); ++i) {
     const Collision* c = contacts.collision(group.contacts[i]);
-    if (c == nullptr || c->met > 0.0) continue;
+    if (c == nullptr || c->meeting) continue;
     const ContactRows& row = group.system.contacts[i];
     const auto is_known = [&](const ContactSide& side, BodyIndex body) {
       return side.deformable >= 0 || bodies[body].kind() != BodyKind::deformable;

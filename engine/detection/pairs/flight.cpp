@@ -190,9 +190,8 @@ bool fly_together(const Collider& a, const Collider& b, const ContactQuery& quer
 }
 
 std::optional<double> time_of_meeting(const Collider& a, const Collider& b, const ContactQuery& query) {
-  const std::optional<double> time = time_until_near(a, b, kNear * query.activation, query.time_step);
-  if (!time && query.either_may_stop && !keep_apart(a, b, query.activation, query.time_step)) return 0.0;
-  return time;
+  if (!query.either_may_stop) return time_until_near(a, b, kNear * query.activation, query.time_step);
+  return keep_apart(a, b, query.activation, query.time_step) ? std::nullopt : std::optional(0.0);
 }
 
 std::vector<Collision> contacts_where_they_meet(std::span<const Collider> colliders, const BodyPair& pair,
@@ -211,14 +210,14 @@ std::vector<Collision> contacts_where_they_meet(std::span<const Collider> collid
     return !is_near(c, query) && (c.gap < 0.0 || !(c.normal.dot(normal) > kSameFace));
   });
   for (Collision& c : found) {
-    c.is_after = !is_near(c, query);
-    c.met = time;
+    Meeting meeting{time, {}, {}, !is_near(c, query)};
     const Vec3 common = c.common_point();
     // back along straight lines, as rows see motion
     c.point_a -= time * then[0].velocity_at(c.point_a), c.point_b -= time * then[1].velocity_at(c.point_b);
     c.gap = c.normal.dot(c.point_a - c.point_b);
-    c.met_a = common + a.pose.position - then[0].pose.position - c.common_point();
-    c.met_b = common + b.pose.position - then[1].pose.position - c.common_point();
+    meeting.on_a = common + a.pose.position - then[0].pose.position - c.common_point();
+    meeting.on_b = common + b.pose.position - then[1].pose.position - c.common_point();
+    c.meeting = std::make_shared<const Meeting>(meeting);
     c.body_a = pair.a, c.body_b = pair.b;
     if (c.normal_owner.is_none()) continue;
     c.normal_owner = c.normal_owner == BodyIndex(0) ? pair.a : pair.b;

@@ -18,8 +18,8 @@ std::optional<double> time_until_near(const Collider& a, const Collider& b, doub
 /// that are within the activation distance already.
 bool fly_together(const Collider& a, const Collider& b, const ContactQuery& query, std::span<const Collision> found);
 
-/// The time at which the two are looked at, as time_until_near has it for half the activation distance. With
-/// `query.either_may_stop` none only where they don't meet either if each is stopped somewhere on its way.
+/// The time at which the two are looked at, as time_until_near has it for a part of the activation distance. With
+/// `query.either_may_stop` none where they don't meet however each is stopped on its way, else 0.
 std::optional<double> time_of_meeting(const Collider& a, const Collider& b, const ContactQuery& query);
 
 /// A test of a pair of bodies: appends their contacts.
