@@ -62,8 +62,8 @@ class Assembly {
       }
     }
     system().contacts.reserve(group.contacts.size());
-    find_meeting();
-    if (meeting_ > 0.0) turn_on(meeting_);
+    result_.meeting = find_meeting();
+    if (result_.meeting > 0.0) turn_on(result_.meeting);
   }
 
   void add_collision(ContactIndex index, const Collision& c) {
@@ -87,7 +87,7 @@ class Assembly {
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
     if (input_.velocities == VelocityTime::middle && row.restitution > 0.0) find_impact(c, row, motion);
-    if (meeting_ > 0.0 && c.meeting) return take_flight(c, row, motion);
+    if (result_.meeting > 0.0 && c.meeting) return take_flight(c, row, motion);
     row.bound = row_bound(motion, input_.settings, input_.time_step);
     if (!(row.bound > 0.0)) row.impact = 0.0;  // it is too slow to rebound
   }
@@ -138,16 +138,18 @@ class Assembly {
   }
   GroupSystem& system() { return result_.system; }
 
-  void find_meeting() {
-    if (input_.velocities != VelocityTime::end) return;
+  double find_meeting() const {
+    if (input_.velocities != VelocityTime::end) return 0.0;
     double met = 0.0;
     for (const ContactIndex i : group_.contacts) {
       const Collision* c = input_.contacts.collision(i);
-      if (c == nullptr) return;
-      if (c->meeting) met = c->meeting->time;
-      if (!c->meeting && bodies_[c->body_a].has_freedom() && bodies_[c->body_b].has_freedom()) return;
+      if (c == nullptr) return 0.0;
+      if (c->meeting)
+        met = c->meeting->time;
+      else if (bodies_[c->body_a].has_freedom() && bodies_[c->body_b].has_freedom())
+        return 0.0;
     }
-    meeting_ = met;
+    return met;
   }
 
   /// The bodies as they will have turned by then.
@@ -168,16 +170,17 @@ class Assembly {
     return body->velocity - body->carry({}, body->pose.position).velocity_before;
   }
 
-  /// Of two that nothing else touches that can move: what their gap is when they meet has to last for the rest of the sub-step, and what
-  /// rebounds is the velocity that they have by then. That of the sub-step is what forces make of it half way.
+  /// What the gap of two is when they meet has to last for the rest of the sub-step, and what rebounds is the velocity that
+  /// they have by then. That of the sub-step is what forces make of it half way.
   void take_flight(const Collision& c, ContactRows& row, NormalMotion motion) const {
-    motion.gap += meeting_ * motion.free_velocity;
-    const double h = input_.time_step, acceleration = c.normal.dot(gain_of(c.body_a) - gain_of(c.body_b)) / h;
-    motion.velocity_before = motion.free_velocity + acceleration * (meeting_ - 0.5 * h);
-    motion.after = acceleration * (0.5 * h - meeting_);
+    const double h = input_.time_step, met = result_.meeting,
+                 acceleration = c.normal.dot(gain_of(c.body_a) - gain_of(c.body_b)) / h;
+    motion.gap += met * motion.free_velocity;
+    motion.velocity_before = motion.free_velocity + acceleration * (met - 0.5 * h);
+    motion.after = acceleration * (0.5 * h - met);
     row.velocity_before = motion.velocity_before;
-    row.bound = row_bound(motion, input_.settings, h - meeting_);
-    row.impact = meeting_;
+    row.bound = row_bound(motion, input_.settings, h - met);
+    row.impact = met;
   }
 
   /// When the gap of two rigid bodies closes, with the velocity that they have by then: what is given back is a part of
@@ -283,7 +286,6 @@ class Assembly {
   const CollisionGroup& group_;
   std::vector<BlockIndex> blocks_;  // by body of the group
   Vec3 lead_ = Vec3::Zero();        // of A's point against B's in the row that is made
-  double meeting_ = 0.0;  // s, when two that nothing else touches that can move meet on their way; 0: they don't
   AssembledGroup result_;
 };
 

@@ -28,6 +28,7 @@ struct AssembledGroup {
   std::vector<BodyIndex> rigid, deformable;                     ///< of the system's blocks
   std::vector<ContactIndex> contacts;                           ///< of its rows
   std::vector<std::pair<MaterialPoint, MaterialPoint>> points;  ///< of its rows: where they act on A and B
+  double meeting = 0.0;  ///< s, when two whom nothing else touches meet in flight; 0: none do
 
   /// What a solution over the blocks says of each body of `group`.
   std::vector<BodyVector> by_body(const CollisionGroup& group, const std::vector<Vec3>& linear,

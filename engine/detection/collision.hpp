@@ -49,8 +49,8 @@ struct Collision {
   double gap = 0.0;                      ///< normal·(point_a - point_b), metres; negative: overlap
   BodyIndex normal_owner;                ///< the body whose surface gives the normal and turns it along; none: neither
   std::uint64_t feature = 0;  ///< which features touch: stable from step to step, unique within the body pair
-  std::shared_ptr<const Meeting> meeting =
-      nullptr;  ///< none: its row acts from now on, and on both at the common point
+  /// None: its row acts from now on, and on both at the common point.
+  std::shared_ptr<const Meeting> meeting = nullptr;
 
   Vec3 common_point() const { return 0.5 * (point_a + point_b); }
   /// Where its row acts on either body.

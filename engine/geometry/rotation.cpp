@@ -32,6 +32,10 @@ Mat3 rotation_exp(const Vec3& w) {
   return Mat3::Identity() + a * k + b * k * k;
 }
 
+Pose moved(const Pose& pose, const Vec3& shift, const Vec3& turn) {
+  return {turn.isZero(0.0) ? pose.rotation : Mat3(rotation_exp(turn) * pose.rotation), pose.position + shift};
+}
+
 Vec3 rotation_log(const Mat3& rotation) {
   Quat q(rotation);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();

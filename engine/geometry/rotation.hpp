@@ -12,6 +12,8 @@ Vec3 degrees_from_rotation(const Mat3& rotation);
 
 /// exp([w]x): the rotation by |w| radians about w.
 Mat3 rotation_exp(const Vec3& w);
+/// A pose after a shift and a turn by the rotation vector `turn` about its own origin.
+Pose moved(const Pose& pose, const Vec3& shift, const Vec3& turn);
 /// The w of smallest length with exp([w]x) = R, |w| <= pi.
 Vec3 rotation_log(const Mat3& rotation);
 /// The nearest rotation to a matrix that rounding has taken a little off (via a unit quaternion).

@@ -20,9 +20,11 @@ class MeshShape final : public Shape {
     return box;
   }
   double bounding_radius() const override {
-    double reach = 0.0;
-    for (const Vec3& v : surface_->mesh.vertices) reach = std::max(reach, v.norm());
-    return reach;
+    return reach_.get([&] {
+      double reach = 0.0;
+      for (const Vec3& v : surface_->mesh.vertices) reach = std::max(reach, v.norm());
+      return reach;
+    });
   }
   MassProperties mass(double density) const override { return mesh_mass(surface_->shown().mesh, density); }
   SharedShape recentered(const Vec3& center) const override {
@@ -55,6 +57,7 @@ class MeshShape final : public Shape {
     SharedShape shape;
   };
   MeshPointer surface_;
+  Lazily<double> reach_;
   std::shared_ptr<Centered> centered_;
 };
 

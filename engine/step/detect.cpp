@@ -21,6 +21,13 @@ std::vector<BodyEnds> touching(const Bodies& bodies, const ContactList& contacts
   return ends;
 }
 
+/// In pair order.
+void sort_by_pair(std::vector<Collision>& collisions) {
+  std::stable_sort(collisions.begin(), collisions.end(), [](const Collision& l, const Collision& r) {
+    return std::pair(l.body_a, l.body_b) < std::pair(r.body_a, r.body_b);
+  });
+}
+
 /// Contacts that are asked for take the place of those of the same features.
 void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& collisions) {
   if (asked.empty()) return;
@@ -34,30 +41,44 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
     else
       collisions.push_back(wanted);
   }
-  std::stable_sort(collisions.begin(), collisions.end(),
-                   [&](const Collision& l, const Collision& r) { return pair_of(l) < pair_of(r); });
+  sort_by_pair(collisions);
+}
+
+/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. Balls may touch what can't
+/// move; of others that do new places come round in a turn, which only looks at the end find.
+template <class Counts>
+std::vector<char> held_bodies(const Bodies& bodies, const std::vector<Collision>& collisions, Counts&& counts) {
+  std::vector<char> held(static_cast<std::size_t>(bodies.size().value()), 0);
+  const auto hold = [&](BodyIndex own, BodyIndex other) {
+    if (bodies[other].has_freedom() || bodies[own].shape->as<Sphere>() == nullptr) held[own] = 1;
+  };
+  for (const Collision& c : collisions)
+    if (counts(c)) hold(c.body_a, c.body_b), hold(c.body_b, c.body_a);
+  return held;
+}
+
+bool is_of_any(const Collision& c, const std::vector<BodyPair>& sorted) {
+  return std::binary_search(sorted.begin(), sorted.end(), BodyPair{c.body_a, c.body_b});
 }
 
 /// Of two that approach and touch nobody else, those where they meet take the place of those that planes between them would
-/// make at the start: impulses can wait until then without anybody noticing (step/late_impacts). Balls may touch what can't
-/// move as well; of others that do new places come round in a turn, which only looks at the end find.
+/// make at the start: impulses can wait until then without anybody noticing (step/late_impacts).
 void follow_flights(const Bodies& bodies, std::span<const Attachment> attachments, const ContactSettings& contact,
                     const std::vector<Approach>& approaches, SubStep& step) {
+  step.before_flights.clear();
   if (approaches.empty()) return;
-  std::set<BodyPair> touching;
-  std::vector<int> count(step.colliders.size(),
-                         0);  // by body: of whom it touches or comes upon, but for what may be left out
-  const auto touch = [&](const BodyPair& pair, bool is_approach) {
-    if (!touching.insert(pair).second) return;
-    for (const auto& [own, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)})
-      if (is_approach || bodies[other].has_freedom() || bodies[own].shape->as<Sphere>() == nullptr) ++count[own];
-  };
-  for (const Approach& approach : approaches) touch(approach.pair, true);
-  for (const Collision& c : step.collisions) touch({c.body_a, c.body_b}, false);
+  std::vector<BodyPair> pairs;
+  std::vector<int> count(step.colliders.size(), 0);  // by body: whom it comes upon, and what it hangs on
+  for (const Approach& approach : approaches) {
+    pairs.push_back(approach.pair);
+    ++count[approach.pair.a], ++count[approach.pair.b];
+  }
   for (const Attachment& a : attachments)
     for (const BodyIndex b : {a.a.body, a.b.body})
       if (!b.is_none()) ++count[b];
-  const auto is_alone = [&](BodyIndex b) { return !bodies[b].has_freedom() || count[b] == 1; };
+  const std::vector<char> held =
+      held_bodies(bodies, step.collisions, [&](const Collision& c) { return !is_of_any(c, pairs); });
+  const auto is_alone = [&](BodyIndex b) { return !bodies[b].has_freedom() || (count[b] == 1 && held[b] == 0); };
   const auto was_asked = [&](const BodyPair& pair) {
     const auto is_of = [&](const Collision& c) { return c.body_a == pair.a && c.body_b == pair.b; };
     return std::any_of(step.asked.begin(), step.asked.end(), is_of) ||
@@ -75,12 +96,12 @@ void follow_flights(const Bodies& bodies, std::span<const Attachment> attachment
   }
   if (met.empty()) return;
   std::erase_if(step.collisions, [&](const Collision& c) {
-    return std::binary_search(changed.begin(), changed.end(), BodyPair{c.body_a, c.body_b});
+    if (!is_of_any(c, changed)) return false;
+    step.before_flights.push_back(c);
+    return true;
   });
   step.collisions.insert(step.collisions.end(), met.begin(), met.end());
-  std::stable_sort(step.collisions.begin(), step.collisions.end(), [](const Collision& l, const Collision& r) {
-    return std::pair(l.body_a, l.body_b) < std::pair(r.body_a, r.body_b);
-  });
+  sort_by_pair(step.collisions);
 }
 
 }  // namespace
@@ -112,6 +133,23 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
     step.later.clear();  // who asks for it makes it of all
   else
     step.begin_later(bodies);
+}
+
+void end_flights(const Bodies& bodies, SubStep& step) {
+  const auto is_flight = [](const Collision& c) { return c.meeting != nullptr; };
+  if (std::none_of(step.collisions.begin(), step.collisions.end(), is_flight)) return;
+  const std::vector<char> held =
+      held_bodies(bodies, step.collisions, [&](const Collision& c) { return !is_flight(c); });
+  std::vector<BodyPair> ended;
+  std::erase_if(step.collisions, [&](const Collision& c) {
+    if (!is_flight(c) || (held[c.body_a] == 0 && held[c.body_b] == 0)) return false;
+    if (!is_of_any(c, ended)) ended.push_back({c.body_a, c.body_b});
+    return true;
+  });
+  if (ended.empty()) return;
+  std::copy_if(step.before_flights.begin(), step.before_flights.end(), std::back_inserter(step.collisions),
+               [&](const Collision& c) { return is_of_any(c, ended); });
+  sort_by_pair(step.collisions);
 }
 
 }  // namespace impinge

@@ -12,4 +12,8 @@ namespace impinge {
 void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detecting& by, const TimeIntegration& how,
             Sleeping& sleeping, SubStep& step, StageTimes& times);
 
+/// Where others have come to touch one of two that meet in flight, the contacts take their place again that the two had from
+/// where the sub-step begins: impulses that act at different times keep no angular momentum.
+void end_flights(const Bodies& bodies, SubStep& step);
+
 }  // namespace impinge

@@ -97,13 +97,9 @@ class EndPose {
       if (const RigidBody* rigid = body.as<RigidBody>()) {
         c.pose = free_flight(*rigid, twist.linear, rigid->world_inertia() * twist.angular, step_.time_step);
       } else {
-        c.pose.position += step_.time_step * twist.linear;
-        c.pose.rotation = rotation_exp(step_.time_step * twist.angular) * c.pose.rotation;
+        c.pose = moved(c.pose, step_.time_step * twist.linear, step_.time_step * twist.angular);
       }
-      if (flight != nullptr) {
-        c.pose.position += flight->twist.linear;
-        c.pose.rotation = rotation_exp(flight->twist.angular) * c.pose.rotation;
-      }
+      if (flight != nullptr) c.pose = moved(c.pose, flight->twist.linear, flight->twist.angular);
       if (body.world_vertices.empty()) {
         c.bounds = body.shape->bounds(c.pose);
         return;

@@ -52,12 +52,6 @@ std::optional<LateImpacts> late_impacts(const GroupSystem& solved, double time_s
   return by;
 }
 
-double time_of_meeting(const GroupSystem& system) {
-  double met = 0.0;
-  for (const ContactRows& row : system.contacts) met = std::max(met, row.impact);
-  return met;
-}
-
 GroupSystem without_meeting(GroupSystem system) {
   const auto is_later = [](const ContactRows& row) { return row.impact > 0.0; };
   std::vector<Vec3> lambda;
@@ -76,18 +70,19 @@ std::vector<Vec3> spins_as_they_stand(const Bodies& bodies, const AssembledGroup
   return changes;
 }
 
-LateImpacts ways_until_meeting(const Bodies& bodies, const AssembledGroup& group, const VelocityChanges& before,
-                               double met, double time_step) {
+LateImpacts ways_until_meeting(const Bodies& bodies, const AssembledGroup& group, const GroupSystem& before,
+                               double time_step) {
+  const double met = group.meeting;
   LateImpacts ways;
   for (std::size_t i = 0; i < group.rigid.size(); ++i) {
     const RigidBody& body = *bodies[group.rigid[i]].as<RigidBody>();
     const RigidBlock& then = group.system.rigid[i];
     const Mat3 &start = body.pose.rotation, inertia = then.inverse_inertia.inverse();
-    const Vec3 momentum = body.angular_momentum, first = momentum + inertia * before.angular[i],
+    const Vec3 momentum = body.angular_momentum, first = momentum + inertia * before.delta_angular_velocity[i],
                last = momentum + inertia * group.system.delta_angular_velocity[i];
     const Mat3 taken = free_turn(body, start, last, time_step),
                wanted = free_turn(body, free_turn(body, start, first, met), last, time_step - met);
-    ways.linear.push_back(met * (before.linear[i] - group.system.delta_velocity[i]));
+    ways.linear.push_back(met * (before.delta_velocity[i] - group.system.delta_velocity[i]));
     ways.angular.push_back(rotation_log(wanted * taken.transpose()));
   }
   return ways;

@@ -13,18 +13,10 @@ struct LateImpacts {
   std::vector<Vec3> linear, angular;
 };
 
-/// By rigid body, m/s and rad/s.
-struct VelocityChanges {
-  std::vector<Vec3> linear, angular;
-};
-
 /// x₁ = x₀ + Δt v₁ has every impulse act from the start of the sub-step on. A rebound acts for what is left of it when its
 /// gap has closed: this is what the bodies are to be put back by, Σ −t A⁻¹ J^T λ. Where that would end as an overlap with
 /// what else they touch, a part of it. None: nothing rebounds, or something of the group deforms.
 std::optional<LateImpacts> late_impacts(const GroupSystem& solved, double time_step);
-
-/// When the two of a group that meet in flight do (Collision::meeting), s; 0: none do.
-double time_of_meeting(const GroupSystem& system);
 
 /// The group without the contacts of that meeting, and with no answer yet.
 GroupSystem without_meeting(GroupSystem system);
@@ -33,8 +25,9 @@ GroupSystem without_meeting(GroupSystem system);
 /// their angular momentum by as much.
 std::vector<Vec3> spins_as_they_stand(const Bodies& bodies, const AssembledGroup& group, std::vector<Vec3> changes);
 
-/// x₁ = x₀ + t v₀ + (Δt − t) v₁, and turns likewise: what the bodies are to be put elsewhere by after Δt v₁. `before`: v₀ − v*.
-LateImpacts ways_until_meeting(const Bodies& bodies, const AssembledGroup& group, const VelocityChanges& before,
-                               double met, double time_step);
+/// x₁ = x₀ + t v₀ + (Δt − t) v₁, and turns likewise: what the bodies are to be put elsewhere by after Δt v₁. `before`: the
+/// group without the meeting, solved.
+LateImpacts ways_until_meeting(const Bodies& bodies, const AssembledGroup& group, const GroupSystem& before,
+                               double time_step);
 
 }  // namespace impinge

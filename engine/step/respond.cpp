@@ -60,7 +60,6 @@ class GroupSolve {
   void make_system() {
     const StageTimer timer(result_.assemble_ms);
     now_ = assemble(input_, group_);
-    meeting_ = input_.velocities == VelocityTime::end ? time_of_meeting(system()) : 0.0;
     bounds_.clear();
     for (const ContactRows& row : system().contacts) bounds_.push_back(row.bound);
   }
@@ -105,10 +104,9 @@ class GroupSolve {
 
   /// What can't move holds two that meet in flight until they do, too: what it makes of their velocities without the meeting.
   void solve_before_meeting() {
-    if (meeting_ == 0.0) return;
-    GroupSystem before = without_meeting(system());
-    if (!before.contacts.empty()) count(how_.response.solve(before, how_.lcp, how_.context));
-    before_meeting_ = {before.delta_velocity, before.delta_angular_velocity};
+    if (now_.meeting == 0.0) return;
+    before_meeting_ = without_meeting(system());
+    if (!before_meeting_.contacts.empty()) count(how_.response.solve(before_meeting_, how_.lcp, how_.context));
   }
 
   bool expect_turns() {
@@ -131,7 +129,7 @@ class GroupSolve {
   bool is_large() const { return now_.contacts.size() >= kManyContacts; }
   bool follows_turns() const {
     if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
-    if (meeting_ > 0.0) return false;                                       // its ways are no straight ones
+    if (now_.meeting > 0.0) return false;                                   // its ways are no straight ones
     return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
   }
 
@@ -246,14 +244,15 @@ class GroupSolve {
 
   /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities.
   void follow_rebounds() {
-    const std::optional<LateImpacts> late = meeting_ == 0.0 ? late_impacts(system(), input_.time_step) : std::nullopt;
+    const std::optional<LateImpacts> late =
+        now_.meeting == 0.0 ? late_impacts(system(), input_.time_step) : std::nullopt;
     if (late) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
   }
 
   /// Until then the bodies go on: what that is beside the way of the velocities that they end with.
   void follow_flight() {
-    if (meeting_ == 0.0) return;
-    const LateImpacts ways = ways_until_meeting(bodies_, now_, before_meeting_, meeting_, input_.time_step);
+    if (now_.meeting == 0.0) return;
+    const LateImpacts ways = ways_until_meeting(bodies_, now_, before_meeting_, input_.time_step);
     std::vector<BodyVector> all = now_.by_body(group_, ways.linear, ways.angular, {});
     for (std::size_t i = 0; i < result_.displacement.size(); ++i) all[i].twist += result_.displacement[i].twist;
     result_.displacement = std::move(all);
@@ -262,7 +261,7 @@ class GroupSolve {
 
   std::vector<Vec3> spins() const {
     const std::vector<Vec3>& changes = now_.system.delta_angular_velocity;
-    return meeting_ == 0.0 ? changes : spins_as_they_stand(bodies_, now_, changes);
+    return now_.meeting == 0.0 ? changes : spins_as_they_stand(bodies_, now_, changes);
   }
 
   void displace(std::vector<BodyVector> velocity, double share) {
@@ -295,7 +294,7 @@ class GroupSolve {
       solved.state = state_of(solved.lambda, solved.friction);
       solved.group = index_;
       solved.residual = result_.verdict.of_contacts[i];
-      if (meeting_ > 0.0) result_.slips.emplace_back(s.contact_velocity(i, false), s.contact_velocity(i, true));
+      if (now_.meeting > 0.0) result_.slips.emplace_back(s.contact_velocity(i, false), s.contact_velocity(i, true));
       result_.solved.push_back(std::move(solved));
     }
     if (result_.frozen) {
@@ -319,7 +318,7 @@ class GroupSolve {
                                ? Vec3(rows.directions.transpose() * Vec3(0.0, lambda.y(), lambda.z()))
                                : Vec3(Vec3::Zero());
       result_.rows.push_back({rows.kind, a, b, rows.a, rows.b, on_a - tangent, tangent});
-      if (meeting_ > 0.0)
+      if (now_.meeting > 0.0)
         result_.rows.back().way_a = rows.impact * bodies_[a].twist().linear,
         result_.rows.back().way_b = rows.impact * bodies_[b].twist().linear;
       for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)})
@@ -358,8 +357,7 @@ class GroupSolve {
   std::vector<double> bounds_;  // by row, before anybody asked for turning
   const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
-  double meeting_ = 0.0;  // s, when two meet in flight; 0: none do
-  VelocityChanges before_meeting_;
+  GroupSystem before_meeting_;  // solved, where two meet in flight
   bool is_rough_ = false;
   GroupResult result_;
 };

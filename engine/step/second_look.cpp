@@ -189,6 +189,7 @@ void SecondLook::add(const ContactCache& carried) {
     else
       insert({c}, step_.collisions);
   }
+  end_flights(bodies_, step_);
   for (const std::vector<Collision>* list : {&back_, &found_, &ahead_})
     step_.brought.insert(step_.brought.end(), list->begin(), list->end());
   exchange();

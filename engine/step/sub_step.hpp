@@ -20,6 +20,7 @@ struct SubStep {
   std::vector<BodyPair> pairs;               ///< sorted
   std::vector<TrianglePair> triangle_pairs;  ///< sorted; of mesh-mesh pairs
   std::vector<Collision> collisions;         ///< in pair order
+  std::vector<Collision> before_flights;     ///< in pair order; those in whose place there are some of a later meeting
   std::vector<Collision> asked;              ///< contacts that a look at the motion asked for, beside those found
 
   // of a motion that was taken back, for the one that is made instead: its impulses, and what second looks brought

@@ -29,10 +29,7 @@ End end_of(const RigidBody& body, const Vec3& delta_velocity, const Vec3& delta_
 /// Of a body that impulses don't move.
 End end_of(const Body& body, double time_step) {
   const Twist twist = body.twist();
-  End end{body.pose, time_step * twist.angular.norm()};
-  end.pose.position += time_step * twist.linear;
-  if (end.turn > 0.0) end.pose.rotation = rotation_exp(time_step * twist.angular) * end.pose.rotation;
-  return end;
+  return {moved(body.pose, time_step * twist.linear, time_step * twist.angular), time_step * twist.angular.norm()};
 }
 
 }  // namespace

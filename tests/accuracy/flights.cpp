@@ -139,6 +139,42 @@ TEST_CASE("two balls that meet aslant part as the formula says, wherever in the 
     }
 }
 
+TEST_CASE("a crowd that flies together keeps its momentum and angular momentum to rounding") {
+  const auto kind = GENERATE(0, 1, 2);
+  for (const double restitution : {0.0, 0.5, 1.0})
+    for (const double speed : {1.0, 5.0, 20.0}) {
+      CAPTURE(kind, restitution, speed);
+      World world;
+      prepare(world, restitution);
+      world.parameters.contact.friction = 0.3;
+      Random random(7);
+      double scale = 0.0;
+      for (int i = 0; i < 27; ++i) {
+        const SharedShape shape = kind == 0   ? SharedShape(Sphere{0.2})
+                                  : kind == 1 ? SharedShape(Box{Vec3(0.2, 0.15, 0.1)})
+                                              : SharedShape(surface(icosphere(1, 0.2)));
+        const Vec3 at = 0.9 * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1) + 0.05 * random.vector();
+        BodyDescription body = dynamic_body("body" + std::to_string(i), shape, at);
+        body.velocity = -speed * at + 0.3 * speed * random.vector();
+        body.angular_velocity = 0.5 * speed * random.vector();
+        world.add_body(body);
+      }
+      world.start();
+      Vec3 before = Vec3::Zero();
+      for (int i = 0; i < 27; ++i) {
+        const RigidBody& body = rigid(world, i);
+        before += body.mass * body.velocity;
+        scale += body.mass * body.velocity.norm();
+      }
+      const Vec3 turning = angular_momentum(world);
+      run(world, 40);
+      Vec3 after = Vec3::Zero();
+      for (int i = 0; i < 27; ++i) after += rigid(world, i).mass * rigid(world, i).velocity;
+      CHECK((after - before).norm() <= 1e-12 * scale);
+      CHECK((angular_momentum(world) - turning).norm() <= 1e-11 * scale);
+    }
+}
+
 TEST_CASE("where one impact is all that happens, a sub-step of two sizes makes the same of it as one of a hundredth") {
   std::vector<double> errors;  // of the speed
   for (const ShapeEntry& of_mover : shape_entries())

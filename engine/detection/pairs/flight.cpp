@@ -14,8 +14,8 @@ namespace {
 constexpr double kNear = 0.1;        // of the activation distance: where they are looked at
 constexpr double kAim = 0.5;         // of that: how near an advance may lead, so that few are needed
 constexpr double kSameFace = 0.999;  // of the normals' cosine: what is met later with what is met first
-constexpr int kMostAdvances =
-    64;  // what turns fast gets on slowly; where it has got to is as good a place to look from
+/// What turns fast gets on slowly; where it has got to by then is as good a place to look from.
+constexpr int kMostAdvances = 64;
 
 bool is_plane(const Collider& c) { return c.shape->as<Plane>() != nullptr; }
 
@@ -25,16 +25,12 @@ Vec3 farthest_of(const PlacedConvex& solid, const Vec3& direction) {
          solid.set->rounding() * direction;
 }
 
-Pose pose_after(const Collider& c, double time) {
-  Pose pose = c.pose;
-  pose.position += time * c.velocity;
-  if (!c.angular_velocity.isZero(0.0)) pose.rotation = rotation_exp(time * c.angular_velocity) * pose.rotation;
-  return pose;
-}
+Pose pose_after(const Collider& c, double time) { return moved(c.pose, time * c.velocity, time * c.angular_velocity); }
 
 /// No point turns about the body's centre faster, m/s; a ball's turning moves none of its surface.
 double swing_of(const Collider& c) {
-  return c.shape->as<Sphere>() != nullptr ? 0.0 : c.angular_velocity.norm() * c.shape->bounding_radius();
+  if (c.angular_velocity.isZero(0.0) || c.shape->as<Sphere>() != nullptr) return 0.0;
+  return c.angular_velocity.norm() * c.shape->bounding_radius();
 }
 
 double fastest_approach(const Collider& a, const Collider& b) {
@@ -86,9 +82,7 @@ class SweptHull final : public ConvexSet {
     Vec3 farthest = Vec3::Zero();
     for (const Pose& pose : poses_)
       for (std::size_t k = 0; k < of_.parts(); ++k) {
-        const PlacedConvex part = of_.part(k, pose);
-        const Vec3 x =
-            part.pose.apply(part.set->support(part.pose.rotation.transpose() * unit)) + part.set->rounding() * unit;
+        const Vec3 x = farthest_of(of_.part(k, pose), unit);
         if (const double reach = unit.dot(x); reach > most) most = reach, farthest = x;
       }
     return farthest;
@@ -101,8 +95,8 @@ class SweptHull final : public ConvexSet {
 
 /// How far the arc of a point stands out over its chord at most, metres.
 double bend_of(const Collider& c, double time_step) {
-  const double half = 0.5 * time_step * c.angular_velocity.norm();
-  return (1.0 - std::cos(std::min(half, M_PI))) * swing_of(c) / std::max(c.angular_velocity.norm(), 1e-300);
+  const double swing = swing_of(c), spin = c.angular_velocity.norm();
+  return swing == 0.0 ? 0.0 : (1.0 - std::cos(std::min(0.5 * time_step * spin, M_PI))) * swing / spin;
 }
 
 /// Whether two that may be stopped on their way at any time, each by itself, stay apart.
@@ -124,7 +118,7 @@ bool is_rigid(const Collider& c) {
 }
 
 /// A collider later on; `vertices` holds a mesh's.
-Collider moved(const Collider& c, double time, std::vector<Vec3>& vertices) {
+Collider moved_on(const Collider& c, double time, std::vector<Vec3>& vertices) {
   if (c.velocity.isZero(0.0) && c.angular_velocity.isZero(0.0)) return c;
   Collider later = c;
   later.pose = pose_after(c, time);
@@ -198,7 +192,7 @@ std::vector<Collision> contacts_where_they_meet(std::span<const Collider> collid
                                                 const ContactQuery& query, double time, PairContacts test) {
   const Collider &a = colliders[pair.a], &b = colliders[pair.b];
   std::vector<Vec3> vertices[2];
-  const Collider then[2] = {moved(a, time, vertices[0]), moved(b, time, vertices[1])};
+  const Collider then[2] = {moved_on(a, time, vertices[0]), moved_on(b, time, vertices[1])};
   ContactQuery rest = query;
   rest.time_step -= time;
   std::vector<Collision> found;
