@@ -21,14 +21,14 @@ const std::string kQuery =
     "1,4,1,4,1,2,0\n0,1,0,1,0,1,0\n1,1,0,1,0,1,0\n0,1,1,1,0,1,0\n";
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
+using Args = std::vector<std::string>;
 
 /// What a command wants at a path: a file or a folder that is there, or one that it makes, a folder with those above it.
 enum class Wants { file, folder, new_file, new_folder };
 
 /// Where a command takes a path, written as X.
 struct Place {
-  Words words;
+  Args words;
   Wants wants;
 };
 
@@ -53,7 +53,7 @@ struct Files {
                  "[[body]]\nname = \"b\"\nkind = \"dynamic\"\nsurface = \"closed.off\"\n[[body]]\nname = \"c\"\nkind = "
                  "\"static\"\nshape = { plane = { normal = [0, 1, 0], offset = 0 } }\n");
   }
-  void run(const Words& words) const {
+  void run(const Args& words) const {
     const Outcome outcome = impinge_run(folder.path(), words);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
@@ -95,7 +95,7 @@ struct Files {
             {{"debug", "s.toml", "--headless", "--script", "d.script", "--record", "X"}, new_file},
             {{"debug", "s.toml", "--headless", "--script", "d.script", "--out", "X"}, new_folder}};
   }
-  Outcome outcome_of(Words words, const std::string& path, const Surroundings& surroundings = {}) const {
+  Outcome outcome_of(Args words, const std::string& path, const Surroundings& surroundings = {}) const {
     for (std::string& word : words)
       if (const std::size_t at = word.find('X'); at == 0) word = path + word.substr(1);
     fs::remove_all(folder / "o");
@@ -103,7 +103,7 @@ struct Files {
   }
 };
 
-std::string line_of(const Words& words) {
+std::string line_of(const Args& words) {
   std::string line;
   for (const std::string& word : words) line += word + " ";
   return line;
@@ -143,10 +143,10 @@ TEST_CASE("every command says permission denied where that is so") {
     explicit Closed(const fs::path& f) : folder(f) { mode(0, 0, 0555); }
     ~Closed() { mode(0755, 0644, 0755); }
   } closed(files.folder.path());
-  const std::map<Wants, Words> paths = {{Wants::file, {"closed/inner", "closed/new", "shut"}},
-                                        {Wants::folder, {"closed/inner", "closed/new", "blind"}},
-                                        {Wants::new_file, {"closed/new", "closed/inner/new", "blind/new", "fixed/new"}},
-                                        {Wants::new_folder, {"closed/inner", "closed/new", "blind", "fixed/new"}}};
+  const std::map<Wants, Args> paths = {{Wants::file, {"closed/inner", "closed/new", "shut"}},
+                                       {Wants::folder, {"closed/inner", "closed/new", "blind"}},
+                                       {Wants::new_file, {"closed/new", "closed/inner/new", "blind/new", "fixed/new"}},
+                                       {Wants::new_folder, {"closed/inner", "closed/new", "blind", "fixed/new"}}};
   for (const Place& place : files.places())
     for (const std::string& path : paths.at(place.wants)) {
       const Outcome outcome = files.outcome_of(place.words, path, {.without_rights = true});
@@ -220,7 +220,7 @@ TEST_CASE("a folder that goes away while a run writes into it ends the run with 
 
 TEST_CASE("a full disk behind stdout is one message and exit code 2 from every command") {
   const Files files;
-  const std::vector<Words> all = {
+  const std::vector<Args> all = {
       {"--help"},
       {"--version"},
       {"run", "--help"},
@@ -243,7 +243,7 @@ TEST_CASE("a full disk behind stdout is one message and exit code 2 from every c
       {"diff", "a", "a"},
       {"verify", "ccd", "--queries", "queries"},
       {"debug", "s.toml", "--headless", "--script", "d.script"}};
-  for (const Words& words : all) {
+  for (const Args& words : all) {
     const Outcome outcome = files.outcome_of(words, "", {.out = "/dev/full"});
     INFO(line_of(words) << "\n" << outcome.err);
     check_refused_for(outcome, "stdout: can't be written (No space left on device)");
