@@ -128,6 +128,7 @@ struct FrameStats {
   std::int64_t unconverged = 0;          ///< group solves of the frame that ended without an answer
   std::vector<UnsolvedGroups> unsolved;  ///< the same by cause; of frames that this process made
   double unsolved_residual = 0.0;        ///< their largest residual_coulomb
+  int merged_impacts = 0;                ///< sub-steps in which more followed from one another than are told apart
   double attachment_error = 0.0;         ///< metres, over attachments at the end of the frame
   void take_unsolved(const UnsolvedGroups& cause, double residual);
   /// A solve of fixed work that is not within the tolerance.

@@ -154,18 +154,28 @@ double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const Pair
   return ask_for(motion, any, asked) ? 1.0 : 0.5;
 }
 
+/// Cuts of a sub-step between impacts.
+struct ImpactCuts {
+  int count = 0;
+  bool wants_more = false;  ///< than it may have
+};
+
 /// The share with which a motion is made anew, so that it ends at its first impact, or that its rebounds win no energy;
 /// none: it may stand.
 std::optional<double> share_for_impacts(const Bodies& bodies, SubStep& step, const ContactSettings& contact,
-                                        double gravity, int& impacts, PassiveRebounds& passive, StepWatcher* watcher) {
-  const bool may_cut = impacts < contact.successive_impacts;
-  if (may_cut)
+                                        double gravity, ImpactCuts& cuts, PassiveRebounds& passive,
+                                        StepWatcher* watcher) {
+  const bool may_cut = cuts.count < contact.successive_impacts;
+  if (may_cut || (cuts.count > 0 && !cuts.wants_more))
     if (const auto before = share_to_first_impact(bodies, step, contact, gravity)) {
-      ++impacts;
-      if (watcher != nullptr) watcher->struck(bodies, step, *before);
-      return *before;
+      cuts.wants_more = !may_cut;
+      if (may_cut) {
+        ++cuts.count;
+        if (watcher != nullptr) watcher->struck(bodies, step, *before);
+        return *before;
+      }
     }
-  if (!passive.weaken(bodies, step, contact, !may_cut && impacts > 0)) return std::nullopt;
+  if (!passive.weaken(bodies, step, contact, !may_cut && cuts.count > 0)) return std::nullopt;
   return 1.0;
 }
 
@@ -260,7 +270,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   if (bodies_.all_active()) has_rebounds_ = has_rebounds(bodies_, parameters.contact);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds_;
-  int impacts = 0;
+  ImpactCuts cuts;
   PassiveRebounds passive;
   double rest = 1.0, next = 1.0;  // of the sub-step: what is left, and what the next piece tries
   Asking asking;
@@ -283,7 +293,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       if (rebounds && motion < kMostMotions)
         if (const auto before =
                 share_for_impacts(bodies_, *sub_step_, parameters.contact, scale_gravity(parameters.simulation.gravity),
-                                  impacts, passive, watcher_)) {
+                                  cuts, passive, watcher_)) {
           share *= *before;
           start->take_back(*sub_step_, bodies_, sleeping_);
           continue;
@@ -315,6 +325,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     rest = share == rest ? 0.0 : rest - share;
     take_results(rest == 0.0 ? frozen : nullptr);
   }
+  stats_.merged_impacts += cuts.wants_more ? 1 : 0;
   if (ledger_) ledger_->close_substep(substep);
   if (watcher_ == nullptr) return;
   watcher_->finished(bodies_, substep);

@@ -315,6 +315,21 @@ TEST_CASE("a sub-step is cut between impacts for what rebounds, and for nothing 
   CHECK(energy_left(0, 1.0) < 0.9);
   CHECK(energy_left(8, 0.2) == energy_left(0, 0.2));
 
+  // whether there were more is told, and where there were none it is not
+  for (int most = 1; most <= 8; ++most) {
+    World world;
+    world.parameters.contact.successive_impacts = most;
+    add_cradle(world, 5e-4, 1.0);
+    world.parameters.contact.restitution = 1.0;
+    world.start();
+    int merged = 0;
+    for (int frame = 0; frame < 10; ++frame) run(world, 1), merged += world.record().stats.merged_impacts;
+    const double energy = world.record().stats.kinetic / (0.5 * world.bodies()[0].mass);
+    CAPTURE(most, energy);
+    CHECK(merged == (energy < 0.999 ? 1 : 0));
+    if (most == 1 || most == 8) CHECK(merged == (most == 1 ? 1 : 0));
+  }
+
   // boxes that stand on one another, and press on one another all the time
   std::uint64_t hash[2];
   for (const bool cuts : {false, true}) {

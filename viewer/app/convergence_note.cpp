@@ -27,6 +27,8 @@ std::string what_ended(const UnsolvedGroups& cause) {
 }  // namespace
 
 void ConvergenceNote::add(const FrameStats& stats) {
+  if (stats.merged_impacts > 0 && merged_ == 0) first_merged_ = stats.frame;
+  merged_ += stats.merged_impacts;
   if (stats.unconverged == 0) return;
   for (const UnsolvedGroups& cause : stats.unsolved) count_unsolved(causes_, cause);
   solves_ += stats.unconverged;
@@ -34,8 +36,16 @@ void ConvergenceNote::add(const FrameStats& stats) {
   if (stats.residual > worst_) worst_ = stats.residual, worst_frame_ = stats.frame;
 }
 
+std::string ConvergenceNote::impacts_text() const {
+  if (merged_ == 0) return "";
+  return fmt::format(
+      "note:     in {} more impacts followed from one another than contact.successive_impacts tells "
+      "apart, the first in frame {}: the rest were solved as one, which may lose energy\n",
+      count(merged_, "sub-step"), first_merged_);
+}
+
 std::string ConvergenceNote::text() const {
-  if (solves_ == 0) return "";
+  if (solves_ == 0) return impacts_text();
   std::string causes;
   if (causes_.size() == 1) {
     causes = what_ended(causes_.front());
@@ -45,7 +55,8 @@ std::string ConvergenceNote::text() const {
       causes += fmt::format("{}{} {}", &cause == causes_.data() ? "" : ", ", cause.solves, what_ended(cause));
   }
   return fmt::format("note:     {} in {} {}; the largest residual was {:.2g} m/s in frame {}\n",
-                     count(solves_, "group solve"), count(frames_, "frame"), causes, worst_, worst_frame_);
+                     count(solves_, "group solve"), count(frames_, "frame"), causes, worst_, worst_frame_) +
+         impacts_text();
 }
 
 }  // namespace impinge

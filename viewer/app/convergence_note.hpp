@@ -1,4 +1,5 @@
-// What a run must not keep to its table: group solves that ended without an answer, and what ended them.
+// What a run must not keep to its table: group solves that ended without an answer, and what ended them; and impacts that
+// were one where they should have been several.
 #pragma once
 
 #include "engine/world/step_record.hpp"
@@ -8,14 +9,17 @@ namespace impinge {
 class ConvergenceNote {
  public:
   void add(const FrameStats& stats);
-  /// One line with its end, "" if every solve had an answer.
+  /// A line for each with its end, "" if every solve had an answer and every impact its turn.
   std::string text() const;
 
  private:
+  std::string impacts_text() const;
+
   std::vector<UnsolvedGroups> causes_;  // in the order in which they came
   std::int64_t solves_ = 0;
   int frames_ = 0, worst_frame_ = 0;
   double worst_ = 0.0;  // m/s
+  int merged_ = 0, first_merged_ = 0;
 };
 
 }  // namespace impinge

@@ -82,3 +82,25 @@ TEST_CASE("the note counts each cause for itself where there are several") {
         "note:     5 group solves in 2 frames did not converge: 4 stopped at lcp.max_iterations, 1 had contacts that "
         "contradict each other; the largest residual was 0.25 m/s in frame 3\n");
 }
+
+TEST_CASE("the note says in how many sub-steps impacts were more than a sub-step is cut between") {
+  const TempFolder folder;
+  std::string scene = "[contact]\nrestitution = 1\nsuccessive_impacts = 1\n\n[simulation]\ngravity = [0, 0, 0]\n";
+  for (int i = 0; i < 5; ++i)
+    scene += fmt::format(
+        "\n[[body]]\nname = \"ball_{}\"\nkind = \"dynamic\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\n"
+        "mass = 1\nposition = [{}, 0, 0]\nvelocity = [{}, 0, 0]\n",
+        i, i * 0.1005 - (i == 0 ? 0.01 : 0.0), i == 0 ? 1 : 0);
+  folder.write("cradle.toml", scene);
+  const auto run = [&](const char* most) {
+    const Outcome outcome =
+        impinge_run(folder.path(), {"run", "cradle.toml", "--frames", "10", "--no-images", "--force", "--set",
+                                    fmt::format("contact.successive_impacts={}", most)});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    return outcome.out;
+  };
+  CHECK(run("1").find("note:     in 1 sub-step more impacts followed from one another than "
+                      "contact.successive_impacts tells apart, the first in frame 1: ") != std::string::npos);
+  CHECK(run("8").find("successive_impacts") == std::string::npos);
+}
