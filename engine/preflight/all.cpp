@@ -10,6 +10,7 @@ const Registry<Warning>& warnings() {
     IMPINGE_LIST(all, start_overlap_warning);
     IMPINGE_LIST(all, self_crossing_warning);
     IMPINGE_LIST(all, mass_ratio_warning);
+    IMPINGE_LIST(all, long_substep_warning);
     IMPINGE_LIST(all, size_ratio_warning);
     IMPINGE_LIST(all, odd_length_warning);
     IMPINGE_LIST(all, coarse_threshold_warning);

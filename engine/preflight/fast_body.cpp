@@ -7,15 +7,15 @@
 #include "engine/bodies/scripted_body.hpp"
 #include "engine/core/units.hpp"
 #include "engine/geometry/rotation.hpp"
+#include "engine/preflight/shorter_substeps.hpp"
 #include "engine/preflight/warning.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr double kSafe = 0.5;           // of a thickness: from there on contacts still know the way out
-constexpr int kMostLooks = 10000;       // at a motion
-constexpr double kMostSubsteps = 1000;  // that the parameter takes
+constexpr double kSafe = 0.5;      // of a thickness: from there on contacts still know the way out
+constexpr int kMostLooks = 10000;  // at a motion
 
 /// How far a point of it goes in a sub-step at most, metres: as it starts, or anywhere on its way if it is driven.
 double way_of(const Body& body, double h) {
@@ -34,10 +34,7 @@ double way_of(const Body& body, double h) {
 }
 
 std::string remedy(const Parameters& p, double times) {
-  const double substeps = std::ceil(p.simulation.substeps * times);
-  const std::string shorter = substeps <= kMostSubsteps
-                                  ? fmt::format("simulation.substeps = {:.0f}", substeps)
-                                  : fmt::format("divide simulation.frame_time by {:.0f}", std::ceil(times));
+  const std::string shorter = shorter_substeps(p, times);
   if (watching(p) == Continuous::off) return "set narrow_phase.continuous = \"auto\", or " + shorter;
   return "choose a response.method that lets nothing overlap, or " + shorter;
 }

@@ -92,10 +92,10 @@ TEST_CASE("quick: a pile of 200 boxes is never deeper in one another than 5 mm o
 TEST_CASE("quick: stacks of cubes come to rest and stay where they stand for a minute, small ones too") {
   for (const double side : {1.0, 0.01})
     for (const int count : {2, 3, 5, 10}) {
-      if (side < 0.1 && count > 5) continue;  // falls: a cube is two frames high then
       CAPTURE(side, count);
       World world;
       prepare(world);
+      if (side < 0.1 && count > 5) world.parameters.simulation.substeps = 3;  // as `impinge check` advises
       world.parameters.contact.friction = 0.5;
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
       for (int i = 0; i < count; ++i) {

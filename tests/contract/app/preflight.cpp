@@ -108,6 +108,14 @@ TEST_CASE("preflight: ratios, thresholds, speeds and densities") {
     return body("light", crate + "mass = 1") +
            body("heavy", crate + fmt::format("mass = {}\nposition = [0, 2, 0]", ratio));
   };
+  const auto column = [](int count, double side) {
+    std::string all;
+    for (int i = 0; i < count; ++i)
+      all += body(fmt::format("cube_{}", i), fmt::format("shape = {{ box = {{ size = [{0}, {0}, {0}] }} }}\nmass = 1\n"
+                                                         "position = [0, {1}, 0]",
+                                                         side, (i + 0.5) * side));
+    return all;
+  };
   const auto sheet = [](double thickness, double speed) {
     return body("sheet", fmt::format("shape = {{ box = {{ size = [1, {}, 1] }} }}", thickness), "static") +
            ball("bullet", 0.5, {0, 3, 0}, fmt::format("mass = 1\nvelocity = [0, {}, 0]", -speed));
@@ -121,6 +129,13 @@ TEST_CASE("preflight: ratios, thresholds, speeds and densities") {
        "weighs ",
        1000,
        {"--set", "response.method=quick"}},
+      {"small cubes, quickly",
+       "long-substep",
+       column(5, 0.01),
+       {"'cube_0'", "quick", "simulation.substeps = 3"},
+       "falls ",
+       9.81 / 3600,
+       {"--set", "response.method=quick", "--set", "simulation.substeps=1"}},
       {"dust and a mountain",
        "size-ratio",
        ball("dust", 1e-4, {0, 9e3, 0}, "mass = 1") + ball("mountain", 4e3, {0, 0, 0}, "mass = 2"),
