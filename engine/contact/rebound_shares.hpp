@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/core/types.hpp"
+#include "engine/core/index.hpp"
 
 namespace impinge {
 

@@ -191,10 +191,9 @@ void Ledger::take_deformable(Body& body, BodyIndex b, const TimeIntegration& how
 void Ledger::take_rows(const Bodies& bodies, const SubStep& step) {
   for (const GroupResult& result : step.results)
     for (const RowImpulse& row : result.rows) {
-      const bool is_contact = row.kind == RowKind::contact;
-      for (const auto& [on_a, source] :
-           {std::pair(row.normal, is_contact ? LedgerSource::impact : LedgerSource::attachment),
-            std::pair(row.tangent, LedgerSource::friction)}) {
+      const auto normal = row.kind == RowKind::contact ? LedgerSource::impact : LedgerSource::attachment;
+      for (const LedgerSource source : {normal, LedgerSource::friction}) {
+        const Vec3& on_a = source == normal ? row.normal : row.tangent;
         if (on_a.isZero(0.0)) continue;
         const auto has_part = [](const ContactSide& side) { return side.rigid >= 0 || side.deformable >= 0; };
         const auto take = [&](BodyIndex index, const ContactSide& side, const Vec3& way, const Vec3& impulse,

@@ -46,6 +46,7 @@ class FastBody : public Warning {
     if (watching(p) != Continuous::off && !p.response.method->lives_on_overlap()) return {};
     const Bodies& bodies = start.world.bodies();
     std::vector<double> thickness;
+    thickness.reserve(static_cast<std::size_t>(bodies.size().value()));
     for (const Body& body : bodies) thickness.push_back(body.shape->thickness());
     std::vector<std::pair<double, Finding>> all;
     for (BodyIndex a(0); a < bodies.size(); ++a) {
