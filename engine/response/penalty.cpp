@@ -88,6 +88,7 @@ class Penalty : public Response {
 
   bool uses_cone_solver() const override { return false; }
   bool lives_on_overlap() const override { return true; }
+  bool uses_restitution() const override { return false; }
   IterationSetting iteration_setting() override { return {&settings_.max_iterations}; }
   std::string summary(const LcpSettings&) const override {
     return fmt::format("{}, stiffness {}", settings_.form == Form::end_of_step ? "implicit" : "explicit",

@@ -70,6 +70,8 @@ class Response : public Method {
   virtual bool is_reference() const { return false; }
   /// Whether overlap is part of the method's own law (a spring's compression): nothing else may push it out then.
   virtual bool lives_on_overlap() const { return false; }
+  /// Whether what it makes of an impact depends on the restitution of the two.
+  virtual bool uses_restitution() const { return true; }
   /// Whether it ends after work that is fixed beforehand, wherever that leads, and follows the bodies' turns by itself:
   /// nothing of its answer is worth a solve more.
   virtual bool is_approximate() const { return lives_on_overlap(); }

@@ -380,3 +380,21 @@ TEST_CASE("forty crates have the same hashes for 1, 2 and 4 threads under every 
   }
   set_thread_count(0);
 }
+
+TEST_CASE("a ball bounces under the responses that say that they use restitution, and under no other") {
+  for (const Entry<Response>& response : responses()) {
+    World world;
+    world.parameters.response.method = response.name;
+    world.parameters.contact.restitution = 0.9;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    world.add_body(dynamic_body("ball", Sphere{0.1}, {0, 1.1, 0}));
+    world.start();
+    double fastest = 0.0;  // upward
+    for (int frame = 0; frame < 60; ++frame) {
+      world.step();
+      fastest = std::max(fastest, world.bodies()[1].twist().linear.y());
+    }
+    CAPTURE(response.name, fastest);
+    CHECK((fastest > 0.8 * std::sqrt(2.0 * 9.81)) == response.make()->uses_restitution());
+  }
+}

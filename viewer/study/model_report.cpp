@@ -168,7 +168,7 @@ bool read_recorded_model(const std::filesystem::path& run_toml, Parameters& para
 
 std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
   std::vector<ModelLine> lines;
-  const auto line = [&](const char* stage, bool used, const std::string& what, const char* why) {
+  const auto line = [&](const char* stage, bool used, const std::string& what, const std::string& why) {
     lines.push_back({stage, used, used ? what : why});
   };
   const bool moves = f.moving() > 0, meets = f.meets(), proximity = p.contact.points == ContactPoints::proximity;
@@ -198,10 +198,11 @@ std::vector<ModelLine> model_lines(const Parameters& p, const ModelFacts& f) {
        fmt::format("Coulomb cone, three rows a contact, coefficient {} unless a body names one",
                    shortest(p.contact.friction)),
        "no body has any, so contacts have one row");
-  line("restitution", meets && f.restitution,
+  const bool bounces = p.response.method->uses_restitution();
+  line("restitution", meets && f.restitution && bounces,
        fmt::format("{} unless a body names one, above {}", shortest(p.contact.restitution),
                    speed(p.contact.restitution_threshold)),
-       "no body bounces");
+       bounces ? "no body bounces" : fmt::format("{} does not use it", p.response.method.name()));
   line("sleeping", p.simulation.sleeping && moves,
        fmt::format("groups slower than {} for {}", speed(p.simulation.sleep_speed),
                    threshold_text(p.simulation.sleep_time, time_scale(g, f.smallest), time_scale(g, f.largest), "s")),

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "engine/core/archive.hpp"
+#include "engine/response/response.hpp"
 #include "tests/support/program/program.hpp"
 #include "tests/support/program/refusal.hpp"
 #include "tests/support/program/temp_folder.hpp"
@@ -107,4 +108,23 @@ TEST_CASE("a coefficient that is the scene's is so again in a state that is rest
   ByteReader forth(own.bytes());
   session.restore(forth);
   CHECK(format_value(row.get()) == "0.7");
+}
+
+TEST_CASE("a restitution that the response does not use is told by check and info, and no other is") {
+  const TempFolder folder;
+  folder.write("s.toml", std::string(kScene) + "restitution = 0.9\n");
+  for (const Entry<Response>& response : responses()) {
+    const std::string name(response.name);
+    const std::vector<std::string> set = {"--set", "response.method=" + name};
+    const auto out_of = [&](const char* command) {
+      std::vector<std::string> words = {command, "s.toml"};
+      words.insert(words.end(), set.begin(), set.end());
+      return impinge_run(folder.path(), words).out;
+    };
+    const std::string checked = out_of("check"), told = out_of("info");
+    CAPTURE(name, checked, told);
+    const bool is_told = checked.find("ignored-restitution: 'crate' has a restitution of 0.9") != std::string::npos;
+    CHECK(is_told == !response.make()->uses_restitution());
+    CHECK((told.find(name + " does not use it") != std::string::npos) == is_told);
+  }
 }
