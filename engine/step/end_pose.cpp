@@ -27,9 +27,17 @@ bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
 /// Of collisions in pair order.
 std::span<const Collision> of_pair(std::span<const Collision> all, const BodyPair& pair) {
-  const auto ends = [](const Collision& c) { return std::pair(c.body_a, c.body_b); };
-  const auto range = std::ranges::equal_range(all, std::pair(pair.a, pair.b), std::less(), ends);
-  return {range.begin(), range.end()};
+  const auto is_before = [](const Collision& c, const BodyPair& p) {
+    return std::pair(c.body_a, c.body_b) < std::pair(p.a, p.b);
+  };
+  const auto first = std::lower_bound(all.begin(), all.end(), pair, is_before);
+  const auto last =
+      std::find_if(first, all.end(), [&](const Collision& c) { return c.body_a != pair.a || c.body_b != pair.b; });
+  return {first, last};
+}
+
+bool has_plane(const Body& a, const Body& b) {
+  return a.shape->as<Plane>() != nullptr || b.shape->as<Plane>() != nullptr;
 }
 
 bool are_meshes(const Body& a, const Body& b) { return a.shape->mesh() != nullptr && b.shape->mesh() != nullptr; }
@@ -38,7 +46,7 @@ bool are_meshes(const Body& a, const Body& b) { return a.shape->mesh() != nullpt
 /// have from the start; and of meshes one of which hangs in the other rows of what passes tell more (world/substep).
 bool may_hide(const Bodies& bodies, const BodyPair& pair, std::span<const Collision> collisions) {
   const Body &a = bodies[pair.a], &b = bodies[pair.b];
-  if (a.shape->as<Plane>() != nullptr || b.shape->as<Plane>() != nullptr) return false;
+  if (has_plane(a, b)) return false;
   return !are_meshes(a, b) || !are_interlocked(collisions, pair);
 }
 
@@ -153,7 +161,9 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
   std::vector<BodyPair> pairs;
   for (const BodyPair& pair : step.pairs) {
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
-    if (pair.a == pair.b || a.asleep || b.asleep || step.is_flight(pair.a, pair.b)) continue;
+    if (pair.a == pair.b || a.asleep || b.asleep) continue;
+    const bool is_passing = std::binary_search(step.passing.begin(), step.passing.end(), pair);
+    if (step.is_flight(pair.a, pair.b) && !(is_passing && has_plane(a, b))) continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
     const double activation = contact.activation(pair_size(a, b));
     const auto is_swift = [&] {
@@ -161,8 +171,7 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
       if (way <= kInHollow * activation || !may_hide(bodies, pair, step.collisions)) return false;
       return way > kSwift * activation || is_hollow(*a.shape) || is_hollow(*b.shape);
     };
-    if (deforms(a) || deforms(b) || std::binary_search(step.passing.begin(), step.passing.end(), pair) || is_swift())
-      pairs.push_back({pair.a, pair.b, activation});
+    if (deforms(a) || deforms(b) || is_passing || is_swift()) pairs.push_back({pair.a, pair.b, activation});
   }
   return pairs;
 }
@@ -183,7 +192,8 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
     const bool is_rigid = !deforms(bodies[c.body_a]) && !deforms(bodies[c.body_b]);
     const double allowed = (is_rigid ? kOfRigid : kAllowed) * activation;
-    if (c.gap >= -allowed || c.gap < -kDeepest * activation) return true;
+    const bool is_lost = c.gap < -kDeepest * activation && !has_plane(bodies[c.body_a], bodies[c.body_b]);
+    if (c.gap >= -allowed || is_lost) return true;
     const double at_end = c.gap;
     c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a);
     c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);

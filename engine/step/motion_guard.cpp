@@ -9,7 +9,9 @@
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/continuous/plane_between.hpp"
+#include "engine/detection/continuous/plane_passage.hpp"
 #include "engine/detection/continuous/round_path.hpp"
+#include "engine/detection/continuous/solids_apart.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "engine/shapes/wall.hpp"
@@ -32,6 +34,12 @@ constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
 bool is_plane(const Body& body) { return body.shape->as<Plane>() != nullptr; }
+
+/// Contacts hold every corner of what bends, and a ball has the same lowest point however it turns. What somebody pulls at
+/// goes where it is pulled.
+bool may_hide_from_plane(const Body& body) {
+  return !deforms(body) && !is_plane(body) && body.shape->as<Sphere>() == nullptr && !body.pull;
+}
 
 /// How far two points of one deforming body can come towards each other, metres.
 double self_approach(const Body& body, const std::vector<Vec3>& nodes) {
@@ -66,14 +74,26 @@ double seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair) {
 }
 
 /// Of a ball or capsule and another, or a rigid mesh, as far as distances tell it: they touch all along their way as a rule.
-/// Of boxes and other small solids, as far as a plane between them does.
+/// Of convex solids and small meshes, as far as a plane between them does.
 bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const SurfacePath& of_b, double depth) {
   if (deforms(a) || deforms(b)) return false;
   const std::optional<RoundCore> core_a = round_core(*a.shape), core_b = round_core(*b.shape);
   if (core_a && core_b) return stays_out(*core_a, of_a, *core_b, of_b, depth);
   if (core_a && b.shape->mesh() != nullptr) return stays_out(*core_a, of_a, of_b, depth);
   if (core_b && a.shape->mesh() != nullptr) return stays_out(*core_b, of_b, of_a, depth);
-  return stays_beside(of_a, of_b, depth);
+  return stay_apart(*a.shape, of_a, *b.shape, of_b, depth) || stays_beside(of_a, of_b, depth);
+}
+
+/// Of a body and a plane, whichever is which.
+std::vector<Passage> passages_through_plane(const Body& a, const SurfacePath& of_a, const Body& b,
+                                            const SurfacePath& of_b, const PassageSettings& settings) {
+  if (is_plane(a)) {
+    std::vector<Passage> passages = passages_through_plane(b, of_b, a, of_a, settings);
+    for (Passage& p : passages) std::swap(p.point_a, p.point_b), p.normal = -p.normal;
+    return passages;
+  }
+  const auto passage = passage_through_plane(*a.shape, of_a, *b.shape->as<Plane>(), of_b, settings);
+  return passage ? std::vector<Passage>{*passage} : std::vector<Passage>();
 }
 
 }  // namespace
@@ -178,7 +198,7 @@ MotionGuard::Sweep MotionGuard::sweep_of(const Body& body, BodyIndex b) const {
 
 SurfacePath MotionGuard::path_of(const Body& body, BodyIndex b) {
   SurfacePath path;
-  path.of = &surface_of(body);
+  if (!is_plane(body)) path.of = &surface_of(body);
   if (deforms(body)) {
     path.start = nodes_[b], path.end = body.world_vertices;
     path.exempt = body.exempt_pairs.get();
@@ -223,7 +243,10 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
   for (const auto& [first, second] : box_pairs) {
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
-    if (!may_respond(bodies, a, b) || is_plane(of_a) || is_plane(of_b)) continue;
+    if (!may_respond(bodies, a, b)) continue;
+    // what is through a plane is inside it still; but what turns may come down with points that have no contacts
+    if ((is_plane(of_a) && !may_hide_from_plane(of_b)) || (is_plane(of_b) && !may_hide_from_plane(of_a))) continue;
+    if (which == Continuous::off && (is_plane(of_a) || is_plane(of_b))) continue;
     const double safe = safe_for(of_a, of_b);
     const double both = approach(sweeps_[a], sweeps_[b]);
     if (all || both > seen * safe) pairs.push_back({a, b, {}, sweeps_[a].way(), sweeps_[b].way(), both, safe});
@@ -253,6 +276,10 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
       own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * seen);
       if (depth == Depth::graze) own.depth = std::max(own.depth, std::min(kGraze * seen, kWithin * own.reach));
       own.creep = kCreep * own.depth;
+    }
+    if (is_plane(of_a) || is_plane(of_b)) {
+      pairs[i].passages = passages_through_plane(of_a, paths[i].first, of_b, paths[i].second, own);
+      return;
     }
     if (is_known_clear(of_a, of_b, paths[i].first, paths[i].second, own.depth)) return;
     pairs[i].passages = pairs[i].a == pairs[i].b ? first_self_passages(paths[i].first, own)

@@ -321,7 +321,8 @@ void add_outcome(PairVerdict& v, const World& world, const SubStep& step, Motion
   };
   if (v.a == v.b) return add(not_asked, "a body's way past itself is not looked at");
   const MotionGuard::PairMotion motion = guard.motion_of(world.bodies(), v.a, v.b);
-  if (motion.is_planar) return add(not_asked, "a plane has no other side to get to");
+  if (motion.is_planar && v.undone.motions == 0 && passage == nullptr)
+    return add(not_asked, "a plane has no other side to get to");
   if (!may_respond(world.bodies(), v.a, v.b)) return add(not_asked, "nothing would come of it");
   Numbers numbers = {
       {"way_a_m", motion.way_a}, {"way_b_m", motion.way_b}, {"approach_m", motion.approach}, {"safe_m", motion.safe}};

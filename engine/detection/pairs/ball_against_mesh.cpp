@@ -10,6 +10,8 @@
 namespace impinge {
 namespace {
 
+constexpr double kFlat = 1e-6;  // between planes that are one, of a cosine and of the radius
+
 /// Where a triangle is nearest to the centre.
 struct Nearest {
   SurfaceFeature feature;
@@ -107,7 +109,16 @@ class BallTest {
       first = ray->t;
       hit = {{Feature::face, t}, t, ball_.center + ray->t * way, 0.0};
     }
-    if (hit.triangle >= 0 && !is_known(hit)) add(hit, mesh_.face_normal(hit.triangle));
+    if (hit.triangle >= 0 && !is_known(hit) && !is_in_plane_of_known(hit)) add(hit, mesh_.face_normal(hit.triangle));
+  }
+
+  /// Whether a face that has a contact already lies in the same plane: one row holds the ball off both.
+  bool is_in_plane_of_known(const Nearest& n) const {
+    const Vec3 normal = mesh_.face_normal(n.triangle);
+    return std::any_of(known_.begin(), known_.end(), [&](const Nearest& k) {
+      return k.feature.kind == Feature::face && mesh_.face_normal(k.triangle).dot(normal) > 1.0 - kFlat &&
+             std::abs(normal.dot(n.point - k.point)) <= kFlat * ball_.radius;
+    });
   }
 
   void add(const Nearest& n, const Vec3& normal) {

@@ -1,0 +1,106 @@
+#include "engine/detection/continuous/solids_apart.hpp"
+
+#include <algorithm>
+
+#include "engine/detection/continuous/convex_solids.hpp"
+#include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/rotation.hpp"
+#include "engine/shapes/primitives.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr int kPathPieces = 64;    // of the path, as it comes
+constexpr int kSolidHalvings = 5;  // of such a piece: shorter ones bend less
+constexpr int kMostLooks = 64;     // at two solids: beyond, a search is no dearer
+
+double reach_of(const PlacedConvex& solid, const Vec3& direction) { return direction.dot(farthest(solid, direction)); }
+
+/// A solid of a body that moves: where the body is when a piece of its path begins and ends.
+struct MovingSolid {
+  const PlacedConvex* solid;
+  Pose first, last;
+  double radius;  ///< that its points turn about the body's centre, metres
+
+  Vec3 way() const { return last.position - first.position; }
+  Vec3 turn() const { return rotation_log(last.rotation * first.rotation.transpose()); }
+};
+
+/// How far a point of `a`, as `b` sees it, may be off the straight line between its places where a piece begins and ends,
+/// metres: an eighth of the largest acceleration that two steady motions come to.
+double bend_between(const MovingSolid& a, const MovingSolid& b) {
+  const Vec3 turn_a = a.turn(), turn_b = b.turn();
+  const double from_b =
+      std::max((a.first.position - b.first.position).norm(), (a.last.position - b.last.position).norm());
+  const double own = turn_b.norm(), relative = a.radius == 0.0 ? 0.0 : (turn_a - turn_b).norm();
+  const double of_centre = own * own * from_b + 2.0 * own * (a.way() - b.way()).norm();
+  return 0.125 * (of_centre + (relative * relative + own * relative) * a.radius);
+}
+
+/// Whether the plane of this normal, from b to a, which stands at b's surface and goes along with b, has all of `a` beyond
+/// it but for `depth`. Points on straight lines are below a plane most where they start or end.
+bool is_beyond(const MovingSolid& a, const MovingSolid& b, const Vec3& normal_of_b, double depth) {
+  const double allowed = depth - bend_between(a, b);
+  if (!(allowed > 0.0)) return false;
+  const double plane = reach_of(*b.solid, normal_of_b);
+  const auto overlap = [&](const Pose& of_a, const Pose& of_b) {
+    return plane + reach_of(placed(*a.solid, seen_from(of_b, of_a)), -normal_of_b);
+  };
+  return overlap(a.last, b.last) <= allowed && overlap(a.first, b.first) <= allowed;
+}
+
+/// Two solids and the paths of their bodies.
+class SolidPair {
+ public:
+  SolidPair(const Shape& a, const SurfacePath& of_a, const Shape& b, const SurfacePath& of_b, double depth)
+      : path_a_(of_a), path_b_(of_b), radius_a_(swing_of(a)), radius_b_(swing_of(b)), depth_(depth) {}
+
+  bool stays_apart(const PlacedConvex& a, const PlacedConvex& b) {
+    a_ = &a, b_ = &b, left_ = kMostLooks;
+    const int pieces = std::max(path_a_.pieces(), path_b_.pieces());  // both are powers of two
+    if (pieces > kPathPieces) return false;
+    for (int i = pieces - 1; i >= 0; --i)  // where it ends it is the most likely to overlap
+      if (!is_clear(static_cast<double>(i) / pieces, (i + 1.0) / pieces, kSolidHalvings)) return false;
+    return true;
+  }
+
+ private:
+  /// A ball's turning moves none of its surface.
+  static double swing_of(const Shape& shape) { return shape.as<Sphere>() != nullptr ? 0.0 : shape.bounding_radius(); }
+
+  bool is_clear(double t0, double t1, int halvings) {
+    if (--left_ < 0) return false;
+    const double half_way = 0.5 * (t0 + t1);
+    const Pose at_a = path_a_.pose_at(half_way), at_b = path_b_.pose_at(half_way);
+    const MovingSolid a{a_, path_a_.pose_at(t0), path_a_.pose_at(t1), radius_a_},
+        b{b_, path_b_.pose_at(t0), path_b_.pose_at(t1), radius_b_};
+    const double ways = (a.way() - b.way()).norm() + a.turn().norm() * a.radius + b.turn().norm() * b.radius;
+    const ConvexGap gap = convex_gap(placed(*a_, at_a), placed(*b_, at_b), ways);
+    if (!gap.is_within_reach) return true;
+    if (gap.gap < -depth_) return false;
+    if (is_beyond(a, b, at_b.rotation.transpose() * gap.normal, depth_) ||
+        is_beyond(b, a, at_a.rotation.transpose() * -gap.normal, depth_))
+      return true;
+    return halvings > 0 && is_clear(half_way, t1, halvings - 1) && is_clear(t0, half_way, halvings - 1);
+  }
+
+  const SurfacePath &path_a_, &path_b_;
+  const double radius_a_, radius_b_, depth_;
+  const PlacedConvex *a_ = nullptr, *b_ = nullptr;
+  int left_ = 0;  // looks
+};
+
+}  // namespace
+
+bool stay_apart(const Shape& a, const SurfacePath& of_a, const Shape& b, const SurfacePath& of_b, double depth) {
+  if (!of_a.is_rigid() || !of_b.is_rigid()) return false;
+  const std::vector<PlacedConvex> solids_a = convex_solids(a), solids_b = convex_solids(b);
+  if (solids_a.empty() || solids_b.empty()) return false;
+  SolidPair pair(a, of_a, b, of_b, depth);
+  return std::all_of(solids_a.begin(), solids_a.end(), [&](const PlacedConvex& own) {
+    return std::all_of(solids_b.begin(), solids_b.end(),
+                       [&](const PlacedConvex& other) { return pair.stays_apart(own, other); });
+  });
+}
+
+}  // namespace impinge
