@@ -163,7 +163,11 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
     if (pair.a == pair.b || a.asleep || b.asleep) continue;
     const bool is_passing = std::binary_search(step.passing.begin(), step.passing.end(), pair);
-    if (step.is_flight(pair.a, pair.b) && !(is_passing && has_plane(a, b))) continue;
+    // where two meet in flight they have the contacts of that place alone; of a mesh on a plane others come round
+    const bool has_mesh = a.shape->mesh() != nullptr || b.shape->mesh() != nullptr,
+               is_flight = step.is_flight(pair.a, pair.b);
+    const bool comes_down = is_flight && has_plane(a, b) && (is_passing || has_mesh);
+    if (is_flight && !comes_down) continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
     const double activation = contact.activation(pair_size(a, b));
     const auto is_swift = [&] {
@@ -171,7 +175,8 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
       if (way <= kInHollow * activation || !may_hide(bodies, pair, step.collisions)) return false;
       return way > kSwift * activation || is_hollow(*a.shape) || is_hollow(*b.shape);
     };
-    if (deforms(a) || deforms(b) || is_passing || is_swift()) pairs.push_back({pair.a, pair.b, activation});
+    if (deforms(a) || deforms(b) || is_passing || comes_down || is_swift())
+      pairs.push_back({pair.a, pair.b, activation});
   }
   return pairs;
 }
