@@ -41,8 +41,9 @@ bool may_hide_from_plane(const Body& body) {
   return !deforms(body) && !is_plane(body) && body.shape->as<Sphere>() == nullptr && !body.pull;
 }
 
-/// The approach to a plane up to which contacts and looks at the end do, metres.
-double alone_from(const Body& body) { return body.shape->mesh() != nullptr ? body.shape->thickness() : 0.0; }
+/// The approach to a plane up to which contacts hold a mesh's corners, and looks at the end those that come round in flight,
+/// metres.
+double held_to_plane(const Body& body) { return body.shape->mesh() != nullptr ? body.shape->thickness() : 0.0; }
 
 /// How far two points of one deforming body can come towards each other, metres.
 double self_approach(const Body& body, const std::vector<Vec3>& nodes) {
@@ -84,7 +85,9 @@ bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const
   if (core_a && core_b) return stays_out(*core_a, of_a, *core_b, of_b, depth);
   if (core_a && b.shape->mesh() != nullptr) return stays_out(*core_a, of_a, of_b, depth);
   if (core_b && a.shape->mesh() != nullptr) return stays_out(*core_b, of_b, of_a, depth);
-  return stay_apart(*a.shape, of_a, *b.shape, of_b, depth) || stays_beside(of_a, of_b, depth);
+  if (a.shape->mesh() == nullptr && b.shape->mesh() == nullptr)
+    return stay_apart(*a.shape, of_a, *b.shape, of_b, depth);
+  return stays_beside(of_a, of_b, depth);
 }
 
 /// Of a body and a plane, whichever is which.
@@ -247,14 +250,13 @@ std::vector<UnsafeMotion::Pair> MotionGuard::pairs_at_risk(const Bodies& bodies,
     const BodyIndex a(std::min(first, second)), b(std::max(first, second));
     const Body &of_a = bodies[a], &of_b = bodies[b];
     if (!may_respond(bodies, a, b)) continue;
-    // what is through a plane is inside it still; but what turns may come down with points that have no contacts
-    if ((is_plane(of_a) && !may_hide_from_plane(of_b)) || (is_plane(of_b) && !may_hide_from_plane(of_a))) continue;
-    if (which == Continuous::off && (is_plane(of_a) || is_plane(of_b))) continue;
-    const double safe = safe_for(of_a, of_b);
     const double both = approach(sweeps_[a], sweeps_[b]);
-    // contacts hold a mesh's corners, and looks at the end those that come round in flight, but for the fastest
-    if (is_plane(of_a) && both <= alone_from(of_b)) continue;
-    if (is_plane(of_b) && both <= alone_from(of_a)) continue;
+    // what is through a plane is inside it still; but what turns may come down with points that have no contacts
+    if (is_plane(of_a) || is_plane(of_b)) {
+      const Body& other = is_plane(of_a) ? of_b : of_a;
+      if (which == Continuous::off || !may_hide_from_plane(other) || both <= held_to_plane(other)) continue;
+    }
+    const double safe = safe_for(of_a, of_b);
     if (all || both > seen * safe) pairs.push_back({a, b, {}, sweeps_[a].way(), sweeps_[b].way(), both, safe});
   }
   std::sort(pairs.begin(), pairs.end(),

@@ -33,7 +33,9 @@ std::optional<Passage> passage_through_plane(const Shape& shape, const SurfacePa
     }
     return lowest;
   };
-  const double began = std::max(0.0, lowest_at(0.0).depth), ended = lowest_at(1.0).depth;
+  const double ended = lowest_at(1.0).depth;
+  if (!(ended > settings.depth)) return std::nullopt;  // nearly all
+  const double began = std::max(0.0, lowest_at(0.0).depth);
   const double allowed = std::max(settings.depth, began + (settings.creep < 0.0 ? settings.depth : settings.creep));
   if (!(ended > allowed)) return std::nullopt;
   double before = 0.0, after = 1.0;

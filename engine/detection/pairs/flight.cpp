@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/detection/continuous/convex_solids.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/geometry/convex/mesh_hull.hpp"
@@ -18,12 +19,6 @@ constexpr double kSameFace = 0.999;  // of the normals' cosine: what is met late
 constexpr int kMostAdvances = 64;
 
 bool is_plane(const Collider& c) { return c.shape->as<Plane>() != nullptr; }
-
-/// Its point that is farthest along a unit direction.
-Vec3 farthest_of(const PlacedConvex& solid, const Vec3& direction) {
-  return solid.pose.apply(solid.set->support(solid.pose.rotation.transpose() * direction)) +
-         solid.set->rounding() * direction;
-}
 
 Pose pose_after(const Collider& c, double time) { return moved(c.pose, time * c.velocity, time * c.angular_velocity); }
 
@@ -55,10 +50,7 @@ class Flyer {
   Flyer& operator=(const Flyer&) = delete;
 
   std::size_t parts() const { return parts_.size(); }
-  PlacedConvex part(std::size_t k, const Pose& pose) const {
-    const PlacedConvex& own = parts_[k].solid;
-    return {own.set, {pose.rotation * own.pose.rotation, pose.apply(own.pose.position)}};
-  }
+  PlacedConvex part(std::size_t k, const Pose& pose) const { return placed(parts_[k].solid, pose); }
   double radius(std::size_t k) const { return parts_[k].radius; }  ///< about the part's frame, metres
   Pose at(double time) const { return pose_after(c_, time); }
 
@@ -79,13 +71,13 @@ class SweptHull final : public ConvexSet {
   Vec3 support(const Vec3& direction) const override {
     const Vec3 unit = direction.normalized();
     double most = -INFINITY;
-    Vec3 farthest = Vec3::Zero();
+    Vec3 point = Vec3::Zero();
     for (const Pose& pose : poses_)
       for (std::size_t k = 0; k < of_.parts(); ++k) {
-        const Vec3 x = farthest_of(of_.part(k, pose), unit);
-        if (const double reach = unit.dot(x); reach > most) most = reach, farthest = x;
+        const Vec3 x = farthest(of_.part(k, pose), unit);
+        if (const double reach = unit.dot(x); reach > most) most = reach, point = x;
       }
-    return farthest;
+    return point;
   }
 
  private:
@@ -158,7 +150,7 @@ std::optional<double> time_until_near(const Collider& a, const Collider& b, doub
       if (!of_b) {
         const WorldPlane plane = world_plane(b);
         const double offset = plane.offset + time * plane.normal.dot(b.velocity);
-        advance_to(plane.normal.dot(farthest_of(part, -plane.normal)) - offset, plane.normal);
+        advance_to(plane.normal.dot(farthest(part, -plane.normal)) - offset, plane.normal);
         continue;
       }
       const Pose at_b = of_b->at(time);
