@@ -115,7 +115,7 @@ class Body {
   /// Of what moves node by node: its surface where v* and `change` (null: nothing) lead, metres.
   virtual void surface_at_end(const BodyVector* /*change*/, std::vector<Vec3>& /*vertices*/) const {}
   /// Adds what contact made of v*.
-  virtual void change_velocity(const BodyVector&) {}
+  virtual void change_velocity(const BodyVector&, bool /*is_blow*/) {}
   /// Moves through the sub-step, which ends at `end`, s.
   virtual void advance(const TimeIntegration&, double /*end*/) {}
   /// Moves it without changing its momentum. A displacement changes x × p: in a group that is free of the rest of the

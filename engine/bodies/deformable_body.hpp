@@ -98,7 +98,7 @@ class DeformableBody final : public Body {
   double relinearize(const DeformableIntegrator& integrator, const VecX& change, const VecX& impulse) override;
   void solve_again() override;
   void surface_at_end(const BodyVector* change, std::vector<Vec3>& vertices) const override;
-  void change_velocity(const BodyVector& change) override;
+  void change_velocity(const BodyVector& change, bool is_blow) override;
   void advance(const TimeIntegration& how, double end) override;
   void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
   void stay(ByteReader& start) override;

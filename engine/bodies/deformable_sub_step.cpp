@@ -104,7 +104,7 @@ void DeformableBody::surface_at_end(const BodyVector* change, std::vector<Vec3>&
   interpolate(embedding, fem.rest(), step_.position(with_held(v)), vertices);
 }
 
-void DeformableBody::change_velocity(const BodyVector& change) {
+void DeformableBody::change_velocity(const BodyVector& change, bool /*is_blow*/) {
   step_.v_star += change.nodes;
   touched_ = true;
 }

@@ -46,7 +46,7 @@ void RigidBody::set_inertia(const Mat3& about_center) {
 
 void RigidBody::open_sub_step() {
   Body::open_sub_step();
-  given_.setZero(), spin_given_.setZero();
+  given_.setZero(), spin_given_.setZero(), is_struck_ = false;
   if (lag == 0.0) return;
   velocity -= stagger_.lead, angular_momentum -= stagger_.spin_lead;
   lead_ = {stagger_.lead, world_inertia_inverse() * stagger_.spin_lead};
@@ -70,7 +70,8 @@ CarriedPoint RigidBody::carry(const MaterialPoint&, const Vec3& at) const {
   return carried;
 }
 
-void RigidBody::change_velocity(const BodyVector& change) {
+void RigidBody::change_velocity(const BodyVector& change, bool is_blow) {
+  is_struck_ = is_blow;
   given_ = change.twist.linear, spin_given_ = world_inertia() * change.twist.angular;
   velocity += given_;
   angular_momentum += spin_given_;
@@ -93,10 +94,16 @@ void RigidBody::advance(const TimeIntegration& how, double /*end*/) {
 /// By gravity and by impulses: those that carry a weight, and of larger ones what agrees with the sub-step before. What
 /// they have brought to a stand stays there.
 void RigidBody::lead_on(const TimeIntegration& how) {
-  const Vec3 rate = given_ / kick, spin_rate = spin_given_ / kick;
-  const bool carries = rate.norm() <= kCarries * how.gravity.norm();
-  const Vec3 lead = lag * (how.gravity + (carries ? rate : Stagger::agreed(stagger_.rate, rate))),
-             spin_lead = lag * (carries ? spin_rate : Stagger::agreed(stagger_.spin_rate, spin_rate));
+  Vec3 rate = given_ / kick, spin_rate = spin_given_ / kick;
+  const double weight = kCarries * how.gravity.norm();
+  const bool carries = rate.norm() <= weight;
+  Vec3 goes_on = carries ? rate : Stagger::agreed(stagger_.rate, rate),
+       spin_goes_on = carries ? spin_rate : Stagger::agreed(stagger_.spin_rate, spin_rate);
+  if (is_struck_ && !carries) {  // of a blow nothing goes on but the weight that was carried before
+    if (stagger_.rate.norm() > weight) goes_on.setZero(), spin_goes_on.setZero();
+    rate = goes_on, spin_rate = spin_goes_on;
+  }
+  const Vec3 lead = lag * (how.gravity + goes_on), spin_lead = lag * spin_goes_on;
   const bool stands = !given_.isZero(0.0) && velocity.norm() <= kStands * lag * how.gravity.norm();
   stagger_ = {stands ? Vec3(Vec3::Zero()) : lead, stands ? Vec3(Vec3::Zero()) : spin_lead, rate, spin_rate};
   velocity += stagger_.lead, angular_momentum += stagger_.spin_lead;

@@ -34,7 +34,7 @@ class RigidBody final : public Body {
   void find_free_velocity(const TimeIntegration& how) override;
   SystemBlock system_block() const override;
   CarriedPoint carry(const MaterialPoint& point, const Vec3& at) const override;
-  void change_velocity(const BodyVector& change) override;
+  void change_velocity(const BodyVector& change, bool is_blow) override;
   void advance(const TimeIntegration& how, double end) override;
   void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
   void stay(ByteReader& start) override;
@@ -57,6 +57,7 @@ class RigidBody final : public Body {
   Stagger stagger_;
   Twist lead_;                                             // that was taken off when the sub-step began
   Vec3 given_ = Vec3::Zero(), spin_given_ = Vec3::Zero();  // velocity and angular momentum, by impulses
+  bool is_struck_ = false;                                 // by some of these
 };
 
 }  // namespace impinge

@@ -86,8 +86,9 @@ class Assembly {
     row.velocity_before = c.normal.dot(velocity_before);
     row.scale = pair_scale(bodies_[c.body_a], bodies_[c.body_b], input_.gravity);
     NormalMotion motion{row.gap, free_velocity, row.velocity_before, row.restitution, 0.0, row.scale.speed};
-    if (input_.velocities == VelocityTime::middle && row.restitution > 0.0) find_impact(c, row, motion);
     if (result_.meeting > 0.0 && c.meeting) return take_flight(c, row, motion);
+    if (input_.velocities == VelocityTime::middle && result_.meeting == 0.0 && row.restitution > 0.0)
+      find_impact(c, row, motion);
     row.bound = row_bound(motion, input_.settings, input_.time_step);
     if (!(row.bound > 0.0)) row.impact = 0.0;  // it is too slow to rebound
   }
@@ -139,7 +140,6 @@ class Assembly {
   GroupSystem& system() { return result_.system; }
 
   double find_meeting() const {
-    if (input_.velocities != VelocityTime::end) return 0.0;
     double met = 0.0;
     for (const ContactIndex i : group_.contacts) {
       const Collision* c = input_.contacts.collision(i);
@@ -163,18 +163,19 @@ class Assembly {
     }
   }
 
-  /// What forces add to a body's velocity in the sub-step.
-  Vec3 gain_of(BodyIndex index) const {
+  /// By the forces of the sub-step, m/s².
+  Vec3 acceleration_of(BodyIndex index) const {
     const RigidBody* body = bodies_[index].as<RigidBody>();
-    if (body == nullptr) return Vec3::Zero();
-    return body->velocity - body->carry({}, body->pose.position).velocity_before;
+    if (body == nullptr || body->kick == 0.0) return Vec3::Zero();
+    const CarriedPoint before = body->carry({}, body->pose.position);
+    return (body->velocity - before.velocity_before + before.lead) / body->kick;
   }
 
   /// What the gap of two is when they meet has to last for the rest of the sub-step, and what rebounds is the velocity that
   /// they have by then. That of the sub-step is what forces make of it half way.
   void take_flight(const Collision& c, ContactRows& row, NormalMotion motion) const {
     const double h = input_.time_step, met = result_.meeting,
-                 acceleration = c.normal.dot(gain_of(c.body_a) - gain_of(c.body_b)) / h;
+                 acceleration = c.normal.dot(acceleration_of(c.body_a) - acceleration_of(c.body_b));
     motion.gap += met * motion.free_velocity;
     motion.velocity_before = motion.free_velocity + acceleration * (met - 0.5 * h);
     motion.after = acceleration * (0.5 * h - met);

@@ -8,6 +8,7 @@ namespace impinge {
 struct StageTimes {
   double broad_ms = 0, narrow_ms = 0, assemble_ms = 0, response_ms = 0, integrate_ms = 0, step_ms = 0;
   double render_ms = 0;  ///< filled in by who draws the frame
+  double guard_ms = 0;   ///< looks back at motions for what passed, and keeping what undoes them
 };
 
 /// Adds the milliseconds of its own life to a counter.

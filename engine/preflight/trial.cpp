@@ -43,11 +43,9 @@ class Deadline {
 
 template <class Report>
 void take_slowest(const StageTimes& times, Report& report) {
-  const std::pair<std::string_view, double> stages[] = {{"broad phase", times.broad_ms},
-                                                        {"narrow phase", times.narrow_ms},
-                                                        {"assembly", times.assemble_ms},
-                                                        {"response", times.response_ms},
-                                                        {"integration", times.integrate_ms}};
+  const std::pair<std::string_view, double> stages[] = {
+      {"broad phase", times.broad_ms}, {"narrow phase", times.narrow_ms},   {"assembly", times.assemble_ms},
+      {"response", times.response_ms}, {"integration", times.integrate_ms}, {"looks back at motions", times.guard_ms}};
   double most = 0.0;
   for (const auto& [name, ms] : stages)
     if (ms > most) most = ms, report.stage = name;

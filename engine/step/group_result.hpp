@@ -45,6 +45,7 @@ struct GroupResult {
   // the answer, by body of the group
   std::vector<BodyVector> velocity;      ///< Δv
   std::vector<BodyVector> displacement;  ///< recovery from overlap, metres and radians; empty: none
+  std::vector<char> struck;              ///< whose impulses are blows; empty: nobody's, or nobody has to know
   bool follows_flight = false;           ///< it is no recovery, but what the bodies went freely before they met
   std::vector<double> push_out;          ///< how fast that is at each body's fastest point, m/s; empty: none
 

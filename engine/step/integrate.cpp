@@ -12,12 +12,7 @@ namespace {
 
 /// The velocity of the group's centre of mass if nothing but its own rigid bodies holds it, else nothing.
 std::optional<Vec3> free_velocity_of(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
-  const auto is_rigid = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::dynamic; };
-  const auto is_free = [&](ContactIndex i) {
-    const Collision* c = contacts.collision(i);
-    return c != nullptr && is_rigid(c->body_a) && is_rigid(c->body_b);
-  };
-  if (!std::all_of(group.contacts.begin(), group.contacts.end(), is_free)) return std::nullopt;
+  if (!is_free(bodies, group, contacts)) return std::nullopt;
   double mass = 0.0;
   Vec3 mean = Vec3::Zero();
   for (const BodyIndex b : group.bodies) mass += bodies[b].mass, mean += bodies[b].mass * bodies[b].twist().linear;
@@ -50,10 +45,21 @@ void naming_group(const SubStep& step, BodyIndex body, Work&& work) {
 
 }  // namespace
 
+bool is_free(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
+  const auto is_rigid = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::dynamic; };
+  return std::all_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex i) {
+    const Collision* c = contacts.collision(i);
+    return c != nullptr && is_rigid(c->body_a) && is_rigid(c->body_b);
+  });
+}
+
 void change_velocities(Bodies& bodies, const SubStep& step) {
   for (GroupIndex g(0); g < step.groups.size(); ++g)
-    for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i)
-      bodies[step.groups[g].bodies[i]].change_velocity(step.results[g].velocity[i]);
+    for (std::size_t i = 0; i < step.groups[g].bodies.size(); ++i) {
+      const GroupResult& result = step.results[g];
+      const bool is_blow = !result.struck.empty() && result.struck[i] != 0;
+      bodies[step.groups[g].bodies[i]].change_velocity(result.velocity[i], is_blow);
+    }
 }
 
 void advance(Bodies& bodies, const TimeIntegration& how, const SubStep& step) {

@@ -52,6 +52,20 @@ std::optional<LateImpacts> late_impacts(const GroupSystem& solved, double time_s
   return by;
 }
 
+std::vector<char> struck_bodies(const AssembledGroup& group, const CollisionGroup& of, const ContactList& contacts,
+                                const ContactSettings& settings) {
+  std::vector<char> struck(of.bodies.size(), 0);
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+    const ContactRows& row = group.system.contacts[i];
+    if (row.kind != RowKind::contact || !(group.system.lambda[i].x() > 0.0)) continue;
+    if (row.velocity_before > -settings.restitution_threshold.at(row.scale.speed)) continue;
+    const auto [a, b] = contacts.bodies(group.contacts[i]);
+    for (std::size_t k = 0; k < struck.size(); ++k)
+      if (of.bodies[k] == a || of.bodies[k] == b) struck[k] = 1;
+  }
+  return struck;
+}
+
 GroupSystem without_meeting(GroupSystem system) {
   const auto is_later = [](const ContactRows& row) { return row.impact > 0.0; };
   std::vector<Vec3> lambda;

@@ -18,6 +18,10 @@ struct LateImpacts {
 /// what else they touch, a part of it. None: nothing rebounds, or something of the group deforms.
 std::optional<LateImpacts> late_impacts(const GroupSystem& solved, double time_step);
 
+/// By body of a solved group: 1 where a contact stops it, or turns it round, that closed faster than what rests there.
+std::vector<char> struck_bodies(const AssembledGroup& group, const CollisionGroup& of, const ContactList& contacts,
+                                const ContactSettings& settings);
+
 /// The group without the contacts of that meeting, and with no answer yet.
 GroupSystem without_meeting(GroupSystem system);
 

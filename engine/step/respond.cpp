@@ -10,6 +10,7 @@
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/response/least_violation.hpp"
+#include "engine/step/integrate.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/tasks.hpp"
 #include "engine/step/turning.hpp"
@@ -213,6 +214,8 @@ class GroupSolve {
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
     result_.velocity = now_.by_body(group_, s.delta_velocity, spins(), s.deformable_delta);
+    if (how_.velocities == VelocityTime::middle)
+      result_.struck = struck_bodies(now_, group_, input_.contacts, how_.contact);
     push_out();
     follow_flight();
     hand_on();
@@ -242,10 +245,12 @@ class GroupSolve {
     displace(std::move(velocity), share);
   }
 
-  /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities.
+  /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities. Of
+  /// a group that floats that would be a turn about its centre, which only spins could take back: with energy from nowhere.
   void follow_rebounds() {
-    const std::optional<LateImpacts> late =
-        now_.meeting == 0.0 ? late_impacts(system(), input_.time_step) : std::nullopt;
+    const std::optional<LateImpacts> late = now_.meeting > 0.0 || is_free(bodies_, group_, input_.contacts)
+                                                ? std::nullopt
+                                                : late_impacts(system(), input_.time_step);
     if (late) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
   }
 

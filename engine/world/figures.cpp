@@ -69,6 +69,8 @@ constexpr Figure kFigures[] = {
      "they came."},
     {"attachment_error_m", "m", state, &S::attachment_error,
      "Largest distance of an attached point from where it is held, at the end of the frame."},
+    {"guard_ms", "ms", time, &T::guard_ms,
+     "Looks back at motions for what passed, and keeping what undoes them, summed."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.

@@ -106,7 +106,7 @@ Detecting detecting(const Parameters& p) {
           *p.narrow_phase.method,
           response.is_approximate() && !response.lives_on_overlap(),
           looks_ahead,
-          looks_ahead && !response.is_approximate() && p.simulation.velocities == VelocityTime::end};
+          looks_ahead && !response.is_approximate()};
 }
 
 Solving solving(const Parameters& p) {

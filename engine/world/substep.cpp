@@ -277,9 +277,12 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   std::set<BodyIndex> stay;  // for the rest of it
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
-    if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
+    {
+      const StageTimer timer(stats_.times.guard_ms);
+      if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
+      guard_.open(bodies_);
+    }
     begin_piece(*sub_step_, passive);
-    guard_.open(bodies_);
     double share = std::min({rest, next, share_of_spins(attachments_, bodies_, h)});
     asking.has = false;
     int motion = 1;
@@ -299,7 +302,11 @@ void World::substep(double h, int left, FrozenStep* frozen) {
           continue;
         }
       hold_back();
-      std::optional<UnsafeMotion> unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
+      const auto look_back = [&] {
+        const StageTimer timer(stats_.times.guard_ms);
+        return guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
+      };
+      std::optional<UnsafeMotion> unsafe = look_back();
       const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
       if (!unsafe) break;
@@ -312,7 +319,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
           if (held.pairs.empty()) break;
           note_unsafe(held, substep, UnsafeBody::held_back);
           hold_back();
-          unsafe = guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
+          unsafe = look_back();
         }
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
@@ -326,6 +333,10 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     take_results(rest == 0.0 ? frozen : nullptr);
   }
   stats_.merged_impacts += cuts.wants_more ? 1 : 0;
+  tell_finished(substep);
+}
+
+void World::tell_finished(int substep) {
   if (ledger_) ledger_->close_substep(substep);
   if (watcher_ == nullptr) return;
   watcher_->finished(bodies_, substep);

@@ -103,6 +103,7 @@ class World {
   void make_motion(double time_step, double share, bool freezes);
   void note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cause cause);
   void take_results(FrozenStep* frozen);
+  void tell_finished(int substep);
   void keep_ledger();
   void bring_to_life(BodyIndex index);
   std::vector<std::uint64_t> settings();

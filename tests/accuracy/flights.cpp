@@ -105,6 +105,7 @@ TEST_CASE("what flies past another keeps its way, whatever the two are, and so d
 
 TEST_CASE("two balls that meet aslant part as the formula says, wherever in the sub-step they meet") {
   constexpr double kRadius = 0.1;
+  const auto velocities = GENERATE(VelocityTime::end, VelocityTime::middle);
   for (const double restitution : {0.0, 0.5, 1.0})
     for (const double ways : {0.1, 0.5, 2.0, 8.0}) {  // diameters a sub-step
       Random random(5);
@@ -113,6 +114,7 @@ TEST_CASE("two balls that meet aslant part as the formula says, wherever in the 
         CAPTURE(restitution, ways, aside);
         World world;
         prepare(world, restitution);
+        world.parameters.simulation.velocities = velocities;
         world.add_body(dynamic_body("one", Sphere{kRadius}, Vec3::Zero()));
         BodyDescription other = dynamic_body("other", Sphere{kRadius},
                                              Vec3(-2.0 * kRadius - 0.05 - random.u() * speed * kStep, aside, 0.0));

@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 struct Needed {
   double dofs = 0, bodies = 0, contacts_mean = 0, contacts_max = 0, iterations = 0;
   std::size_t frames = 0, without_contact = 0, with_sleepers = 0;
-  double parts_ms[5] = {};  ///< broad, narrow, assembly, response, integration
+  double parts_ms[6] = {};  ///< broad, narrow, assembly, response, integration, looks back
 };
 
-constexpr const char* kParts[] = {"broad_ms", "narrow_ms", "assemble_ms", "response_ms", "integrate_ms"};
+constexpr const char* kParts[] = {"broad_ms", "narrow_ms", "assemble_ms", "response_ms", "integrate_ms", "guard_ms"};
 
 // frame 0 is detection only and doesn't count
 bool read_needed(const fs::path& stats, Needed& needed) {
@@ -114,13 +114,13 @@ std::string model_html(const ReportTable& table, const fs::path& out) {
   html +=
       "</tbody></table>\n<h3>Job by job</h3>\n<p>Rows are those of the contact problem in the frame that had most "
       "contacts: three a contact with friction, one without. A frame without contact has no "
-      "collision group, no system and no solve; sleeping bodies have none either. The last five columns are shares of "
+      "collision group, no system and no solve; sleeping bodies have none either. The last six columns are shares of "
       "the simulation time.</p>\n<div class=\"wide\"><table id=\"modelled\"><thead><tr><th>job</th>";
   for (std::size_t k = 0; k < common.size(); ++k)
     if (!common[k]) html += fmt::format("<th>{}</th>", jobs.front().lines[k].stage);
   for (const char* head :
        {"degrees of freedom", "rows, most", "contacts, mean", "iterations a frame", "frames without contact",
-        "frames with sleepers", "broad phase", "narrow phase", "assembly", "response", "integration"})
+        "frames with sleepers", "broad phase", "narrow phase", "assembly", "response", "integration", "looks back"})
     html += fmt::format("<th class=\"number\">{}</th>", head);
   html += "</tr></thead><tbody>\n";
   std::vector<int> numbers;  // what is varied and shows in no line of the model

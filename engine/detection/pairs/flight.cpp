@@ -12,7 +12,7 @@
 namespace impinge {
 namespace {
 
-constexpr double kNear = 0.1;        // of the activation distance: where they are looked at
+constexpr double kNear = 1e-3;       // of the activation distance: where they are looked at
 constexpr double kAim = 0.5;         // of that: how near an advance may lead, so that few are needed
 constexpr double kSameFace = 0.999;  // of the normals' cosine: what is met later with what is met first
 /// What turns fast gets on slowly; where it has got to by then is as good a place to look from.

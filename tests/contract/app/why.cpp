@@ -241,7 +241,6 @@ TEST_CASE("why tells of a motion that was taken back") {
   TempFolder folder;
   folder.write("s.toml", R"([simulation]
 substeps = 1
-velocities = "middle"
 gravity = [0, 0, 0]
 [[body]]
 name = "plate"
@@ -253,6 +252,12 @@ kind = "dynamic"
 surface = "cube.off"
 position = [0, 1, 0]
 velocity = [0, -120, 0]
+# alone the two would meet in flight
+[[attachment]]
+kind = "slide"
+body_a = "bullet"
+point = [0, 1, 0]
+direction = [0, 1, 0]
 )");
   folder.write("plate.off", off_text(box({0.5, 0.005, 0.5}, {10, 1, 10})));
   folder.write("cube.off", off_text(box(Vec3::Constant(0.05))));

@@ -77,7 +77,7 @@ TEST_CASE("a figure is a line") {
     CHECK(outcome.err.find("a.script:2:1: frame 6: expected momentum_size < 0; found momentum_size = ") !=
           std::string::npos);
     const std::string stats = slurp(folder / (std::string("run") + judge + "/stats.csv")), header = first_line(stats);
-    CHECK(header.ends_with(",residual_coulomb,ended,attachment_error_m,momentum_size"));
+    CHECK(header.ends_with(",residual_coulomb,ended,attachment_error_m,guard_ms,momentum_size"));
     // of the last frame, held against its components
     const std::string last = stats.substr(stats.rfind('\n', stats.size() - 2) + 1);
     const auto cell = [&](const std::string& name) {
@@ -102,7 +102,7 @@ TEST_CASE("a figure is a line") {
   REQUIRE(
       program.run(folder.path(), {"run", "s.toml", "--out", "old", "--frames", "9", "--no-images", "--resume"}).code ==
       0);
-  CHECK(first_line(slurp(folder / "old/stats.csv")).ends_with(",residual_coulomb,ended,attachment_error_m"));
+  CHECK(first_line(slurp(folder / "old/stats.csv")).ends_with(",residual_coulomb,ended,attachment_error_m,guard_ms"));
   CHECK(impinge_run(folder.path(), {"replay", "old"}).code == 0);
   CHECK(program.run(folder.path(), {"debug", "old", "--headless", "--script", "b.script"}).code == 0);
 }

@@ -61,9 +61,18 @@ void draw_stages(Ui& ui, const DebugModel& model, CommandLines& lines) {
       {"response", model.figure("response_ms"),
        s.contacts == 0 ? "nothing to solve"
                        : fmt::format("{}, {}", counted(s.groups, "group"), counted(s.lcp_iterations, "iteration"))},
-      {"integrate", model.figure("integrate_ms"), counted(s.substeps, "sub-step")}};
+      {"integrate", model.figure("integrate_ms"), counted(s.substeps, "sub-step")},
+      {"guard", model.figure("guard_ms"), counted(s.unsafe_motions, "unsafe motion")}};
   const double step_ms = model.figure("step_ms");
   bool timed = model.view->show_timings;
+  if (ImGui::Checkbox("times", &timed))
+    lines.push_back(fmt::format("set view.panel.timings {}", timed ? "true" : "false"));
+  ui.name("stages/times");
+  tooltip("wall-clock times: pictures with them are not the same twice");
+  if (timed) {
+    ImGui::SameLine();
+    ImGui::Text("%.2f ms a frame", step_ms);
+  }
   if (!ImGui::BeginTable("stages", 2, ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 66.0f * ui.unit());
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
@@ -83,14 +92,6 @@ void draw_stages(Ui& ui, const DebugModel& model, CommandLines& lines) {
     tooltip(row.work);
   }
   ImGui::EndTable();
-  if (ImGui::Checkbox("times", &timed))
-    lines.push_back(fmt::format("set view.panel.timings {}", timed ? "true" : "false"));
-  ui.name("stages/times");
-  tooltip("wall-clock times: pictures with them are not the same twice");
-  if (timed) {
-    ImGui::SameLine();
-    ImGui::Text("%.2f ms a frame", step_ms);
-  }
 }
 
 }  // namespace
