@@ -118,9 +118,8 @@ class Body {
   virtual void change_velocity(const BodyVector&, bool /*is_blow*/) {}
   /// Moves through the sub-step, which ends at `end`, s.
   virtual void advance(const TimeIntegration&, double /*end*/) {}
-  /// Moves it without changing its momentum. A displacement changes x × p: in a group that is free of the rest of the
-  /// world, whose centre moves with `group_velocity`, the body's spin takes the difference.
-  virtual void displace(const BodyVector&, const std::optional<Vec3>& /*group_velocity*/) {}
+  /// Puts it elsewhere without changing its velocity, or its angular momentum.
+  virtual void displace(const BodyVector&) {}
   /// Stands where it stood when save() wrote `start`, with the velocity it has now; world_vertices are left to
   /// update_world_vertices. What is driven moves on.
   virtual void stay(ByteReader& /*start*/) {}

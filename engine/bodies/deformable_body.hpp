@@ -100,7 +100,7 @@ class DeformableBody final : public Body {
   void surface_at_end(const BodyVector* change, std::vector<Vec3>& vertices) const override;
   void change_velocity(const BodyVector& change, bool is_blow) override;
   void advance(const TimeIntegration& how, double end) override;
-  void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
+  void displace(const BodyVector& by) override;
   void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;

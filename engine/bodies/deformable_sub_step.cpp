@@ -119,7 +119,7 @@ void DeformableBody::advance(const TimeIntegration& how, double /*end*/) {
   center_velocity_ = momentum() / mass;
 }
 
-void DeformableBody::displace(const BodyVector& by, const std::optional<Vec3>& /*group_velocity*/) {
+void DeformableBody::displace(const BodyVector& by) {
   VecX displacement = VecX::Zero(position.size());
   scatter_free(by.nodes, displacement);
   position += displacement;

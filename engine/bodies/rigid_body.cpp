@@ -109,10 +109,8 @@ void RigidBody::lead_on(const TimeIntegration& how) {
   velocity += stagger_.lead, angular_momentum += stagger_.spin_lead;
 }
 
-void RigidBody::displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) {
-  if (by.twist.is_zero()) return;
-  displace_rigid(*this, by.twist.linear, by.twist.angular);
-  if (group_velocity) angular_momentum -= by.twist.linear.cross(mass * (velocity - *group_velocity));
+void RigidBody::displace(const BodyVector& by) {
+  if (!by.twist.is_zero()) displace_rigid(*this, by.twist.linear, by.twist.angular);
 }
 
 void RigidBody::stay(ByteReader& start) {

@@ -36,7 +36,7 @@ class RigidBody final : public Body {
   CarriedPoint carry(const MaterialPoint& point, const Vec3& at) const override;
   void change_velocity(const BodyVector& change, bool is_blow) override;
   void advance(const TimeIntegration& how, double end) override;
-  void displace(const BodyVector& by, const std::optional<Vec3>& group_velocity) override;
+  void displace(const BodyVector& by) override;
   void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;

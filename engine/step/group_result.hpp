@@ -47,6 +47,7 @@ struct GroupResult {
   std::vector<BodyVector> displacement;  ///< recovery from overlap, metres and radians; empty: none
   std::vector<char> struck;              ///< whose impulses are blows; empty: nobody's, or nobody has to know
   bool follows_flight = false;           ///< it is no recovery, but what the bodies went freely before they met
+  std::optional<double> taken;           ///< energy that contact took, J, where the recovery is of a group that floats
   std::vector<double> push_out;          ///< how fast that is at each body's fastest point, m/s; empty: none
 
   // how it was found

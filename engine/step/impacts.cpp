@@ -81,18 +81,19 @@ bool is_worth_a_cut(double restitution) { return restitution * restitution >= kW
 /// Of a group's impulses, J.
 struct Work {
   double normal = 0.0, friction = 0.0, moved = 0.0;
+  bool brakes = false;  ///< what free motion leaves open
   double all() const { return normal + friction; }
-  /// Friction that takes as much as it should says nothing of what a slow push of forces adds to a rebound.
+  /// Where nothing is braked, and friction takes as much as it should, a slow push of forces may add to a rebound.
   bool is_won(bool was_cut) const {
-    return (was_cut && normal > kRounding * moved) || (friction > 0.0 && all() > kWon * moved);
+    return ((was_cut || brakes) && normal > kRounding * moved) || (friction > 0.0 && all() > kWon * moved);
   }
 };
 
-Work work_of(const Motion& motion, const GroupResult& result) {
+Work work_of(const Motion& motion, const GroupResult& result, PushOut push_out) {
   Work work;
   for (std::size_t i = 0; i < result.solved.size(); ++i) {
     const SolvedContact& c = result.solved[i];
-    if (c.collision.gap < 0.0) continue;  // what is pushed out may
+    if (c.collision.gap < 0.0 && push_out != PushOut::split) continue;  // what velocities push out may
     const Mat3 axes = contact_axes(c.collision.normal);
     const bool is_flight = !result.slips.empty();
     const Vec3 before = is_flight ? result.slips[i].first : Vec3(axes * motion.free_slip(c.collision)),
@@ -100,25 +101,21 @@ Work work_of(const Motion& motion, const GroupResult& result) {
     const Vec3 done = 0.5 * c.lambda.cwiseProduct(before + after);
     work.normal += done.x(), work.friction += done.y() + done.z();
     work.moved += 0.5 * c.lambda.x() * (std::abs(before.x()) + std::abs(after.x()));
+    work.brakes |= c.lambda.x() > 0.0 && before.x() >= 0.0;
   }
   return work;
 }
 
-/// Without a part that deforms, whose velocities aren't among those of a motion, with a contact that rebounds, and one that
-/// carries friction.
+/// Without a part that deforms, whose velocities aren't among those of a motion, and with a contact that rebounds.
 bool may_win(const Bodies& bodies, const CollisionGroup& group, const GroupResult& result,
-             const ContactSettings& settings, bool was_cut) {
+             const ContactSettings& settings) {
   const auto is_rigid = [&](BodyIndex b) { return bodies[b].kind() != BodyKind::deformable; };
-  const auto rubs = [](const SolvedContact& c) {
-    return c.lambda.x() > 0.0 && (c.lambda.y() != 0.0 || c.lambda.z() != 0.0);
-  };
   const auto rebounds = [&](const SolvedContact& c) {
     return c.lambda.x() > 0.0 &&
            is_worth_a_cut(pair_restitution(bodies[c.collision.body_a], bodies[c.collision.body_b], settings));
   };
   return std::all_of(group.bodies.begin(), group.bodies.end(), is_rigid) &&
-         std::any_of(result.solved.begin(), result.solved.end(), rebounds) &&
-         (was_cut || std::any_of(result.solved.begin(), result.solved.end(), rubs));
+         std::any_of(result.solved.begin(), result.solved.end(), rebounds);
 }
 
 }  // namespace
@@ -129,12 +126,15 @@ bool PassiveRebounds::weaken(const Bodies& bodies, SubStep& step, const ContactS
   for (std::size_t g = 0; g < step.groups.size(); ++g) {
     const GroupResult& result = step.results[g];
     const auto known = groups_.find(step.groups[g].bodies.front());
-    if (known == groups_.end() && !may_win(bodies, step.groups[g], result, settings, was_cut)) continue;
+    if (known == groups_.end() && !may_win(bodies, step.groups[g], result, settings)) continue;
     if (!motion) motion.emplace(bodies, step);
-    const Work work = work_of(*motion, result);
+    const Work work = work_of(*motion, result, settings.push_out);
     if (known == groups_.end() && !work.is_won(was_cut)) continue;
     Search& search = groups_[step.groups[g].bodies.front()];
-    if (search.left <= 0) continue;
+    if (search.left <= 0) {  // it is over, unless rows have come since that make it win again
+      if (search.is_again || !work.is_won(was_cut)) continue;
+      search = {0.0, search.share, 0.0, 0.0, search.share, kMotions, true};
+    }
     if (work.is_won(was_cut))
       search.high = search.share, search.won = work.all();
     else

@@ -22,7 +22,8 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
                                             double gravity);
 
 /// Rebounds that would win energy are made weaker until they don't. Two ways lead there. Where one row rebounds while
-/// another, which its bodies' free motion leaves open, is braked, neither knows that the other came first. And where
+/// another, which its bodies' free motion leaves open, is braked, neither knows that the other came first: so it is after
+/// cuts, and with bodies that stand in one another. And where
 /// friction turns the slip of a point round that rebounds (a rod that strikes the floor aslant), its work and that of
 /// Newton's restitution may be more than nothing [Stronge90]. Without any rebound impulses only take.
 /// Of each group of rigid bodies one share of all its rebounds is sought, the largest that wins nothing, by motions that
@@ -30,15 +31,17 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
 class PassiveRebounds {
  public:
   /// Of a step that is solved: changes SubStep::rebounds and says true where the motion has to be made anew. `was_cut`:
-  /// for impacts one after another; the first of the two ways is looked at only there.
+  /// for impacts one after another, as often as it may be.
   bool weaken(const Bodies& bodies, SubStep& step, const ContactSettings& settings, bool was_cut);
 
  private:
+  static constexpr int kMotions = 6;  // of a search
   struct Search {
     double low = 0.0, high = 1.0;   // shares that win nothing, and something
     double taken = 0.0, won = 0.0;  // J: what impulses took with the lower, won with the higher; 0: nobody has looked
     double share = 1.0;             // of the motion that is looked at
-    int left = 6;                   // motions
+    int left = kMotions;
+    bool is_again = false;  // rows came when it was over
   };
   std::map<BodyIndex, Search> groups_;  // by lowest body
 };

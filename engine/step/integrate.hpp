@@ -7,9 +7,6 @@
 
 namespace impinge {
 
-/// Whether nothing holds a group but its own rigid bodies one another.
-bool is_free(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts);
-
 /// Adds each group's change of velocity to its bodies.
 void change_velocities(Bodies& bodies, const SubStep& step);
 

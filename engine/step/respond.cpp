@@ -10,7 +10,6 @@
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/response/least_violation.hpp"
-#include "engine/step/integrate.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/tasks.hpp"
 #include "engine/step/turning.hpp"
@@ -248,10 +247,9 @@ class GroupSolve {
   /// Rebounds act when their gaps close, not when the sub-step begins: until then bodies move by their free velocities. Of
   /// a group that floats that would be a turn about its centre, which only spins could take back: with energy from nowhere.
   void follow_rebounds() {
-    const std::optional<LateImpacts> late = now_.meeting > 0.0 || is_free(bodies_, group_, input_.contacts)
-                                                ? std::nullopt
-                                                : late_impacts(system(), input_.time_step);
-    if (late) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
+    if (now_.meeting > 0.0) return;
+    const std::optional<LateImpacts> late = late_impacts(system(), input_.time_step);
+    if (late && !floats()) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
   }
 
   /// Until then the bodies go on: what that is beside the way of the velocities that they end with.
@@ -261,7 +259,7 @@ class GroupSolve {
     std::vector<BodyVector> all = now_.by_body(group_, ways.linear, ways.angular, {});
     for (std::size_t i = 0; i < result_.displacement.size(); ++i) all[i].twist += result_.displacement[i].twist;
     result_.displacement = std::move(all);
-    result_.follows_flight = true;
+    result_.follows_flight = true, result_.taken.reset();  // the impulse acted on a common point, on the way
   }
 
   std::vector<Vec3> spins() const {
@@ -273,6 +271,16 @@ class GroupSolve {
     const double h = share * input_.time_step;
     for (BodyVector& by : velocity) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
     result_.displacement = std::move(velocity);
+    if (floats()) result_.taken = std::max(0.0, -energy_won(bodies_, now_).first);
+  }
+
+  /// Whether nothing holds the group but its own rigid bodies one another.
+  bool floats() const {
+    const auto is_rigid = [&](BodyIndex b) { return bodies_[b].kind() == BodyKind::dynamic; };
+    return std::all_of(group_.contacts.begin(), group_.contacts.end(), [&](ContactIndex i) {
+      const Collision* c = input_.contacts.collision(i);
+      return c != nullptr && is_rigid(c->body_a) && is_rigid(c->body_b);
+    });
   }
 
   /// The largest part of a recovery that moves no point of a body faster than max_push_out allows.

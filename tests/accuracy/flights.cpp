@@ -141,6 +141,38 @@ TEST_CASE("two balls that meet aslant part as the formula says, wherever in the 
     }
 }
 
+TEST_CASE(
+    "two balls that begin nearly in touch part as the formula says, and those that miss each other keep their way") {
+  constexpr double kRadius = 0.1, kApart = 2.0 * kRadius;
+  Random random(9);
+  for (const double ways : {0.05, 0.5, 5.0, 50.0})      // diameters a sub-step
+    for (const double part : {0.05, 0.5, 0.9, 0.9999})  // of the activation distance
+      for (const bool is_hit : {true, false})
+        for (int k = 0; k < 8; ++k) {
+          World world;
+          prepare(world, 1.0);
+          const double gap = part * world.parameters.contact.activation_distance.at(kApart), begin = kApart + gap,
+                       aside = is_hit ? random.in(0.0, 0.99) * kApart : kApart + random.in(0.05, 0.95) * gap;
+          CAPTURE(ways, part, aside);
+          const double speed = ways * kApart / kStep;
+          world.add_body(dynamic_body("one", Sphere{kRadius}, Vec3::Zero()));
+          BodyDescription other =
+              dynamic_body("other", Sphere{kRadius}, Vec3(-std::sqrt(begin * begin - aside * aside), aside, 0.0));
+          other.velocity = Vec3(speed, 0.0, 0.0);
+          world.add_body(other);
+          world.start();
+          run(world, 3);
+          Vec3 change = Vec3::Zero();
+          if (is_hit) {
+            const Vec3 normal = Vec3(-std::sqrt(kApart * kApart - aside * aside), aside, 0.0).normalized();
+            change = -normal.dot(other.velocity) * normal;
+          }
+          CHECK((rigid(world, 1).velocity - other.velocity - change).norm() <= 1e-3 * speed);
+          CHECK((rigid(world, 0).velocity + change).norm() <= 1e-3 * speed);
+          if (!is_hit) CHECK(rigid(world, 0).velocity.norm() <= 1e-12 * speed);
+        }
+}
+
 TEST_CASE("a crowd that flies together keeps its momentum and angular momentum to rounding") {
   const auto kind = GENERATE(0, 1, 2);
   for (const double restitution : {0.0, 0.5, 1.0})

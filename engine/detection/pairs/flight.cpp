@@ -15,16 +15,20 @@ namespace {
 constexpr double kNear = 1e-3;       // of the activation distance: where they are looked at
 constexpr double kAim = 0.5;         // of that: how near an advance may lead, so that few are needed
 constexpr double kSameFace = 0.999;  // of the normals' cosine: what is met later with what is met first
+constexpr double kBallsTouch =
+    0.02;  // of the activation distance: from there on balls use the plane that they begin with
 /// What turns fast gets on slowly; where it has got to by then is as good a place to look from.
 constexpr int kMostAdvances = 64;
 
 bool is_plane(const Collider& c) { return c.shape->as<Plane>() != nullptr; }
 
+bool is_ball(const Collider& c) { return c.shape->as<Sphere>() != nullptr; }
+
 Pose pose_after(const Collider& c, double time) { return moved(c.pose, time * c.velocity, time * c.angular_velocity); }
 
 /// No point turns about the body's centre faster, m/s; a ball's turning moves none of its surface.
 double swing_of(const Collider& c) {
-  if (c.angular_velocity.isZero(0.0) || c.shape->as<Sphere>() != nullptr) return 0.0;
+  if (c.angular_velocity.isZero(0.0) || is_ball(c)) return 0.0;
   return c.angular_velocity.norm() * c.shape->bounding_radius();
 }
 
@@ -171,8 +175,12 @@ std::optional<double> time_until_near(const Collider& a, const Collider& b, doub
 }
 
 bool fly_together(const Collider& a, const Collider& b, const ContactQuery& query, std::span<const Collision> found) {
+  const bool are_balls = is_ball(a) && is_ball(b);
+  const auto touches = [&](const Collision& c) {
+    return are_balls ? c.gap <= kBallsTouch * query.activation : is_near(c, query);
+  };
   return query.proximity && is_rigid(a) && is_rigid(b) && query.time_step * fastest_approach(a, b) > query.activation &&
-         std::none_of(found.begin(), found.end(), [&](const Collision& c) { return is_near(c, query); });
+         std::none_of(found.begin(), found.end(), touches);
 }
 
 std::optional<double> time_of_meeting(const Collider& a, const Collider& b, const ContactQuery& query) {
