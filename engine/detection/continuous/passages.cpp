@@ -18,6 +18,18 @@ struct Place {
   Vec3 weight = Vec3::Zero();
 };
 
+/// A triangle of a surface at both ends of an interval, metres.
+struct MovingTriangle {
+  MovingTriangle(const Stretch& of, int t) : index(t), corner(of.path().of->surface->mesh.triangles[t]) {
+    for (int k : {0, 1})
+      for (int i = 0; i < 3; ++i) at[k][i] = of.vertex(corner[i], k), box[k].include(at[k][i]);
+  }
+  int index;
+  Triangle corner;
+  std::array<Vec3, 3> at[2];
+  Aabb box[2];
+};
+
 /// Depth-first over pairs of nodes, the earlier pair first, so that later ones can be left out. [Larsen00] has such
 /// searches for distances; features that triangles share are tested once [Curtis08].
 class Search {
@@ -78,8 +90,11 @@ class Search {
     const BoxTree::Node &a = a_->node(na), &b = b_->node(nb);
     const bool is_one = is_self_ && na == nb;
     if (a.is_leaf() && b.is_leaf()) {
-      for (int i = a.first; i < a.first + a.count; ++i)
-        for (int j = is_one ? i + 1 : b.first; j < b.first + b.count; ++j) test(a_->triangle(i), b_->triangle(j));
+      for (int i = a.first; i < a.first + a.count; ++i) {
+        const MovingTriangle of_a(*a_, a_->triangle(i));
+        for (int j = is_one ? i + 1 : b.first; j < b.first + b.count; ++j)
+          test(of_a, MovingTriangle(*b_, b_->triangle(j)));
+      }
       return;
     }
     if (is_one) {
@@ -104,16 +119,17 @@ class Search {
   const TriangleMesh& mesh(const Stretch& s) const { return s.path().of->surface->mesh; }
   const MeshTopology& topology(const Stretch& s) const { return s.path().of->surface->topology; }
 
-  void test(int ta, int tb) {
-    const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
-    const std::uint8_t own_a = path_a_.of->owned[ta], own_b = path_b_.of->owned[tb];
+  void test(const MovingTriangle& a, const MovingTriangle& b) {
+    const std::optional<double> t = meeting(a.box[0], a.box[1], b.box[0], b.box[1], margin_);
+    if (!t || *t > best_ + window_) return;
+    const std::uint8_t own_a = path_a_.of->owned[a.index], own_b = path_b_.of->owned[b.index];
     for (int k = 0; k < 3; ++k) {
-      if ((own_a >> k & 1) != 0) vertex_face(*a_, a[k], ta, *b_, tb, false);
-      if ((own_b >> k & 1) != 0) vertex_face(*b_, b[k], tb, *a_, ta, true);
+      if ((own_a >> k & 1) != 0) vertex_face(*a_, a, k, *b_, b, false);
+      if ((own_b >> k & 1) != 0) vertex_face(*b_, b, k, *a_, a, true);
     }
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        if ((own_a >> (3 + i) & 1) != 0 && (own_b >> (3 + j) & 1) != 0) edge_edge(ta, i, tb, j);
+        if ((own_a >> (3 + i) & 1) != 0 && (own_b >> (3 + j) & 1) != 0) edge_edge(a, i, b, j);
   }
 
   bool apart(const MovingCorners& c, int first_group) const {
@@ -137,13 +153,15 @@ class Search {
 
   ContinuousSettings continuous() const { return {margin_, 0.1 * margin_, 100'000}; }
 
-  void vertex_face(const Stretch& of_vertex, int v, int t_vertex, const Stretch& of_face, int t, bool exchanged) {
-    const Triangle& f = mesh(of_face).triangles[t];
+  void vertex_face(const Stretch& of_vertex, const MovingTriangle& with, int corner, const Stretch& of_face,
+                   const MovingTriangle& face, bool exchanged) {
+    const int v = with.corner[corner], t_vertex = with.index, t = face.index;
+    const Triangle& f = face.corner;
     if (is_self_ && (f[0] == v || f[1] == v || f[2] == v)) return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;
-      x = {of_vertex.vertex(v, k), of_face.vertex(f[0], k), of_face.vertex(f[1], k), of_face.vertex(f[2], k)};
+      x = {with.at[k][corner], face.at[k][0], face.at[k][1], face.at[k][2]};
     }
     if (apart(c, 1)) return;
     if (is_self_ && path_a_.exempt != nullptr && path_a_.exempt->has_vertex(topology(of_face), v, t)) return;
@@ -174,14 +192,14 @@ class Search {
     judge(of_vertex, of_face, m, exchanged, exchanged ? t : t_vertex, exchanged ? t_vertex : t, key);
   }
 
-  void edge_edge(int ta, int i, int tb, int j) {
-    const Triangle &a = mesh(*a_).triangles[ta], &b = mesh(*b_).triangles[tb];
-    const int a0 = a[i], a1 = a[(i + 1) % 3], b0 = b[j], b1 = b[(j + 1) % 3];
+  void edge_edge(const MovingTriangle& a, int i, const MovingTriangle& b, int j) {
+    const int ta = a.index, tb = b.index, i1 = (i + 1) % 3, j1 = (j + 1) % 3;
+    const int a0 = a.corner[i], a1 = a.corner[i1], b0 = b.corner[j], b1 = b.corner[j1];
     if (is_self_ && (a0 == b0 || a0 == b1 || a1 == b0 || a1 == b1)) return;
     MovingCorners c;
     for (int k : {0, 1}) {
       auto& x = k == 0 ? c.start : c.end;
-      x = {a_->vertex(a0, k), a_->vertex(a1, k), b_->vertex(b0, k), b_->vertex(b1, k)};
+      x = {a.at[k][i], a.at[k][i1], b.at[k][j], b.at[k][j1]};
     }
     if (apart(c, 2)) return;
     if (is_self_ && path_a_.exempt != nullptr &&
