@@ -82,6 +82,7 @@ class SoftConstraint : public Response {
         return relaxed_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i]);
       });
     if (!w.finish()) result.ended = StopReason::stagnated;
+    win_nothing(group);
     for (std::size_t b = 0; b < group.rigid.size(); ++b) {
       group.position_velocity[b] -= group.delta_velocity[b];
       group.position_angular_velocity[b] -= group.delta_angular_velocity[b];
@@ -91,6 +92,21 @@ class SoftConstraint : public Response {
 
  private:
   static bool bounces(const ContactRows& rows) { return rows.restitution > 0.0 && rows.bound > 0.0; }
+
+  /// Of rigid bodies: sweeps that are not at their end may rebound with more than came. All impulses are made less alike
+  /// then, so that together they take nothing and give nothing.
+  static void win_nothing(GroupSystem& group) {
+    if (std::none_of(group.contacts.begin(), group.contacts.end(), bounces)) return;
+    double came = 0.0, left = 0.0;
+    for (std::size_t i = 0; i < group.contacts.size(); ++i)
+      came += group.lambda[i].dot(group.contact_velocity(i, false)),
+          left += group.lambda[i].dot(group.contact_velocity(i, true));
+    if (came + left <= 0.0 || came >= 0.0) return;
+    const double share = -2.0 * came / (left - came);
+    for (Vec3& lambda : group.lambda) lambda *= share;
+    for (std::size_t b = 0; b < group.rigid.size(); ++b)
+      group.delta_velocity[b] *= share, group.delta_angular_velocity[b] *= share;
+  }
 
   template <class Next>
   static void sweep(const GroupSystem& group, DelassusByContact& w, const Next& next) {

@@ -66,7 +66,7 @@ void prepare(World& world, const std::string& response, double restitution, int 
 
 TEST_CASE("what floats wins no energy, with whatever it is answered") {
   const auto response = GENERATE(as<std::string>(), "quick", "soft_constraint");
-  for (const double restitution : {0.0, 0.5})
+  for (const double restitution : {0.0, 0.5, 1.0})
     for (int seed = 1; seed <= 40; ++seed) {
       Random random(seed);
       const double speed = std::pow(10.0, random.in(0.0, 2.3));  // 0.02 to 3 sizes a sub-step
