@@ -115,20 +115,72 @@ std::vector<Attachment> make_attachment(const AttachmentDescription& d, const Bo
   return {attachment, second};
 }
 
-double share_of_spins(std::span<const Attachment> attachments, const Bodies& bodies, double time_step) {
-  constexpr double kMostRound = 1.25;  // radians: from 2 on a disc on a pin was seen to leave it
-  constexpr double kLeast = 1.0 / 32.0;
-  double most = kMostRound;
+namespace {
+
+/// Radians by which the axis of what is held in one point goes round in that time.
+double most_round(std::span<const Attachment> attachments, const Bodies& bodies, double time) {
+  double most = 0.0;
   for (const Attachment& attachment : attachments)
     for (const BodyIndex b : {attachment.a.body, attachment.b.body}) {
       const RigidBody* body = b.is_none() ? nullptr : bodies[b].as<RigidBody>();
       if (body == nullptr || body->asleep || !body->has_freedom()) continue;
-      const double round = time_step * body->angular_momentum.norm() / body->principal.moments[1];
+      const double round = time * body->angular_momentum.norm() / body->principal.moments[1];
       const auto holds = [&](const Attachment& a) { return a.a.body == b || a.b.body == b; };
       if (round <= most || attachment.kind != AttachmentKind::point) continue;
       if (std::count_if(attachments.begin(), attachments.end(), holds) == 1) most = round;
     }
-  return std::max(kLeast, kMostRound / most);
+  return most;
+}
+
+/// Of a point attachment: calls visit(body, arm, sign) for the rigid bodies that move freely at its ends, the arm from the
+/// centre of mass, world axes.
+template <class Visit>
+void for_arms(const Attachment& attachment, const Bodies& bodies, Visit&& visit) {
+  if (attachment.kind != AttachmentKind::point) return;
+  for (const auto& [end, sign] : {std::pair(&attachment.a, 1.0), std::pair(&attachment.b, -1.0)}) {
+    const RigidBody* body = end->body.is_none() ? nullptr : bodies[end->body].template as<RigidBody>();
+    if (body != nullptr && !body->asleep && body->has_freedom())
+      visit(*body, Vec3(body->pose.rotation * end->point.local), sign);
+  }
+}
+
+/// How far the arcs of two points that are held together part from straight ways, of the arms that they go round on.
+double most_bent(std::span<const Attachment> attachments, const Bodies& bodies, double time) {
+  double most = 0.0;
+  for (const Attachment& attachment : attachments) {
+    Vec3 bend = Vec3::Zero();
+    double arms = 0.0;
+    for_arms(attachment, bodies, [&](const RigidBody& body, const Vec3& arm, double sign) {
+      const Vec3 spin = body.angular_velocity();
+      bend += 0.5 * time * time * sign * spin.cross(spin.cross(arm));
+      arms += arm.norm();
+    });
+    if (bend.norm() > most * arms) most = bend.norm() / arms;
+  }
+  return most;
+}
+
+}  // namespace
+
+double share_of_turns(std::span<const Attachment> attachments, const Bodies& bodies, double time_step) {
+  constexpr double kMostRound = 1.25;  // radians: from 2 on a disc on a pin was seen to leave it
+  constexpr double kMostBent = 0.02;   // what turns by a fifth of a radian
+  constexpr double kLeast = 1.0 / 32.0;
+  const double round = most_round(attachments, bodies, time_step), bent = most_bent(attachments, bodies, time_step);
+  const double share =
+      std::min(round > kMostRound ? kMostRound / round : 1.0, bent > kMostBent ? std::sqrt(kMostBent / bent) : 1.0);
+  return std::max(kLeast, share);
+}
+
+double most_apart(std::span<const Attachment> attachments, const Bodies& bodies) {
+  double most = 0.0;
+  for (const Attachment& attachment : attachments) {
+    double arms = 0.0;
+    for_arms(attachment, bodies, [&](const RigidBody&, const Vec3& arm, double) { arms += arm.norm(); });
+    if (arms == 0.0) continue;
+    most = std::max(most, (attachment.a.position(bodies) - attachment.b.position(bodies)).norm() / arms);
+  }
+  return most;
 }
 
 }  // namespace impinge

@@ -36,10 +36,14 @@ AttachmentHold hold_of(const Attachment& attachment, const Bodies& bodies);
 /// place) for names that aren't there, and where neither end can move.
 std::vector<Attachment> make_attachment(const AttachmentDescription& description, const Bodies& bodies, int number);
 
-/// The part of a motion of `time_step` seconds in which what is held in one point and spins can be followed straight: such a
-/// body's axis goes round its angular momentum, and rows that see it where the motion begins drive a gyroscope off its pin
-/// where it goes round by more than a radian or two. At least 1/32; 1: nothing spins so fast. Rigid bodies; what is held
-/// in two points keeps its axis.
-double share_of_spins(std::span<const Attachment> attachments, const Bodies& bodies, double time_step);
+/// The part of a motion of `time_step` seconds in which what is held in points and turns can be followed straight. Points
+/// that go round on arms leave each other where their bodies turn far: a whip, a pendulum of few sub-steps a period, a
+/// light chain with a heavy end came apart from a fraction of a radian on. And what spins on one point has an axis that goes
+/// round its angular momentum: rows that see it where the motion begins drove a gyroscope off its pin from a radian or two
+/// on. At least 1/32; 1: nothing turns so fast. Rigid bodies.
+double share_of_turns(std::span<const Attachment> attachments, const Bodies& bodies, double time_step);
+
+/// How far the points of an attachment are from each other at most, of the arms that their bodies have there.
+double most_apart(std::span<const Attachment> attachments, const Bodies& bodies);
 
 }  // namespace impinge

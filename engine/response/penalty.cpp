@@ -13,7 +13,8 @@
 //
 // Friction is regularised: |λ_t| = mu λ_n f(|u_t|/ε), f(y) = 2 y - y² up to y = 1 and 1 beyond it. It lies in Coulomb's
 // cone but doesn't stick: what pulls with F_t < mu N creeps at ε (1 - √(1 - F_t/(mu N))). Restitution is what the
-// damper leaves of it. Attachments and sliding points hang on springs of the same stiffness.
+// damper leaves of it. Attachments and sliding points are no contacts, and hold: on springs that are stiff enough to be
+// none, at the end of the sub-step in both forms. (On those of contacts a ball fell off the arm of a pendulum.)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,6 +28,7 @@ namespace {
 
 // of m/Δt², with critical damping: (ω Δt)² + 2 b Δt/m = 3.3 of the 4 that are stable
 constexpr double kExplicitPart = 0.5;
+constexpr double kHeld = 1e6;  // of 1/W_ii: what holds gives way by this part of what pulls it in a sub-step
 
 struct Spring {
   double stiffness, damping;
@@ -51,15 +53,19 @@ Spring spring_of(const Settings& s, double h, double mass, double part) {
 /// At the end of the sub-step. A gap closes first, and only what is left of the motion meets spring and damper.
 SpringLaw implicit_law(const ContactRows& rows, const Spring& spring, double h, double slip_speed) {
   const double slope = h * (spring.stiffness * h + spring.damping);
-  const double offset = rows.kind != RowKind::contact ? slope * rows.bound
-                        : rows.gap > 0.0              ? -slope * rows.gap / h
-                                                      : -h * spring.stiffness * rows.gap;
+  const double offset = rows.gap > 0.0 ? -slope * rows.gap / h : -h * spring.stiffness * rows.gap;
   return {rows.kind, slope, offset, rows.friction, slip_speed};
 }
 
-/// At its start: a gap has no force yet. Attachments know their error as a velocity Δx/Δt in u.
+/// Of what holds, which knows its error as a velocity Δx/Δt in u.
+SpringLaw held_law(const ContactRows& rows, const Mat3& mobility) {
+  const double least = rows.kind == RowKind::attachment ? mobility.diagonal().minCoeff() : mobility(0, 0);
+  const double slope = least > 0.0 ? kHeld / least : 0.0;
+  return {rows.kind, slope, slope * rows.bound};
+}
+
+/// At its start: a gap has no force yet.
 SpringLaw explicit_law(const ContactRows& rows, const Spring& spring, double h, double slip_speed) {
-  if (rows.kind != RowKind::contact) return implicit_law(rows, spring, h, slip_speed);
   if (rows.gap >= 0.0) return {rows.kind, 0.0, 0.0, rows.friction, slip_speed};
   return {rows.kind, h * spring.damping, -h * spring.stiffness * rows.gap, rows.friction, slip_speed};
 }
@@ -101,48 +107,87 @@ class Penalty : public Response {
     const bool is_implicit = settings_.form == Form::end_of_step;
     SpringSolver linear(group, a, is_implicit ? 1.0 : INFINITY);
     ResponseResult result;
-    const double h = context.time_step;
     if (is_implicit) {
-      std::vector<SpringLaw> law;
-      for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-        const double mobility = a.block_mobility(i)(0, 0);
-        const Spring spring = spring_of(settings_, h, mobility > 0.0 ? 1.0 / mobility : 0.0, 1.0);
-        law.push_back(implicit_law(group.contacts[i], spring, h, slip_speed(group.contacts[i])));
-      }
-      const SpringsResult springs =
-          solve_springs(a, law, std::max(1e-12, context.lcp.tolerance), settings_.max_iterations, group, linear);
-      result.iterations = springs.iterations;
-      if (!springs.converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
+      result = solve_laws(a, laws(group, a, context.time_step), context, group, linear);
     } else {
-      take_explicit(group, a, h);
+      take_explicit(group, a, context.time_step);
+      if (std::any_of(group.contacts.begin(), group.contacts.end(), holds)) result = hold(group, a, linear, context);
     }
     if (!apply_springs(a, group, linear)) result.ended = StopReason::stagnated;
     return result;
   }
 
  private:
+  static bool holds(const ContactRows& rows) { return rows.kind != RowKind::contact; }
   double slip_speed(const ContactRows& rows) const { return settings_.slip_speed.at(rows.scale.speed); }
+
+  std::vector<SpringLaw> laws(const GroupSystem& group, const GroupOperator& a, double h) const {
+    std::vector<SpringLaw> law;
+    for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+      const ContactRows& rows = group.contacts[i];
+      const Mat3 mobility = a.block_mobility(i);
+      const double mass = mobility(0, 0) > 0.0 ? 1.0 / mobility(0, 0) : 0.0;
+      law.push_back(holds(rows) ? held_law(rows, mobility)
+                                : implicit_law(rows, spring_of(settings_, h, mass, 1.0), h, slip_speed(rows)));
+    }
+    return law;
+  }
+
+  ResponseResult solve_laws(const GroupOperator& a, const std::vector<SpringLaw>& law, const ResponseContext& context,
+                            GroupSystem& group, SpringSolver& linear) const {
+    const SpringsResult springs =
+        solve_springs(a, law, std::max(1e-12, context.lcp.tolerance), settings_.max_iterations, group, linear);
+    ResponseResult result;
+    result.iterations = springs.iterations;
+    if (!springs.converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
+    return result;
+  }
 
   void take_explicit(GroupSystem& group, const GroupOperator& a, double h) const {
     std::vector<char> act;  // a gap has no spring yet, so there is nothing to share with it
-    for (const ContactRows& rows : group.contacts) act.push_back(rows.kind != RowKind::contact || rows.gap < 0.0);
+    for (const ContactRows& rows : group.contacts) act.push_back(!holds(rows) && rows.gap < 0.0);
     const std::vector<Mat3> shared = a.shared_mobility(act);
     const double together = group.deformable.empty() ? 0.0 : a.largest_normal_eigenvalue(act);
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
       const ContactRows& rows = group.contacts[i];
+      group.lambda[i].setZero();
+      if (holds(rows)) continue;
       const Mat3& mobility = shared[i];
       double mass = mobility(0, 0) > 0.0 ? 1.0 / mobility(0, 0) : 0.0;
       if (together > 0.0 && act[i]) mass = std::max(mass, 1.0 / (together * a.block_mobility(i)(0, 0)));
       const SpringLaw law = explicit_law(rows, spring_of(settings_, h, mass, kExplicitPart), h, slip_speed(rows));
       Vec3 u = group.contact_velocity(i, false);
-      if (rows.kind == RowKind::contact) u.x() = rows.velocity_before;
+      u.x() = rows.velocity_before;
       Vec3& lambda = group.lambda[i] = law.impulse(u, law.normal(u));
       // friction of the start may not turn the sliding round: all of a body's contacts together at most stop it
       const double half = 0.5 * (mobility(1, 1) - mobility(2, 2)), mean = 0.5 * (mobility(1, 1) + mobility(2, 2));
       const double most = u.tail<2>().norm() / (mean + std::hypot(half, mobility(1, 2))),
                    size = lambda.tail<2>().norm();
-      if (rows.kind == RowKind::contact && size > most) lambda.tail<2>() *= most / size;
+      if (size > most) lambda.tail<2>() *= most / size;
     }
+  }
+
+  /// What holds, against what the contacts' forces make of the velocities.
+  ResponseResult hold(GroupSystem& group, const GroupOperator& a, const SpringSolver& linear,
+                      const ResponseContext& context) const {
+    const bool is_pushed = apply_springs(a, group, linear);
+    GroupSystem pushed = group;
+    for (std::size_t b = 0; b < pushed.rigid.size(); ++b)
+      pushed.rigid[b].velocity += group.delta_velocity[b],
+          pushed.rigid[b].angular_velocity += group.delta_angular_velocity[b];
+    for (std::size_t k = 0; k < pushed.deformable.size(); ++k)
+      pushed.deformable[k].velocity += group.deformable_delta[k];
+    pushed.clear_delta();
+    const GroupOperator of_pushed(pushed);
+    std::vector<SpringLaw> law(group.contacts.size());
+    for (std::size_t i = 0; i < law.size(); ++i)
+      if (holds(group.contacts[i])) law[i] = held_law(group.contacts[i], a.block_mobility(i));
+    SpringSolver solver(pushed, of_pushed);
+    ResponseResult result = solve_laws(of_pushed, law, context, pushed, solver);
+    for (std::size_t i = 0; i < law.size(); ++i)
+      if (holds(group.contacts[i])) group.lambda[i] = pushed.lambda[i];
+    if (!is_pushed) result.ended = StopReason::stagnated;
+    return result;
   }
 
   Settings settings_;

@@ -2,6 +2,7 @@
 // so that the next one finds contacts where they are. What is met from so close by gets contacts of its own. What would
 // still pass when the sub-step has been cut as often as it may be stays where it stands: it loses time, and is named.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -27,7 +28,9 @@ constexpr double kFar = 20.0;         // of a safe approach: from there on the e
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
 constexpr double kSelfDepth = 1e-6;   // the same of a body with itself, whose contacts keep it apart by more than that
-constexpr double kReach = 0.1;        // of the activation distance: paths are straight to this
+constexpr double kApart = 0.05;       // of the arms of an attachment: farther apart its points don't end
+constexpr double kLeastTorn = 1.0 / 32.0;  // of a sub-step: pieces of what comes apart all the same
+constexpr double kReach = 0.1;             // of the activation distance: paths are straight to this
 
 /// Of two bodies, metres.
 auto activation_by(const ContactSettings& contact) {
@@ -153,6 +156,10 @@ double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const Pair
   const PairLength any = [](const UnsafeMotion::Pair&) { return INFINITY; };
   return ask_for(motion, any, asked) ? 1.0 : 0.5;
 }
+
+/// The largest even part of what is left of a sub-step that is no larger than `most`: the drift of an attachment is taken
+/// back within the next piece, and faster in a shorter one.
+double even_part(double rest, double most) { return rest / std::ceil(rest / most * (1.0 - 1e-12)); }
 
 /// Cuts of a sub-step between impacts.
 struct ImpactCuts {
@@ -283,8 +290,9 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       guard_.open(bodies_);
     }
     begin_piece(*sub_step_, passive);
-    double share = std::min({rest, next, share_of_spins(attachments_, bodies_, h)});
+    double share = std::min(next, even_part(rest, share_of_turns(attachments_, bodies_, h)));
     asking.has = false;
+    const double apart = most_apart(attachments_, bodies_);
     int motion = 1;
     for (;; ++motion) {
       make_motion(share == 1.0 ? h : share * h, share / (left - 1 + rest), frozen != nullptr && share == rest);
@@ -307,8 +315,16 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         return guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
       };
       std::optional<UnsafeMotion> unsafe = look_back();
-      const bool is_end = !unsafe || !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare;
+      const bool is_last = !is_kept || piece >= kMostPieces || motion >= kMostMotions || share < kLeastShare,
+                 tears = !unsafe && !is_last && share > kLeastTorn &&
+                         most_apart(attachments_, bodies_) > std::max(kApart, apart),
+                 is_end = is_last || !(unsafe || tears);
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
+      if (tears) {
+        start->take_back(*sub_step_, bodies_, sleeping_);
+        share *= 0.5;
+        continue;
+      }
       if (!unsafe) break;
       if (is_end) {
         if (which == Continuous::off && watcher_ != nullptr && watcher_->wants_passages())

@@ -1,0 +1,98 @@
+// What is attached holds together, whatever swings, at whatever size and mass, in few sub-steps and under every response
+// that has no excuse: points against each other, energy against what the fall gives.
+#include <catch2/catch.hpp>
+
+#include "tests/support/mechanics/methods.hpp"
+#include "tests/support/mechanics/worlds.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+/// A chain of bars on points, let go level: its first point is the world's. The last bar is `ratio` times as dense.
+void add_chain(World& world, int links, double length, double ratio) {
+  for (int i = 0; i < links; ++i) {
+    BodyDescription bar =
+        dynamic_body("bar" + std::to_string(i), Box{length * Vec3(0.5, 0.1, 0.1)}, Vec3((i + 0.5) * length, 0.0, 0.0));
+    if (i == links - 1) bar.density *= ratio;
+    world.add_body(bar);
+  }
+  for (int i = 0; i < links; ++i) {
+    AttachmentDescription pin{"pin" + std::to_string(i), "bar" + std::to_string(i),
+                              i > 0 ? "bar" + std::to_string(i - 1) : "", Vec3(i * length, 0.0, 0.0)};
+    pin.collide = false;
+    world.add_attachment(pin);
+  }
+}
+
+struct Swing {
+  double apart = 0.0;  // of a link
+  double won = 0.0;    // of what the fall of all of it to straight down gives
+};
+
+/// Two of its swings.
+Swing swing(World& world, int links, double length) {
+  world.start();
+  double fall = 0.0;
+  for (int i = 0; i < links; ++i) fall += world.bodies()[i].mass * kGravity * (i + 0.5) * length;
+  const double period = 2.0 * M_PI * std::sqrt(links * length / kGravity);
+  Swing result;
+  double first = 0.0;
+  const int frames = static_cast<int>(2.0 * period / world.parameters.simulation.frame_time) + 30;
+  for (int frame = 0; frame < frames; ++frame) {
+    world.step();
+    for (const AttachmentRecord& pin : world.record().attachments)
+      result.apart = std::max(result.apart, (pin.point_a - pin.point_b).norm() / length);
+    const double energy = world.record().stats.kinetic + world.record().stats.potential;
+    if (frame == 0) first = energy;
+    result.won = std::max(result.won, (energy - first) / fall);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("chains that are let go level hold together, at every size and with a heavy end") {
+  for (const double length : {1.0, 0.01})
+    for (const double ratio : {1.0, 300.0})
+      for (const int links : {2, 8})
+        for (const int substeps : {1, 4}) {
+          CAPTURE(length, ratio, links, substeps);
+          World world;
+          world.parameters.simulation.substeps = substeps;
+          add_chain(world, links, length, ratio);
+          const Swing result = swing(world, links, length);
+          CHECK(result.apart < 0.1);
+          CHECK(result.won < 0.1);
+        }
+}
+
+TEST_CASE("a light chain with an end thirty thousand times as heavy holds") {
+  World world;
+  add_chain(world, 4, 1.0, 3e4);
+  const Swing result = swing(world, 4, 1.0);
+  CHECK(result.apart < 0.1);
+  CHECK(result.won < 0.2);  // what a shorter piece takes back of a longer one's drift comes faster than it went
+}
+
+TEST_CASE("penalty holds what is attached as well as constraint anticipation does, in both forms") {
+  const auto form = GENERATE(as<std::string>(), "implicit", "explicit");
+  for (const int links : {1, 4})
+    for (const int substeps : {1, 4}) {
+      CAPTURE(form, links, substeps);
+      World exact, springs;
+      for (World* world : {&exact, &springs}) {
+        world->parameters.simulation.substeps = substeps;
+        add_chain(*world, links, 0.2, 1.0);
+      }
+      springs.parameters.response.method = "penalty";
+      set(springs, "response.penalty.form", form);
+      exact.start(), springs.start();
+      for (int frame = 0; frame < 30; ++frame) {
+        exact.step(), springs.step();
+        for (int i = 0; i < links; ++i)
+          REQUIRE((exact.bodies()[i].pose.position - springs.bodies()[i].pose.position).norm() < 1e-3 * 0.2);
+      }
+    }
+}
