@@ -1,5 +1,6 @@
 // Settings that don't go together, and names that nothing has, told where they were given: the file's line, the
 // override, or the script's line.
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 
 #include "tests/support/program/refusal.hpp"
@@ -22,36 +23,38 @@ kind = "dynamic"
 shape = { sphere = { radius = 1 } }
 )";
 
+std::string with_ball(std::string head) { return head.append(kBall); }
+
 }  // namespace
 
 TEST_CASE("settings that don't go together are told at the one that was given last") {
   const TempFolder folder;
   const std::string both = "[simulation]\nvelocities = \"middle\"\n[response]\nmethod = \"quick\"\n";
-  folder.write("s.toml", both + kBall);
+  folder.write("s.toml", with_ball(both));
   const std::string found = "simulation.velocities is middle with response.method quick";
-  check_refused(folder, kRun, "s.toml:2:14: " + found, "choose another one");
-  check_refused(folder, {"check", "s.toml"}, "s.toml:2:14: " + found, "choose another one");
+  check_refused(folder, kRun, fmt::format("s.toml:2:14: {}", found), "choose another one");
+  check_refused(folder, {"check", "s.toml"}, fmt::format("s.toml:2:14: {}", found), "choose another one");
 
-  folder.write("s.toml", std::string("[response]\nmethod = \"quick\"\n") + kBall);
+  folder.write("s.toml", with_ball("[response]\nmethod = \"quick\"\n"));
   check_refused(folder, run_with({"--set", "simulation.velocities=middle"}),
-                "--set simulation.velocities=middle: " + found, "velocities = \"end\"");
-  folder.write("s.toml", std::string("[simulation]\nvelocities = \"middle\"\n") + kBall);
-  check_refused(folder, run_with({"--set", "response.method=quick"}), "--set response.method=quick: " + found,
-                "velocities = \"end\"");
+                fmt::format("--set simulation.velocities=middle: {}", found), "velocities = \"end\"");
+  folder.write("s.toml", with_ball("[simulation]\nvelocities = \"middle\"\n"));
+  check_refused(folder, run_with({"--set", "response.method=quick"}),
+                fmt::format("--set response.method=quick: {}", found), "velocities = \"end\"");
   folder.write("s.toml", kBall);
   check_refused(folder, run_with({"--set", "simulation.velocities=middle", "--set", "response.method=quick"}),
-                "--set simulation.velocities=middle: " + found, "velocities = \"end\"");
+                fmt::format("--set simulation.velocities=middle: {}", found), "velocities = \"end\"");
 
   // by a script, at the start and half way: what was made by then stays
-  folder.write("s.toml", std::string("[simulation]\nvelocities = \"middle\"\n") + kBall);
+  folder.write("s.toml", with_ball("[simulation]\nvelocities = \"middle\"\n"));
   for (const auto& [at, rows] : {std::pair("0", 1), {"2", 3}}) {
     CAPTURE(at);
-    folder.write("a.script", std::string("# two lines\nat ") + at + " set response.method quick\n");
+    folder.write("a.script", fmt::format("# two lines\nat {} set response.method quick\n", at));
     const Outcome outcome =
         impinge_run(folder.path(), run_with({"--script", "a.script", "--force", "--set", "response.method=penalty"}));
     INFO(outcome.err);
     CHECK(outcome.code == 2);
-    CHECK(outcome.err.starts_with("a.script:2:27: " + found));
+    CHECK(outcome.err.starts_with(fmt::format("a.script:2:27: {}", found)));
     const std::string table = slurp(folder / "out/stats.csv");
     CHECK(std::count(table.begin(), table.end(), '\n') == rows);
   }
@@ -60,13 +63,13 @@ TEST_CASE("settings that don't go together are told at the one that was given la
 TEST_CASE("names of bodies that a view gives and nothing has are told where they stand") {
   const TempFolder folder;
   const std::string view = "[view]\ncamera = { follow = \"bal\" }\n";
-  folder.write("s.toml", view + kBall);
+  folder.write("s.toml", with_ball(view));
   check_refused(folder, kRun, "s.toml:2:21: 'bal' for view.camera.follow; bodies: ball; ", "did you mean 'ball'?");
   check_refused(folder, run_with({"--set", "view.camera.follow=bll"}),
                 "--set view.camera.follow=bll: 'bll' for view.camera.follow", "did you mean 'ball'?");
-  folder.write("s.toml", std::string("[view]\nhidden = [\"ball\", \"bil\"]\n") + kBall);
+  folder.write("s.toml", with_ball("[view]\nhidden = [\"ball\", \"bil\"]\n"));
   check_refused(folder, kRun, "s.toml:2:10: 'bil' for view.hidden", "did you mean 'ball'?");
-  folder.write("s.toml", std::string("[view]\ncolors = [\"ball=red\"]\n") + kBall);
+  folder.write("s.toml", with_ball("[view]\ncolors = [\"ball=red\"]\n"));
   check_refused(folder, kRun, "s.toml:2:10: 'ball=red' for view.colors", "NAME=rrggbb");
   folder.write("s.toml", kBall);
   folder.write("a.script", "at 1 set view.camera.follow bal\n");
@@ -85,7 +88,7 @@ TEST_CASE("a mesh that is not there is told where the scene, or an override, nam
                 "--set body.a.shape={ convex_hull = { surface = \"none.off\" } }: ", "there is no such file");
   folder.write("s.toml", body + "copies = [ { position = [1, 0, 0] } ]\n");
   check_refused(folder, kRun, "s.toml:4:11: body.a.surface", "there is no such file");
-  folder.write("s.toml", std::string(kBall) + "volume = \"none.veg\"\nmaterial = { young = 1e5 }\n");
+  folder.write("s.toml", with_ball("").append("volume = \"none.veg\"\nmaterial = { young = 1e5 }\n"));
   folder.write("s.toml", replaced(slurp(folder / "s.toml"), "dynamic", "deformable"));
   check_refused(folder, kRun, "s.toml:5:10: ", "there is no such file");
 }
