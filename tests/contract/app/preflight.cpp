@@ -140,7 +140,7 @@ TEST_CASE("preflight: ratios, thresholds, speeds and densities") {
        "size-ratio",
        ball("dust", 1e-4, {0, 9e3, 0}, "mass = 1") + ball("mountain", 4e3, {0, 0, 0}, "mass = 2"),
        {"'mountain'", "'dust'"},
-       "thick, ",
+       "km, ",
        4e7},
       {"contacts at a distance",
        "coarse-threshold",
