@@ -2,7 +2,7 @@
 noperspective in vec2 place;
 flat in float radius;
 flat in vec4 ink;
-uniform float rim;
+flat in float rim;
 uniform float opacity;
 #ifdef IDS
 out uvec2 result;  // object, triangle

@@ -29,13 +29,13 @@ class CoarseThreshold : public Warning {
     if (smallest == nullptr) return {};
     std::vector<Finding> found;
     if (const auto given = p.contact.activation_distance.given; given && *given > kMostLength * thinnest->size)
-      found.push_back(
-          {fmt::format("contact.activation_distance is {}, {:.3g} % of '{}', which is {} thick", length_text(*given),
-                       100.0 * *given / thinnest->size, thinnest->name, length_text(thinnest->size)),
-           advice(p.contact.activation_distance.part * thinnest->size, "m")});
+      found.push_back({fmt::format("contact.activation_distance is {}, {:.3g} % of '{}', which has the size {}",
+                                   length_text(*given), 100.0 * *given / thinnest->size, thinnest->name,
+                                   length_text(thinnest->size)),
+                       advice(p.contact.activation_distance.part * thinnest->size, "m")});
     for (const Body& body : start.world.bodies())
       if (const auto own = body.self_exempt_distance; own && *own > kMostLength * body.size)
-        found.push_back({fmt::format("body.{}.self_exempt_distance is {}, {:.3g} % of the body, which is {} thick",
+        found.push_back({fmt::format("body.{}.self_exempt_distance is {}, {:.3g} % of the body, which has the size {}",
                                      body.name, length_text(*own), 100.0 * *own / body.size, length_text(body.size)),
                          "it keeps whole limbs from meeting: take a smaller one"});
     const double speed = speed_scale(scale_gravity(p.simulation.gravity), smallest->size);
@@ -47,7 +47,7 @@ class CoarseThreshold : public Warning {
       const double automatic = threshold->part * speed;
       if (!threshold->given || !(*threshold->given > kMostTimes * automatic)) continue;
       found.push_back(
-          {fmt::format("{} is {:.3g} m/s, {:.3g} times what suits '{}', which is {} thick", path, *threshold->given,
+          {fmt::format("{} is {:.3g} m/s, {:.3g} times what suits '{}', which has the size {}", path, *threshold->given,
                        *threshold->given / automatic, smallest->name, length_text(smallest->size)),
            advice(automatic, "m/s")});
     }

@@ -39,7 +39,7 @@ class LongSubstep : public Warning {
     if (count < kFewest) return {};
     const double share = fall / smallest->size;
     return {{fmt::format(
-                 "'{}' is {} thick and falls {} in a sub-step, {:.2g} of that; with {} stacks of ten hold up to "
+                 "'{}' has the size {} and falls {} in a sub-step, {:.2g} of that; with {} stacks of ten hold up to "
                  "{:g}",
                  smallest->name, length_text(smallest->size), length_text(fall), share, limit->response, limit->most),
              "choose response.method = \"constraint_anticipation\", or " +

@@ -21,7 +21,7 @@ class SizeRatio : public Warning {
     }
     if (largest == nullptr || !(largest->size > kMostRatio * smallest->size)) return {};
     return {
-        {fmt::format("'{}' is {} thick, {:.3g} times as much as '{}' ({})", largest->name, length_text(largest->size),
+        {fmt::format("'{}' has the size {}, {:.3g} times that of '{}' ({})", largest->name, length_text(largest->size),
                      largest->size / smallest->size, smallest->name, length_text(smallest->size)),
          "contacts hold that, but beyond a hundred it is a unit or a scale as a rule: look at both"}};
   }

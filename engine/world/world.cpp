@@ -7,6 +7,7 @@
 #include "engine/contact/contact_reduction.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/settings_error.hpp"
 #include "engine/ledger/ledger.hpp"
 #include "engine/step/act.hpp"
 #include "engine/step/drive.hpp"
@@ -329,7 +330,8 @@ void World::parameters_changed() {
   const Response& response = *parameters.response.method;
   if (parameters.simulation.velocities == VelocityTime::middle && response.is_approximate() &&
       !response.lives_on_overlap())
-    throw InputError(
+    throw SettingsError(
+        {"simulation.velocities", "response.method"},
         fmt::format("simulation.velocities is middle with response.method {}, which moves bodies in shorter steps of "
                     "its own; middle is for the responses that move them once a sub-step; choose another one, or "
                     "velocities = \"end\"",

@@ -69,6 +69,47 @@ TEST_CASE("contacts that carry nothing, or are of nothing selected, can be left 
   CHECK((painted(whole.record(), settings).rgb == painted(one.record(), plain).rgb));
 }
 
+TEST_CASE("marks of contacts leave bodies to be seen that are small in the picture or have many") {
+  // a ball of a metre with contacts all over it, from near and from far away: how much of its disc stays its own
+  const auto left = [](int contacts, double away) {
+    HandMadeRecord scene;
+    const int ball = scene.add("ball", BodyKind::dynamic, Sphere{0.5}, {0, 0, 0}),
+              other = scene.add("other", BodyKind::fixed, Sphere{0.5}, {0, 100, 0});
+    for (int i = 0; i < contacts; ++i) {
+      const double y = 1.0 - (2.0 * i + 1.0) / contacts, turn = 2.4 * i, r = std::sqrt(1.0 - y * y);
+      const Vec3 n(r * std::cos(turn), y, r * std::sin(turn));
+      scene.touch(ball, other, 0.5 * n, n, ContactState::stick, -1e-3).lambda.x() = 1.0;
+    }
+    ViewSettings settings = settings_with({"meshes", "contacts"}), bare = settings_with({"meshes"});
+    for (ViewSettings* s : {&settings, &bare}) s->camera.look_at({0, 0, away}, {0, 0, 0});
+    const Image with = painted(scene.record(), settings), without = painted(scene.record(), bare),
+                empty = painted(StepRecord{}, bare);
+    int disc = 0, own = 0;
+    for (std::size_t i = 0; i + 2 < with.rgb.size(); i += 3) {
+      const auto same = [&](const Image& a, const Image& b) {
+        return std::equal(a.rgb.begin() + i, a.rgb.begin() + i + 3, b.rgb.begin() + i);
+      };
+      if (same(without, empty)) continue;
+      ++disc, own += same(with, without);
+    }
+    REQUIRE(disc > 100);
+    return static_cast<double>(own) / disc;
+  };
+  CHECK(left(24, 3.0) > 0.6);
+  CHECK(left(24, 12.0) > 0.4);  // discs of one size would cover all of it
+  CHECK(left(200, 3.0) > 0.4);
+  // a few on a large body are as large as ever: half of view.point_size in a picture 180 high
+  HandMadeRecord scene;
+  const int ball = scene.add("ball", BodyKind::dynamic, Sphere{3.0}, {0, 0, -3}),
+            floor = scene.add("floor", BodyKind::fixed, Sphere{0.5}, {0, 100, 0});
+  scene.touch(ball, floor, {0, 0, 0}, Vec3::UnitY(), ContactState::stick, -1e-3).lambda.x() = 1.0;
+  ViewSettings settings = contacts_only();
+  const auto [l, r] = covered_halves(painted(scene.record(), settings));
+  const double radius = 0.5 * 0.5 * settings.point_size, rim = 1.4 * 0.5;
+  CHECK(l + r > 3.14 * radius * radius);
+  CHECK(l + r < 3.14 * std::pow(radius + rim + 1.0, 2));
+}
+
 TEST_CASE("areas of contacts are like their forces") {
   HandMadeRecord scene;
   make_contacts(scene, 1.0, 4.0, false);

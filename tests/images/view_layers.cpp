@@ -100,6 +100,27 @@ TEST_CASE("marks appear where their bodies and contacts are, and nowhere else") 
   }
 }
 
+TEST_CASE("an attached point has lines to the middles of the bodies that it holds") {
+  HandMadeRecord scene;
+  const BodyIndex a(scene.add("a", BodyKind::dynamic, Sphere{0.1}, {-0.8, 0, 0})),
+      b(scene.add("b", BodyKind::dynamic, Sphere{0.1}, {0.8, 0.3, 0}));
+  ViewSettings settings = settings_with({"attachments"});
+  settings.camera.look_at({0, 0, 4}, {0, 0, 0});
+  const Image bare = painted(scene.record(), settings);
+  const Vec3 at(0.1, -0.4, 0);
+  const auto on_the_way = [&](const Image& image, const Vec3& to) {
+    return changed_near(bare, image, settings.camera, 0.4 * at + 0.6 * to, 2);
+  };
+  scene.record().attachments = {{"both", a, b, at, at}};
+  const Image both = painted(scene.record(), settings);
+  CHECK(on_the_way(both, {-0.8, 0, 0}) > 2);
+  CHECK(on_the_way(both, {0.8, 0.3, 0}) > 2);
+  scene.record().attachments = {{"to_the_world", a, {}, at, at}};
+  const Image one = painted(scene.record(), settings);
+  CHECK(on_the_way(one, {-0.8, 0, 0}) > 2);
+  CHECK(on_the_way(one, {0.8, 0.3, 0}) == 0);
+}
+
 TEST_CASE("contacts are told apart by state") {
   HandMadeRecord scene;
   const int a = scene.add("a", BodyKind::dynamic, Sphere{0.1}, {0, 5, 0});

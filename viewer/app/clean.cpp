@@ -119,7 +119,10 @@ class CleanCommand : public SubCommand {
       fmt::print("freed:   {}\n", describe_bytes(freed));
     else
       fmt::print("nothing is removed unless an option says what; --all frees {}\n", describe_bytes(can_go));
-    if (runs.size() == 1) fmt::print("again:   {}\n", command_for(runs.front()));
+    if (is_file(folder_ / "sweep.toml"))
+      fmt::print("again:   impinge sweep {} --out {}\n", (folder_ / "sweep.toml").string(), folder_.string());
+    else if (runs.size() == 1)
+      fmt::print("again:   {}\n", command_for(runs.front()));
   }
 
   fs::path folder_;

@@ -145,7 +145,7 @@ void Options::texts(const char* name, std::vector<std::string>& to, const std::s
 }
 
 void Options::two_texts(const char* name, std::pair<std::string, std::string>& to, const std::string& doc) {
-  app_.add_option(name, to, doc)->required();
+  app_.add_option(name, to, doc)->required()->type_name("A B");
 }
 
 void Options::flag(const char* name, bool& to, const std::string& doc) { app_.add_flag(name, to, doc); }

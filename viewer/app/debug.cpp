@@ -128,8 +128,11 @@ void check_recording(const Given& options) {
         fmt::format("command line: --record is {}, which is there and no recording; a new file is wanted; choose "
                     "another or remove it",
                     path.string()));
-  try {
-    write_file(path, "");  // better now than when there is something to lose
+  try {  // better now than when there is something to lose; what is there stays until then
+    const fs::path trial = temporary_name(path);
+    write_file(trial, "");
+    fs::remove(trial, error);
+    if (is_folder(path)) throw OutputError(path.string(), "Is a directory");
   } catch (const OutputError& error) {
     throw InputError(
         fmt::format("command line: --record is {}, which can't be written ({}); a file in a folder that may be written "
@@ -250,7 +253,7 @@ int debug(const Given& options) {
       show_on_screens(loop, *window, screens, interrupted(), save_recording);
   } catch (const Interrupted&) {  // while a frame was drawn or brought back
   } catch (...) {
-    save_recording();  // what was done before is kept
+    if (!debugger.recording(loop.pointer()).empty()) save_recording();  // what was done before is kept
     throw;
   }
   save_recording();

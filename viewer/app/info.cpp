@@ -53,7 +53,7 @@ void print_bodies(const World& world) {
     const Vec3 extent = body.bounds().extent();
     const bool has_box = extent.allFinite() && (extent.array() >= 0.0).all();
     fmt::print("  {:<{}}  {:<10}  {:<11}  {}{}\n", body.name, width, kind_name(body.kind()), body.shape->name(),
-               has_box ? fmt::format("{} × {} × {}, {} thick", length_text(extent.x()), length_text(extent.y()),
+               has_box ? fmt::format("{} × {} × {}, size {}", length_text(extent.x()), length_text(extent.y()),
                                      length_text(extent.z()), length_text(body.size))
                        : "without end",
                body.has_freedom() ? ", " + mass_text(body.mass) : "");

@@ -15,6 +15,11 @@ namespace {
 
 /// Returns the exit code. `name` is what the run is called.
 int replay(const std::filesystem::path& folder, const std::string& name) {
+  if (!is_there(folder))
+    throw InputError(
+        name +
+        ": there is no such file or folder; the --out of an impinge run, or a bundle, is wanted; check the "
+        "path");
   if (!is_file(folder / "run.toml"))
     throw InputError(folder.string() +
                      ": holds no run.toml; the folder of a run, or a bundle, is wanted; name the --out of an impinge "

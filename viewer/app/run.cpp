@@ -60,7 +60,7 @@ std::string write_contact_sheet(const std::filesystem::path& out, int last_frame
 bool write_video(const std::filesystem::path& out, const std::filesystem::path& video, double frames_per_second) {
   make_folder(absolute_path(video).parent_path());
   const bool made = make_video(out / "frames", video, frames_per_second);
-  if (!made) fmt::print(stderr, "note: ffmpeg is not installed, so there is no video\n");
+  if (!made) fmt::print(stderr, "note: ffmpeg is no longer there, so there is no video\n");
   return made;
 }
 
@@ -169,6 +169,13 @@ int RunCommand::run() {
   FrameProgress progress;
   RunWatcher watcher;
   if (!video_.empty()) check_video_path(video_);
+  const bool films = !video_.empty() && has_ffmpeg();
+  if (films != !video_.empty())
+    fmt::print(
+        stderr,
+        "note: ffmpeg is not installed: the pictures are made, and no {}; once it is there the same command with "
+        "--resume makes it of them\n",
+        video_.string());
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   ConvergenceNote convergence;
   WatchdogNote watchdog;
@@ -193,7 +200,7 @@ int RunCommand::run() {
   if (result.interrupted)
     fmt::print(stderr, "interrupted {} {}; the same command with --resume goes on\n",
                result.last_frame < 0 ? "before frame" : "after frame", std::max(0, result.last_frame));
-  const bool filmed = !sheet.empty() && !video_.empty() && write_video(options_.out, video_, result.frames_per_second);
+  const bool filmed = !sheet.empty() && films && write_video(options_.out, video_, result.frames_per_second);
   watchdog.set_judged(result.is_judged);
   const bool is_too_bad = strict_ && watchdog.has_barked();
   const int code = result.exit_code() == 0 && is_too_bad ? 1 : result.exit_code();

@@ -40,7 +40,7 @@ class WhyCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("SCENE|DIR", source_, "scene file (TOML), or the folder of a run, which is repeated");
-    options.two_texts("--pair", pair_, "A B: two bodies, or one body twice: with itself");
+    options.two_texts("--pair", pair_, "two bodies by their names, or one body twice: with itself");
     options.whole("--frame", frame_, 0, 100'000'000,
                   "the frame (default: where the two first had a contact, or else came nearest; a scene is looked "
                   "through to frame 240, or its script's last if that is later, a run to its last)");

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 
@@ -9,8 +13,18 @@ namespace impinge {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+[[noreturn]] void refuse_output(const fs::path& file, const std::string& reason) {
+  throw OutputError(fmt::format("{}: can't be written ({}); free space or choose another --out", file.string(), reason),
+                    reason);
+}
+
+}  // namespace
+
 OutputFiles::~OutputFiles() {
   std::error_code error;
+  for (const auto& [temporary, name] : written_) fs::remove(temporary, error);
   while (!made_.empty()) {
     fs::remove(made_.back(), error);  // of folders only those that are empty
     made_.pop_back();
@@ -27,8 +41,21 @@ void OutputFiles::make_folder(const fs::path& folder) {
 }
 
 void OutputFiles::write(const fs::path& file, std::string_view bytes) {
-  write_file(file, bytes);
-  made_.push_back(file);
+  const fs::path temporary = temporary_name(file);
+  try {
+    if (is_folder(file)) throw OutputError(file.string(), std::strerror(EISDIR));
+    write_file(temporary, bytes);
+  } catch (const OutputError& error) {
+    refuse_output(file, error.reason);
+  }
+  written_.emplace_back(temporary, file);
+}
+
+void OutputFiles::keep() {
+  for (const auto& [temporary, name] : written_)
+    if (std::rename(temporary.c_str(), name.c_str()) != 0) refuse_output(name, std::strerror(errno));
+  written_.clear();
+  made_.clear();
 }
 
 }  // namespace impinge

@@ -34,7 +34,13 @@ struct PictureRules {
   const Image* mask = nullptr;
 };
 
-/// Reads both and compares them; id pictures beside them (frames/X.png with ids/X.png, or X.png with ids/X.png in the
+/// Reads both and says whether they are the same: verdict, difference and headline.
+PictureComparison judge_pictures(const std::string& name, const std::filesystem::path& a,
+                                 const std::filesystem::path& b, const PictureRules& rules);
+/// All the rest of a pair that is judged different, which takes a hundred times as long.
+void explain_difference(PictureComparison& different, const PictureRules& rules);
+
+/// Both of these; id pictures beside them (frames/X.png with ids/X.png, or X.png with ids/X.png in the
 /// same folder) are used where both have them. Throws InputError where a file is missing or no PNG.
 PictureComparison compare_pictures(const std::string& name, const std::filesystem::path& a,
                                    const std::filesystem::path& b, const PictureRules& rules);

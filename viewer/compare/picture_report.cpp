@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/io/file.hpp"
 #include "viewer/compare/output_files.hpp"
 #include "viewer/compare/picture_comparison.hpp"
@@ -19,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uint64_t kMostOfPicture = std::uint64_t{1} << 28;
 constexpr std::size_t kMostEmbedded = std::size_t{24} << 20;  // bytes of pictures in one page
+constexpr std::size_t kAtOnce = 16;                           // pictures that are drawn before they are written
 
 constexpr const char* kStyle =
     R"(body{font:14px/1.45 sans-serif;margin:1em 1.2em;color:#222;background:#fff}h1{font-size:20px;margin:0 0 .3em}
@@ -115,7 +118,21 @@ std::string row(const PictureComparison& c) {
                    d.differing, d.worst_window, d.max_level, c.flip, cause_word(c));
 }
 
-std::string data(const PictureComparison& c, const PictureRules& rules, std::size_t& embedded) {
+/// What is drawn of a pair that differs, as PNG: which pixels do, and the three panels.
+struct Drawn {
+  int width = 0, height = 0;
+  std::string overlay, panels;
+};
+
+Drawn drawn_of(const PictureComparison& c, const PictureRules& rules) {
+  if (c.verdict != PictureComparison::different) return {};
+  const Image a = read_png(c.a), b = read_png(c.b);
+  return {a.width, a.height,
+          encode_png(difference_overlay(a, b, c.difference.settings.tolerance, a.width >= 600 ? 2 : 0, rules.mask)),
+          encode_png(difference_panels(a, b, c.difference, rules.mask))};
+}
+
+std::string data(const PictureComparison& c, const Drawn& drawn, std::size_t& embedded) {
   std::vector<std::string> say;
   say.push_back(json(c.headline));
   for (const std::string& line : c.details) say.push_back(json(line));
@@ -124,12 +141,9 @@ std::string data(const PictureComparison& c, const PictureRules& rules, std::siz
   if (embedded > kMostEmbedded)
     return out + fmt::format(",none:{}}}", json("too many pictures for one page: this one lies beside it, " + c.name));
   const std::string a = read_file(c.a, kMostOfPicture), b = read_file(c.b, kMostOfPicture);
-  const Image image_a = decode_png(a, c.a.string()), image_b = decode_png(b, c.b.string());
-  const std::string d = encode_png(
-      difference_overlay(image_a, image_b, c.difference.settings.tolerance, image_a.width >= 600 ? 2 : 0, rules.mask));
-  embedded += a.size() + b.size() + d.size();
-  out += fmt::format(",w:{},h:{},a:\"{}\",b:\"{}\",d:\"{}\"", image_a.width, image_a.height, png_data_uri(a),
-                     png_data_uri(b), png_data_uri(d));
+  embedded += a.size() + b.size() + drawn.overlay.size();
+  out += fmt::format(",w:{},h:{},a:\"{}\",b:\"{}\",d:\"{}\"", drawn.width, drawn.height, png_data_uri(a),
+                     png_data_uri(b), png_data_uri(drawn.overlay));
   const Difference& diff = c.difference;
   return out + fmt::format(",box:[{},{},{}]}}", diff.worst_at[0], diff.worst_at[1], diff.settings.window);
 }
@@ -157,14 +171,20 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
 
   std::string rows, entries;
   std::size_t embedded = 0;
-  for (const PictureComparison* c : order) {
-    rows += row(*c);
-    entries += data(*c, rules, embedded) + ",\n";
-    if (c->verdict != PictureComparison::different) continue;
-    const Image a = read_png(c->a), b = read_png(c->b);
-    const fs::path panels = out / c->name;
-    files.make_folder(panels.parent_path());
-    files.write(panels, encode_png(difference_panels(a, b, c->difference, rules.mask)));
+  for (std::size_t begin = 0; begin < order.size(); begin += kAtOnce) {
+    const std::span<const PictureComparison* const> some =
+        std::span(order).subspan(begin, std::min(kAtOnce, order.size() - begin));
+    std::vector<Drawn> drawn(some.size());
+    parallel_for(some.size(), 1, [&](std::size_t i) { drawn[i] = drawn_of(*some[i], rules); });
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const PictureComparison& c = *some[i];
+      rows += row(c);
+      entries += data(c, drawn[i], embedded) + ",\n";
+      if (c.verdict != PictureComparison::different) continue;
+      const fs::path panels = out / c.name;
+      files.make_folder(panels.parent_path());
+      files.write(panels, drawn[i].panels);
+    }
   }
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
@@ -179,13 +199,18 @@ void write_picture_report(const fs::path& out, const std::string& title, const s
     files.write(out / "report.html", page + "</body></html>\n");
     return files.keep();
   }
+  const auto missing = static_cast<std::size_t>(std::count_if(order.begin(), order.end(), [](const auto* c) {
+    return c->verdict == PictureComparison::missing_in_a || c->verdict == PictureComparison::missing_in_b;
+  }));
   page += fmt::format(
-      "<p>{} of {} pictures differ. A pixel counts once a channel differs by more than {} of 255; the limits are {:g} "
+      "<p>{} of {} pictures differ{}. A pixel counts once a channel differs by more than {} of 255; the limits are "
+      "{:g} "
       "a megapixel, {:g} % of what is drawn, and {} in any {} x {} window. "
       "Arrow keys change the row; drag over the picture, or the slider, to wipe from A to B.</p>\n",
-      order.size(), pictures.size(), tolerances(order, rules), rules.settings.allowed_per_megapixel,
-      100 * rules.settings.allowed_of_drawn, rules.settings.allowed_in_window, rules.settings.window,
-      rules.settings.window);
+      order.size() - missing, pictures.size() - missing,
+      missing == 0 ? "" : fmt::format(", {} more {} in one of them only", missing, missing == 1 ? "is" : "are"),
+      tolerances(order, rules), rules.settings.allowed_per_megapixel, 100 * rules.settings.allowed_of_drawn,
+      rules.settings.allowed_in_window, rules.settings.window, rules.settings.window);
   page +=
       "<div class=\"cols\"><div class=\"list\"><table "
       "id=\"frames\"><thead><tr><th>picture</th><th></th><th>pixels</th><th>in a "

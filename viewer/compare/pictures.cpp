@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/compare/picture_comparison.hpp"
@@ -80,16 +81,49 @@ std::vector<Pair> pairs_of(const fs::path& a, const fs::path& b, bool update) {
   return {{a.filename().string(), a, b}};
 }
 
-PictureComparison compare_pair(const Pair& pair, const fs::path& folder_a, const fs::path& folder_b,
-                               const PictureRules& rules) {
-  if (!pair.a.empty() && !pair.b.empty())
-    return compare_pictures(pair.name, baseline_for(pair.a, pair.b), pair.b, rules);
+PictureComparison judge_pair(const Pair& pair, const fs::path& folder_a, const fs::path& folder_b,
+                             const PictureRules& rules) {
+  if (!pair.a.empty() && !pair.b.empty()) return judge_pictures(pair.name, baseline_for(pair.a, pair.b), pair.b, rules);
   PictureComparison c;
   c.name = pair.name;
   c.a = pair.a, c.b = pair.b;
   c.verdict = pair.a.empty() ? PictureComparison::missing_in_a : PictureComparison::missing_in_b;
   c.headline = "missing in " + (pair.a.empty() ? folder_a : folder_b).string();
   return c;
+}
+
+bool is_missing(const PictureComparison& c) {
+  return c.verdict == PictureComparison::missing_in_a || c.verdict == PictureComparison::missing_in_b;
+}
+
+/// All of them judged, and explained where that will be shown: everywhere, or of the first that differ.
+std::vector<PictureComparison> compare_pairs(const std::vector<Pair>& pairs, const fs::path& folder_a,
+                                             const fs::path& folder_b, const PictureRules& rules, bool explains_all) {
+  std::vector<PictureComparison> all(pairs.size());
+  parallel_for(pairs.size(), 1, [&](std::size_t i) { all[i] = judge_pair(pairs[i], folder_a, folder_b, rules); });
+  std::vector<PictureComparison*> explained;
+  std::size_t told = 0;
+  for (PictureComparison& c : all) {
+    if (c.verdict == PictureComparison::same || (told++ >= kMostDetails && !explains_all) || is_missing(c)) continue;
+    explained.push_back(&c);
+  }
+  parallel_for(explained.size(), 1, [&](std::size_t i) { explain_difference(*explained[i], rules); });
+  return all;
+}
+
+/// "3 of 91 differ, 60 are missing in B".
+std::string count_text(const std::vector<PictureComparison>& all) {
+  std::size_t differ = 0, in_a = 0, in_b = 0;
+  for (const PictureComparison& c : all) {
+    in_a += c.verdict == PictureComparison::missing_in_a;
+    in_b += c.verdict == PictureComparison::missing_in_b;
+    differ += c.verdict != PictureComparison::same && !is_missing(c);
+  }
+  const std::size_t both = all.size() - in_a - in_b;
+  std::string text = both == 0 ? "no picture is in both" : fmt::format("{} of {} differ", differ, both);
+  for (const auto& [count, where] : {std::pair(in_a, "A"), {in_b, "B"}})
+    if (count > 0) text += fmt::format(", {} {} missing in {}", count, count == 1 ? "is" : "are", where);
+  return text;
 }
 
 void print(const PictureComparison& c, bool with_details = true) {
@@ -150,8 +184,9 @@ int compare_pictures(const PicturesOptions& options) {
                      ": is a run's folder, and --update would change its frames; a folder of baselines is wanted; swap "
                      "A and B, or copy the frames first");
 
-  std::vector<PictureComparison> all, differing;
-  for (const Pair& pair : pairs) all.push_back(compare_pair(pair, pictures_of(a), pictures_of(b), rules));
+  const std::vector<PictureComparison> all =
+      compare_pairs(pairs, pictures_of(a), pictures_of(b), rules, !out.empty() || options.update);
+  std::vector<PictureComparison> differing;
   std::copy_if(all.begin(), all.end(), std::back_inserter(differing),
                [](const PictureComparison& c) { return c.verdict != PictureComparison::same; });
   if (!out.empty() && !differing.empty())
@@ -168,9 +203,9 @@ int compare_pictures(const PicturesOptions& options) {
   if (differing.empty())
     fmt::print("{} picture{} compared, no difference beyond the tolerance\n", all.size(), all.size() == 1 ? "" : "s");
   else if (out.empty())
-    fmt::print("{} of {} differ; --out DIR shows them\n", differing.size(), all.size());
+    fmt::print("{}; --out DIR shows them\n", count_text(all));
   else
-    fmt::print("{} of {} differ, shown in {}\n", differing.size(), all.size(), (out / "report.html").string());
+    fmt::print("{}, shown in {}\n", count_text(all), (out / "report.html").string());
   return differing.empty() ? 0 : 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "engine/core/error.hpp"
 #include "viewer/controller/act_command.hpp"
@@ -59,9 +60,10 @@ std::vector<Command> parse_set(std::span<const PlacedText> words, const Paramete
   std::vector<Command> commands;
   const PlacedText& first = words[2];
   const char* end = words.back().text.data() + words.back().text.size();
+  const std::string_view text(first.text.data(), static_cast<std::size_t>(end - first.text.data()));
   for (const Parameter* row : find_rows(words[1], rows, first_frame)) try {
-      commands.push_back(SetCommand{
-          row->path, parse_value(*row, {first.text.data(), static_cast<std::size_t>(end - first.text.data())})});
+      SetCommand set{row->path, parse_value(*row, text), first.place()};
+      commands.emplace_back(std::move(set));
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: {}; change the value", first.place(), error.what()));
     }

@@ -29,6 +29,7 @@ namespace impinge {
 struct SetCommand {
   std::string path;
   ParameterValue value;
+  std::string place = {};  ///< where it stands, "" for one that nobody wrote
 };
 struct LayerCommand {
   std::vector<std::pair<std::string, bool>> changes;  ///< name, on

@@ -96,7 +96,7 @@ FrameView::FrameView() : settings_(make_view_settings()) {}
 void FrameView::settle(const StepRecord& record, int width, int height) {
   width_ = width;
   height_ = height;
-  if (const std::string wrong = unknown_body(record, settings_); !wrong.empty()) throw InputError(wrong);
+  check_names(record, settings_);
   settle_camera(settings_, record, static_cast<double>(width) / height);
 }
 

@@ -32,6 +32,9 @@ std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
 }  // namespace
 
 RecordedRun::RecordedRun(const fs::path& folder) : folder_(folder) {
+  if (!is_there(folder))
+    throw InputError(folder.string() +
+                     ": there is no such folder; the --out of an impinge run is wanted; check the path");
   if (!is_file(folder / "run.toml"))
     throw InputError(folder.string() +
                      ": holds no run.toml; the folder of a run is wanted; name the --out of an impinge run");

@@ -161,7 +161,7 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
     }
   };
   for (const Parameter* each_row : found)
-    timed_.push_back({first, last, SetCommand{each_row->path, {}}, true, value(0), value(each)});
+    timed_.push_back({first, last, SetCommand{each_row->path, {}, rest[0].place()}, true, value(0), value(each)});
 }
 
 void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,

@@ -104,8 +104,8 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   start();
   try {
     view_.settle(world_.record(), options.width, options.height);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", scene_.path.string(), error.what()));
+  } catch (const SettingsError& error) {
+    throw placed(error);
   }
 }
 
@@ -122,6 +122,9 @@ bool Session::list_added(std::vector<Addition> by_hand) {
 void Session::start() {
   try {
     world_.start();
+    last_set_.clear();
+  } catch (const SettingsError& error) {
+    throw placed(error);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", scene_.path.string(), error.what()));
   }
@@ -139,6 +142,32 @@ void Session::start() {
   world_.start_restored();
 }
 
+InputError Session::placed(const SettingsError& error) const {
+  const auto is_of_it = [&](const auto& given) {
+    return std::find(error.paths.begin(), error.paths.end(), given.first) != error.paths.end();
+  };
+  std::string place = scene_.path.string();
+  // what came last is what does not go with the rest: a line, else an override, else the first that the file has
+  if (const auto line = std::find_if(last_set_.rbegin(), last_set_.rend(), is_of_it); line != last_set_.rend()) {
+    place = line->second;
+  } else {
+    for (auto path = error.paths.rbegin(); path != error.paths.rend(); ++path)
+      if (const auto given = scene_.places.find(*path); given != scene_.places.end()) place = given->second;
+    for (const auto& given : scene_.places)
+      if (is_of_it(given) && given.second.starts_with("--set ")) place = given.second;
+  }
+  return InputError(fmt::format("{}: {}", place, error.what()));
+}
+
+void Session::take_parameters() {
+  try {
+    world_.parameters_changed();
+    last_set_.clear();
+  } catch (const SettingsError& error) {
+    throw placed(error);
+  }
+}
+
 std::vector<Command> Session::advance(FrozenStep* frozen) {
   std::vector<Command> commands = script_.commands_at(frame_ + 1);
   for (const Command& command : commands) apply(command);
@@ -146,11 +175,11 @@ std::vector<Command> Session::advance(FrozenStep* frozen) {
     if (!commands.empty()) start();             // the constructor started the world without them
     if (!commands.empty() && begins_later()) {  // whose state has its own parameters
       for (const Command& command : commands) apply(command);
-      world_.parameters_changed();
+      take_parameters();
       world_.start_restored();
     }
   } else {
-    if (!commands.empty() || changed_) world_.parameters_changed();
+    if (!commands.empty() || changed_) take_parameters();
     changed_ = false;
     if (frozen != nullptr) {
       *frozen = world_.step_and_freeze();
@@ -174,6 +203,7 @@ void Session::change(const Command& command) {
 void Session::apply(const Command& command) {
   if (const auto* set = std::get_if<SetCommand>(&command)) {
     rows_.find(set->path)->set(set->value);
+    if (!set->place.empty()) last_set_.emplace_back(set->path, set->place);
   } else if (const auto* layer = std::get_if<LayerCommand>(&command)) {
     const Parameter& row = *rows_.find("view.layers");
     auto names = std::get<std::vector<std::string>>(row.get());
@@ -286,6 +316,7 @@ void Session::restore(ByteReader& in) {
     throw InputError("snapshot: it belongs to another scene or version; remove it and run again");
   frame_ = frame;
   changed_ = false;
+  last_set_.clear();
   write_below();
 }
 

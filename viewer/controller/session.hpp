@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "engine/core/settings_error.hpp"
 #include "engine/io/scene/scene.hpp"
 #include "engine/world/figures.hpp"
 #include "viewer/controller/added_bodies.hpp"
@@ -88,6 +89,9 @@ class Session {
   void add_body(const Act& act);
   void read_script();
   void start();
+  /// Throws InputError where they don't go together, with the place of what was set last.
+  void take_parameters();
+  InputError placed(const SettingsError& error) const;
   void write_below();
   bool begins_later() const { return scene_.run && !scene_.run->start.empty(); }
 
@@ -103,7 +107,8 @@ class Session {
   std::vector<std::string> script_lines_;
   std::string script_name_;
   bool judge_ = false, judge_substeps_ = false;
-  bool changed_ = false;  // by hand, since the last frame
+  bool changed_ = false;                                       // by hand, since the last frame
+  std::vector<std::pair<std::string, std::string>> last_set_;  // paths and places, not taken by the world so far
   int frame_ = -1;
 };
 

@@ -19,13 +19,14 @@ using PickId = std::uint32_t;
 constexpr PickId body_pick(std::size_t body) { return static_cast<PickId>(body + 1); }
 constexpr PickId contact_pick(std::size_t contact) { return 0x80000000u | static_cast<PickId>(contact); }
 
-/// A disc of constant size with a dark rim.
+/// A disc with a dark rim, of constant size, or smaller where what it marks looks small.
 struct DrawPoint {
   Vec3 position;
   Color color;
   float diameter = 8.0f;  ///< pixels
   Depth depth = Depth::on_top;
   PickId pick = 0;
+  double room = 0.0;  ///< metres: no larger than that looks there, down to a third of `diameter`; 0: constant
 };
 
 struct DrawLine {

@@ -1,5 +1,6 @@
 #include "viewer/gl/marks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "viewer/gl/gl.hpp"
@@ -7,7 +8,10 @@
 namespace impinge {
 namespace {
 
-constexpr float kFaint = 0.30f;  // of a mark's opacity where it is hidden and shown all the same
+constexpr float kDiscRim = 1.4f;            // pixels
+constexpr float kLeastShare = 1.0f / 3.0f;  // of a disc's size where it has no room
+constexpr float kLeastDisc = 2.5f;          // pixels: smaller ones are no longer told apart by colour
+constexpr float kFaint = 0.30f;             // of a mark's opacity where it is hidden and shown all the same
 
 std::array<std::uint8_t, 4> packed(const Color& c) {
   const auto byte = [](float v) {
@@ -40,6 +44,7 @@ Marks::Marks(bool ids)
   point_array_.floats(0, 3, sizeof(Disc), offsetof(Disc, position), true);
   point_array_.bytes(1, 4, sizeof(Disc), offsetof(Disc, color), true);
   point_array_.floats(2, 1, sizeof(Disc), offsetof(Disc, diameter), true);
+  point_array_.floats(3, 1, sizeof(Disc), offsetof(Disc, rim), true);
   flat_array_.floats(0, 3, sizeof(Corner), offsetof(Corner, position));
   flat_array_.bytes(1, 4, sizeof(Corner), offsetof(Corner, color));
 }
@@ -116,14 +121,22 @@ void Marks::draw_arrows(const DrawList& list, const ViewTransform& view, float p
 
 void Marks::draw_points(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth) {
   std::vector<Disc> discs;
-  for (const DrawPoint& p : list.points)
-    if (p.depth == depth) discs.push_back({view.to_eye(p.position), packed(p.color), p.diameter * pixel_scale});
+  for (const DrawPoint& p : list.points) {
+    if (p.depth != depth) continue;
+    const float whole = p.diameter * pixel_scale;
+    float diameter = whole;
+    if (p.room > 0.0) {
+      const double away = std::max(-(view.rotation * (p.position - view.eye)).z(), view.near);
+      const float least = std::min(whole, std::max(kLeastShare * whole, kLeastDisc));
+      diameter = std::clamp(static_cast<float>(p.room * view.focal / away), least, whole);
+    }
+    discs.push_back({view.to_eye(p.position), packed(p.color), diameter, kDiscRim * pixel_scale * diameter / whole});
+  }
   if (discs.empty()) return;
   point_array_.set_vertices(discs.data(), discs.size() * sizeof(Disc));
   point_program_.use();
   point_program_.set("projection", view.projection);
   point_program_.set("picture", Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
-  point_program_.set("rim", 1.4f * pixel_scale);
   with_depth(depth, [&](float opacity) {
     point_program_.set("opacity", opacity);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(discs.size()));

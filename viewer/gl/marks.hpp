@@ -28,7 +28,7 @@ class Marks {
   struct Disc {
     Eigen::Vector3f position;
     std::array<std::uint8_t, 4> color;
-    float diameter;
+    float diameter, rim;
   };
   struct Corner {
     Eigen::Vector3f position;

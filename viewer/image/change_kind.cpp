@@ -10,9 +10,10 @@ namespace impinge {
 
 namespace {
 
-constexpr int kReach = 4;        // pixels: shifts that are tried
-constexpr int kSharp = 12;       // levels from one pixel to the next that make an edge
-constexpr double kMostly = 0.9;  // of the pixels that differ
+constexpr int kReach = 4;                // pixels: shifts that are tried
+constexpr int kSharp = 12;               // levels from one pixel to the next that make an edge
+constexpr std::size_t kEnough = 20'000;  // places at which shifts are tried
+constexpr double kMostly = 0.9;          // of the pixels that differ
 constexpr double kSameEdges = 0.75, kNoEdges = 0.35;
 
 struct Place {
@@ -25,6 +26,14 @@ std::vector<Place> differing(const Image& a, const Image& b, const Difference& d
     for (int x = d.box[0]; x < d.box[0] + d.box[2]; ++x)
       if (channel_difference(a.pixel(x, y), b.pixel(x, y)) > d.settings.tolerance) places.push_back({x, y});
   return places;
+}
+
+/// Enough of them to tell a share: every second one, or third one, ...
+std::vector<Place> few_of(const std::vector<Place>& places) {
+  const std::size_t stride = places.size() / kEnough + 1;
+  std::vector<Place> some;
+  for (std::size_t i = 0; i < places.size(); i += stride) some.push_back(places[i]);
+  return some;
 }
 
 /// Share of the places at which `to` shows what `from` shows at (-dx, -dy) from there; 0 where they leave the picture.
@@ -63,6 +72,7 @@ ChangeKind change_kind(const Image& a, const Image& b, const Difference& differe
   ChangeKind kind;
   if (difference.differing == 0 || a.width != b.width || a.height != b.height) return kind;
   const std::vector<Place> places = differing(a, b, difference);
+  const std::vector<Place> some = few_of(places);
   // moved: whatever changed in B stood in A at the same distance, and the other way round
   double best = 0.0;
   for (int dy = -kReach; dy <= kReach; ++dy)
@@ -70,7 +80,7 @@ ChangeKind change_kind(const Image& a, const Image& b, const Difference& differe
       if (dx == 0 && dy == 0) continue;
       const int tolerance = difference.settings.tolerance;
       const double share =
-          std::min(share_found(places, a, b, dx, dy, tolerance), share_found(places, b, a, -dx, -dy, tolerance));
+          std::min(share_found(some, a, b, dx, dy, tolerance), share_found(some, b, a, -dx, -dy, tolerance));
       const bool nearer = share == best && std::abs(dx) + std::abs(dy) < std::abs(kind.dx) + std::abs(kind.dy);
       if (share > best || nearer) best = share, kind.dx = dx, kind.dy = dy;
     }

@@ -1,5 +1,6 @@
 #include "viewer/image/flip.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +18,7 @@ using Triple = std::array<double, 3>;
 
 // constants of [Andersson20 §4, §5]
 constexpr double kErrorExponent = 0.7, kKnee = 0.4, kAtKnee = 0.95, kFeatureExponent = 0.5, kFeatureWidth = 0.082;
+constexpr int kTile = 128;  // pixels
 
 // linear RGB to XYZ (D65) and back, and the white that the rows add up to
 constexpr double kToXyz[3][3] = {{10135552.0 / 24577794.0, 8788810.0 / 24577794.0, 4435075.0 / 24577794.0},
@@ -94,25 +96,26 @@ Kernel balanced(Kernel k) {
 
 /// Columns by `across`, then rows by `down`; beyond the border its last pixel goes on.
 Plane filtered(const Plane& in, int width, int height, const Kernel& across, const Kernel& down) {
+  using Row = Eigen::Map<const Eigen::ArrayXf>;
   Plane half(in.size()), out(in.size());
   const int rx = static_cast<int>(across.size() / 2), ry = static_cast<int>(down.size() / 2);
-  parallel_for(static_cast<std::size_t>(height), 8, [&](std::size_t y) {
-    const float* row = in.data() + y * width;
-    for (int x = 0; x < width; ++x) {
-      double sum = 0.0;
-      for (int k = -rx; k <= rx; ++k) sum += across[k + rx] * row[std::clamp(x + k, 0, width - 1)];
-      half[y * width + x] = static_cast<float>(sum);
-    }
-  });
-  parallel_for(static_cast<std::size_t>(height), 8, [&](std::size_t row) {
-    std::vector<double> sum(width, 0.0);
+  std::vector<float> wide(static_cast<std::size_t>(width) + 2 * rx);
+  Eigen::ArrayXd sum(width);
+  for (int y = 0; y < height; ++y) {
+    const float* row = in.data() + static_cast<std::size_t>(y) * width;
+    for (int x = -rx; x < width + rx; ++x) wide[x + rx] = row[std::clamp(x, 0, width - 1)];
+    sum.setZero();
+    for (std::size_t k = 0; k < across.size(); ++k) sum += across[k] * Row(wide.data() + k, width).cast<double>();
+    Eigen::Map<Eigen::ArrayXf>(half.data() + static_cast<std::size_t>(y) * width, width) = sum.cast<float>();
+  }
+  for (int y = 0; y < height; ++y) {
+    sum.setZero();
     for (int k = -ry; k <= ry; ++k) {
-      const float* from =
-          half.data() + static_cast<std::size_t>(std::clamp(static_cast<int>(row) + k, 0, height - 1)) * width;
-      for (int x = 0; x < width; ++x) sum[x] += down[k + ry] * from[x];
+      const float* row = half.data() + static_cast<std::size_t>(std::clamp(y + k, 0, height - 1)) * width;
+      sum += down[k + ry] * Row(row, width).cast<double>();
     }
-    for (int x = 0; x < width; ++x) out[row * width + x] = static_cast<float>(sum[x]);
-  });
+    Eigen::Map<Eigen::ArrayXf>(out.data() + static_cast<std::size_t>(y) * width, width) = sum.cast<float>();
+  }
   return out;
 }
 
@@ -128,6 +131,7 @@ class Observer {
   explicit Observer(double pixels_per_degree) {
     constexpr double pi = std::numbers::pi;
     const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * pi * pi)) * pixels_per_degree));
+    reach_ = radius;
     for (int c = 0; c < 3; ++c) {
       const Sensitivity& s = kSensitivity[c];
       double total = 0.0;
@@ -145,6 +149,7 @@ class Observer {
     }
     const double sd = 0.5 * kFeatureWidth * pixels_per_degree;
     const int reach = static_cast<int>(std::ceil(3.0 * sd));
+    reach_ = std::max(reach_, reach);
     const auto bell = [&](int i) { return std::exp(-i * i / (2.0 * sd * sd)); };
     smooth_ = kernel(reach, bell);
     double sum = 0.0;
@@ -153,6 +158,9 @@ class Observer {
     edge_ = balanced(kernel(reach, [&](int i) { return -i * bell(i); }));
     point_ = balanced(kernel(reach, [&](int i) { return (i * i / (sd * sd) - 1.0) * bell(i); }));
   }
+
+  /// Pixels: what lies farther away changes nothing at a pixel.
+  int reach() const { return reach_; }
 
   /// What is left of the colours at that distance, as CIELAB after Hunt.
   std::vector<Triple> colors(const std::array<Plane, 3>& channels, int width, int height) const {
@@ -165,11 +173,11 @@ class Observer {
       }
     }
     std::vector<Triple> lab(channels[0].size());
-    parallel_for(lab.size(), 4096, [&](std::size_t i) {
+    for (std::size_t i = 0; i < lab.size(); ++i) {
       Triple rgb = from_opponent({seen[0][i], seen[1][i], seen[2][i]});
       for (double& v : rgb) v = std::clamp(v, 0.0, 1.0);
       lab[i] = hunt_lab(rgb);
-    });
+    }
     return lab;
   }
 
@@ -190,6 +198,7 @@ class Observer {
     double weight;
     Kernel kernel;
   };
+  int reach_ = 0;
   std::vector<Part> parts_[3];
   Kernel smooth_, edge_, point_;
 };
@@ -220,26 +229,61 @@ Seen look_at(const Image& image, const Observer& observer) {
           observer.features(luminance, image.width, image.height)};
 }
 
+struct Box {
+  int x, y, width, height;
+};
+
+/// The box with so many pixels more on each side, as far as the picture goes.
+Box grown(const Box& box, int by, const Image& image) {
+  const int x = std::max(0, box.x - by), y = std::max(0, box.y - by);
+  return {x, y, std::min(image.width, box.x + box.width + by) - x, std::min(image.height, box.y + box.height + by) - y};
+}
+
+bool is_same_in(const Box& box, const Image& a, const Image& b) {
+  for (int y = box.y; y < box.y + box.height; ++y)
+    if (!std::equal(a.pixel(box.x, y), a.pixel(box.x, y) + std::size_t{3} * box.width, b.pixel(box.x, y))) return false;
+  return true;
+}
+
+Image part_of(const Image& image, const Box& box) {
+  Image part(box.width, box.height);
+  for (int y = 0; y < box.height; ++y)
+    std::copy_n(image.pixel(box.x, box.y + y), std::size_t{3} * box.width, part.pixel(0, y));
+  return part;
+}
+
+float error_of(const Seen& a, const Seen& b, std::size_t i) {
+  // the two most distant colours of the gamut
+  static const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), kErrorExponent),
+                      knee = kKnee * largest;
+  const double distance = std::pow(hyab(a.colors[i], b.colors[i]), kErrorExponent);
+  const double color =
+      distance < knee ? kAtKnee / knee * distance : kAtKnee + (distance - knee) / (largest - knee) * (1.0 - kAtKnee);
+  double feature = 0.0;
+  for (int k = 0; k < 2; ++k) feature = std::max(feature, std::abs(double{a.features[k][i]} - b.features[k][i]));
+  feature = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
+  return static_cast<float>(std::pow(color, 1.0 - feature));
+}
+
 }  // namespace
 
 Flip flip(const Image& a, const Image& b, double pixels_per_degree) {
   IMPINGE_ASSERT(a.width == b.width && a.height == b.height && !a.rgb.empty() && pixels_per_degree > 0.0);
   const Observer observer(pixels_per_degree);
-  const Seen seen_a = look_at(a, observer), seen_b = look_at(b, observer);
-  // the two most distant colours of the gamut
-  const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), kErrorExponent),
-               knee = kKnee * largest;
   Flip result;
-  result.error.resize(seen_a.colors.size());
-  parallel_for(result.error.size(), 4096, [&](std::size_t i) {
-    const double distance = std::pow(hyab(seen_a.colors[i], seen_b.colors[i]), kErrorExponent);
-    const double color =
-        distance < knee ? kAtKnee / knee * distance : kAtKnee + (distance - knee) / (largest - knee) * (1.0 - kAtKnee);
-    double feature = 0.0;
-    for (int k = 0; k < 2; ++k)
-      feature = std::max(feature, std::abs(double{seen_a.features[k][i]} - seen_b.features[k][i]));
-    feature = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
-    result.error[i] = static_cast<float>(std::pow(color, 1.0 - feature));
+  result.error.resize(a.rgb.size() / 3, 0.0f);
+  // in tiles: most of two pictures is the same as a rule, and nothing is to be seen where all is that an eye takes in
+  const int across = (a.width + kTile - 1) / kTile, down = (a.height + kTile - 1) / kTile;
+  parallel_for(static_cast<std::size_t>(across) * down, 1, [&](std::size_t k) {
+    const int x = static_cast<int>(k) % across * kTile, y = static_cast<int>(k) / across * kTile;
+    const Box tile{x, y, std::min(kTile, a.width - x), std::min(kTile, a.height - y)};
+    const Box around = grown(tile, observer.reach(), a);
+    if (is_same_in(around, a, b)) return;
+    const Seen seen_a = look_at(part_of(a, around), observer), seen_b = look_at(part_of(b, around), observer);
+    for (int v = tile.y; v < tile.y + tile.height; ++v)
+      for (int u = tile.x; u < tile.x + tile.width; ++u)
+        result.error[static_cast<std::size_t>(v) * a.width + u] =
+            error_of(seen_a, seen_b, static_cast<std::size_t>(v - around.y) * around.width + (u - around.x));
   });
   for (const float e : result.error) result.mean += e;
   result.mean /= static_cast<double>(result.error.size());

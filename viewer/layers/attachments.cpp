@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/contact/contact_frame.hpp"
+#include "engine/shapes/primitives.hpp"
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -56,6 +57,18 @@ void draw_way(const AttachmentRecord& link, double reach, const DrawLine& like, 
   list.lines.push_back(normal);
 }
 
+/// Thin lines from the point to the middles of the bodies that it holds together.
+void draw_spokes(const AttachmentRecord& link, const StepRecord& record, const DrawLine& like, DrawList& list) {
+  for (const auto& [b, point] : {std::pair(link.body_a, link.point_a), {link.body_b, link.point_b}}) {
+    if (b.is_none()) continue;
+    const BodyRecord& body = record.bodies[static_cast<std::size_t>(b.value())];
+    if (body.deleted || body.shape->as<Plane>() != nullptr) continue;
+    DrawLine spoke = like;
+    spoke.a = point, spoke.b = body.pose.position;
+    list.lines.push_back(spoke);
+  }
+}
+
 void draw_attachments(const LayerContext& context, DrawList& list) {
   const float size = 0.9f * static_cast<float>(context.settings.point_size),
               width = 1.8f * static_cast<float>(context.settings.line_width);
@@ -64,6 +77,9 @@ void draw_attachments(const LayerContext& context, DrawList& list) {
     if (link.kind != AttachmentKind::point) {
       const DrawLine mark{{}, {}, with_alpha(role::kAttachment, kMarkAlpha), 0.7f * width, Depth::both, pick};
       draw_way(link, half_way(link, context.record), mark, list);
+    } else {
+      draw_spokes(link, context.record,
+                  {{}, {}, with_alpha(role::kAttachment, kMarkAlpha), 0.5f * width, Depth::both, pick}, list);
     }
     list.lines.push_back({link.point_a, link.point_b, role::kAttachment, width, Depth::both, pick});
     for (const Vec3& p : {link.point_a, link.point_b}) {
@@ -77,8 +93,8 @@ void draw_attachments(const LayerContext& context, DrawList& list) {
 
 Layer attachments_layer() {
   return {"attachments",
-          "Attached points, with a line between the two where they are apart, and the line, plane or surface that a "
-          "point slides on.",
+          "Attached points, with thin lines to the middles of the bodies they hold and a line between the two points "
+          "where they are apart; and the line, plane or surface that a point slides on.",
           false,
           draw_attachments,
           {{LegendRow::ring, role::kAttachment, "attachment", has_attachments},

@@ -1,6 +1,7 @@
 // Contact points by what they do: coloured by state or by a quantity, as large as each other or by what they carry.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "viewer/draw/color_map.hpp"
 #include "viewer/layers/contact_measures.hpp"
@@ -9,6 +10,7 @@
 namespace impinge {
 namespace {
 
+constexpr double kRoom = 0.1, kSpread = 0.5;           // of a body's size: a mark, and what all on a line may cover
 constexpr float kLeastSize = 0.35f, kMostSize = 3.0f;  // times view.point_size
 
 enum class ContactColor { state, gap, impulse, slip, residual };
@@ -78,6 +80,23 @@ std::vector<std::size_t> drawn(const LayerContext& context, const ContactMarkSet
   return order;
 }
 
+/// How large marks may be that leave a body to be seen, by body: a tenth of its size, less where it has many. Areas that
+/// are like forces are left alone.
+std::vector<double> room_on_bodies(const StepRecord& record, const std::vector<std::size_t>& order) {
+  std::vector<int> count(record.bodies.size(), 0);
+  for (const std::size_t i : order)
+    for (const BodyIndex b : {record.contacts[i].body_a, record.contacts[i].body_b})
+      ++count[static_cast<std::size_t>(b.value())];
+  std::vector<double> room(record.bodies.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t b = 0; b < room.size(); ++b) {
+    const BodyRecord& body = record.bodies[b];
+    if (count[b] == 0 || body.kind == BodyKind::fixed) continue;
+    const double size = body.bounds.extent().norm() / std::sqrt(3.0);
+    room[b] = size * std::min(kRoom, kSpread / std::sqrt(static_cast<double>(count[b])));
+  }
+  return room;
+}
+
 void draw_contacts(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const ContactMarkSettings& own = context.own<ContactMarkSettings>();
@@ -99,12 +118,15 @@ void draw_contacts(const LayerContext& context, DrawList& list) {
     if (!(mean > 0.0)) return kLeastSize;
     return std::clamp(static_cast<float>(std::sqrt(std::max(0.0, c.lambda.x()) / mean)), kLeastSize, kMostSize);
   };
+  const std::vector<double> room = room_on_bodies(record, order);
   for (const std::size_t i : order) {
     const ContactRecord& c = record.contacts[i];
+    const double free =
+        std::min(room[static_cast<std::size_t>(c.body_a.value())], room[static_cast<std::size_t>(c.body_b.value())]);
     const Color color = by_state ? color_of(c.state) : heat_color(bar.place(measure_of(record, c, measure)), bar.map);
     list.points.push_back({0.5 * (c.point_a + c.point_b), color,
-                           size_of(c) * static_cast<float>(context.settings.point_size), Depth::on_top,
-                           contact_pick(i)});
+                           size_of(c) * static_cast<float>(context.settings.point_size), Depth::on_top, contact_pick(i),
+                           own.size == Size::same && std::isfinite(free) ? size_of(c) * free : 0.0});
   }
   if (!by_state && !order.empty()) list.color_bars.push_back(bar);
 }
@@ -117,12 +139,12 @@ bool shows_states(const ViewSettings& settings) {
 
 Layer contacts_layer() {
   return {"contacts",
-          "Contact points: open, sticking, slipping.",
+          "Contact points: open, sticking, or with friction at its limit, where they slip or are about to.",
           true,
           draw_contacts,
           {{LegendRow::point, role::kOpen, "contact, open", nullptr, shows_states},
            {LegendRow::point, role::kStick, "contact, sticks", nullptr, shows_states},
-           {LegendRow::point, role::kSlip, "contact, slips", nullptr, shows_states}},
+           {LegendRow::point, role::kSlip, "contact, may slip", nullptr, shows_states}},
           ContactMarkSettings{}};
 }
 

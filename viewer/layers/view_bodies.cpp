@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/parameter.hpp"
+#include "engine/core/settings_error.hpp"
 #include "viewer/draw/body_color.hpp"
 
 namespace impinge {
@@ -49,25 +50,26 @@ Camera camera_in_world(const StepRecord& record, const ViewSettings& settings) {
   return camera;
 }
 
-std::string unknown_body(const StepRecord& record, const ViewSettings& settings) {
+void check_names(const StepRecord& record, const ViewSettings& settings) {
   std::vector<std::string> bodies;
   for (const BodyRecord& body : record.bodies) bodies.emplace_back(body.name);
-  const auto wrong = [&](const char* path, const std::string& name) -> std::string {
-    if (name.empty() || std::find(bodies.begin(), bodies.end(), name) != bodies.end()) return "";
+  const auto check = [&](const char* path, const std::string& name) {
+    if (name.empty() || std::find(bodies.begin(), bodies.end(), name) != bodies.end()) return;
     const std::string near = nearest_word(name, bodies);
-    return fmt::format("'{}' for {}; bodies: {}; {}", name, path, some_of(bodies),
-                       near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+    throw SettingsError({path},
+                        fmt::format("'{}' for {}; bodies: {}; {}", name, path, some_of(bodies),
+                                    near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near)));
   };
-  for (const auto& [path, names] : {std::pair("view.hidden", settings.hidden), {"view.locked", settings.locked}})
-    for (const std::string& name : names)
-      if (std::string text = wrong(path, name); !text.empty()) return text;
+  for (const std::string& name : settings.hidden) check("view.hidden", name);
+  for (const std::string& name : settings.locked) check("view.locked", name);
   for (const std::string& entry : settings.colors) {
-    if (std::string text = wrong("view.colors", std::string(name_in(entry))); !text.empty()) return text;
+    check("view.colors", std::string(name_in(entry)));
     if (!color_in(entry))
-      return fmt::format("'{}' for view.colors; NAME=rrggbb is wanted; write \"{}=e07020\", say", entry,
-                         name_in(entry));
+      throw SettingsError(
+          {"view.colors"},
+          fmt::format("'{}' for view.colors; NAME=rrggbb is wanted; write \"{}=e07020\", say", entry, name_in(entry)));
   }
-  return wrong("view.camera.follow", settings.followed);
+  check("view.camera.follow", settings.followed);
 }
 
 }  // namespace impinge

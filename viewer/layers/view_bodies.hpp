@@ -33,7 +33,7 @@ Vec3 camera_origin(const StepRecord& record, const ViewSettings& settings);
 /// In the world's coordinates, whatever it follows.
 Camera camera_in_world(const StepRecord& record, const ViewSettings& settings);
 
-/// What a script, a panel or a scene may not name: "" or what is wrong with the first such name, for a message.
-std::string unknown_body(const StepRecord& record, const ViewSettings& settings);
+/// Throws SettingsError at the first name of a body that isn't there, or colour that is none.
+void check_names(const StepRecord& record, const ViewSettings& settings);
 
 }  // namespace impinge

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -136,6 +137,19 @@ std::vector<Arguments> ways_to_write(const std::string& ending, double frames_pe
 const std::vector<std::string>& video_endings() {
   static const std::vector<std::string> endings = {".mp4", ".mkv", ".mov", ".avi", ".gif", ".webp"};
   return endings;
+}
+
+bool has_ffmpeg() {
+  const char* path = std::getenv("PATH");
+  const std::string folders = path != nullptr ? path : "/bin:/usr/bin";
+  for (std::size_t begin = 0; begin <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', begin), folders.size());
+    const fs::path program = fs::path(folders.substr(begin, end - begin)) / "ffmpeg";
+    std::error_code error;
+    if (fs::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0) return true;
+    begin = end + 1;
+  }
+  return false;
 }
 
 bool make_video(const fs::path& frames, const fs::path& output, double frames_per_second) {

@@ -10,6 +10,9 @@ namespace impinge {
 /// What the name of a film may end in: containers of H.264, and the moving pictures that a message shows: GIF, WebP.
 const std::vector<std::string>& video_endings();
 
+/// Whether there is an ffmpeg on PATH: known before the first picture is made.
+bool has_ffmpeg();
+
 /// Joins the six-digit PNG files of `frames`, in order, gaps allowed, into `output`; the file name's ending chooses the
 /// container (.mp4). H.264, or MPEG-4 where ffmpeg has no x264; an odd width or height gains one black column or row.
 /// A .gif or .webp begins again at its end and keeps size and duration; a GIF counts hundredths of a second, so above 50

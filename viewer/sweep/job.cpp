@@ -9,6 +9,7 @@
 #include "engine/io/scene/former_paths.hpp"
 #include "engine/io/scene/scene_overrides.hpp"
 #include "engine/io/scene/scene_values.hpp"
+#include "viewer/sweep/table.hpp"
 
 namespace impinge {
 
@@ -138,6 +139,19 @@ SweepOutcome read_sweep_outcome(const fs::path& folder) {
     return outcome;
   }
   return outcome;
+}
+
+bool has_what_was_asked(const fs::path& folder, const SweepJob& job) {
+  if (folder.parent_path().filename() == "repeats") return true;
+  const fs::path run = folder / "run";
+  const std::vector<StatsLine> lines = sweep_stats(run);
+  if (lines.empty()) return true;
+  // what goes goes from the first on
+  for (const std::size_t frame : {std::size_t{0}, lines.size() - 1}) {
+    if (job.options.export_ply && !is_folder(run / "surfaces" / fmt::format("{:06}", frame))) return false;
+    if (job.options.images && !is_file(run / "frames" / fmt::format("{:06}.png", frame))) return false;
+  }
+  return true;
 }
 
 fs::path job_folder(const fs::path& out, const std::string& hash) { return out / "jobs" / hash; }

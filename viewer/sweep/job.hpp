@@ -59,6 +59,10 @@ const char* status_name(SweepOutcome::Status status);
 
 SweepOutcome read_sweep_outcome(const std::filesystem::path& folder);
 
+/// Whether all that a job's run was asked for is in its folder: impinge clean may have taken the pictures, or the
+/// surfaces that errors are measured on. Such a job is run again from its beginning. Of a repeat only figures count.
+bool has_what_was_asked(const std::filesystem::path& folder, const SweepJob& job);
+
 std::filesystem::path job_folder(const std::filesystem::path& out, const std::string& hash);
 /// Of the k-th run of a job, k >= 1; the first is the job's own folder.
 std::filesystem::path repeat_folder(const std::filesystem::path& job, int k);
@@ -68,7 +72,7 @@ class SweepWorker {
  public:
   enum Start { started, already_done, busy };
   /// Takes the job's lock and starts its run, which goes on where an earlier one stopped. `busy`: another process has
-  /// it.
+  /// it. `already_done`: also that nothing of what it made is gone.
   Start start(const std::filesystem::path& folder, const SweepJob& job);
   /// Whether it has ended; if so its outcome is written.
   bool poll();

@@ -86,8 +86,10 @@ void run_sweep_jobs(const fs::path& out, const std::vector<SweepJob>& jobs, int 
 }
 
 bool is_sweep_job_over(const fs::path& out, const SweepJob& job, int repeats) {
-  for (int k = 1; k <= repeats; ++k)
-    if (!is_there(repeat_folder(job_folder(out, job.hash), k) / "done")) return false;
+  for (int k = 1; k <= repeats; ++k) {
+    const fs::path folder = repeat_folder(job_folder(out, job.hash), k);
+    if (!is_there(folder / "done") || !has_what_was_asked(folder, job)) return false;
+  }
   return true;
 }
 

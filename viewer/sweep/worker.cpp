@@ -109,11 +109,13 @@ SweepWorker::Start SweepWorker::start(const fs::path& folder, const SweepJob& jo
   folder_ = folder;
   std::optional<FolderLock> lock = FolderLock::try_take(folder);
   if (!lock) return busy;
+  std::error_code error;
   if (is_there(folder / "done")) {
     outcome_ = read_sweep_outcome(folder);
-    return already_done;
+    if (has_what_was_asked(folder, job)) return already_done;
+    fs::remove_all(folder / "run/snapshots", error);  // or it would go on behind what is gone
+    fs::remove(folder / "done", error);
   }
-  std::error_code error;
   fs::remove(folder / "failed", error);
   const fs::path file = folder / "output.txt";
   const int output = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

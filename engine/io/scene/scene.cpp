@@ -64,6 +64,7 @@ void read_parameters(const TomlNode& table, const std::string& prefix, const Par
         throw InputError(fmt::format("{}: {}", entry.value.place, error.what()));
       }
       scene.given.push_back(path);
+      scene.places[path] = entry.value.place;
     } else if (entry.value.kind == TomlNode::table && has_rows_below(rows, path)) {
       read_parameters(entry.value, path, rows, scene);
     } else if (has_rows_below(rows, path)) {

@@ -2,6 +2,7 @@
 // with a table [run] beside it.
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "engine/io/scene/scene_surface.hpp"
@@ -32,6 +33,7 @@ struct Scene {
   std::vector<SurfaceFile> surfaces;
   std::shared_ptr<SurfaceFiles> files;  ///< that have read them, for copies of its bodies
   std::vector<std::string> given;       ///< paths of the parameters that the file or an override names
+  std::map<std::string, std::string, std::less<>> places;  ///< where each of them was given, for messages
   /// Former paths of parameters that the file or an override names, as often as they do.
   std::vector<std::string> former_paths;
   std::optional<RunRecord> run;  ///< of a run.toml

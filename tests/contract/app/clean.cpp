@@ -13,6 +13,7 @@
 
 #include "tests/support/program/program.hpp"
 #include "tests/support/program/refusal.hpp"
+#include "tests/support/program/sweep_results.hpp"
 #include "tests/support/program/temp_folder.hpp"
 
 using namespace impinge::test;
@@ -260,4 +261,55 @@ TEST_CASE("clean sees the runs below a folder, and none that is being written") 
   check_refused(files.folder, {"clean", "nowhere"}, "nowhere: there is no such folder", "check the path");
   files.folder.write("empty/readme.txt", "mine");
   check_refused(files.folder, {"clean", "empty", "--all"}, "empty: holds no run", "check the path");
+}
+
+TEST_CASE("what clean takes of a sweep the same sweep makes again, with the same table") {
+  const SweepFiles files;
+  const std::vector<std::string> words = {"sweep",       "s.toml",
+                                          "--out",       "out",
+                                          "--size",      "64x48",
+                                          "--frames",    "12",
+                                          "--vary",      "contact.friction=0.1,0.5",
+                                          "--reference", "simulation.substeps=16",
+                                          "--repeat",    "2"};
+  const auto again = [&](const std::vector<std::string>& line) {
+    const Outcome outcome = impinge_run(files.folder.path(), line);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return outcome;
+  };
+  const auto pictures_and_surfaces = [&] {
+    std::map<std::string, std::string> all = contents(files.folder / "out");
+    std::erase_if(all, [](const auto& file) {
+      return file.first.find("/frames/0") == std::string::npos && file.first.find("/surfaces/0") == std::string::npos;
+    });
+    return all;
+  };
+  again(words);
+  const std::vector<Row> table = sweep_results(files.folder / "out");
+  const auto made = pictures_and_surfaces();
+  REQUIRE(made.size() > 6 * 13);  // two jobs, their references and the runs aside: a picture and a surface a frame
+  for (const Row& row : table) CHECK(std::stod(row.at("error_rms_m")) > 0.0);
+  // what is whole is not run again
+  const std::string done = slurp(files.job("out", table[0]) / "done");
+  again(words);
+  CHECK(slurp(files.job("out", table[0]) / "done") == done);
+
+  for (const char* what : {"--exports", "--pictures", "--snapshots", "--all"}) {
+    CAPTURE(what);
+    const Outcome cleaned = again({"clean", "out", what});
+    CHECK(differing(pictures_and_surfaces(), made).empty() == (std::string(what) == "--snapshots"));
+    // the line that it prints is the sweep's
+    const std::size_t line = cleaned.out.find("again:   impinge ");
+    REQUIRE(line != std::string::npos);
+    std::istringstream rest(cleaned.out.substr(line + 17));
+    std::vector<std::string> printed;
+    for (std::string word; rest >> word;) printed.push_back(word);
+    const bool all = std::string(what) == "--all";
+    const Outcome listed = again({"sweep", "out/sweep.toml", "--out", "out", "--engine", "list"});
+    CHECK((std::count(listed.out.begin(), listed.out.end(), '\n') == 6) == (std::string(what) != "--snapshots"));
+    again(all ? printed : words);
+    CHECK(sweep_results(files.folder / "out") == table);
+    CHECK(differing(pictures_and_surfaces(), made) == "");
+  }
 }

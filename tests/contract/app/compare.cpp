@@ -123,11 +123,30 @@ TEST_CASE("the sheet shows A, B and what differs; bodies of one run alone are na
   CHECK(read_png(runs.folder / "cmp/sheet.png").width == 3 * 320 + 4 * 10);
 }
 
+TEST_CASE("a comparison that can't be written whole leaves the one before as it was") {
+  const Runs runs;
+  runs.run("a", "");
+  runs.run("b", "at 9 set body.right.angular_velocity 0 0.5 0\n");
+  REQUIRE(runs.compare({"a", "b", "--out", "cmp"}).code == 1);
+  const std::string before = slurp(runs.folder / "cmp/difference.csv");
+  REQUIRE(!before.empty());
+  runs.run("c", "at 5 set body.right.angular_velocity 0 1 0\n");
+  fs::remove(runs.folder / "cmp/sheet.png");
+  fs::create_directory(runs.folder / "cmp/sheet.png");
+  const std::vector<std::string> names = listing(runs.folder / "cmp");
+  const Outcome outcome = runs.compare({"a", "c", "--out", "cmp"});
+  INFO(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(holds(outcome.err, "cmp/sheet.png: can't be written (Is a directory)"));
+  CHECK(slurp(runs.folder / "cmp/difference.csv") == before);
+  CHECK(listing(runs.folder / "cmp") == names);
+}
+
 TEST_CASE("folders that are no runs are refused") {
   const Runs runs;
   runs.run("a", "", kNoImages);
   const TempFolder& folder = runs.folder;
-  check_refused(folder, {"compare", "a", "nowhere"}, "nowhere: holds no run.toml", "the folder of a run");
+  check_refused(folder, {"compare", "a", "nowhere"}, "nowhere: there is no such folder", "check the path");
   folder.write("bare/run.toml", kScene);
   check_refused(folder, {"compare", "bare", "a"}, "bare/run.toml: has no table [run]", "that a run wrote");
   folder.write("file", "");

@@ -427,6 +427,7 @@ TEST_CASE("a run with pictures that is killed resumes to the same pixels, and pi
   const Outcome missing = impinge_run(files.folder.path(), {"diff", "whole", "parts"});
   CHECK(missing.code == 1);
   CHECK(missing.out.find("000007.png: missing in parts") != std::string::npos);
+  CHECK(missing.out.find("0 of 30 differ, 1 is missing in B; ") != std::string::npos);
 
   files.folder.write(
       "picture.script",
@@ -493,4 +494,25 @@ position = [1.75, 0, 0]
   CHECK(without.err.find("unknown figure 'judged_penetration_m'") != std::string::npos);
   REQUIRE(impinge_run(files.folder.path(), {"run", "j.toml", "--out", "k", "--frames", "1", "--no-images"}).code == 0);
   CHECK(slurp(files.folder / "k/stats.csv").find("judged") == std::string::npos);
+}
+
+TEST_CASE("without ffmpeg a run says so once, before its first picture, and makes the pictures all the same") {
+  const Files files;
+  fs::create_directory(files.folder / "bin");
+  const std::string path = std::getenv("PATH") != nullptr ? std::getenv("PATH") : "/usr/bin:/bin";
+  setenv("PATH", (files.folder / "bin").c_str(), 1);
+  RunningProgram program(files.folder.path(),
+                         {"run", "s.toml", "--out", "out", "--frames", "20", "--size", "64x48", "--video", "film.mp4"});
+  bool told_first = false;
+  while (!program.has_ended()) told_first |= !program.err().empty() && !fs::exists(files.folder / "out/done");
+  const Outcome outcome = program.wait();
+  setenv("PATH", path.c_str(), 1);
+  INFO(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(told_first);
+  CHECK(outcome.err.starts_with("note: ffmpeg is not installed: "));
+  CHECK(outcome.error_lines() == 1);
+  CHECK(outcome.out.find("video") == std::string::npos);
+  CHECK(fs::exists(files.folder / "out/frames/000020.png"));
+  CHECK_FALSE(fs::exists(files.folder / "film.mp4"));
 }

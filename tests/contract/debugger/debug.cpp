@@ -302,6 +302,34 @@ TEST_CASE("a script that ends in an error keeps what was done before") {
   CHECK(slurp(folder / "r.script").find("step 4\nset contact.friction 0.1\n") != std::string::npos);
 }
 
+TEST_CASE("an error before anything is done leaves an older recording as it was, and makes none") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("good.script", "step 2\n");
+  REQUIRE(debug(folder, "s.toml", "good.script", {"--record", "r.script"}).code == 0);
+  const std::string before = slurp(folder / "r.script");
+  REQUIRE(before.find("step 2\n") != std::string::npos);
+  folder.write("wrong.toml", std::string(kRigid) + "[contact]\nfrictoin = 1\n");
+  folder.write("wrong.script", "step 2\nstepp\n");
+  folder.write("timed.script", "at 3 set contact.frictoin 1\n");
+  folder.write("first.script", "select contact 99\n");
+  for (const auto& [scene, script] : {std::pair("wrong.toml", "good.script"),
+                                      {"nowhere.toml", "good.script"},
+                                      {"s.toml", "nowhere.script"},
+                                      {"s.toml", "wrong.script"},
+                                      {"s.toml", "timed.script"},
+                                      {"s.toml", "first.script"}}) {
+    CAPTURE(scene, script);
+    CHECK(debug(folder, scene, script, {"--record", "r.script"}).code == 2);
+    CHECK(slurp(folder / "r.script") == before);
+    CHECK(debug(folder, scene, script, {"--record", "new.script"}).code == 2);
+    CHECK_FALSE(fs::exists(folder / "new.script"));
+  }
+  fs::create_directory(folder / "taken");
+  CHECK(debug(folder, "s.toml", "good.script", {"--record", "taken"}).err.find("can't be written (Is a directory)") !=
+        std::string::npos);
+}
+
 TEST_CASE("a break pauses play") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);

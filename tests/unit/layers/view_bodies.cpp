@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/core/settings_error.hpp"
+
 #include "tests/support/pictures/hand_made_record.hpp"
 
 using namespace impinge;
@@ -76,9 +78,15 @@ TEST_CASE("names of bodies that are not there are told with the nearest one") {
   HandMadeRecord scene;
   scene.add("crate", BodyKind::dynamic, Sphere{0.1}, {0, 0, 0});
   ViewSettings settings;
-  CHECK(unknown_body(scene.record(), settings).empty());
+  CHECK_NOTHROW(check_names(scene.record(), settings));
   settings.hidden = {"crate"};
-  CHECK(unknown_body(scene.record(), settings).empty());
+  CHECK_NOTHROW(check_names(scene.record(), settings));
   settings.locked = {"crat"};
-  CHECK(unknown_body(scene.record(), settings) == "'crat' for view.locked; bodies: crate; did you mean 'crate'?");
+  try {
+    check_names(scene.record(), settings);
+    FAIL("a name that is not there is taken");
+  } catch (const SettingsError& error) {
+    CHECK(error.paths == std::vector<std::string>{"view.locked"});
+    CHECK(error.what() == std::string("'crat' for view.locked; bodies: crate; did you mean 'crate'?"));
+  }
 }

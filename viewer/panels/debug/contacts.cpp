@@ -95,7 +95,8 @@ const Table& contacts_table() {
        {"group", "group", "", C::whole, 4, false, "its collision group"},
        {"residual", "resid.", "", C::number, 0, false,
         "how far the last sub-step's answer is from Coulomb's law here: relative, no more than residual_coulomb"},
-       {"state", "", "", C::words, 2, true, "green: sticks, orange: slips, white: open"}}};
+       {"state", "", "", C::words, 2, true,
+        "green: sticks, orange: slips or may (friction is at its limit), white: open"}}};
   return table;
 }
 
