@@ -66,10 +66,15 @@ BodyKind read_body_kind(const TomlNode& table, const std::string& what) {
 /// Of deformable bodies `mass` is a word here: how the mass matrix is made.
 void check_no_mass(const TomlNode& node, const std::string& what, BodyKind kind) {
   const TomlEntry* mass = node.find("mass");
-  if (mass == nullptr || (kind == BodyKind::deformable && !mass->value.is_number())) return;
-  refuse(mass->place, fmt::format("{}.mass, where a body's mass has no place", what),
-         "what a body weighs is a key of the body, mass = kg, or material = { density }",
-         "write it beside material, not within");
+  if (mass == nullptr) return;
+  if (kind != BodyKind::deformable)
+    refuse(mass->place, fmt::format("{}.mass, where a body's mass has no place", what),
+           "what a body weighs is a key of the body, mass = kg, or material = { density }",
+           "write it beside material, not within");
+  if (mass->value.is_number())
+    refuse(mass->value.place, fmt::format("{}.mass is {}", what, format_toml(mass->value)),
+           "one of lumped, consistent is wanted there, how the mass matrix is made",
+           "write it beside material, not within, if it is what the body weighs");
 }
 
 void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {

@@ -107,7 +107,7 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
               "write it beside material, not within");
   check_scene(replaced(scene, "kind = \"dynamic\"",
                        "kind = \"deformable\"\nvolume = { lattice = { cells = 1 } }\nmaterial = { mass = 2 }"),
-              "11:14", "write it beside material, not within");
+              "11:21", "write it beside material, not within");
   check_scene("a = " + std::string(100, '[') + std::string(100, ']') + "\n", "1:69", "nested deeper");
 }
 
