@@ -6,6 +6,7 @@ namespace impinge {
 const Registry<Warning>& warnings() {
   static const Registry<Warning> list = [] {
     Registry<Warning> all;
+    IMPINGE_LIST(all, no_body_warning);
     IMPINGE_LIST(all, body_inside_warning);
     IMPINGE_LIST(all, start_overlap_warning);
     IMPINGE_LIST(all, self_crossing_warning);
@@ -18,6 +19,7 @@ const Registry<Warning>& warnings() {
     IMPINGE_LIST(all, fast_body_warning);
     IMPINGE_LIST(all, sudden_motion_warning);
     IMPINGE_LIST(all, unstable_step_warning);
+    IMPINGE_LIST(all, undamped_newmark_warning);
     IMPINGE_LIST(all, own_weight_warning);
     IMPINGE_LIST(all, triangle_sizes_warning);
     IMPINGE_LIST(all, thin_tetrahedra_warning);

@@ -28,8 +28,10 @@ class CheckCommand : public SubCommand {
     if (trial_) trial = try_scene(session, scene_, overrides_, script_);
     const Preflight found = preflight_of(session, trial ? &*trial : nullptr);
     const std::size_t count = found.count();
-    fmt::print("{}: {} bodies, {} surface files, {}{}\n", scene_.string(), session.world().bodies().size(),
-               session.scene().surfaces.size(),
+    const auto bodies = session.world().bodies().size().value();
+    const std::size_t files = session.scene().surfaces.size();
+    fmt::print("{}: {} bod{}, {} surface file{}, {}{}\n", scene_.string(), bodies, bodies == 1 ? "y" : "ies", files,
+               files == 1 ? "" : "s",
                count == 0 ? "no problems found" : fmt::format("{} warning{}", count, count == 1 ? "" : "s"),
                found.silenced == 0 ? "" : fmt::format(" ({} silenced by check.silence)", found.silenced));
     print_deformable_bodies(session);

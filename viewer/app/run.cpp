@@ -11,16 +11,17 @@
 #include "engine/core/error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
-#include "viewer/app/convergence_note.hpp"
-#include "viewer/app/crushed_note.hpp"
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/shared_options.hpp"
-#include "viewer/app/watchdog_note.hpp"
 #include "viewer/controller/interrupt.hpp"
 #include "viewer/controller/run.hpp"
 #include "viewer/export/exports.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/notes/balance_note.hpp"
+#include "viewer/notes/convergence_note.hpp"
+#include "viewer/notes/crushed_note.hpp"
+#include "viewer/notes/watchdog_note.hpp"
 #include "viewer/present/png_sequence.hpp"
 #include "viewer/present/video.hpp"
 
@@ -179,12 +180,17 @@ int RunCommand::run() {
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   ConvergenceNote convergence;
   WatchdogNote watchdog;
+  BalanceNote balance;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
     watchdog.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
-  watcher.earlier_frame = [&](int frame, double unsafe_motions) { watchdog.add_earlier(frame, unsafe_motions); };
+  watcher.world = [&](const World& world, bool is_driven) { balance.add(world, is_driven); };
+  watcher.earlier_frame = [&](const EarlierFrame& earlier) {
+    watchdog.add_earlier(earlier.frame, earlier.unsafe_motions);
+    balance.add_earlier({earlier.frame, earlier.kinetic, earlier.elastic, earlier.potential}, earlier.is_driven);
+  };
   watcher.message = [&](const std::string& line) {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
@@ -209,7 +215,7 @@ int RunCommand::run() {
     return code;
   }
 
-  fmt::print("{}{}{}", convergence.text(), watchdog.text(), crushed_note(result.crushed));
+  fmt::print("{}{}{}{}", convergence.text(), watchdog.text(), balance.text(), crushed_note(result.crushed));
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options_.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);

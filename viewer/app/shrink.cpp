@@ -21,8 +21,10 @@ class ShrinkLine {
  public:
   void show(const ShrinkProgress& p) {
     const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-    fmt::print(stderr, "\r{}: {} bodies, {} frames, {} commands, {} triangles; {} scenes tried{}\x1b[K", p.at,
-               p.size.bodies, p.size.frames, p.size.commands, p.size.triangles, p.tried,
+    const auto s = [](auto count) { return count == 1 ? "" : "s"; };
+    fmt::print(stderr, "\r{}: {} bod{}, {} frame{}, {} command{}, {} triangle{}; {} scene{} tried{}\x1b[K", p.at,
+               p.size.bodies, p.size.bodies == 1 ? "y" : "ies", p.size.frames, s(p.size.frames), p.size.commands,
+               s(p.size.commands), p.size.triangles, s(p.size.triangles), p.tried, s(p.tried),
                p.tried > 1 ? fmt::format("  about {:.0f} s left", seconds / p.tried * p.left) : "");
     std::fflush(stderr);
   }

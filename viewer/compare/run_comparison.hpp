@@ -9,15 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/io/scene/run_record.hpp"
 #include "viewer/controller/recorded_run.hpp"
 #include "viewer/state/state_differences.hpp"
 
 namespace impinge {
 
-/// A setting that two runs don't share.
-struct SettingDifference {
-  std::string path, a, b;  ///< values as TOML; "" where there is none
-};
 /// Former paths of parameters count as the present ones.
 std::vector<SettingDifference> setting_differences(const RecordedRun& a, const RecordedRun& b);
 /// Names that only one of them has.

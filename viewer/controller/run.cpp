@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/frozen/frozen_step.hpp"
@@ -39,6 +41,27 @@ SessionOptions session_options(const RunOptions& options) {
   return session;
 }
 
+bool asks_the_ledger(const Expression& condition) {
+  return std::any_of(condition.terms().begin(), condition.terms().end(),
+                     [](const BodyTerm& term) { return term.function == BodyFunction::energy_from; });
+}
+
+/// What would be no number in every frame, and never hold.
+void check_ledger(const Session& session) {
+  if (session.world().parameters.record.ledger) return;
+  const Script& script = session.script();
+  for (int frame = 0; frame <= script.last_frame(); ++frame)
+    for (const Command& command : script.commands_at(frame))
+      if (const auto* set = std::get_if<SetCommand>(&command); set != nullptr && set->path == "record.ledger") return;
+  const auto check = [](const Expression& condition, const std::string& place) {
+    if (asks_the_ledger(condition))
+      throw InputError(place + ": energy_from, and no books of energy are kept; record.ledger = true is wanted; add " +
+                       "--set record.ledger=true, or at 0 set record.ledger true");
+  };
+  for (const Script::Expectation& expectation : script.expectations()) check(expectation.condition, expectation.place);
+  for (const Script::Break& point : script.breaks()) check(point.condition, point.place);
+}
+
 /// What the command line asks and the scene cannot give.
 void check_options(const RunOptions& options, const Session& session, int last_frame) {
   if (!options.images && !session.script().images().empty())
@@ -51,6 +74,7 @@ void check_options(const RunOptions& options, const Session& session, int last_f
         fmt::format("command line: --freeze is {}; a frame from 1 to {} is wanted, since frame 0 has no response; "
                     "change it, or --frames",
                     *options.freeze, last_frame));
+  check_ledger(session);
 }
 
 Exports open_exports(const RunOptions& options, const Session& session, int last_frame) {
@@ -113,15 +137,47 @@ class Conditions {
   ConditionReader reader_;
 };
 
+/// Whether it may give energy to a scene by itself: what is done to bodies, and parameters of gravity and of bodies but
+/// those that only take.
+bool may_give_energy(const Command& command) {
+  if (std::holds_alternative<Act>(command)) return true;
+  const auto* set = std::get_if<SetCommand>(&command);
+  if (set == nullptr) return false;
+  if (set->path == "simulation.gravity") return true;
+  constexpr std::string_view kTaking[] = {".friction", ".restitution", ".material.damping_alpha",
+                                          ".material.damping_beta"};
+  return set->path.starts_with("body.") &&
+         std::none_of(std::begin(kTaking), std::end(kTaking), [&](auto ending) { return set->path.ends_with(ending); });
+}
+
+bool any_gives_energy(std::span<const Command> commands) {
+  return std::any_of(commands.begin(), commands.end(), may_give_energy);
+}
+
+void tell_of_frame(const RunWatcher& watcher, const FrameStats& stats, int last_frame,
+                   std::span<const Command> commands, const World& world) {
+  if (watcher.frame) watcher.frame(stats, last_frame);
+  if (watcher.world) watcher.world(world, any_gives_energy(commands));
+}
+
+EarlierFrame earlier_frame(int frame, std::span<const double> figures, const Session& session) {
+  const auto figure = [&](const char* name) { return figures[figure_index(name, session.is_judged())]; };
+  return {frame,
+          figure("unsafe_motions"),
+          figure("kinetic_J"),
+          figure("elastic_J"),
+          figure("potential_J"),
+          any_gives_energy(session.script().commands_at(frame))};
+}
+
 /// Frames of before an interruption: their figures are kept, and what asks for more of them gets them made again.
 void take_up(const RunFolder& folder, const RunWatcher& watcher, Session& session, Conditions& conditions,
              Exports& exports) {
-  const std::size_t unsafe = figure_index("unsafe_motions", session.is_judged());
   std::optional<RecordedRun> earlier;
   for (int frame = 0; frame <= folder.resume_frame(); ++frame) {
     check_interrupt();
     const std::vector<double>& figures = folder.kept()[frame].figures;
-    if (watcher.earlier_frame) watcher.earlier_frame(frame, figures[unsafe]);
+    if (watcher.earlier_frame) watcher.earlier_frame(earlier_frame(frame, figures, session));
     const bool is_made = !exports.is_empty() || conditions.expectations().asks_of_bodies(frame);
     if (is_made) {
       if (!earlier) earlier.emplace(folder.path());
@@ -190,7 +246,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     folder.add_frame(session.record(), commands, stats);
     exports.add(session.record());
     result.last_frame = frame;
-    if (watcher.frame) watcher.frame(stats, last_frame);
+    tell_of_frame(watcher, stats, last_frame, commands, session.world());
     if (options.images && conditions.expectations().needs_picture(frame)) view.finish();
     const std::vector<double> figures = figure_values(stats, judged);
     conditions.check(frame, figures, session);

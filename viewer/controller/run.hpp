@@ -28,11 +28,21 @@ struct RunOptions {
 
 struct RunResult;
 
+/// What the table says of a frame of an earlier process. Not a number where it has no such column.
+struct EarlierFrame {
+  int frame = 0;
+  double unsafe_motions = 0.0;
+  double kinetic = 0.0, elastic = 0.0, potential = 0.0;  ///< J
+  bool is_driven = false;                                ///< as of RunWatcher::world
+};
+
 /// Whoever watches a run. Called in the thread of run().
 struct RunWatcher {
   std::function<void(const FrameStats& stats, int last_frame)> frame;
-  /// Of a run that goes on: frames that are there already. Not a number where the table has no such column.
-  std::function<void(int frame, double unsafe_motions)> earlier_frame;
+  /// The same frame's world; `is_driven`: commands before it may have given energy.
+  std::function<void(const World& world, bool is_driven)> world;
+  /// Of a run that goes on: frames that are there already.
+  std::function<void(const EarlierFrame& earlier)> earlier_frame;
   std::function<void(const std::string& line)> message;  ///< a failed expectation, a break, a note
   /// All frames are made: what belongs to a whole run beside them, before the folder says that it is done.
   std::function<void(const RunResult& result)> whole;

@@ -10,6 +10,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/paths.hpp"
+#include "engine/io/scene/run_record.hpp"
 #include "engine/ledger/ledger_table.hpp"
 #include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/run_files.hpp"
@@ -68,6 +69,23 @@ AppendFile open_table(const fs::path& path, int frame, const std::string& header
   AppendFile file(path, keep);
   if (keep == 0) file.append(header + "\n");
   return file;
+}
+
+/// "its run.toml differs in simulation.substeps, contact.friction and 2 more".
+std::string differing_text(const fs::path& recorded, const std::string& before, const std::string& now) try {
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> names;
+  for (const SettingDifference& difference :
+       setting_differences(parse_toml(recorded.string(), before), parse_toml("", now)))
+    if (const std::string name = difference.path.starts_with("script: ") ? "the script's lines" : difference.path;
+        std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  if (names.empty()) return "its run.toml differs";
+  const std::size_t named = std::min(names.size(), kMostNamed);
+  return fmt::format("its run.toml differs in {}{}", fmt::join(names.begin(), names.begin() + named, ", "),
+                     names.size() > named ? fmt::format(" and {} more", names.size() - named) : "");
+} catch (const InputError&) {  // somebody has changed it, and it says nothing now
+  return "its run.toml differs";
 }
 
 bool is_our_number(const fs::path& path, const char* ending) {
@@ -131,9 +149,10 @@ void RunFolder::check_new(RunStart how, const std::string& run_toml) const {
   const auto [before, frames_before] = split_frames(read_file(recorded, kMostOfRecord));
   const auto [now, frames_now] = split_frames(run_toml);
   if (before != now)
-    throw InputError(name +
-                     ": holds another run (its run.toml differs); a new folder or the same scene, script and settings "
-                     "are wanted; choose another --out, or add --number, or --force to replace it");
+    throw InputError(fmt::format(
+        "{}: holds another run ({}); a new folder or the same scene, script and settings are wanted; choose another "
+        "--out, or add --number, or --force to replace it",
+        name, differing_text(recorded, before, now)));
   if (resume && frames_now < frames_before)
     throw InputError(fmt::format("{}: holds a run of {} frames; it can't be resumed with {}; choose another --out",
                                  name, frames_before, frames_now));

@@ -47,6 +47,12 @@ const Entry<Exporter>& find_exporter(const std::string& name, const std::string&
   if (const Entry<Exporter>* found = find_entry(exporters(), name)) return *found;
   std::vector<std::string> names;
   for (const Entry<Exporter>& e : exporters()) names.emplace_back(e.name);
+  if (option == "--export") names.insert(names.begin() + 1, "sequence");  // which is ply's name there
+  if (name == "sequence")
+    throw InputError(
+        fmt::format("command line: {} is '{}', the name that run --export has for ply; one of {} is "
+                    "wanted; write {} ply",
+                    option, name, some_of(names), option));
   const std::string near = nearest_word(name, names);
   throw InputError(fmt::format("command line: {} is '{}'; one of {} is wanted; {}", option, name, some_of(names),
                                near.empty() ? "choose one of them" : fmt::format("did you mean '{}'?", near)));

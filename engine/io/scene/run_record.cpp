@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "engine/core/archive.hpp"
 #include "engine/io/scene/scene_values.hpp"
@@ -29,6 +30,35 @@ std::string format_lines(const TomlNode& node) {
   std::string out = "[\n";
   for (const TomlNode& item : node.items) out += fmt::format("  {},\n", format_lines(item));
   return out + "]";
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+bool is_named_list(const TomlNode& node) {
+  return node.kind == TomlNode::array && !node.items.empty() &&
+         std::all_of(node.items.begin(), node.items.end(),
+                     [](const TomlNode& item) { return item.kind == TomlNode::table && item.find("name") != nullptr; });
+}
+
+// every value of a document by its path; bodies by their names
+void flatten(const TomlNode& table, const std::string& prefix, Settings& out) {
+  for (const TomlEntry& entry : table.entries) {
+    const std::string path = prefix + entry.key;
+    if (is_named_list(entry.value)) {
+      for (const TomlNode& item : entry.value.items)
+        flatten(item, path + "." + item.find("name")->value.string + ".", out);
+    } else if (path == "run.script") {
+      // by what they say, not by their number; what says nothing counts for nothing
+      for (const TomlNode& line : entry.value.items)
+        if (const std::size_t begin = line.string.find_first_not_of(" \t");
+            begin != std::string::npos && line.string[begin] != '#')
+          out.emplace_back("script: " + line.string.substr(begin), "there");
+    } else if (entry.value.kind == TomlNode::table) {
+      flatten(entry.value, path + ".", out);
+    } else {
+      out.emplace_back(path, format_toml(entry.value));
+    }
+  }
 }
 
 }  // namespace
@@ -115,6 +145,24 @@ std::string format_run(const Scene& scene, const ParameterSet& rows, const RunRe
       out += fmt::format("{} = {}\n", entry.key, format_lines(entry.value));
   }
   return out;
+}
+
+std::vector<SettingDifference> setting_differences(const TomlNode& run_a, const TomlNode& run_b) {
+  Settings a, b;
+  flatten(run_a, "", a);
+  flatten(run_b, "", b);
+  const std::map<std::string, std::string> in_a(a.begin(), a.end()), in_b(b.begin(), b.end());
+  std::vector<SettingDifference> differences;
+  for (const auto& [path, value] : a) {
+    const auto it = in_b.find(path);
+    if (it == in_b.end())
+      differences.push_back({path, value, ""});
+    else if (it->second != value)
+      differences.push_back({path, value, it->second});
+  }
+  for (const auto& [path, value] : b)
+    if (!in_a.contains(path)) differences.push_back({path, "", value});
+  return differences;
 }
 
 }  // namespace impinge

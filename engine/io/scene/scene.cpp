@@ -31,13 +31,15 @@ bool has_rows_below(const ParameterSet& rows, const std::string& path) {
 }
 
 [[noreturn]] void refuse_key(const ParameterSet& rows, const TomlEntry& entry, const std::string& path) {
-  if (entry.value.kind == TomlNode::table && path.find('.') == std::string::npos) {
+  const bool are_tables = entry.value.kind == TomlNode::array && !entry.value.items.empty() &&
+                          entry.value.items.front().kind == TomlNode::table;
+  if ((entry.value.kind == TomlNode::table || are_tables) && path.find('.') == std::string::npos) {
     std::vector<std::string> tables = {"body", "attachment", "scene", "sweep"};
     for (const Parameter& row : rows.all()) {
       const std::string table = row.path.substr(0, row.path.find('.'));
       if (std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
     }
-    const std::string near = nearest_word(path, tables);
+    const std::string near = path == "bodies" ? "body" : nearest_word(path, tables);
     refuse(entry.place, fmt::format("unknown table '{}'", path), fmt::format("allowed: {}", fmt::join(tables, ", ")),
            near.empty() ? "remove it" : fmt::format("did you mean '{}'?", near));
   }

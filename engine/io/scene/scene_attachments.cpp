@@ -19,6 +19,9 @@ const Body& body_named(const TomlNode& node, const std::string& what, const Bodi
          near.empty() ? "name one of them" : fmt::format("did you mean '{}'?", near));
 }
 
+constexpr const char* kWherePoint =
+    "write point = [x, y, z], one place in world coordinates, where both are at the start";
+
 enum class Word { point, slide };
 
 Word read_link_kind(const TomlNode& table, const std::string& name) {
@@ -81,8 +84,9 @@ void refuse_slide_keys(const TomlNode& table, const std::string& name) {
 
 AttachmentDescription read_attachment(const TomlNode& table, int index, const Bodies& bodies) {
   scene_table(table, "attachment");
-  check_keys(table, "attachment",
-             {"name", "kind", "body_a", "body_b", "point", "direction", "normal", "on", "collide"});
+  check_keys(
+      table, "attachment", {"name", "kind", "body_a", "body_b", "point", "direction", "normal", "on", "collide"},
+      {{"anchor", kWherePoint}, {"position", kWherePoint}, {"anchor_a", kWherePoint}, {"anchor_b", kWherePoint}});
   AttachmentDescription a;
   a.name = fmt::format("attachment_{}", index);
   if (const TomlEntry* name = table.find("name")) {

@@ -63,8 +63,23 @@ BodyKind read_body_kind(const TomlNode& table, const std::string& what) {
          near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
 }
 
+/// Of deformable bodies `mass` is a word here: how the mass matrix is made.
+void check_no_mass(const TomlNode& node, const std::string& what, BodyKind kind) {
+  const TomlEntry* mass = node.find("mass");
+  if (mass == nullptr) return;
+  if (kind != BodyKind::deformable)
+    refuse(mass->place, fmt::format("{}.mass, where a body's mass has no place", what),
+           "what a body weighs is a key of the body, mass = kg, or material = { density }",
+           "write it beside material, not within");
+  if (mass->value.is_number())
+    refuse(mass->value.place, fmt::format("{}.mass is {}", what, format_toml(mass->value)),
+           "one of lumped, consistent is wanted there, how the mass matrix is made",
+           "write it beside material, not within, if it is what the body weighs");
+}
+
 void read_material(const TomlNode& node, const std::string& what, BodyDescription& body) {
   scene_table(node, what);
+  check_no_mass(node, what, body.kind);
   if (body.kind == BodyKind::deformable) return;  // scene_deformable.cpp
   for (const std::string& key : deformable_material_keys())
     if (const TomlEntry* entry = node.find(key); entry != nullptr && key != "density")

@@ -15,6 +15,13 @@ std::string found(const TomlNode& node) {
   return fmt::format("{} ({})", shortened(format_toml(node), 57), toml_kind_name(node));
 }
 
+/// `--set simulation.gravity=0,0,-9.8`: a list that came as a text.
+bool lacks_brackets(const TomlNode& node) {
+  return node.kind == TomlNode::text && node.string.find(',') != std::string::npos &&
+         node.string.find_first_of("[]") == std::string::npos;
+}
+std::string in_brackets(const TomlNode& node) { return fmt::format("put it in brackets: [{}]", node.string); }
+
 std::string interval(Range range) { return fmt::format("[{}, {}]", shortest(range.low), shortest(range.high)); }
 
 }  // namespace
@@ -48,7 +55,7 @@ double scene_positive(const TomlNode& node, const std::string& what, double high
 Vec3 scene_vector(const TomlNode& node, const std::string& what, Range range) {
   if (node.kind != TomlNode::array)
     refuse(node.place, fmt::format("{} is {}", what, found(node)), "a vector [x, y, z] is wanted",
-           "write three numbers");
+           lacks_brackets(node) ? in_brackets(node) : "write three numbers");
   if (node.items.size() != 3)
     refuse(node.place, fmt::format("{} has {} numbers", what, node.items.size()), "a vector [x, y, z] is wanted",
            "write three numbers");
@@ -76,13 +83,18 @@ const TomlNode& scene_table(const TomlNode& node, const std::string& what) {
   return node;
 }
 
-void check_keys(const TomlNode& table, const std::string& what, const std::vector<std::string>& allowed) {
+void check_keys(const TomlNode& table, const std::string& what, const std::vector<std::string>& allowed,
+                std::initializer_list<OtherKey> others) {
   for (const TomlEntry& entry : table.entries) {
     if (std::find(allowed.begin(), allowed.end(), entry.key) != allowed.end()) continue;
     const std::string near = nearest_word(entry.key, allowed);
+    const auto* other =
+        std::find_if(others.begin(), others.end(), [&](const OtherKey& o) { return o.key == entry.key; });
     refuse(entry.place, fmt::format("unknown key '{}' in {}", entry.key, what),
            fmt::format("allowed: {}", fmt::join(allowed, ", ")),
-           near.empty() ? "remove it" : fmt::format("did you mean '{}'?", near));
+           other != others.end() ? std::string(other->remedy)
+           : near.empty()        ? "remove it"
+                                 : fmt::format("did you mean '{}'?", near));
   }
 }
 
@@ -119,6 +131,9 @@ ParameterValue scene_value(const Parameter& row, const TomlNode& node) {
     default:
       wrong();
   }
+  if (lacks_brackets(node) && (row.kind == ParameterKind::vector3 || row.kind == ParameterKind::text_list))
+    refuse(node.place, fmt::format("{} is {}", row.path, found(node)), "allowed: " + describe_allowed(row),
+           in_brackets(node));
   // a bare word given to `--set` for a row of texts: `--set view.layers=meshes`
   if (row.kind == ParameterKind::text_list && node.kind == TomlNode::text)
     value = std::vector<std::string>{node.string};

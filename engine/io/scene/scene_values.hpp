@@ -25,8 +25,13 @@ const std::string& scene_text(const TomlNode& node, const std::string& what);
 /// The node itself if it is a table.
 const TomlNode& scene_table(const TomlNode& node, const std::string& what);
 
-/// Refuses the first key of the table that is not among `allowed`, naming the nearest.
-void check_keys(const TomlNode& table, const std::string& what, const std::vector<std::string>& allowed);
+/// What somebody writes who knows another program, and what to do instead.
+struct OtherKey {
+  std::string_view key, remedy;
+};
+/// Refuses the first key of the table that is not among `allowed`, with the remedy of `others`, or naming the nearest.
+void check_keys(const TomlNode& table, const std::string& what, const std::vector<std::string>& allowed,
+                std::initializer_list<OtherKey> others = {});
 
 /// The node as a value for a parameter row: checked kind, range and names.
 ParameterValue scene_value(const Parameter& row, const TomlNode& node);

@@ -97,6 +97,17 @@ TEST_CASE("scenes that can't be taken are refused at the right place") {
   check_scene(replaced(scene, "box = { size", "bx = { size"), "10:11", "did you mean 'box'?");
   check_scene("[[body]]\nname = 3\n", "2:8", "a text is wanted");
   check_scene("[body]\nname = \"a\"\n", "1:1", "[[body]]");
+  check_scene(replaced(scene, "[[body]]\nname = \"floor\"", "[[bodies]]\nname = \"floor\""), "3:3",
+              "unknown table 'bodies'; allowed: body, attachment, ");
+  check_scene("[[bodies]]\nname = \"a\"\n", "1:3", "did you mean 'body'?");
+  check_scene("[[attachments]]\nname = \"a\"\n", "1:3", "did you mean 'attachment'?");
+  check_scene(scene + "[[attachment]]\nbody_a = \"crate\"\nanchor = [0, 2, 0]\n", "14:1",
+              "write point = [x, y, z], one place in world coordinates");
+  check_scene(replaced(scene, "position = [0, 2, 0]", "material = { mass = 2 }"), "11:14",
+              "write it beside material, not within");
+  check_scene(replaced(scene, "kind = \"dynamic\"",
+                       "kind = \"deformable\"\nvolume = { lattice = { cells = 1 } }\nmaterial = { mass = 2 }"),
+              "11:21", "write it beside material, not within");
   check_scene("a = " + std::string(100, '[') + std::string(100, ']') + "\n", "1:69", "nested deeper");
 }
 
@@ -225,6 +236,9 @@ TEST_CASE("overrides are checked like the scene, and the message names them") {
   refused("simulation.gravitty=[0,0,0]", "did you mean 'simulation.gravity'?");
   refused("simulation.gravity=[0,0]", "[x, y, z]");
   refused("simulation.gravity=down", "[x, y, z]");
+  refused("simulation.gravity=0,0,-9.8", "put it in brackets: [0,0,-9.8]");
+  refused("body.crate.position=0,1,0", "put it in brackets: [0,1,0]");
+  refused("view.layers=meshes,normals", "put it in brackets: [meshes,normals]");
   refused("contact.friction=nan", "not a number");
   refused("contact.friction=-1", "out of range");
   refused("body.crat.mass=1", "did you mean 'crate'?");
@@ -311,7 +325,9 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"run", "s.toml", "--threads", "0"}, "--threads");
   refused({"run", "s.toml", "--ids", "--no-images"}, "--ids");
   refused({"compare", "a"}, "B");
+  refused({"run", "s.toml", "--export", "stl"}, "one of ply, sequence, obj, ");
   refused({"run", "s.toml", "--export", "stl"}, "poses.csv");
+  refused({"export", "out", "--format", "sequence"}, "write --format ply");
   refused({"list", "parameter"}, "did you mean 'parameters'?");
   CHECK(impinge_run(folder.path(), {"--help"}).code == 0);
   CHECK(impinge_run(folder.path(), {"run", "--help"}).out.find("--resume") != std::string::npos);

@@ -3,7 +3,7 @@
 
 #include "tests/support/program/program.hpp"
 #include "tests/support/program/temp_folder.hpp"
-#include "viewer/app/convergence_note.hpp"
+#include "viewer/notes/convergence_note.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

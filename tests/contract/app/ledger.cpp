@@ -110,8 +110,18 @@ TEST_CASE("a condition may ask for what a source did, and says which there are")
   CHECK(wrong.error_lines() == 1);
   CHECK(wrong.err.find("wrong.script:1:20: unknown source 'frictoin'") != std::string::npos);
   CHECK(wrong.err.find("did you mean 'friction'?") != std::string::npos);
-  // where no books are kept nothing holds
-  CHECK(run(folder, "c", 30, {"--script", "good.script"}).code == 1);
+  // where no books are kept nothing could hold, and nothing is made; a script may have them kept
+  const Outcome without = run(folder, "c", 30, {"--script", "good.script"});
+  INFO(without.err);
+  CHECK(without.code == 2);
+  CHECK(without.error_lines() == 1);
+  CHECK(without.err.find("good.script:1:") == 0);
+  CHECK(without.err.find("add --set record.ledger=true") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(folder / "c"));
+  folder.write("own.script", "at 0 set record.ledger true\n" + slurp(folder / "good.script"));
+  CHECK(run(folder, "d", 30, {"--script", "own.script"}).code == 0);
+  folder.write("break.script", "break when energy_from(impact) < -1\n");
+  CHECK(run(folder, "e", 30, {"--script", "break.script"}).code == 2);
 }
 
 TEST_CASE("the debugger finds the sub-step in which a source passes a bound, and plots sources") {

@@ -1,6 +1,8 @@
 // What impinge check says of the sub-step: how long a stable one is, and what one takes.
+#include <algorithm>
 #include <sstream>
 
+#include "tests/support/program/sweep_results.hpp"
 #include "tests/support/program/traps.hpp"
 
 using namespace impinge;
@@ -119,4 +121,101 @@ TEST_CASE("preflight: a trial tells time and memory, and what it did not solve")
                       "",
                       NAN,
                       {"--trial", "--memory-limit", fmt::format("{:.0f}K", 1.1 * 1024.0 * mebibytes)}});
+}
+
+namespace {
+
+/// Cubes of 0.1 m and 1 kg on points, level from the world on, the last one of `end` kg.
+std::string hung_chain(int links, double end, bool is_held = true) {
+  std::string scene = "[simulation]\nsleeping = false\n";
+  for (int i = 0; i < links; ++i)
+    scene += body(fmt::format("link_{}", i),
+                  fmt::format("shape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\nmass = {}\nposition = [{}, 0, 0]",
+                              i + 1 == links ? end : 1.0, 0.05 + 0.1 * i));
+  for (int i = is_held ? 0 : 1; i < links; ++i) {
+    scene += fmt::format("[[attachment]]\nbody_a = \"link_{}\"\npoint = [{}, 0, 0]\n", i, 0.1 * i);
+    if (i > 0) scene += fmt::format("body_b = \"link_{}\"\ncollide = false\n", i - 1);
+  }
+  return scene;
+}
+
+bool warns(const TempFolder& folder, const std::string& scene, const std::string& code,
+           const std::vector<std::string>& more = {}) {
+  folder.write("s.toml", scene);
+  std::vector<std::string> words = {"check", "s.toml"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Outcome outcome = impinge_run(folder.path(), words);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return warnings_in(outcome.out).contains(code);
+}
+
+}  // namespace
+
+TEST_CASE("preflight: what hangs on a chain's links is told with the sub-steps that hold it, and they do") {
+  const TempFolder folder;
+  check_trap(folder, {"eight links and a weight",
+                      "mass-ratio",
+                      hung_chain(8, 300.0),
+                      {"'link_1'", "'link_0'", "simulation.substeps = 19"},
+                      "hang ",
+                      305.0});
+  const auto worst_gap = [&](const char* substeps) {
+    const Outcome run = impinge_run(folder.path(), {"run", "trap.toml", "--set", substeps, "--frames", "120",
+                                                    "--no-images", "--out", "o", "--force"});
+    REQUIRE(run.code == 0);
+    double worst = 0.0;
+    for (const Row& row : csv_rows(folder / "o/stats.csv"))
+      worst = std::max(worst, std::stod(row.at("attachment_error_m")));
+    return worst;
+  };
+  CHECK(worst_gap("simulation.substeps=4") > 0.01);
+  CHECK(worst_gap("simulation.substeps=19") < 0.001);
+  CHECK_FALSE(warns(folder, hung_chain(8, 300.0), "mass-ratio", {"--set", "simulation.substeps=19"}));
+  CHECK_FALSE(warns(folder, hung_chain(8, 300.0), "mass-ratio", {"--set", "simulation.gravity=[0,0,0]"}));
+  CHECK_FALSE(warns(folder, hung_chain(8, 1.0), "mass-ratio"));
+  CHECK_FALSE(warns(folder, hung_chain(2, 1e4), "mass-ratio"));  // one light link turns with its load
+  CHECK(warns(folder, hung_chain(3, 1e4), "mass-ratio"));
+  // the heaviest holds the chain where nothing else does; where both ends are held nothing hangs
+  CHECK_FALSE(warns(folder, hung_chain(8, 1e3, false), "mass-ratio"));
+  CHECK_FALSE(
+      warns(folder, hung_chain(8, 1e3) + "[[attachment]]\nbody_a = \"link_7\"\npoint = [0.8, 0, 0]\n", "mass-ratio"));
+  // a weight at both ends, one of them the heavier
+  const std::string crane = hung_chain(8, 300.0, false) + body("crane",
+                                                               "shape = { box = { size = [1, 1, 1] } }\nmass = 1e4\n"
+                                                               "position = [-0.5, 0, 0]");
+  CHECK(warns(folder, crane + "[[attachment]]\nbody_a = \"crane\"\nbody_b = \"link_0\"\npoint = [0, 0, 0]\n",
+              "mass-ratio"));
+}
+
+TEST_CASE("preflight: newmark without damping is told of by how often waves cross a soft body in a sub-step") {
+  const TempFolder folder;
+  const auto cube = [](double size, const std::string& more) {
+    return "[simulation]\nintegrator = \"newmark\"\n" +
+           body("jelly",
+                fmt::format(
+                    "shape = {{ box = {{ size = [{0}, {0}, {0}] }} }}\nvolume = {{ lattice = {{ cells = 2 }} }}\n"
+                    "material = {{ young = 1e4, poisson = 0.3, density = 1000{1} }}",
+                    size, more),
+                "deformable");
+  };
+  check_trap(folder, {"a cube of a centimetre",
+                      "undamped-newmark",
+                      cube(0.01, ""),
+                      {"'jelly'", "material.damping = [0, 0.0011]", "integrator"},
+                      "thick, ",
+                      std::sqrt(1e4 / 1000.0) / 240.0 / 0.01});
+  check_trap(folder, {"damped too little", "undamped-newmark", cube(0.01, ", damping = [5, 0.00103]"), {"'jelly'"}});
+  CHECK_FALSE(warns(folder, cube(0.01, ", damping = [0, 0.00105]"), "undamped-newmark"));
+  CHECK_FALSE(warns(folder, cube(0.01, ""), "undamped-newmark", {"--set", "simulation.integrator=implicit_euler"}));
+  CHECK_FALSE(warns(folder, cube(0.067, ""), "undamped-newmark"));  // 0.197 crossings
+  CHECK(warns(folder, cube(0.065, ""), "undamped-newmark"));
+}
+
+TEST_CASE("preflight: a scene without bodies is told what it lacks") {
+  const TempFolder folder;
+  check_trap(folder, {"nothing", "no-body", "[simulation]\nsubsteps = 2\n", {"[[body]]"}});
+  folder.write("s.toml", ball("a", 1.0, {0, 0, 0}));
+  const Outcome one = impinge_run(folder.path(), {"check", "s.toml"});
+  CHECK(one.out.find(": 1 body, 0 surface files, no problems found\n") != std::string::npos);
 }

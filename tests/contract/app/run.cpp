@@ -304,7 +304,7 @@ TEST_CASE("the same run may be made again in place, another may not") {
   const Outcome other =
       impinge_run(files.folder.path(), files.run("out", {"--no-images", "--set", "contact.friction=0.1"}));
   CHECK(other.code == 2);
-  CHECK(other.err.find("holds another run") != std::string::npos);
+  CHECK(other.err.find("holds another run (its run.toml differs in contact.friction); ") != std::string::npos);
   CHECK(timeless(files.folder / "out/stats.csv") == first);
 }
 

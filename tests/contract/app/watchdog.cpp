@@ -11,7 +11,7 @@
 #include "tests/support/program/program.hpp"
 #include "tests/support/program/sweep_results.hpp"
 #include "tests/support/program/temp_folder.hpp"
-#include "viewer/app/watchdog_note.hpp"
+#include "viewer/notes/watchdog_note.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

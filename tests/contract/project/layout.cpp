@@ -71,6 +71,7 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/panels/overlay", 24},
                                                  {"viewer/panels/debug", 24},
                                                  {"viewer/preflight", 25},
+                                                 {"viewer/notes", 25},
                                                  {"viewer/present", 25},
                                                  {"viewer/export", 25},
                                                  {"viewer/web", 26},

@@ -50,8 +50,8 @@ void body_rows(const DebugModel& model, const Selection& s) {
   row("contacts", contacts, "");
   if (contacts > 0) row("normal", impulse, "N s", ", of all");
   if (b.group >= 0)
-    row("group",
-        fmt::format("{}, of {} bodies", b.group, model.record->groups[static_cast<std::size_t>(b.group)].size()));
+    if (const std::size_t n = model.record->groups[static_cast<std::size_t>(b.group)].size(); n > 0)
+      row("group", fmt::format("{}, of {} bod{}", b.group, n, n == 1 ? "y" : "ies"));
   if (s.triangle >= 0) row("triangle", std::to_string(s.triangle));
 }
 

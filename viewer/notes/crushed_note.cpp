@@ -1,4 +1,4 @@
-#include "viewer/app/crushed_note.hpp"
+#include "viewer/notes/crushed_note.hpp"
 
 #include <fmt/format.h>
 

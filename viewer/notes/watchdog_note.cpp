@@ -1,4 +1,4 @@
-#include "viewer/app/watchdog_note.hpp"
+#include "viewer/notes/watchdog_note.hpp"
 
 #include <fmt/format.h>
 

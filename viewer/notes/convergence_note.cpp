@@ -1,4 +1,4 @@
-#include "viewer/app/convergence_note.hpp"
+#include "viewer/notes/convergence_note.hpp"
 
 #include <fmt/format.h>
 
