@@ -20,6 +20,7 @@ struct AssemblyInput {
   double gravity = 0.0;                     ///< that automatic thresholds go by, m/s²
   const ReboundShares* rebounds = nullptr;  ///< none: all of them whole
   VelocityTime velocities = VelocityTime::end;
+  double drift_time = 0.0;  ///< in which attachments drifted to where they are, s
 };
 
 /// A group's system, and what its parts are in the scene.
@@ -28,7 +29,8 @@ struct AssembledGroup {
   std::vector<BodyIndex> rigid, deformable;                     ///< of the system's blocks
   std::vector<ContactIndex> contacts;                           ///< of its rows
   std::vector<std::pair<MaterialPoint, MaterialPoint>> points;  ///< of its rows: where they act on A and B
-  double meeting = 0.0;  ///< s, when two whom nothing else touches meet in flight; 0: none do
+  std::vector<Vec3> drift;  ///< by row, metres: of an attachment, what is left to recovery on positions; empty: nothing
+  double meeting = 0.0;     ///< s, when two whom nothing else touches meet in flight; 0: none do
 
   /// What a solution over the blocks says of each body of `group`.
   std::vector<BodyVector> by_body(const CollisionGroup& group, const std::vector<Vec3>& linear,

@@ -12,13 +12,15 @@ double slop(const ContactRows& rows, const ContactSettings& settings) {
 
 }  // namespace
 
-bool needs_push_out(const GroupSystem& solved, const ContactSettings& settings, double time_step) {
+bool needs_push_out(const GroupSystem& solved, std::span<const Vec3> drift, const ContactSettings& settings,
+                    double time_step) {
   if (settings.push_out != PushOut::split) return false;
   // rows whose positions move by Δt v leave no overlap that wasn't there; others (Newmark) are asked
   const bool all_move = std::all_of(solved.deformable.begin(), solved.deformable.end(),
                                     [](const DeformableBlock& b) { return b.displacement_scale == 1.0; });
   for (std::size_t i = 0; i < solved.contacts.size(); ++i) {
     const ContactRows& c = solved.contacts[i];
+    if (!drift.empty() && drift[i].norm() > slop(c, settings)) return true;
     if (c.kind != RowKind::contact) continue;
     const double gap = all_move ? c.gap : std::min(c.gap, c.gap + time_step * solved.displacement_velocity(i).x());
     if (gap < -slop(c, settings) && settings.max_push_out.at(c.scale.speed) > 0.0) return true;
@@ -26,7 +28,8 @@ bool needs_push_out(const GroupSystem& solved, const ContactSettings& settings, 
   return false;
 }
 
-GroupSystem make_push_out_system(const GroupSystem& solved, const ContactSettings& settings, double time_step) {
+GroupSystem make_push_out_system(const GroupSystem& solved, std::span<const Vec3> drift,
+                                 const ContactSettings& settings, double time_step) {
   GroupSystem push = solved;
   for (RigidBlock& body : push.rigid) body.velocity.setZero(), body.angular_velocity.setZero();
   for (DeformableBlock& block : push.deformable) block.velocity.setZero();
@@ -35,6 +38,7 @@ GroupSystem make_push_out_system(const GroupSystem& solved, const ContactSetting
     push.lambda[i].setZero();
     if (rows.kind != RowKind::contact) {
       rows.surface.setZero();
+      if (!drift.empty()) rows.surface = rows.directions * drift[i] / time_step;
       continue;
     }
     const double gap_after = rows.gap + rows.turning + time_step * solved.displacement_velocity(i).x();

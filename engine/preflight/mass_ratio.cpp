@@ -34,7 +34,8 @@ double most_ratio(const Parameters& p) {
 }
 
 /// The joints of a chain are pulled straight by what hangs on its links, the faster the lighter and shorter these are:
-/// g Δt² m/(m_link lever), up to which chains held for two swings.
+/// g Δt² m/(m_link lever), up to which chains kept their energy for two swings. Above, pieces of sub-steps hold them
+/// (share_of_turns, most_apart), and give or take some.
 double most_pull(const Parameters& p) { return p.response.method.name() == "soft_constraint" ? 0.005 : 0.025; }
 
 /// Two links that hang on one another and carry the most for their masses and levers; one link alone only turns with its
@@ -62,7 +63,7 @@ std::vector<Finding> find_hung(const World& world) {
   const Body& body = world.bodies()[at];
   const double mass = hung[static_cast<std::size_t>(at.value())].mass, ratio = mass / body.mass;
   return {{fmt::format("on '{}', which is joined to '{}' and weighs {}, hang {}, {:.3g} times as much; in sub-steps of "
-                       "{} such a chain holds up to {:.2g} times",
+                       "{} such a chain keeps its energy up to {:.2g} times",
                        body.name, world.bodies()[other].name, mass_text(body.mass), mass_text(mass), ratio,
                        time_text(h), ratio * most / worst),
            "take " + shorter_substeps(p, std::sqrt(worst / most)) + ", or masses nearer to each other"}};

@@ -225,9 +225,9 @@ class GroupSolve {
     if (!s.position_velocity.empty())
       return displace(now_.by_body(group_, s.position_velocity, s.position_angular_velocity, {}), 1.0);
     if (how_.response.lives_on_overlap()) return;
-    if (!needs_push_out(s, how_.contact, input_.time_step)) return follow_rebounds();
+    if (!needs_push_out(s, now_.drift, how_.contact, input_.time_step)) return follow_rebounds();
     check_interrupt();
-    GroupSystem recovery = make_push_out_system(s, how_.contact, input_.time_step);
+    GroupSystem recovery = make_push_out_system(s, now_.drift, how_.contact, input_.time_step);
     ResponseContext loose = how_.context;
     loose.lcp.tolerance = kPushOutTolerance;
     loose.recovers_overlap = true;
@@ -409,8 +409,8 @@ GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const C
 void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
              std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
              std::vector<GroupResult>& results, StageTimes& times) {
-  const AssemblyInput input{bodies,      contacts,     start,         how.contact, how.context.time_step,
-                            how.gravity, how.rebounds, how.velocities};
+  const AssemblyInput input{bodies,      contacts,     start,          how.contact,   how.context.time_step,
+                            how.gravity, how.rebounds, how.velocities, how.drift_time};
   results.resize(groups.size());
   std::vector<std::size_t> wanted;
   for (std::size_t g = 0; g < groups.size(); ++g)

@@ -16,6 +16,7 @@ struct Solving {
   const DeformableIntegrator& integrator;
   double gravity;  ///< that automatic thresholds go by, m/s²
   VelocityTime velocities = VelocityTime::end;
+  double drift_time = 0.0;                  ///< as SubStep has it
   const ReboundShares* rebounds = nullptr;  ///< as SubStep has them
   bool freezes = false;                     ///< the groups are wanted as they were handed to the response
   bool keeps_rows = false;                  ///< what rows gave to bodies is wanted

@@ -12,6 +12,7 @@ namespace impinge {
 
 struct SubStep {
   double time = 0.0, time_step = 0.0;  ///< s, at its start; Δt
+  double drift_time = 0.0;             ///< of the piece before, s: in which attachments drifted to where they are
   ReboundShares rebounds;              ///< where they would win energy
 
   // 5, 6: detection at the free velocities

@@ -292,6 +292,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     begin_piece(*sub_step_, passive);
     double share = std::min(next, even_part(rest, share_of_turns(attachments_, bodies_, h)));
     asking.has = false;
+    if (piece == 1) sub_step_->drift_time = share * h;  // as if the sub-step before had been cut alike
     const double apart = most_apart(attachments_, bodies_);
     int motion = 1;
     for (;; ++motion) {
@@ -346,6 +347,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     }
     next = asking.has && motion > kPatience ? kGrowth * share : 1.0;
     rest = share == rest ? 0.0 : rest - share;
+    sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);
   }
   stats_.merged_impacts += cuts.wants_more ? 1 : 0;

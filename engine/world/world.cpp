@@ -200,6 +200,7 @@ void World::make_motion(double h, double share, bool freezes) {
   solve.context.time_step = h;
   solve.context.share = h / parameters.simulation.time_step();
   solve.rebounds = &s.rebounds;
+  solve.drift_time = s.drift_time;
   solve.freezes = freezes;
   solve.keeps_rows = ledger_ != nullptr;
   if (watcher_ != nullptr) solve.watcher = watcher_->solve_watcher(s);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kApart = 0.1;  // of the smaller body's size: a gap that is worth a word
 constexpr std::size_t kMostApart = 4;
+constexpr std::string_view kExact = "constraint_anticipation";
 
 /// Whether anything of the scene moves by itself, whatever it meets.
 bool is_driven_by_scene(const Bodies& bodies) {
@@ -37,7 +38,6 @@ double least_of(const Body& body, const Parameters& p) {
 }
 
 std::string energy_remedy(const Bodies& bodies, const Parameters& p) {
-  constexpr const char* kExact = "constraint_anticipation";
   const std::string_view integrator = p.simulation.integrator.name(), response = p.response.method.name();
   const double enough = kEnoughDamping * p.simulation.time_step();
   bool is_soft = false, is_undamped = false;
@@ -65,11 +65,9 @@ void BalanceNote::begin(const World& world) {
   const Parameters& p = world.parameters;
   if (is_driven_by_scene(world.bodies())) is_driven_ = true, energies_.clear();
   for (const Body& body : world.bodies()) least_ += least_of(body, p);
-  const std::string_view response = p.response.method.name();
   remedy_ = energy_remedy(world.bodies(), p);
-  attachment_remedy_ = response == "penalty"
-                           ? "penalty holds attachments by springs only: choose another response.method"
-                           : "take more simulation.substeps, or masses nearer to each other";
+  attachment_remedy_ = "take more simulation.substeps, or masses nearer to each other";
+  if (p.response.method.name() != kExact) attachment_remedy_ += fmt::format(", or response.method = \"{}\"", kExact);
 }
 
 void BalanceNote::add(const World& world, bool is_driven) {
