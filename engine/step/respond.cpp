@@ -225,6 +225,8 @@ class GroupSolve {
     if (!s.position_velocity.empty())
       return displace(now_.by_body(group_, s.position_velocity, s.position_angular_velocity, {}), 1.0);
     if (how_.response.lives_on_overlap()) return;
+    // pulled together by positions what floats and turns would lose angular momentum: the next piece takes all by velocity
+    if (!now_.drift.empty() && floats()) now_.drift.clear();
     if (!needs_push_out(s, now_.drift, how_.contact, input_.time_step)) return follow_rebounds();
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, now_.drift, how_.contact, input_.time_step);
@@ -276,10 +278,10 @@ class GroupSolve {
 
   /// Whether nothing holds the group but its own rigid bodies one another.
   bool floats() const {
-    const auto is_rigid = [&](BodyIndex b) { return bodies_[b].kind() == BodyKind::dynamic; };
+    const auto is_rigid = [&](BodyIndex b) { return !b.is_none() && bodies_[b].kind() == BodyKind::dynamic; };
     return std::all_of(group_.contacts.begin(), group_.contacts.end(), [&](ContactIndex i) {
-      const Collision* c = input_.contacts.collision(i);
-      return c != nullptr && is_rigid(c->body_a) && is_rigid(c->body_b);
+      const auto [a, b] = input_.contacts.bodies(i);
+      return is_rigid(a) && is_rigid(b);
     });
   }
 
