@@ -247,7 +247,7 @@ class Assembly {
 
   /// The velocity that takes an error back within the sub-step, m/s, `most` at most.
   Vec3 recovery(const Vec3& error, double most) const {
-    Vec3 velocity = swift_part() / input_.time_step * error;
+    Vec3 velocity = swift_part() * error / input_.time_step;
     if (velocity.norm() > most) velocity *= most / velocity.norm();
     return velocity;
   }

@@ -40,6 +40,10 @@ auto activation_by(const ContactSettings& contact) {
 /// Of a pair, metres.
 using PairLength = std::function<double(const UnsafeMotion::Pair&)>;
 
+double pair_activation(const Bodies& bodies, const Parameters& parameters, const UnsafeMotion::Pair& p) {
+  return activation_by(parameters.contact)(bodies[p.a], bodies[p.b]);
+}
+
 /// Of the activation distance of two bodies, metres, what counts as a passage; `is_kept`: of motions that are undone.
 PassagesOf passages_within(std::function<double(const Body&, const Body&)> activation, bool is_kept) {
   return [activation = std::move(activation), is_kept](const Body& a, const Body& b) {
@@ -85,11 +89,6 @@ void begin(SubStep& step) {
   step.tried.reset();
 }
 
-void begin_piece(SubStep& step, PassiveRebounds& passive) {
-  begin(step);
-  step.rebounds.clear(), passive = {};
-}
-
 /// Contacts of the features that pass, begin no farther from one another than `reach` of their pair says, and have none
 /// of this normal yet. False: each had one.
 bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Collision>& asked) {
@@ -121,6 +120,11 @@ struct Asking {
     return true;
   }
 };
+
+void begin_piece(SubStep& step, PassiveRebounds& passive, Asking& asking) {
+  begin(step);
+  step.rebounds.clear(), passive = {}, asking.has = false;
+}
 
 /// By the contacts of the poses that bodies have; empty: those would not tell depths.
 OverlapsOf overlaps_by(const Bodies& bodies, const Parameters& parameters) {
@@ -169,9 +173,10 @@ struct ImpactCuts {
 
 /// The share with which a motion is made anew, so that it ends at its first impact, or that its rebounds win no energy;
 /// none: it may stand.
-std::optional<double> share_for_impacts(const Bodies& bodies, SubStep& step, const ContactSettings& contact,
-                                        double gravity, ImpactCuts& cuts, PassiveRebounds& passive,
-                                        StepWatcher* watcher) {
+std::optional<double> share_for_impacts(const Bodies& bodies, SubStep& step, const Parameters& parameters,
+                                        ImpactCuts& cuts, PassiveRebounds& passive, StepWatcher* watcher) {
+  const ContactSettings& contact = parameters.contact;
+  const double gravity = scale_gravity(parameters.simulation.gravity);
   const bool may_cut = cuts.count < contact.successive_impacts;
   if (may_cut || (cuts.count > 0 && !cuts.wants_more))
     if (const auto before = share_to_first_impact(bodies, step, contact, gravity)) {
@@ -198,6 +203,18 @@ UnsafeMotion take_stoppable(const Bodies& bodies, UnsafeMotion& motion, std::set
     return is_new;
   });
   return taken;
+}
+
+/// Bodies stay that pass others; they may be in the way of others yet, which stay then too. `hold`: of those that are new,
+/// takes what still passes into `unsafe`.
+template <class Hold>
+void hold_those_that_pass(const Bodies& bodies, std::optional<UnsafeMotion>& unsafe, std::set<BodyIndex>& stay,
+                          Hold&& hold) {
+  while (unsafe) {
+    const UnsafeMotion held = take_stoppable(bodies, *unsafe, stay);
+    if (held.pairs.empty()) return;
+    hold(held);
+  }
 }
 
 /// The world's bodies at the start of a piece, one by one. Who wakes later stands until then as he was published.
@@ -265,15 +282,14 @@ void World::note_unsafe(const UnsafeMotion& motion, int substep, UnsafeBody::Cau
 
 void World::substep(double h, int left, FrozenStep* frozen) {
   const Continuous which = watching(parameters);
-  const auto activation = activation_by(parameters.contact);
   const int substep = parameters.simulation.substeps - left + 1;
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
   const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
-  const PassagesOf passages = passages_within(activation, is_kept);
+  const PassagesOf passages = passages_within(activation_by(parameters.contact), is_kept);
   const OverlapsOf overlaps = is_kept && !is_rough ? overlaps_by(bodies_, parameters) : OverlapsOf();
-  const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return activation(bodies_[p.a], bodies_[p.b]); };
+  const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return pair_activation(bodies_, parameters, p); };
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
   if (bodies_.all_active()) has_rebounds_ = has_rebounds(bodies_, parameters.contact);
   const bool rebounds = !parameters.response.method->is_approximate() && has_rebounds_;
@@ -289,9 +305,8 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
       guard_.open(bodies_);
     }
-    begin_piece(*sub_step_, passive);
+    begin_piece(*sub_step_, passive, asking);
     double share = std::min(next, even_part(rest, share_of_turns(attachments_, bodies_, h)));
-    asking.has = false;
     if (piece == 1) sub_step_->drift_time = share * h;  // as if the sub-step before had been cut alike
     const double apart = most_apart(attachments_, bodies_);
     int motion = 1;
@@ -301,18 +316,15 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         start->bring_back(bodies_, sleeping_);
         continue;
       }
-      const auto hold_back = [&] { let_stay(start, bodies_, stay, guard_); };
       if (rebounds && motion < kMostMotions)
-        if (const auto before =
-                share_for_impacts(bodies_, *sub_step_, parameters.contact, scale_gravity(parameters.simulation.gravity),
-                                  cuts, passive, watcher_)) {
+        if (const auto before = share_for_impacts(bodies_, *sub_step_, parameters, cuts, passive, watcher_)) {
           share *= *before;
           start->take_back(*sub_step_, bodies_, sleeping_);
           continue;
         }
-      hold_back();
       const auto look_back = [&] {
         const StageTimer timer(stats_.times.guard_ms);
+        let_stay(start, bodies_, stay, guard_);
         return guard_.look(bodies_, which, passages, is_rough, piece > 1, overlaps);
       };
       std::optional<UnsafeMotion> unsafe = look_back();
@@ -321,27 +333,21 @@ void World::substep(double h, int left, FrozenStep* frozen) {
                          most_apart(attachments_, bodies_) > std::max(kApart, apart),
                  is_end = is_last || !(unsafe || tears);
       if (watcher_ != nullptr) watcher_->moved(bodies_, *sub_step_, guard_, unsafe, is_end);
-      if (tears) {
-        start->take_back(*sub_step_, bodies_, sleeping_);
-        share *= 0.5;
-        continue;
-      }
-      if (!unsafe) break;
+      if (!unsafe && !tears) break;
       if (is_end) {
         if (which == Continuous::off && watcher_ != nullptr && watcher_->wants_passages())
           guard_.find_passages(bodies_, *unsafe, passages);
-        // those that stay may be in the way of others, which stay then too
-        while (is_kept && unsafe) {
-          const UnsafeMotion held = take_stoppable(bodies_, *unsafe, stay);
-          if (held.pairs.empty()) break;
-          note_unsafe(held, substep, UnsafeBody::held_back);
-          hold_back();
-          unsafe = look_back();
-        }
+        if (is_kept)
+          hold_those_that_pass(bodies_, unsafe, stay, [&](const UnsafeMotion& held) {
+            note_unsafe(held, substep, UnsafeBody::held_back);
+            unsafe = look_back();
+          });
         if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
         break;
       }
-      if (!(motion <= kPatience && may_look_again() && look_at_ends(bodies_, *unsafe, *sub_step_)))
+      if (tears)
+        share *= 0.5;
+      else if (!(motion <= kPatience && may_look_again() && look_at_ends(bodies_, *unsafe, *sub_step_)))
         share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }

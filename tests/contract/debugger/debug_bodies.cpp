@@ -84,8 +84,8 @@ TEST_CASE("a body that is not there is one message at its place") {
   }
   const Outcome set = impinge_run(folder.path(), {"run", "s.toml", "--out", "o", "--set", "view.hidden=[bal]"});
   CHECK(set.code == 2);
-  CHECK(set.err.find("s.toml: 'bal' for view.hidden; bodies: floor, crate, ball; did you mean 'ball'?") !=
-        std::string::npos);
+  CHECK(set.err.find("--set view.hidden=[bal]: 'bal' for view.hidden; bodies: floor, crate, ball; did you mean "
+                     "'ball'?") != std::string::npos);
   folder.write("a.script", "hide crate\n");
   const Outcome bare = impinge_run(folder.path(), {"run", "s.toml", "--out", "o", "--script", "a.script"});
   CHECK(bare.code == 2);
