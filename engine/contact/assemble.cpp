@@ -103,10 +103,11 @@ class Assembly {
     fill_side(attachment.a.body, attachment.a.point, common, 1.0, rows, rows.a, velocity_before);
     fill_side(attachment.b.body, attachment.b.point, common, -1.0, rows, rows.b, velocity_before);
     set_scale(attachment, rows);
-    rows.surface += recovery(a - b, input_.settings.max_push_out.at(rows.scale.speed));
-    if (!add(index, std::move(rows), {attachment.a.point, attachment.b.point}) || swift_part() == 1.0) return;
-    result_.drift.resize(result_.contacts.size(), Vec3::Zero());
-    result_.drift.back() = (1.0 - swift_part()) * (a - b);
+    const Vec3 back = recovery(a - b, input_.settings.max_push_out.at(rows.scale.speed));
+    rows.surface += back;
+    if (!add(index, std::move(rows), {attachment.a.point, attachment.b.point})) return;
+    note(result_.recovery, back);
+    if (swift_part() < 1.0) note(result_.drift, (1.0 - swift_part()) * (a - b));
   }
 
   void add_slide(ContactIndex index, const Attachment& slide) {
@@ -124,13 +125,16 @@ class Assembly {
     const Vec3 error = hold.point_a - hold.point_b;
     const double away = error.norm() > 0.0 ? std::max(0.0, velocity_before.dot(error.normalized())) : 0.0,
                  most = input_.settings.max_push_out.at(rows.scale.speed) + away;
-    rows.surface.x() += rows.directions.row(0).dot(recovery(error, most));
-    add(index, std::move(rows), {slide.a.point, hold.at_b});
+    const Vec3 normal = rows.directions.row(0);
+    const double back = normal.dot(recovery(error, most));
+    rows.surface.x() += back;
+    if (add(index, std::move(rows), {slide.a.point, hold.at_b})) note(result_.recovery, back * normal);
   }
 
   AssembledGroup finish() {
     system().clear_delta();
-    if (!result_.drift.empty()) result_.drift.resize(result_.contacts.size(), Vec3::Zero());
+    for (std::vector<Vec3>* list : {&result_.recovery, &result_.drift})
+      if (!list->empty()) list->resize(result_.contacts.size(), Vec3::Zero());
     return std::move(result_);
   }
 
@@ -243,6 +247,12 @@ class Assembly {
   double swift_part() const {
     const double shorter = input_.time_step / std::max(input_.time_step, input_.drift_time);
     return shorter * shorter;
+  }
+
+  /// Of the row that was added last.
+  void note(std::vector<Vec3>& by_row, const Vec3& value) const {
+    by_row.resize(result_.contacts.size(), Vec3::Zero());
+    by_row.back() = value;
   }
 
   /// The velocity that takes an error back within the sub-step, m/s, `most` at most.

@@ -35,7 +35,7 @@ double most_ratio(const Parameters& p) {
 
 /// The joints of a chain are pulled straight by what hangs on its links, the faster the lighter and shorter these are:
 /// g Δt² m/(m_link lever), up to which chains kept their energy for two swings. Above, pieces of sub-steps hold them
-/// (share_of_turns, most_apart), and give or take some.
+/// (share_of_turns, most_apart, passive_share), and take some of it.
 double most_pull(const Parameters& p) { return p.response.method.name() == "soft_constraint" ? 0.005 : 0.025; }
 
 /// Two links that hang on one another and carry the most for their masses and levers; one link alone only turns with its

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/contact/free_recovery.hpp"
+#include "engine/contact/recovery/free_recovery.hpp"
 #include "engine/core/error.hpp"
 #include "engine/step/tasks.hpp"
 

@@ -5,7 +5,8 @@
 #include <algorithm>
 
 #include "engine/bodies/scale.hpp"
-#include "engine/contact/push_out.hpp"
+#include "engine/contact/recovery/passive_share.hpp"
+#include "engine/contact/recovery/push_out.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
@@ -47,6 +48,7 @@ class GroupSolve {
     is_rough_ = may_wait() && now_.deformable.empty();
     solve_before_meeting();
     solve_expecting_turns();
+    pay_for_recovery();
     find_root();
     follow_turns();
     if (!is_usable() && !how_.response.lives_on_overlap()) result_.is_contradiction = settle_contradiction(system());
@@ -100,6 +102,33 @@ class GroupSolve {
     if (is_usable() || !starts_too_high(system(), start)) return;
     std::fill(system().lambda.begin(), system().lambda.end(), Vec3::Zero());
     solve();
+  }
+
+  /// Attachments come together by velocities as far as that wins no energy, and by positions beyond. What floats would lose
+  /// angular momentum by these.
+  void pay_for_recovery() {
+    if (now_.recovery.empty() || !now_.deformable.empty() || how_.response.lives_on_overlap()) return;
+    if (floats() || !wins_energy()) return;
+    const AssembledGroup asked = now_;
+    const ResponseResult response = result_.response;
+    const double won = energy_won(bodies_, asked).first;
+    const bool is_answered = is_usable();
+    const auto solve_for = [&](double share, const std::vector<Vec3>& start) {
+      now_ = asked;
+      ask_for_share(now_, share, input_.time_step);
+      system().lambda = start;
+      solve();
+      return is_usable();
+    };
+    if (solve_for(0.0, std::vector<Vec3>(asked.system.lambda.size(), Vec3::Zero())) && is_answered) {
+      const double share = passive_share(bodies_, now_, asked);
+      const std::vector<Vec3> none = system().lambda;
+      std::vector<Vec3> start = none;  // the answer, where no contact opens or slips
+      for (std::size_t i = 0; i < start.size(); ++i) start[i] += share * (asked.system.lambda[i] - none[i]);
+      if (!solve_for(share, start)) solve_for(0.0, none);
+    }
+    if ((is_answered && !is_usable()) || !(energy_won(bodies_, now_).first < won))
+      now_ = asked, result_.response = response;
   }
 
   /// What can't move holds two that meet in flight until they do, too: what it makes of their velocities without the meeting.

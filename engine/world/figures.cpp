@@ -50,7 +50,7 @@ constexpr Figure kFigures[] = {
     {"unconverged", "", state, &S::unconverged, "Group solves that ended at the cap on iterations."},
     {"asleep", "", state, &S::asleep, "Bodies that sleep."},
     {"judged_penetration_m", "m", judged, &S::judged_penetration,
-     "Largest overlap of bodies, found without detection."},
+     "Deepest vertex of a body inside another, found without detection; edges that cross are in judged_depth_m."},
     {"judged_intersections", "", judged, &S::judged_intersections,
      "Pairs of triangles of two bodies that share a point."},
     {"substep_penetration_m", "m", state, &S::substep_penetration,
@@ -71,6 +71,9 @@ constexpr Figure kFigures[] = {
      "Largest distance of an attached point from where it is held, at the end of the frame."},
     {"guard_ms", "ms", time, &T::guard_ms,
      "Looks back at motions for what passed, and keeping what undoes them, summed."},
+    {"judged_depth_m", "m", judged, &S::judged_depth,
+     "Largest overlap of bodies, found without detection: vertices, edges between them, and what lies half way through "
+     "bodies that coincide."},
 };
 
 // By the type of what the source points to; one that is made of others has no place of its own.

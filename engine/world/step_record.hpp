@@ -143,7 +143,7 @@ struct FrameStats {
   StageTimes times;
   std::uint64_t state_hash = 0;
   // Filled in by who asks the judge of overlap (judge.hpp).
-  double judged_penetration = 0.0;  ///< metres
+  double judged_penetration = 0.0, judged_depth = 0.0;  ///< metres, see OverlapVerdict
   std::int64_t judged_intersections = 0;
   Crossing crossing;                          ///< the deepest by its share; of frames that this process made
   std::shared_ptr<const FrameLedger> ledger;  ///< with record.ledger; of frames that this process made

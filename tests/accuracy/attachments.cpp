@@ -11,7 +11,7 @@ using namespace impinge::test;
 namespace {
 
 constexpr double kFrame = 1.0 / 60.0;
-constexpr double kOfWhips = 1.0;  // what light links that whip under a heavy end may win, see the README
+constexpr double kWon = 0.06;  // of the fall: small links in few sub-steps a swing have energies so far off
 
 /// A chain of bars on points, let go level: its first point is the world's. The last bar is `ratio` times as dense.
 void add_chain(World& world, int links, double length, double ratio) {
@@ -69,7 +69,7 @@ TEST_CASE("chains that are let go level hold together, at every size and with a 
           add_chain(world, links, length, ratio);
           const Swing result = swing(world, links, length);
           CHECK(result.apart < 0.1);
-          CHECK(result.won < 0.1);
+          CHECK(result.won < kWon);
         }
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("a light chain with an end thirty thousand times as heavy holds") {
   add_chain(world, 4, 1.0, 3e4);
   const Swing result = swing(world, 4, 1.0);
   CHECK(result.apart < 0.1);
-  CHECK(result.won < kOfWhips);
+  CHECK(result.won < kWon);
 }
 
 TEST_CASE("penalty holds what is attached as well as constraint anticipation does, in both forms") {

@@ -143,7 +143,7 @@ void RunCommand::declare(Options& options) {
       "--judge",
       [this](const std::string& word) { options_.judge = true, options_.judge_substeps = word == "substeps"; },
       "substeps",
-      "measure overlap independently of detection (slow): judged_penetration_m, judged_intersections; "
+      "measure overlap independently of detection (slow): judged_penetration_m, judged_depth_m, judged_intersections; "
       "--judge=substeps: at the end of every sub-step, and the worst of a frame counts, self_crossings too");
   options.flag("--strict", strict_,
                "exit code 1 if a body may have passed another, or overlaps one by more than 10 % of a thickness, by "

@@ -103,7 +103,7 @@ std::vector<TriangleMesh> smaller_meshes(const TriangleMesh& mesh) {
   const bool is_closed = make_topology(mesh).is_closed() && mesh.triangles.size() <= kMostRemeshed;
   for (const int cells : kCells) {
     all.push_back(clustered(mesh, box, cells));
-    if (is_closed) all.push_back(remesh(mesh, cells, nullptr));
+    if (is_closed) all.push_back(remesh(mesh, {}, cells, nullptr));
   }
   std::erase_if(
       all, [&](const TriangleMesh& m) { return m.triangles.empty() || m.triangles.size() >= mesh.triangles.size(); });

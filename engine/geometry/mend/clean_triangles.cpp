@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "engine/core/interrupt.hpp"
@@ -107,6 +108,28 @@ BorderWeld weld_borders(TriangleMesh& mesh, double tolerance) {
     for (int& v : t) v = target[v];
   done.collapsed = drop_collapsed(mesh);
   return done;
+}
+
+void append(TriangleMesh& mesh, const TriangleMesh& part) {
+  const int shift = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (const Triangle& t : part.triangles) mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+double closing_tolerance(const TriangleMesh& mesh, double least) {
+  constexpr int kTries = 6;  // thrice as far each, about
+  const auto border_edges = [&](double tolerance) {
+    TriangleMesh tried = mesh;
+    const bool takes_any = weld_borders(tried, tolerance).collapsed > 0 && tolerance > least;
+    return takes_any ? std::numeric_limits<int>::max() : static_cast<int>(make_topology(tried).border_edges);
+  };
+  int fewest = border_edges(least);
+  double best = least, tolerance = least;
+  for (int i = 0, half = fewest / 2; i < kTries && fewest > 0; ++i) {
+    tolerance *= std::sqrt(10.0);
+    if (const int left = border_edges(tolerance); left < std::min(fewest, half)) fewest = left, best = tolerance;
+  }
+  return best;
 }
 
 int drop_duplicates(TriangleMesh& mesh) {

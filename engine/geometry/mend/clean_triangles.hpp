@@ -13,6 +13,14 @@ struct BorderWeld {
 };
 BorderWeld weld_borders(TriangleMesh& mesh, double tolerance);
 
+/// The part's triangles after the mesh's own, with vertices of their own.
+void append(TriangleMesh& mesh, const TriangleMesh& part);
+
+/// How near to each other border vertices are that are one, metres: `least`, or the smallest of up to a thousand times that
+/// with which welding leaves the fewest border edges, less than half of those that `least` leaves, and takes no triangle.
+/// Corners of triangles that were each rounded by themselves lie as far apart as the file's digits.
+double closing_tolerance(const TriangleMesh& mesh, double least);
+
 /// Removes triangles that name a vertex twice. How many.
 int drop_collapsed(TriangleMesh& mesh);
 

@@ -56,12 +56,6 @@ std::vector<TriangleMesh> parts_of(const TriangleMesh& mesh) {
   return parts;
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& part) {
-  const int shift = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (const Triangle& t : part.triangles) mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-}
-
 /// The mesh without vertices that no triangle has.
 TriangleMesh without_unused(const TriangleMesh& mesh) {
   TriangleMesh left;
@@ -85,10 +79,11 @@ class Mender {
     join_and_drop();
     cut_and_close();
     if (settings_.orient && !mesh_.triangles.empty() && make_topology(mesh_).is_closed()) face_outwards();
+    if (settings_.remesh > 0) take_walls();
     add_sheets();
     if (report_.sheets > 0 && settings_.orient) face_outwards();  // sheets lie in others' thickness
-    if (settings_.remesh > 0 && !mesh_.triangles.empty()) {
-      mesh_ = remesh(mesh_, settings_.remesh, &report_.largest_move);
+    if (settings_.remesh > 0 && (!mesh_.triangles.empty() || !walls_.triangles.empty())) {
+      mesh_ = remesh(mesh_, walls_, settings_.remesh, &report_.largest_move);
       report_.remeshed = true;
     }
     MendedMesh result{std::move(mesh_), report_, std::nullopt};
@@ -106,12 +101,14 @@ class Mender {
   void join_and_drop() {
     if (settings_.drop_degenerate) report_.collapsed += drop_collapsed(mesh_);
     // a tolerance of 0 welds nothing at all: the file's vertices are as they are meant
-    const double tolerance = settings_.weld.value_or(kWeldOfDiagonal * bounds_of(mesh_).extent().norm());
-    if (tolerance > 0.0 && !mesh_.triangles.empty() && !make_topology(mesh_).is_closed()) {
+    if (settings_.weld != 0.0 && !mesh_.triangles.empty() && !make_topology(mesh_).is_closed()) {
       WeldedMesh exact = weld(mesh_);
       report_.welded += static_cast<int>(mesh_.vertices.size() - exact.mesh.vertices.size());
       report_.collapsed += static_cast<int>(mesh_.triangles.size() - exact.mesh.triangles.size());
       mesh_ = std::move(exact.mesh);
+      const double tolerance = settings_.weld
+                                   ? *settings_.weld
+                                   : closing_tolerance(mesh_, kWeldOfDiagonal * bounds_of(mesh_).extent().norm());
       const BorderWeld near = weld_borders(mesh_, tolerance);
       report_.welded += near.welded;
       report_.collapsed += near.collapsed;
@@ -120,6 +117,7 @@ class Mender {
       report_.largest_move = std::max(near.largest_move, split.largest_move);
     }
     if (!settings_.drop_degenerate) return;
+    report_.collapsed += drop_collapsed(mesh_);  // what cutting edges made of triangles
     report_.duplicates = drop_duplicates(mesh_);
     take_out_flat(mesh_);
   }
@@ -215,6 +213,35 @@ class Mender {
     if (report_.inner_parts > 0) mesh_ = without_unused(mesh_);
   }
 
+  /// Of a new skin: open parts that enclose something together need no thickness of their own.
+  void take_walls() {
+    if (sheets_.empty()) return;
+    TriangleMesh all = mesh_;
+    for (const TriangleMesh& sheet : sheets_) append(all, sheet);
+    const double cell = bounds_of(all).extent().maxCoeff() / settings_.remesh;
+    const WindingTree winding(all.triangles, all.vertices);
+    TriangleMesh walls = mesh_;
+    const std::size_t taken = std::erase_if(sheets_, [&](const TriangleMesh& sheet) {
+      if (!is_wall(sheet, winding, cell)) return false;
+      append(walls, sheet);
+      return true;
+    });
+    if (taken > 0) walls_ = std::move(walls);
+    thinnest_ = 2.0 * cell;  // of other sheets, or a skin on that lattice has holes
+  }
+
+  /// Whether most of its area has an inside within a cell of one side, and none of the other.
+  static bool is_wall(const TriangleMesh& sheet, const WindingTree& winding, double cell) {
+    double area = 0.0, wall = 0.0;
+    for (const Triangle& t : sheet.triangles) {
+      const Vec3 &a = sheet.vertices[t[0]], &b = sheet.vertices[t[1]], &c = sheet.vertices[t[2]];
+      const Vec3 twice = (b - a).cross(c - a), middle = (a + b + c) / 3.0, off = cell * twice.normalized();
+      area += twice.norm();
+      if (winding.winds_round(middle + off) != winding.winds_round(middle - off)) wall += twice.norm();
+    }
+    return wall > 0.5 * area;
+  }
+
   /// Open parts as thin solids; those inside of the closed ones add nothing.
   void add_sheets() {
     if (sheets_.empty()) return;
@@ -230,7 +257,8 @@ class Mender {
         continue;
       }
       ThinSurface how;
-      how.thickness = settings_.thickness.value_or(kThicknessOfSide * bounds_of(sheet).extent().maxCoeff());
+      how.thickness =
+          settings_.thickness.value_or(std::max(thinnest_, kThicknessOfSide * bounds_of(sheet).extent().maxCoeff()));
       if (!(*how.thickness > 0.0) || !(area_of(sheet) > 0.0)) {
         ++report_.flat_parts;
         continue;
@@ -248,6 +276,8 @@ class Mender {
 
   TriangleMesh mesh_;
   std::vector<TriangleMesh> sheets_;
+  TriangleMesh walls_;     // of a new skin: the solid and what encloses something beside it; empty: nothing does
+  double thinnest_ = 0.0;  // metres, of a sheet
   MendSettings settings_;
   MendReport report_;
 };

@@ -12,15 +12,16 @@ namespace impinge {
 
 struct MendSettings {
   /// Metres between border vertices that are one, or of one from an edge that it lies on; none: a millionth of the
-  /// diagonal.
+  /// diagonal, or up to a thousandth where that closes what else stays open (closing_tolerance).
   std::optional<double> weld;
-  bool drop_degenerate = true;      ///< triangles without area or twice there
-  bool orient = true;               ///< neighbours alike, closed parts outwards
-  bool fill_holes = true;           ///< false: what is open is a sheet
-  double largest_hole = 0.25;       ///< all holes of a part, of its area: one that is more open is a sheet
-  std::optional<double> thickness;  ///< metres, of sheets; none: a hundredth of the sheet's longest side
-  bool drop_inner = true;           ///< parts that lie in others and face outwards too; false: cavities
-  int remesh = 0;                   ///< cells along the longest side of a new skin without crossings; 0: none
+  bool drop_degenerate = true;  ///< triangles without area or twice there
+  bool orient = true;           ///< neighbours alike, closed parts outwards
+  bool fill_holes = true;       ///< false: what is open is a sheet
+  double largest_hole = 0.25;   ///< all holes of a part, of its area: one that is more open is a sheet
+  /// Metres, of sheets; none: a hundredth of the sheet's longest side, with `remesh` two of its cells at least.
+  std::optional<double> thickness;
+  bool drop_inner = true;  ///< parts that lie in others and face outwards too; false: cavities
+  int remesh = 0;          ///< cells along the longest side of a new skin without crossings; 0: none
 };
 
 struct MendReport {

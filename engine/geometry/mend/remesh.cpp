@@ -9,6 +9,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/geometry/mass_properties.hpp"
+#include "engine/geometry/mend/clean_triangles.hpp"
 #include "engine/geometry/mend/winding_tree.hpp"
 #include "engine/geometry/nearest_triangle.hpp"
 
@@ -142,13 +143,21 @@ class Skin {
 
 }  // namespace
 
-TriangleMesh remesh(const TriangleMesh& surface, int cells, double* largest_move) {
+TriangleMesh remesh(const TriangleMesh& solid, const TriangleMesh& walls, int cells, double* largest_move) {
+  TriangleMesh surface = solid;
+  append(surface, walls);
   const Aabb box = bounds_of(surface);
   if (!(box.extent().maxCoeff() > 0.0)) return {};
   const Grid grid(box, cells);
-  const WindingTree winding(surface.triangles, surface.vertices);
   std::vector<char> inside(grid.count(), 0);
-  parallel_for(inside.size(), 1024, [&](std::size_t n) { inside[n] = winding.is_inside(grid.at(n)) ? 1 : 0; });
+  for (const TriangleMesh* of : {&solid, &walls}) {
+    if (of->triangles.empty()) continue;
+    const WindingTree winding(of->triangles, of->vertices);
+    parallel_for(inside.size(), 1024, [&](std::size_t n) {
+      if (inside[n] == 0 && (of == &walls ? winding.winds_round(grid.at(n)) : winding.is_inside(grid.at(n))))
+        inside[n] = 1;
+    });
+  }
   TriangleMesh skin = Skin(surface, grid, inside).make();
   if (largest_move != nullptr) {
     const BoxTree tree(triangle_boxes(surface.triangles, surface.vertices));

@@ -10,7 +10,8 @@ namespace impinge {
 /// vertices divide the lattice's edges as the distances from the surface do, so that a smooth surface is met to the
 /// square of a cell. Parts thinner than a cell, and what is open on one side of it, may be lost. `largest_move`: the
 /// distance of a new vertex from the old surface, where that is larger. Throws Interrupted.
-TriangleMesh remesh(const TriangleMesh& surface, int cells, double* largest_move);
+/// `walls`: a surface, open or not and facing either way, that may add to it what it winds round.
+TriangleMesh remesh(const TriangleMesh& surface, const TriangleMesh& walls, int cells, double* largest_move);
 
 /// Bytes that takes at most.
 double remesh_memory(const TriangleMesh& surface, int cells);

@@ -2,6 +2,7 @@
 // A whole number for a closed one; a fraction that passes 1/2 where a torn one would be if it were whole [Jacobson13].
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "engine/geometry/box_tree.hpp"
@@ -16,6 +17,8 @@ class WindingTree {
   /// Far parts count as one dipole each [Barill18]: to within about 0.02.
   double at(const Vec3& x) const;
   bool is_inside(const Vec3& x) const { return at(x) > 0.5; }
+  /// Of a surface that may face either way.
+  bool winds_round(const Vec3& x) const { return std::abs(at(x)) > 0.5; }
 
  private:
   struct Dipole {

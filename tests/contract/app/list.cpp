@@ -87,7 +87,8 @@ TEST_CASE("list: a filter leaves what holds the word, in any case of letters") {
   CHECK(friction.size() < 20);
   CHECK(std::count(friction.begin(), friction.end(), "contact.friction") == 1);
   CHECK(names({"responses", "quick"}) == std::vector<std::string>{"quick"});
-  CHECK(names({"figures", "judged_"}) == std::vector<std::string>{"judged_penetration_m", "judged_intersections"});
+  CHECK(names({"figures", "judged_"}) ==
+        std::vector<std::string>{"judged_penetration_m", "judged_intersections", "judged_depth_m"});
   check_refused(folder, {"list", "parameters", "contact.frction"},
                 "command line: nothing in the list of parameters holds", "did you mean 'contact.friction'?");
 }

@@ -486,6 +486,7 @@ position = [1.75, 0, 0]
   CHECK(stats.substr(0, stats.find('\n'))
             .find(",state_hash,unconverged,asleep,judged_penetration_m,judged_intersections") != std::string::npos);
   CHECK(std::stod(table(files.folder / "j/stats.csv")[0].at("judged_penetration_m")) == Approx(0.25).epsilon(1e-12));
+  CHECK(std::stod(table(files.folder / "j/stats.csv")[0].at("judged_depth_m")) == Approx(0.25).epsilon(1e-12));
   CHECK(impinge_run(files.folder.path(), {"replay", "j"}).code == 0);
   CHECK(impinge_run(files.folder.path(), {"check", "j.toml", "--script", "j.script"}).code == 0);
   const Outcome without = impinge_run(

@@ -297,3 +297,19 @@ TEST_CASE("the dragons on their posts overlap by less than a tenth of a millimet
   }
   CHECK(overlapping > 3);
 }
+
+TEST_CASE("of bars that cross edge on edge the judge's column is the overlap, though no vertex is inside") {
+  constexpr double kDepth = 0.02;  // of the edges; the faces stand at 45 degrees, so the way out is shorter
+  TempFolder folder;
+  folder.write("bar.off", off_text(box({0.5, 0.05, 0.05}, {10, 1, 1})));
+  folder.write("s.toml", fmt::format("[simulation]\ngravity = [0, 0, 0]\nframe_time = 1e-4\n"
+                                     "[[body]]\nname = \"low\"\nkind = \"static\"\nsurface = \"bar.off\"\n"
+                                     "rotation = [45, 0, 0]\n[[body]]\nname = \"high\"\nkind = \"dynamic\"\n"
+                                     "surface = \"bar.off\"\nposition = [0, {}, 0]\nrotation = [45, 90, 0]\n",
+                                     0.1 * std::sqrt(2.0) - kDepth));
+  REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--no-images", "--frames", "0", "--judge", "--out", "o"}).code ==
+          0);
+  const Row row = csv_rows(folder / "o/stats.csv").at(0);
+  CHECK(std::stod(row.at("judged_depth_m")) == Approx(kDepth * std::sqrt(0.5)).epsilon(0.02));
+  CHECK(std::stod(row.at("judged_penetration_m")) == 0.0);  // as it is agreed on: of vertices
+}

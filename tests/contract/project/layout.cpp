@@ -54,6 +54,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/detection/contacts", 9},
                                                  {"engine/detection/pairs", 10},
                                                  {"engine/contact", 11},
+                                                 {"engine/contact/recovery", 12},
                                                  {"engine/lcp", 12},
                                                  {"engine/response/operators", 13},
                                                  {"engine/response", 14},

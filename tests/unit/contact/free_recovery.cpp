@@ -1,6 +1,6 @@
 // Bodies of a group that floats, put elsewhere: momentum, angular momentum and energy by sums of their own, over the point
 // masses at the ends of each body's axes.
-#include "engine/contact/free_recovery.hpp"
+#include "engine/contact/recovery/free_recovery.hpp"
 
 #include <catch2/catch.hpp>
 

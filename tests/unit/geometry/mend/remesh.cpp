@@ -48,7 +48,7 @@ TEST_CASE("a new skin is closed, crosses nothing, and its volume goes to the tru
   double last = 0.0;
   for (const int cells : {16, 32, 64}) {
     double move = 0.0;
-    const TriangleMesh skin = remesh(icosphere(5), cells, &move);
+    const TriangleMesh skin = remesh(icosphere(5), {}, cells, &move);
     CHECK_FALSE(check_mesh(skin, make_topology(skin)));
     bool more = false;
     CHECK(find_crossings(skin, more).empty());
@@ -64,7 +64,7 @@ TEST_CASE("of parts that overlap the skin is that of both together") {
   // two unit balls a apart: the lens they share has the volume pi (4 + a) (2 - a)^2 / 12
   const double a = 0.8, lens = M_PI * (4.0 + a) * (2.0 - a) * (2.0 - a) / 12.0;
   const double both = 2.0 * 4.0 / 3.0 * M_PI - lens;
-  const TriangleMesh skin = remesh(two_balls(a), 64, nullptr);
+  const TriangleMesh skin = remesh(two_balls(a), {}, 64, nullptr);
   CHECK_FALSE(check_mesh(skin, make_topology(skin)));
   bool more = false;
   CHECK(find_crossings(skin, more).empty());
@@ -76,7 +76,7 @@ TEST_CASE("of parts that overlap the skin is that of both together") {
 TEST_CASE("a torn surface gets the skin of the whole one") {
   TriangleMesh torn = icosphere(4);
   std::erase_if(torn.triangles, [](const Triangle& t) { return t[0] % 23 == 0; });
-  const TriangleMesh skin = remesh(torn, 40, nullptr);
+  const TriangleMesh skin = remesh(torn, {}, 40, nullptr);
   CHECK_FALSE(check_mesh(skin, make_topology(skin)));
   CHECK(signed_volume(skin) == Approx(4.0 / 3.0 * M_PI).epsilon(0.03));
 }

@@ -1,4 +1,4 @@
-#include "engine/contact/push_out.hpp"
+#include "engine/contact/recovery/push_out.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "engine/contact/free_recovery.hpp"
+#include "engine/contact/recovery/free_recovery.hpp"
 
 #include <algorithm>
 #include <cmath>
