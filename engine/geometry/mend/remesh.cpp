@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 
 #include "engine/core/interrupt.hpp"
@@ -16,6 +17,7 @@
 namespace impinge {
 namespace {
 
+constexpr int kHalvings = 7;          // of a lattice edge, until its vertex is where the skin passes
 constexpr double kLeastShare = 0.02;  // of a lattice edge, at either end: no two vertices of the skin at one node
 
 // the six tetrahedra of a cube round its diagonal from corner 0 to corner 7; corner i stands at (i & 1, i >> 1 & 1,
@@ -45,10 +47,13 @@ struct Grid {
   }
 };
 
+using Inside = std::function<bool(const Vec3&)>;
+
 class Skin {
  public:
-  Skin(const TriangleMesh& surface, const Grid& grid, const std::vector<char>& inside)
-      : surface_(surface), grid_(grid), inside_(inside), tree_(triangle_boxes(surface.triangles, surface.vertices)) {}
+  Skin(const Grid& grid, const Inside& is_inside) : grid_(grid), is_inside_(is_inside), inside_(grid.count(), 0) {
+    parallel_for(inside_.size(), 1024, [&](std::size_t n) { inside_[n] = is_inside_(grid_.at(n)) ? 1 : 0; });
+  }
 
   TriangleMesh make() {
     for (int k = 0; k + 1 < grid_.nodes[2]; ++k)
@@ -118,24 +123,23 @@ class Skin {
     return (d >= layer ? 4 : 0) + (d % layer >= row ? 2 : 0) + (d % layer % row != 0 ? 1 : 0);
   }
 
+  /// By halving: the nearest part of a surface may be one that lies within another.
   void place_vertices() {
     skin_.vertices.resize(ends_.size());
     parallel_for(ends_.size(), 256, [&](std::size_t i) {
-      const Vec3 a = grid_.at(ends_[i].first), b = grid_.at(ends_[i].second);
-      const double da = distance(a), db = distance(b);
-      const double share = da + db > 0.0 ? da / (da + db) : 0.5;
-      skin_.vertices[i] = a + std::clamp(share, kLeastShare, 1.0 - kLeastShare) * (b - a);
+      const Vec3 in = grid_.at(ends_[i].first), out = grid_.at(ends_[i].second);
+      double low = 0.0, high = 1.0;
+      for (int halving = 0; halving < kHalvings; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (is_inside_(in + middle * (out - in)) ? low : high) = middle;
+      }
+      skin_.vertices[i] = in + std::clamp(0.5 * (low + high), kLeastShare, 1.0 - kLeastShare) * (out - in);
     });
   }
 
-  double distance(const Vec3& x) const {
-    return std::sqrt(nearest_triangle(tree_, surface_.triangles, surface_.vertices, x).at.squared_distance);
-  }
-
-  const TriangleMesh& surface_;
   const Grid& grid_;
-  const std::vector<char>& inside_;
-  BoxTree tree_;
+  const Inside& is_inside_;
+  std::vector<char> inside_;  // by node
   TriangleMesh skin_;
   std::unordered_map<std::size_t, int> index_;  // only looked up
   std::vector<std::pair<std::size_t, std::size_t>> ends_;
@@ -149,16 +153,11 @@ TriangleMesh remesh(const TriangleMesh& solid, const TriangleMesh& walls, int ce
   const Aabb box = bounds_of(surface);
   if (!(box.extent().maxCoeff() > 0.0)) return {};
   const Grid grid(box, cells);
-  std::vector<char> inside(grid.count(), 0);
-  for (const TriangleMesh* of : {&solid, &walls}) {
-    if (of->triangles.empty()) continue;
-    const WindingTree winding(of->triangles, of->vertices);
-    parallel_for(inside.size(), 1024, [&](std::size_t n) {
-      if (inside[n] == 0 && (of == &walls ? winding.winds_round(grid.at(n)) : winding.is_inside(grid.at(n))))
-        inside[n] = 1;
-    });
-  }
-  TriangleMesh skin = Skin(surface, grid, inside).make();
+  const WindingTree of_solid(solid.triangles, solid.vertices), of_walls(walls.triangles, walls.vertices);
+  const Inside is_inside = [&](const Vec3& x) {
+    return of_solid.is_inside(x) || (!walls.triangles.empty() && of_walls.winds_round(x));
+  };
+  TriangleMesh skin = Skin(grid, is_inside).make();
   if (largest_move != nullptr) {
     const BoxTree tree(triangle_boxes(surface.triangles, surface.vertices));
     std::vector<double> sq(skin.vertices.size(), 0.0);

@@ -80,3 +80,11 @@ TEST_CASE("a torn surface gets the skin of the whole one") {
   CHECK_FALSE(check_mesh(skin, make_topology(skin)));
   CHECK(signed_volume(skin) == Approx(4.0 / 3.0 * M_PI).epsilon(0.03));
 }
+
+TEST_CASE("a skin is that of the outer of two surfaces that lie within a cell of each other") {
+  TriangleMesh nested = icosphere(4);
+  const TriangleMesh inner = icosphere(4, 0.98);  // a cell is 0.05
+  append(nested, inner);
+  const TriangleMesh skin = remesh(nested, {}, 40, nullptr);
+  for (const Vec3& v : skin.vertices) REQUIRE(v.norm() == Approx(1.0).margin(5e-3));  // facets are 1e-3 within
+}
