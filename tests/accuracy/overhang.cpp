@@ -11,7 +11,7 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kLength = 1.0, kThickness = 0.1, kDepth = 0.6;  // m
+constexpr double kBookLength = 1.0, kBookThickness = 0.1, kBookDepth = 0.6;  // m
 
 /// `share` of the largest overhang, of a table that is a box or its triangles.
 void books(int count, double share, bool table_is_mesh, int substeps, World& world) {
@@ -23,12 +23,12 @@ void books(int count, double share, bool table_is_mesh, int substeps, World& wor
       dynamic_body("table", table_is_mesh ? SharedShape(make_box_mesh(half)) : SharedShape(Box{half}), {-2.0, -0.5, 0});
   table.kind = BodyKind::fixed;
   world.add_body(table);
-  const MeshPointer book = make_box_mesh(0.5 * Vec3(kLength, kThickness, kDepth));
+  const MeshPointer book = make_box_mesh(0.5 * Vec3(kBookLength, kBookThickness, kBookDepth));
   double end = 0.0;  // of the book at hand, beyond the table
   for (int i = count; i >= 1; --i) {
-    end += share * kLength / (2 * i);
-    world.add_body(
-        dynamic_body("book" + std::to_string(i), book, Vec3(end - 0.5 * kLength, kThickness * (count - i + 0.5), 0.0)));
+    end += share * kBookLength / (2 * i);
+    world.add_body(dynamic_body("book" + std::to_string(i), book,
+                                Vec3(end - 0.5 * kBookLength, kBookThickness * (count - i + 0.5), 0.0)));
   }
   world.start();
 }
