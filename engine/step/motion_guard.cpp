@@ -77,17 +77,23 @@ double seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair) {
   return std::min(pair.safe, kSafe * std::min(wall_of(*bodies[pair.a].shape), wall_of(*bodies[pair.b].shape)));
 }
 
-/// Of a ball or capsule and another, or a rigid mesh, as far as distances tell it: they touch all along their way as a rule.
-/// Of convex solids and small meshes, as far as a plane between them does.
+/// Of a shape and a rigid mesh: of a ball or capsule as far as distances tell it, which touches all along its way as a rule;
+/// where it goes far, and of what isn't round, as far as planes do.
+bool is_known_off(const Body& body, const SurfacePath& own, const SurfacePath& triangles, double depth) {
+  const std::optional<RoundCore> core = round_core(*body.shape);
+  return (core && stays_out(*core, own, triangles, depth)) || stay_off(*body.shape, own, triangles, depth);
+}
+
+/// The same of any two bodies; of meshes if they are small.
 bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const SurfacePath& of_b, double depth) {
   if (deforms(a) || deforms(b)) return false;
+  const bool a_is_mesh = a.shape->mesh() != nullptr, b_is_mesh = b.shape->mesh() != nullptr;
+  if (a_is_mesh && b_is_mesh) return stays_beside(of_a, of_b, depth);
+  if (a_is_mesh) return is_known_off(b, of_b, of_a, depth);
+  if (b_is_mesh) return is_known_off(a, of_a, of_b, depth);
   const std::optional<RoundCore> core_a = round_core(*a.shape), core_b = round_core(*b.shape);
-  if (core_a && core_b) return stays_out(*core_a, of_a, *core_b, of_b, depth);
-  if (core_a && b.shape->mesh() != nullptr) return stays_out(*core_a, of_a, of_b, depth);
-  if (core_b && a.shape->mesh() != nullptr) return stays_out(*core_b, of_b, of_a, depth);
-  if (a.shape->mesh() == nullptr && b.shape->mesh() == nullptr)
-    return stay_apart(*a.shape, of_a, *b.shape, of_b, depth);
-  return stays_beside(of_a, of_b, depth);
+  return (core_a && core_b && stays_out(*core_a, of_a, *core_b, of_b, depth)) ||
+         stay_apart(*a.shape, of_a, *b.shape, of_b, depth);
 }
 
 /// Of a body and a plane, whichever is which.

@@ -23,6 +23,8 @@ constexpr int kMostPieces = 64;       // of a sub-step
 constexpr int kMostMotions = 32;      // tried for a piece
 constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
 constexpr double kGrowth = 2.0;       // of the next piece over one that had rows and took more motions than that
+constexpr double kAfterCut = 16.0;    // of the next piece over one that was cut on a long way
+constexpr double kLongWay = 4.0;      // of a safe approach
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kFar = 20.0;         // of a safe approach: from there on the end tells nothing of what is on the way
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
@@ -109,15 +111,21 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
   return is_new;
 }
 
-/// Rows before anything is cut: whether the sub-step may have some, and the piece has.
+/// Rows before anything is cut: whether the sub-step may have some, and the piece has. And whether a long way was cut.
 struct Asking {
-  bool may = true, has = false;
+  bool may = true, has = false, is_cut = false;
   /// Takes them back where a solve with them has no answer: it is cut then.
   bool is_refused(SubStep& step) {
     if (!has || is_usable(step)) return false;
     may = has = false;
     begin(step);
     return true;
+  }
+  /// What the next piece tries: all that is left, or after a cut of a long way a few times as much, since the next meeting is as near as
+  /// a rule, and what a long motion comes upon is dear to find, to solve and to look back at.
+  double next_share(double share, int motions) const {
+    if (has && motions > kPatience) return kGrowth * share;
+    return is_cut ? kAfterCut * share : 1.0;
   }
 };
 
@@ -156,6 +164,8 @@ bool look_at_ends(const Bodies& bodies, const UnsafeMotion& motion, SubStep& ste
 double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
                   Asking& asking, std::vector<Collision>& asked) {
   if (asking.may && ask_for(motion, seen, asked)) return asking.has = true, 1.0;
+  asking.is_cut |= std::any_of(motion.pairs.begin(), motion.pairs.end(),
+                               [](const UnsafeMotion::Pair& p) { return p.approach > kLongWay * p.safe; });
   if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
   const PairLength any = [](const UnsafeMotion::Pair&) { return INFINITY; };
   return ask_for(motion, any, asked) ? 1.0 : 0.5;
@@ -351,7 +361,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
-    next = asking.has && motion > kPatience ? kGrowth * share : 1.0;
+    next = asking.next_share(share, motion);
     rest = share == rest ? 0.0 : rest - share;
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);

@@ -11,10 +11,10 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kLength = 1.0, kThickness = 0.004, kWidth = 0.6;
+constexpr double kCardLength = 1.0, kCardThickness = 0.004, kCardWidth = 0.6;
 
 SharedShape card(bool is_hull) {
-  const Vec3 half(0.5 * kLength, 0.5 * kThickness, 0.5 * kWidth);
+  const Vec3 half(0.5 * kCardLength, 0.5 * kCardThickness, 0.5 * kCardWidth);
   if (!is_hull) return Box(half);
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i)
@@ -30,7 +30,7 @@ double sunk(double angle, double friction, bool left_is_hull, bool right_is_hull
   world.parameters.contact.friction = friction;
   world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
   const double s = std::sin(angle), c = std::cos(angle);
-  const Vec3 place(0.5 * (kLength * c + kThickness * s), 0.5 * (kLength * s + kThickness * c), 0.0);
+  const Vec3 place(0.5 * (kCardLength * c + kCardThickness * s), 0.5 * (kCardLength * s + kCardThickness * c), 0.0);
   BodyDescription left = dynamic_body("left", card(left_is_hull), Vec3(-place.x(), place.y(), 0.0)),
                   right = dynamic_body("right", card(right_is_hull), place);
   left.rotation = Vec3(0, 0, angle * 180.0 / M_PI);
@@ -49,7 +49,7 @@ TEST_CASE("a tent of cards stands above its friction threshold and falls below i
     for (const auto& [left, right] : {std::pair(false, false), std::pair(true, true), std::pair(false, true)}) {
       const double angle = degrees * M_PI / 180.0;
       const double threshold =
-          (kLength * std::cos(angle) - kThickness * std::sin(angle)) / (2.0 * kLength * std::sin(angle));
+          (kCardLength * std::cos(angle) - kCardThickness * std::sin(angle)) / (2.0 * kCardLength * std::sin(angle));
       CAPTURE(degrees, left, right, threshold);
       CHECK(std::abs(sunk(angle, 1.03 * threshold, left, right)) < 1e-4);
       CHECK(sunk(angle, 0.97 * threshold, left, right) > 0.05);

@@ -57,8 +57,8 @@ void add_contact(const ProximityQuery& query, const EdgeCone& ea, const EdgeCone
   const double falls = -normal.dot(path);
   const bool would_cross = gap > 0.0 && falls > gap;
   if (gap > query.activation && !would_cross) return;
-  if (would_cross) {
-    // at the moment the edges' lines meet, do the edges?
+  if (would_cross && gap > query.touch) {
+    // at the moment the edges' lines meet, do the edges? (Those that touch do; half of a gap of rounding is none.)
     const Vec3 shift = (gap / falls) * path;
     const double limit = std::min(0.5 * gap, query.activation);
     if (closest_between_segments(ea.p + shift, ea.q + shift, eb.p, eb.q).squared_distance > limit * limit) return;

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/rotation.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
 namespace {
 
-constexpr int kMostPieces = 64;  // of the path: beyond, a search is no dearer
+constexpr int kMostPieces = 256;  // of the path: beyond, a search is no dearer
 
 bool is_nearer(const Vec3& p, const Vec3& q, const TriangleCorners& t, double limit_sq) {
   if (closest_on_triangle(p, t).squared_distance < limit_sq) return true;
@@ -41,16 +42,39 @@ bool is_nearer(const Vec3& p, const Vec3& q, const SurfaceMesh& surface, double 
   return found;
 }
 
-bool is_ball(const RoundCore& core) { return core.p == core.q; }
-
+/// A body on its path, and which of its points are followed: all of its surface, or the ends of a round body's core, which
+/// spins about its own axis as it likes.
 struct Mover {
   const SurfacePath& path;
-  bool is_ball;  // whose turning moves none of its surface
+  const RoundCore* core = nullptr;
 
   double way(double t0, double t1) const {
-    return is_ball ? (path.pose_at(t1).position - path.pose_at(t0).position).norm() : path.travel(t0, t1);
+    if (core == nullptr) return path.travel(t0, t1);
+    const double of_centre = (path.pose_at(t1).position - path.pose_at(t0).position).norm();
+    if (is_ball()) return of_centre;
+    const Vec3 turn = turn_of(t0, t1);
+    return of_centre + turn.norm() * swing(turn, t0);
   }
-  double bend(double t0, double t1) const { return is_ball ? 0.0 : path.bend(t0, t1); }
+  double bend(double t0, double t1) const {
+    if (core == nullptr) return path.bend(t0, t1);
+    if (is_ball()) return 0.0;
+    const Vec3 turn = turn_of(t0, t1);
+    return swing(turn, t0) * (1.0 - std::cos(0.5 * turn.norm()));
+  }
+
+ private:
+  bool is_ball() const { return core->p.isZero(0.0) && core->q.isZero(0.0); }
+  Vec3 turn_of(double t0, double t1) const {
+    return rotation_log(path.pose_at(t1).rotation * path.pose_at(t0).rotation.transpose());
+  }
+  /// How far the farther end is from the axis of a turn through the body's centre, metres: neighbouring poses are joined by
+  /// a screw, on which that stays as it is.
+  double swing(const Vec3& turn, double t0) const {
+    const double angle = turn.norm();
+    if (!(angle > 0.0)) return 0.0;
+    const Mat3 rotation = path.pose_at(t0).rotation;
+    return std::max(turn.cross(rotation * core->p).norm(), turn.cross(rotation * core->q).norm()) / angle;
+  }
 };
 
 /// Whether two things keep a distance of `radius` less `depth` all along; is_nearer(t, limit) tells at one moment. At those
@@ -88,7 +112,7 @@ std::optional<RoundCore> round_core(const Shape& shape) {
 }
 
 bool stays_out(const RoundCore& core, const SurfacePath& own, const SurfacePath& triangles, double depth) {
-  return stays_apart(core.radius, {own, is_ball(core)}, {triangles, false}, depth, [&](double t, double limit) {
+  return stays_apart(core.radius, {own, &core}, {triangles}, depth, [&](double t, double limit) {
     const Pose of_own = own.pose_at(t), of_other = triangles.pose_at(t);
     return is_nearer(of_other.apply_inverse(of_own.apply(core.p)), of_other.apply_inverse(of_own.apply(core.q)),
                      *triangles.of->surface, limit);
@@ -96,7 +120,7 @@ bool stays_out(const RoundCore& core, const SurfacePath& own, const SurfacePath&
 }
 
 bool stays_out(const RoundCore& a, const SurfacePath& of_a, const RoundCore& b, const SurfacePath& of_b, double depth) {
-  return stays_apart(a.radius + b.radius, {of_a, is_ball(a)}, {of_b, is_ball(b)}, depth, [&](double t, double limit) {
+  return stays_apart(a.radius + b.radius, {of_a, &a}, {of_b, &b}, depth, [&](double t, double limit) {
     const Pose at_a = of_a.pose_at(t), at_b = of_b.pose_at(t);
     return closest_between_segments(at_a.apply(a.p), at_a.apply(a.q), at_b.apply(b.p), at_b.apply(b.q))
                .squared_distance < limit * limit;

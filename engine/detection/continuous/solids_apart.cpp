@@ -1,8 +1,11 @@
 #include "engine/detection/continuous/solids_apart.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "engine/detection/continuous/convex_solids.hpp"
+#include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -10,9 +13,13 @@
 namespace impinge {
 namespace {
 
-constexpr int kPathPieces = 64;    // of the path, as it comes
-constexpr int kSolidHalvings = 5;  // of such a piece: shorter ones bend less
-constexpr int kMostLooks = 64;     // at two solids: beyond, a search is no dearer
+constexpr int kPathPieces = 64;              // of the path, as it comes
+constexpr int kSolidHalvings = 5;            // of such a piece: shorter ones bend less
+constexpr int kMostLooks = 64;               // at two solids: beyond, a search is no dearer
+constexpr std::size_t kMostTriangles = 512;  // round a solid's way: the same
+// of what a solid may overlap with a surface: with each of its triangles. A corner of more than 30 degrees that goes down
+// between two of them by that depth is in both by a quarter of it and more.
+constexpr double kOfTriangle = 0.25;
 
 double reach_of(const PlacedConvex& solid, const Vec3& direction) { return direction.dot(farthest(solid, direction)); }
 
@@ -49,11 +56,29 @@ bool is_beyond(const MovingSolid& a, const MovingSolid& b, const Vec3& normal_of
   return overlap(a.last, b.last) <= allowed && overlap(a.first, b.first) <= allowed;
 }
 
-/// Two solids and the paths of their bodies.
+class TriangleSet final : public ConvexSet {
+ public:
+  TriangleSet(const TriangleMesh& mesh, int triangle) {
+    for (int k = 0; k < 3; ++k)
+      corners_[k] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(triangle)][k])];
+  }
+  Vec3 support(const Vec3& direction) const override {
+    const double x = direction.dot(corners_[0]), y = direction.dot(corners_[1]), z = direction.dot(corners_[2]);
+    return corners_[x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2)];
+  }
+
+ private:
+  std::array<Vec3, 3> corners_;
+};
+
+/// A ball's turning moves none of its surface.
+double swing_of(const Shape& shape) { return shape.as<Sphere>() != nullptr ? 0.0 : shape.bounding_radius(); }
+
+/// Two solids and the paths of their bodies, with the radii that their points turn about these bodies' centres.
 class SolidPair {
  public:
-  SolidPair(const Shape& a, const SurfacePath& of_a, const Shape& b, const SurfacePath& of_b, double depth)
-      : path_a_(of_a), path_b_(of_b), radius_a_(swing_of(a)), radius_b_(swing_of(b)), depth_(depth) {}
+  SolidPair(double radius_a, const SurfacePath& of_a, double radius_b, const SurfacePath& of_b, double depth)
+      : path_a_(of_a), path_b_(of_b), radius_a_(radius_a), radius_b_(radius_b), depth_(depth) {}
 
   bool stays_apart(const PlacedConvex& a, const PlacedConvex& b) {
     a_ = &a, b_ = &b, left_ = kMostLooks;
@@ -65,9 +90,6 @@ class SolidPair {
   }
 
  private:
-  /// A ball's turning moves none of its surface.
-  static double swing_of(const Shape& shape) { return shape.as<Sphere>() != nullptr ? 0.0 : shape.bounding_radius(); }
-
   bool is_clear(double t0, double t1, int halvings) {
     if (--left_ < 0) return false;
     const double half_way = 0.5 * (t0 + t1);
@@ -90,16 +112,70 @@ class SolidPair {
   int left_ = 0;  // looks
 };
 
+/// The box that holds a solid all along its way, as the triangles' body sees it.
+Aabb box_of_way(const PlacedConvex& solid, double radius, const SurfacePath& own, const SurfacePath& triangles) {
+  Aabb box;
+  const int pieces = std::max(own.pieces(), triangles.pieces());
+  for (int i = 0; i < pieces; ++i) {
+    const double t0 = static_cast<double>(i) / pieces, t1 = (i + 1.0) / pieces;
+    const MovingSolid moving{&solid, own.pose_at(t0), own.pose_at(t1), radius},
+        frame{nullptr, triangles.pose_at(t0), triangles.pose_at(t1), triangles.of->radius};
+    const double bend = bend_between(moving, frame);
+    for (const double t : {t0, t1}) {
+      const PlacedConvex seen = placed(solid, seen_from(triangles.pose_at(t), own.pose_at(t)));
+      for (int k = 0; k < 3; ++k)
+        for (const double sign : {-1.0, 1.0}) {
+          Vec3 x = seen.pose.position;
+          x[k] = farthest(seen, sign * Vec3::Unit(k))[k] + sign * bend;
+          box.include(x);
+        }
+    }
+  }
+  return box;
+}
+
+/// Those that reach into the box; none: there are too many.
+std::optional<std::vector<int>> triangles_in(const SurfaceMesh& surface, const Aabb& box) {
+  const BoxTree& tree = surface.tree();
+  std::vector<int> found;
+  tree.search(
+      [&](int n) {
+        return found.size() <= kMostTriangles && overlap(tree.nodes()[static_cast<std::size_t>(n)].box, box);
+      },
+      [&](int t) {
+        Aabb own;
+        for (const int v : surface.mesh.triangles[static_cast<std::size_t>(t)])
+          own.include(surface.mesh.vertices[static_cast<std::size_t>(v)]);
+        if (overlap(own, box)) found.push_back(t);
+      });
+  if (found.size() > kMostTriangles) return std::nullopt;
+  return found;
+}
+
 }  // namespace
 
 bool stay_apart(const Shape& a, const SurfacePath& of_a, const Shape& b, const SurfacePath& of_b, double depth) {
   if (!of_a.is_rigid() || !of_b.is_rigid()) return false;
   const std::vector<PlacedConvex> solids_a = convex_solids(a), solids_b = convex_solids(b);
   if (solids_a.empty() || solids_b.empty()) return false;
-  SolidPair pair(a, of_a, b, of_b, depth);
+  SolidPair pair(swing_of(a), of_a, swing_of(b), of_b, depth);
   return std::all_of(solids_a.begin(), solids_a.end(), [&](const PlacedConvex& own) {
     return std::all_of(solids_b.begin(), solids_b.end(),
                        [&](const PlacedConvex& other) { return pair.stays_apart(own, other); });
+  });
+}
+
+bool stay_off(const Shape& solid, const SurfacePath& own, const SurfacePath& triangles, double depth) {
+  if (!own.is_rigid() || !triangles.is_rigid()) return false;
+  const std::vector<PlacedConvex> solids = convex_solids(solid);
+  SolidPair pair(swing_of(solid), own, triangles.of->radius, triangles, kOfTriangle * depth);
+  return !solids.empty() && std::all_of(solids.begin(), solids.end(), [&](const PlacedConvex& part) {
+    const SurfaceMesh& surface = *triangles.of->surface;
+    const auto near = triangles_in(surface, box_of_way(part, swing_of(solid), own, triangles));
+    return near && std::all_of(near->begin(), near->end(), [&](int t) {
+             const TriangleSet triangle(surface.mesh, t);
+             return pair.stays_apart(part, {&triangle, Pose()});
+           });
   });
 }
 

@@ -12,4 +12,7 @@ namespace impinge {
 /// paths. False where it isn't known: then their surfaces have to be searched.
 bool stay_apart(const Shape& a, const SurfacePath& of_a, const Shape& b, const SurfacePath& of_b, double depth);
 
+/// The same of a body of convex solids and the triangles of a rigid mesh, whatever surface they make.
+bool stay_off(const Shape& solid, const SurfacePath& own, const SurfacePath& triangles, double depth);
+
 }  // namespace impinge
