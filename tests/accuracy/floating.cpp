@@ -11,7 +11,7 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr double kStep = 1.0 / 60.0;
+constexpr double kFloatStep = 1.0 / 60.0;
 
 struct Sums {
   double energy = 0.0;
@@ -77,7 +77,7 @@ TEST_CASE("what floats wins no energy, with whatever it is answered") {
       add_bodies(world, random, count, 2.0, speed);
       world.start();
       const Sums before = sums_of(world);
-      const int frames = 4 + static_cast<int>(4.0 / (speed * kStep));
+      const int frames = 4 + static_cast<int>(4.0 / (speed * kFloatStep));
       for (int i = 0; i < std::min(frames, 60); ++i) {
         world.step();
         const Sums now = sums_of(world);
