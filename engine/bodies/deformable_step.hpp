@@ -24,12 +24,13 @@ struct DeformableStep {
   VecX start;                 ///< x₀ over all nodes, m
   VecX offset;                ///< d over all nodes, m; of held nodes: how far they are moved
   VecX v_hat;                 ///< over all nodes, m/s
-  VecX force;                 ///< elastic f(x₀) over all nodes, N
-  BlockMatrix stiffness;      ///< K(x₀) over all nodes, N/m; empty where nothing needs it
-  BlockMatrix tangent;  ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
-  BlockMatrix a;        ///< over the free nodes, kg
-  VecX b;               ///< kg m/s
-  VecX v_star;          ///< solution without contact, m/s
+  VecX rigid;             ///< w over all nodes, m/s: what stiffness-proportional damping leaves alone; empty: nothing
+  VecX force;             ///< elastic f(x₀) over all nodes, N
+  BlockMatrix stiffness;  ///< K(x₀) over all nodes, N/m; empty where nothing needs it
+  BlockMatrix tangent;    ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
+  BlockMatrix a;          ///< over the free nodes, kg
+  VecX b;                 ///< kg m/s
+  VecX v_star;            ///< solution without contact, m/s
 
   // how free_velocity fared
   int newton_iterations = 0;

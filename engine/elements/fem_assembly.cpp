@@ -5,6 +5,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/elements/discrete_gradient.hpp"
 #include "engine/elements/quadratic_elements.hpp"
 
 namespace impinge {
@@ -172,10 +173,32 @@ double FemAssembly::forces(const VecX& x, VecX& f) {
     const Material& m = material(kTetParts * e);
     quadratic_->force(e, m, x, unwinding_, unwinding_modulus(m), quadratic_slot_[i]);
   });
+  gather_forces(f);
+  return total_energy();
+}
+
+void FemAssembly::gather_forces(VecX& f) const {
   if (quadratic_)
     quadratic_sums_.gather_forces(quadratic_slot_, f);
   else
     sums_.gather_forces(slot_, f);
+}
+
+double FemAssembly::mean_forces(const VecX& x0, const VecX& x1, VecX& f) {
+  parallel_for(slot_.size(), kElementsPerTask, [&](std::size_t e) {
+    const Material& m = material(static_cast<int>(e));
+    const Corners c0 = corners(x0, static_cast<int>(e)), c1 = corners(x1, static_cast<int>(e));
+    if (unwinding_.lets_go(e))
+      unwinding_.force(elements_[e], 0.5 * (c0 + c1), e, unwinding_modulus(m), slot_[e]);  // of a quadratic energy
+    else
+      discrete_gradient(m, elements_[e], c0, c1, slot_[e]);
+  });
+  parallel_for(quadratic_slot_.size(), kQuadraticPerTask, [&](std::size_t i) {
+    const int e = static_cast<int>(i);
+    const Material& m = material(kTetParts * e);
+    quadratic_->mean_force(e, m, x0, x1, unwinding_, unwinding_modulus(m), quadratic_slot_[i]);
+  });
+  gather_forces(f);
   return total_energy();
 }
 

@@ -56,7 +56,10 @@ class FemAssembly {
   double energy(const VecX& x);
   /// Elastic force f = −∂energy/∂x; returns the energy.
   double forces(const VecX& x, VecX& f);
-  /// The same, and the stiffness −∂f/∂x (or the stand-in that `tangent` names) into k, whose pattern is pattern().
+  /// The force of a step from x0 to x1 that does the work by which the energy falls (discrete_gradient.hpp); returns the
+  /// energy at x1.
+  double mean_forces(const VecX& x0, const VecX& x1, VecX& f);
+  /// The same as forces(), and the stiffness −∂f/∂x (or the stand-in that `tangent` names) into k, whose pattern is pattern().
   double stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k);
 
   /// Mass of each node, kg: row sums of the mass matrix, what gravity acts on. Linear elements: a quarter of each
@@ -72,6 +75,7 @@ class FemAssembly {
  private:
   void make_mass();
   Corners corners(const VecX& x, int element) const;
+  void gather_forces(VecX& f) const;
   void make_linear_mass();
   void make_quadratic_mass();
   double total_energy() const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/error.hpp"
+#include "engine/elements/discrete_gradient.hpp"
 
 namespace impinge {
 namespace {
@@ -165,6 +166,25 @@ void QuadraticElements::force(int e, const Material& material, const VecX& x, co
       unwinding.force(rest, y, part, mu, point);
     else
       material.force(rest, y, point);
+    out.energy += point.energy;
+    out.force.noalias() += point.force * p.map.transpose();
+  });
+}
+
+void QuadraticElements::mean_force(int e, const Material& material, const VecX& x0, const VecX& x1,
+                                   const Unwinding& unwinding, double mu, QuadraticAnswer& out) const {
+  const std::size_t part = static_cast<std::size_t>(e) * kTetParts;
+  const bool let_go = unwinding.lets_go(part);
+  const Nodes before = nodes_at(nodes_[e], x0);
+  out.energy = 0.0;
+  out.force.setZero();
+  at_points(nodes_[e], rest_[e], x1, let_go, [&](const Point& p, const TetRest& rest, const Corners& y1) {
+    const Corners y0 = before * p.map;
+    ElementResponse point;
+    if (let_go)
+      unwinding.force(rest, 0.5 * (y0 + y1), part, mu, point);
+    else
+      discrete_gradient(material, rest, y0, y1, point);
     out.energy += point.energy;
     out.force.noalias() += point.force * p.map.transpose();
   });

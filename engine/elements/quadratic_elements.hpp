@@ -50,6 +50,8 @@ class QuadraticElements {
   double energy(int element, const Material& material, const VecX& x, const Unwinding& unwinding, double mu) const;
   void force(int element, const Material& material, const VecX& x, const Unwinding& unwinding, double mu,
              QuadraticAnswer& out) const;
+  void mean_force(int element, const Material& material, const VecX& x0, const VecX& x1, const Unwinding& unwinding,
+                  double mu, QuadraticAnswer& out) const;
   void response(int element, const Material& material, const VecX& x, Tangent tangent, const Unwinding& unwinding,
                 double mu, QuadraticAnswer& out) const;
 

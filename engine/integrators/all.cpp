@@ -9,6 +9,7 @@ const Registry<DeformableIntegrator>& integrators() {
     IMPINGE_LIST(all, linearly_implicit_euler_integrator);
     IMPINGE_LIST(all, implicit_euler_integrator);
     IMPINGE_LIST(all, newmark_integrator);
+    IMPINGE_LIST(all, energy_momentum_integrator);
     IMPINGE_LIST(all, symplectic_euler_integrator);
     return all;
   }();

@@ -19,14 +19,30 @@ VecX damping_force(const DeformableBody& body, const DeformableStep& step, const
     d += body.damping.alpha * part;
   }
   if (body.damping.beta != 0.0) {
-    multiply(step.stiffness, v, part);
+    multiply(step.stiffness, step.rigid.size() > 0 ? VecX(v - step.rigid) : v, part);
     d += body.damping.beta * part;
   }
   return d;
 }
 
+double damping_potential(const DeformableBody& body, const DeformableStep& step, const VecX& v) {
+  double sum = 0.0;
+  VecX part;
+  if (body.damping.alpha != 0.0) {
+    body.fem.multiply_mass(v, part);
+    sum += body.damping.alpha * dot(v, part);
+  }
+  if (body.damping.beta != 0.0) {
+    const VecX strains = step.rigid.size() > 0 ? VecX(v - step.rigid) : v;
+    multiply(step.stiffness, strains, part);
+    sum += body.damping.beta * dot(strains, part);
+  }
+  return 0.5 * sum;
+}
+
 void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step) {
   step.start = body.position;
+  step.rigid.resize(0);
   body.fem.release_tangles(body.position);
   // held nodes move by h times their prescribed velocity, whatever s is
   for (int i = 0; i < body.nodes(); ++i)

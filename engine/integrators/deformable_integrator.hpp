@@ -5,6 +5,9 @@
 // backward Euler:  v̂ = v₀,                 τ = h,   s = h,      d = 0     (τ: see DeformableStep::acting)
 // Newmark:         v̂ = v₀ + h (1 − γ) a₀,  τ = γ h, s = h β/γ,  d = (h − s) v₀ + h² (½ − β/γ) a₀
 // with the derivative A = M + τ D + τ s K(x₀ + Δq(v)), symmetric. A linear solve at v is A v' = b, b = A v − g(v).
+// Where the forces are those of the end, K(x₀) takes the turning that bends v away from a rotation about x₀ for a strain of
+// h ω × (ω × r), and what damped it would brake whatever spins: D is applied to v − w there, w that of the body if it went on
+// as a rigid one with the motion that it begins with (mean_turning).
 // Contact adds Jᵀλ to b and reads its gap from x₀ + Δq(v).
 #pragma once
 
@@ -34,8 +37,10 @@ void fill_system(const DeformableBody& body, double mass, double start, double n
                  DeformableStep& step);
 /// f_ext: gravity by nodal masses and the body's external force, N, over all nodes.
 VecX applied_force(const DeformableBody& body, const Vec3& gravity);
-/// D v = α M v + β K(x₀) v over all nodes, N.
+/// D v = α M v + β K(x₀) (v − w) over all nodes, N; w: DeformableStep::rigid.
 VecX damping_force(const DeformableBody& body, const DeformableStep& step, const VecX& v);
+/// Its potential, ½ α vᵀM v + ½ β (v − w)ᵀK(x₀) (v − w), W.
+double damping_potential(const DeformableBody& body, const DeformableStep& step, const VecX& v);
 /// Fills `gravity` and `external` with what gravity and the body's external force give in the time in which they act.
 void applied_impulses(const DeformableBody& body, const DeformableStep& step, StepImpulses& out);
 /// Solves step.a v* = step.b, starting from the body's velocity.

@@ -23,8 +23,7 @@ class IncrementalPotential {
     VecX inertia;
     const VecX difference = v - step_.v_hat;
     body_.fem.multiply_mass(difference, inertia);
-    return 0.5 * dot(difference, inertia) +
-           step_.tau * (0.5 * dot(v, damping_force(body_, step_, v)) - dot(applied_, v)) +
+    return 0.5 * dot(difference, inertia) + step_.tau * (damping_potential(body_, step_, v) - dot(applied_, v)) +
            step_.tau / step_.s * elastic + pull_potential(body_, step_, v);
   }
   double value(const VecX& v) const { return value(v, body_.fem.energy(step_.position(v))); }

@@ -1,6 +1,7 @@
 // Backward Euler solved to the end: Newton's method with a line search. Unconditionally stable, damps (a vibration of ω
 // loses a factor 1/√(1 + (ωh)²) a step).
 #include "engine/integrators/deformable_integrator.hpp"
+#include "engine/integrators/mean_turning.hpp"
 
 namespace impinge {
 namespace {
@@ -14,6 +15,7 @@ class ImplicitEuler : public OneStepScheme {
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;
     begin_step(body, body.damping.beta != 0.0, step);
+    if (body.damping.beta != 0.0) step.rigid = rigid_motion(body, h, TurningRule::exact);
   }
   const NewtonSettings* newton() const override { return &newton_; }
   void declare(const Rows& rows) override { newton_.declare(rows); }

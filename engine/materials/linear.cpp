@@ -7,6 +7,7 @@ namespace {
 
 class Linear : public Material {
  public:
+  bool is_objective() const override { return false; }
   double energy(const TetRest& rest, const Corners& x) const override {
     const Mat3 strain = strain_of(rest, x);
     const double trace = strain.trace();

@@ -82,6 +82,8 @@ class Material : public Method {
   /// Whether elements in a tangle are let go until they are free of it (bodies/unwinding.hpp): for materials that are
   /// meant to survive inversion and would hold a tangle together.
   virtual bool unwinds() const { return false; }
+  /// Whether turning costs no energy: of all but what measures strains in fixed axes.
+  virtual bool is_objective() const { return true; }
   /// Principal stretch below which the law yields the more it is pressed, so that what is squeezed further may stay so;
   /// 0: none.
   virtual double collapse_stretch() const { return 0.0; }

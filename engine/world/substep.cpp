@@ -113,7 +113,14 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
 
 /// Rows before anything is cut: whether the sub-step may have some, and the piece has. And whether a long way was cut.
 struct Asking {
+<<<<<<< HEAD
   bool may = true, has = false, is_cut = false;
+=======
+  bool may = true, has = false;
+  /// Whether the piece was cut for what deforms: driven into each other, soft surfaces pass in the next one too, which shows
+  /// only when all its looks are spent. It grows from this one's length then.
+  bool bends = false;
+>>>>>>> h2
   /// Takes them back where a solve with them has no answer: it is cut then.
   bool is_refused(SubStep& step) {
     if (!has || is_usable(step)) return false;
@@ -131,7 +138,7 @@ struct Asking {
 
 void begin_piece(SubStep& step, PassiveRebounds& passive, Asking& asking) {
   begin(step);
-  step.rebounds.clear(), passive = {}, asking.has = false;
+  step.rebounds.clear(), passive = {}, asking.has = asking.bends = false;
 }
 
 /// By the contacts of the poses that bodies have; empty: those would not tell depths.
@@ -160,9 +167,17 @@ bool look_at_ends(const Bodies& bodies, const UnsafeMotion& motion, SubStep& ste
   return is_new;
 }
 
+/// Whether what passes deforms.
+bool of_deforming(const Bodies& bodies, const UnsafeMotion& motion) {
+  return std::any_of(motion.pairs.begin(), motion.pairs.end(), [&](const UnsafeMotion::Pair& p) {
+    return bodies[p.a].kind() == BodyKind::deformable || bodies[p.b].kind() == BodyKind::deformable;
+  });
+}
+
 /// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
-double ask_or_cut(const UnsafeMotion& motion, const PairLength& seen, const PairLength& activation, bool is_patient,
-                  Asking& asking, std::vector<Collision>& asked) {
+double ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLength& seen,
+                  const PairLength& activation, bool is_patient, Asking& asking, std::vector<Collision>& asked) {
+  asking.bends |= of_deforming(bodies, motion);
   if (asking.may && ask_for(motion, seen, asked)) return asking.has = true, 1.0;
   asking.is_cut |= std::any_of(motion.pairs.begin(), motion.pairs.end(),
                                [](const UnsafeMotion::Pair& p) { return p.approach > kLongWay * p.safe; });
@@ -358,10 +373,14 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       if (tears)
         share *= 0.5;
       else if (!(motion <= kPatience && may_look_again() && look_at_ends(bodies_, *unsafe, *sub_step_)))
-        share *= ask_or_cut(*unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
+        share *= ask_or_cut(bodies_, *unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
+<<<<<<< HEAD
     next = asking.next_share(share, motion);
+=======
+    next = asking.bends || (asking.has && motion > kPatience) ? kGrowth * share : 1.0;
+>>>>>>> h2
     rest = share == rest ? 0.0 : rest - share;
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);

@@ -21,6 +21,7 @@
 #include "viewer/notes/balance_note.hpp"
 #include "viewer/notes/convergence_note.hpp"
 #include "viewer/notes/crushed_note.hpp"
+#include "viewer/notes/swell_note.hpp"
 #include "viewer/notes/watchdog_note.hpp"
 #include "viewer/present/png_sequence.hpp"
 #include "viewer/present/video.hpp"
@@ -181,12 +182,16 @@ int RunCommand::run() {
   ConvergenceNote convergence;
   WatchdogNote watchdog;
   BalanceNote balance;
+  SwellNote swell;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
     convergence.add(stats);
     watchdog.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
-  watcher.world = [&](const World& world, bool is_driven) { balance.add(world, is_driven); };
+  watcher.world = [&](const World& world, bool is_driven) {
+    balance.add(world, is_driven);
+    swell.add(world);
+  };
   watcher.earlier_frame = [&](const EarlierFrame& earlier) {
     watchdog.add_earlier(earlier.frame, earlier.unsafe_motions);
     balance.add_earlier({earlier.frame, earlier.kinetic, earlier.elastic, earlier.potential}, earlier.is_driven);
@@ -215,7 +220,8 @@ int RunCommand::run() {
     return code;
   }
 
-  fmt::print("{}{}{}{}", convergence.text(), watchdog.text(), balance.text(), crushed_note(result.crushed));
+  fmt::print("{}{}{}{}{}", convergence.text(), watchdog.text(), balance.text(), swell.text(),
+             crushed_note(result.crushed));
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options_.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);
