@@ -28,7 +28,10 @@ Unit unit_of(const Step (&steps)[N], double value) {
 
 template <std::size_t N>
 std::string text_of(const Step (&steps)[N], double value, Unit base) {
-  const Unit unit = value == 0.0 || !std::isfinite(value) ? base : unit_of(steps, value);
+  if (value == 0.0 || !std::isfinite(value)) return fmt::format("{:.3g} {}", value, base.name);
+  // by the digits that are said: 0.09999 is 0.1 m, and not 100 mm
+  const double power = std::pow(10.0, 2.0 - std::floor(std::log10(std::abs(value))));
+  const Unit unit = unit_of(steps, std::round(value * power) / power * (1.0 + 1e-12));
   return fmt::format("{:.3g} {}", value / unit.size, unit.name);
 }
 

@@ -12,16 +12,19 @@ using namespace impinge::test;
 
 namespace {
 
-DrawList heated(const StepRecord& record, const std::string& of, double max) {
+DrawList drawn(const StepRecord& record, const ViewSettings& settings) {
   static SurfaceCache surfaces;
+  DrawList list;
+  for (const Layer& layer : layers())
+    if (settings.is_on(layer.name)) layer.draw({record, settings, settings.camera, surfaces, layer.name}, list);
+  return list;
+}
+
+DrawList heated(const StepRecord& record, const std::string& of, double max) {
   ViewSettings settings = settings_with({"meshes", "heat"});
   set(settings, "view.heat.of", of);
   set(settings, "view.heat.max", std::to_string(max));
-  DrawList list;
-  for (const Layer& layer : layers())
-    if (layer.name == "meshes" || layer.name == "heat")
-      layer.draw({record, settings, settings.camera, surfaces, layer.name}, list);
-  return list;
+  return drawn(record, settings);
 }
 
 }  // namespace
@@ -94,6 +97,10 @@ TEST_CASE("the hottest vertices of a body have what its contacts have, and what 
         const double most = (*wanted)[item.pick - 1];
         CAPTURE(of, most, item.pick);
         REQUIRE((item.heat != nullptr) == (most > 0.0));
+        // a palette's colour would read as a value of the bar
+        const BodyKind kind = record->bodies[item.pick - 1].kind;
+        const bool is_of_palette = kind == BodyKind::dynamic || kind == BodyKind::deformable;
+        if (item.heat == nullptr) CHECK((item.color == role::kNoValue) == is_of_palette);
         if (item.heat == nullptr) continue;
         CHECK(*std::max_element(item.heat->begin(), item.heat->end()) == Approx(most / high).epsilon(1e-5));
         ++touched;
@@ -103,4 +110,50 @@ TEST_CASE("the hottest vertices of a body have what its contacts have, and what 
     }
   }
   CHECK(touched >= 9);
+}
+
+TEST_CASE("where heat is shown nothing of stress is left, and solid tetrahedra have their nodes' speed") {
+  StepRecord record = soft_record();
+  std::deque<DeformableBody> moving;
+  for (BodyRecord& body : record.bodies) {
+    if (body.deformable == nullptr) continue;
+    DeformableBody& own = moving.emplace_back(*body.deformable);
+    for (int i = 0; i < own.nodes(); ++i) own.velocity.segment<3>(3 * i) = Vec3(0.3, 0.4, 1.2);
+    body.deformable = &own;
+  }
+  ViewSettings settings = settings_with({"meshes", "stress", "heat", "tetrahedra"});
+  set(settings, "view.tetrahedra.style", "shrunk");
+  set(settings, "view.heat.of", "speed");
+  set(settings, "view.heat.max", "2.6");
+  int solids = 0;
+  for (const DrawSurface& item : drawn(record, settings).surfaces) {
+    if (record.bodies[item.pick - 1].deformable == nullptr || item.see_through || item.color == role::kOverlap)
+      continue;
+    REQUIRE(item.heat != nullptr);
+    REQUIRE(item.heat->size() == item.surface->positions.size());
+    for (const float v : *item.heat) CHECK(v == Approx(0.5).margin(1e-6));
+    ++solids;
+  }
+  CHECK(solids == 2);
+
+  // nothing touches anything: no bar, no colours, whatever stress there is
+  record.contacts.clear();
+  set(settings, "view.heat.of", "overlap");
+  const DrawList list = drawn(record, settings);
+  CHECK(list.color_bars.empty());
+  for (const DrawSurface& item : list.surfaces) CHECK(item.heat == nullptr);
+}
+
+TEST_CASE("the bar of overlap does not end below a millionth of the largest body that moves") {
+  StepRecord record = sample_record();
+  double largest = 0.0;
+  for (const BodyRecord& body : record.bodies)
+    if (body.kind != BodyKind::fixed) largest = std::max(largest, body.bounds.extent().norm());
+  for (ContactRecord& c : record.contacts) c.gap = -1e-15;
+  const DrawList tiny = heated(record, "overlap", 0.0);
+  REQUIRE(tiny.color_bars.size() == 1);
+  CHECK(tiny.color_bars.front().scale.high >= 1e-6 * largest);
+  CHECK(tiny.color_bars.front().scale.high <= 1e-5 * largest);
+  for (ContactRecord& c : record.contacts) c.gap = -0.01;
+  CHECK(heated(record, "overlap", 0.0).color_bars.front().scale.high == Approx(0.01));
 }

@@ -97,6 +97,14 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, const s
                      command == &app ? "" : " " + command->get_name());
 }
 
+/// `help` and `help COMMAND` are --help and COMMAND --help.
+std::vector<std::string> help_asked_as_command(std::vector<std::string> words) {
+  if (words.empty() || words[0] != "help" || words.size() > 2) return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 /// A command with the words that are for it.
 struct Declared {
   std::unique_ptr<SubCommand> command;
@@ -226,7 +234,7 @@ int run_command_line(int count, const char* const* words) {
       refuse_option(fmt::format("'{}' is not UTF-8", readable_utf8(word)),
                     "words and names of files in UTF-8 are wanted, since what is written names them",
                     "rename the file or folder");
-  const std::vector<std::string> list = repeat_options(raw_words);
+  const std::vector<std::string> list = repeat_options(help_asked_as_command(raw_words));
   refuse_reserved(list);
   CLI::App app("impinge: collisions of bodies, simulated and shown");
   app.require_subcommand(1);
@@ -244,7 +252,7 @@ int run_command_line(int count, const char* const* words) {
   } catch (const CLI::CallForHelp&) {
     const CLI::App* asked = &app;
     for (const CLI::App* sub : app.get_subcommands()) asked = sub;
-    return print(asked->help());
+    return print(asked == &app ? app.help() : asked->help("impinge"));
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {

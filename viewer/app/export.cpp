@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "engine/core/interrupt.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/app/frame_progress.hpp"
@@ -18,7 +20,7 @@ class ExportCommand : public SubCommand {
  public:
   void declare(Options& options) override {
     options.word("DIR", folder_, "folder of the run");
-    options.text("--format", format_, export_formats_doc());
+    options.names("--format", formats_, "one or several, with commas between them. " + export_formats_doc());
     options.other(
         "--frames", [this](const std::string& text) { range_ = FrameRange(text, "--frames"); },
         "FIRST:LAST:STEP, both ends included; FIRST:LAST, or one frame (default: all)");
@@ -31,15 +33,17 @@ class ExportCommand : public SubCommand {
 
  private:
   std::filesystem::path folder_, out_;
-  std::string format_;
+  std::vector<std::string> formats_;
   FrameRange range_;
   bool quiet_ = false;
 };
 
 int ExportCommand::run() {
-  if (format_.empty())
+  if (formats_.empty())
     refuse_option("export without --format", "what the files are to be is wanted", "write --format vtu, say");
-  find_exporter(format_, "--format");
+  for (const std::string& format : formats_) find_exporter(format, "--format");
+  std::sort(formats_.begin(), formats_.end());
+  formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
   if (out_.empty()) out_ = folder_ / "export";
   if (is_there(out_) && !is_folder(out_))
     throw InputError(out_.string() + ": is a file; a folder is wanted; choose another --out");
@@ -51,7 +55,7 @@ int ExportCommand::run() {
   job.option = "--format";
   job.first = frames.front(), job.stride = range_.stride();
   job.frames = static_cast<int>(frames.size());
-  Exports exports({format_}, job, session.world().record_of_all());
+  Exports exports(formats_, job, session.world().record_of_all());
   FrameProgress progress;
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   bool is_the_run = true;

@@ -41,6 +41,13 @@ Counts count(const World& world) {
   return counts;
 }
 
+/// All three in one unit: that of the largest.
+std::string extent_text(const Vec3& extent) {
+  const Unit unit = length_unit(extent.maxCoeff());
+  const auto side = [&](double metres) { return fmt::format("{:.3g} {}", metres / unit.size, unit.name); };
+  return fmt::format("{} × {} × {}", side(extent.x()), side(extent.y()), side(extent.z()));
+}
+
 /// Name, kind, shape, size and mass of the first of them.
 void print_bodies(const World& world) {
   constexpr std::size_t kMostNamed = 40;
@@ -53,9 +60,7 @@ void print_bodies(const World& world) {
     const Vec3 extent = body.bounds().extent();
     const bool has_box = extent.allFinite() && (extent.array() >= 0.0).all();
     fmt::print("  {:<{}}  {:<10}  {:<11}  {}{}\n", body.name, width, kind_name(body.kind()), body.shape->name(),
-               has_box ? fmt::format("{} × {} × {}, size {}", length_text(extent.x()), length_text(extent.y()),
-                                     length_text(extent.z()), length_text(body.size))
-                       : "without end",
+               has_box ? fmt::format("{}, size {}", extent_text(extent), length_text(body.size)) : "without end",
                body.has_freedom() ? ", " + mass_text(body.mass) : "");
   }
   const std::size_t all = static_cast<std::size_t>(world.bodies().size().value());

@@ -140,12 +140,7 @@ void RunCommand::declare(Options& options) {
       1 << 20,
       "megabytes for the states of the frames (default: 256): from these a run is resumed, and opened in the debugger "
       "without being simulated again; where they don't fit every second one is given up, and so on");
-  options.flag_or_word(
-      "--judge",
-      [this](const std::string& word) { options_.judge = true, options_.judge_substeps = word == "substeps"; },
-      "substeps",
-      "measure overlap independently of detection (slow): judged_penetration_m, judged_depth_m, judged_intersections; "
-      "--judge=substeps: at the end of every sub-step, and the worst of a frame counts, self_crossings too");
+  judge_option(options, options_);
   options.flag("--strict", strict_,
                "exit code 1 if a body may have passed another, or overlaps one by more than 10 % of a thickness, by "
                "vertices or edges, where --judge looks");

@@ -50,6 +50,14 @@ void memory_option(Options& options) {
                 "machine's)");
 }
 
+void judge_option(Options& options, RunOptions& run) {
+  options.flag_or_word(
+      "--judge", [&run](const std::string& word) { run.judge = true, run.judge_substeps = word == "substeps"; },
+      "substeps",
+      "measure overlap independently of detection (slow): judged_penetration_m, judged_depth_m, judged_intersections; "
+      "--judge=substeps: at the end of every sub-step, and the worst of a frame counts, self_crossings too");
+}
+
 void threads_option(Options& options) {
   options.whole("--threads", set_thread_count, 1, 4096, "threads to use (default: all cores); changes no result");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "viewer/app/sub_command.hpp"
+#include "viewer/controller/run.hpp"
 
 namespace impinge {
 
@@ -26,6 +27,8 @@ void images_option(Options& options, bool& images);
 void tolerance_option(Options& options, int& tolerance, const std::string& doc);
 /// --memory-limit, which counts for the whole program and the jobs it starts.
 void memory_option(Options& options);
+/// --judge.
+void judge_option(Options& options, RunOptions& run);
 /// --threads, which counts for the whole program as soon as it is read.
 void threads_option(Options& options);
 /// --quiet.

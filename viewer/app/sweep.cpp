@@ -134,7 +134,9 @@ int sweep(SweepOptions sweep_options, const RunOptions& given, bool quiet) {
   const fs::path out = options.out;
   options.export_ply = options.contacts = !sweep_options.reference.empty();
   options.resume = false;
-  const SweepBase base(options);  // with the paths as given: they stand in the messages
+  const SweepBase base(options);               // with the paths as given: they stand in the messages
+  options.judge = base.session().is_judged();  // a run.toml may say so
+  options.judge_substeps = base.session().is_judged_by_substep();
   rename_former_paths(base.session(), sweep_options, options.overrides);
   options.frames = base.last_frame();
   RunOptions anywhere = options;
@@ -161,21 +163,26 @@ int sweep(SweepOptions sweep_options, const RunOptions& given, bool quiet) {
   const std::string errors = describe_errors(sweep, table), caution = reference_caution(sweep),
                     summary = (caution.empty() ? "" : "caution: " + caution + "\n\n") +
                               sweep_summary(table, sweep.rows) + errors;
-  std::size_t done = 0;
-  for (const SweepRow& row : sweep.rows) done += row.outcome.status == SweepOutcome::done ? 1 : 0;
+  std::size_t done = 0, doubted = 0;
+  for (const SweepRow& row : sweep.rows) {
+    done += row.outcome.status == SweepOutcome::done ? 1 : 0;
+    doubted += row.outcome.status == SweepOutcome::done && !row.doubts.empty() ? 1 : 0;
+  }
+  const std::string count = fmt::format(
+      "{} of {} jobs done{}", done, sweep.rows.size(),
+      doubted == 0 ? "" : fmt::format(", {} of them in doubt (the column doubts of results.csv says why)", doubted));
   {
     const FolderLock lock = FolderLock::wait_for(out);
     write_file(out / "results.csv", sweep_csv(table, sweep.rows));
-    write_file(out / "summary.txt", fmt::format("{}: {} of {} jobs done\n\n{}", options.scene.filename().string(), done,
-                                                sweep.rows.size(), summary));
+    write_file(out / "summary.txt", fmt::format("{}: {}\n\n{}", options.scene.filename().string(), count, summary));
     write_sweep_report(out,
                        {options.scene.filename().string(), sweep_options.zip, sweep.paths, sweep.reference_words,
                         errors, caution, base.session().world().parameters.simulation.frame_time * base.last_frame()},
                        base.session());
   }
   if (!quiet)
-    fmt::print("{}{} of {} jobs done\nresults: {}\nreport:  {}\n", summary, done, sweep.rows.size(),
-               (out / "results.csv").string(), (out / "report.html").string());
+    fmt::print("{}{}\nresults: {}\nreport:  {}\n", summary, count, (out / "results.csv").string(),
+               (out / "report.html").string());
   if (interrupted()) {
     fmt::print(stderr, "interrupted; the same command goes on\n");
     return 130;
@@ -236,6 +243,7 @@ void SweepCommand::declare(Options& options) {
   };
   options.size("--size", take_size, "WIDTHxHEIGHT of the pictures (default: 1280x720)");
   images_option(options, run_.images);
+  judge_option(options, run_);
   options.whole("--jobs", sweep_.jobs, 1, 4096,
                 "jobs at once, each in a process and on a thread of its own (default: all cores; with slurm: as many "
                 "as it gives)");

@@ -102,6 +102,8 @@ std::string cause_word(const PictureComparison& c) {
       return "state";
     case ChangeCause::drawing:
       return "drawing";
+    case ChangeCause::view:
+      return "view";
     case ChangeCause::renderer:
       return "renderer";
   }

@@ -202,6 +202,17 @@ void check_body(const PlacedText& word, std::string_view name, const std::vector
               remedy(nearest_word(name, bodies), "use one of them"));
 }
 
+const std::vector<std::string>& debugger_verbs() {
+  static const std::vector<std::string> kVerbs = {"step", "back",   "seek",  "play", "pause", "select", "panel",
+                                                  "ui",   "shot",   "plots", "quit", "break", "find",   "freeze",
+                                                  "why",  "bundle", "undo",  "redo", "export"};
+  return kVerbs;
+}
+
+bool is_debugger_verb(std::string_view word) {
+  return std::find(debugger_verbs().begin(), debugger_verbs().end(), word) != debugger_verbs().end();
+}
+
 const std::vector<std::string>& command_verbs() {
   static const std::vector<std::string> verbs = [] {
     std::vector<std::string> all = {"set", "layer", "camera"};
@@ -223,14 +234,34 @@ std::vector<std::string> body_names(const ParameterSet& rows) {
   return names;
 }
 
+/// Of a body that is there a key that only other bodies have: no other body's is meant.
+void refuse_key_of_body(const PlacedText& word, const ParameterSet& rows) {
+  const std::size_t end = word.text.starts_with("body.") ? word.text.find('.', 5) : std::string_view::npos;
+  if (end == std::string_view::npos) return;
+  const std::string_view body = word.text.substr(0, end + 1), key = word.text.substr(end);
+  std::vector<std::string> keys;
+  bool others_have_it = false;
+  for (const Parameter& row : rows.all()) {
+    if (row.path.starts_with(body)) keys.push_back(row.path.substr(body.size()));
+    others_have_it |= row.path.starts_with("body.") && row.path.find('.', 5) != std::string::npos &&
+                      std::string_view(row.path).substr(row.path.find('.', 5)) == key;
+  }
+  if (keys.empty() || !others_have_it) return;
+  word.refuse(
+      fmt::format("'{}' has no {}, as bodies of other kinds do", body.substr(5, body.size() - 6), key.substr(1)),
+      fmt::format("it has {}", fmt::join(keys, ", ")), "name one of them, or another body");
+}
+
 std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterSet& rows, bool first_frame) {
   const std::vector<std::string>* renamed = rows.renamed(word.text);
   std::vector<const Parameter*> found;
   for (const std::string& path : renamed == nullptr ? std::vector<std::string>{std::string(word.text)} : *renamed) {
     const Parameter* row = rows.find(path);
-    if (row == nullptr)
+    if (row == nullptr) {
+      refuse_key_of_body(word, rows);
       word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is",
                   remedy(rows.nearest(word.text), "use one of them"));
+    }
     if (!row->set)
       word.refuse(fmt::format("'{}' can't change while running", word.text), "it is fixed with the scene",
                   "set it in the scene, or by --set");

@@ -49,6 +49,10 @@ using Command = std::variant<SetCommand, LayerCommand, CameraCommand, BodiesComm
 
 /// The words that commands begin with.
 const std::vector<std::string>& command_verbs();
+/// First words of lines that only a debugger has, for whoever finds one in a run's script: step, back, seek, play and
+/// pause first.
+const std::vector<std::string>& debugger_verbs();
+bool is_debugger_verb(std::string_view word);
 /// The bodies' names: those that have rows.
 std::vector<std::string> body_names(const ParameterSet& rows);
 

@@ -12,6 +12,7 @@
 #include "viewer/image/difference.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/layers/view_bodies.hpp"
+#include "viewer/layers/view_text.hpp"
 
 namespace impinge {
 
@@ -210,7 +211,8 @@ double FrameView::draw(const StepRecord& record, std::span<const Command> comman
                   {"impinge:frame", std::to_string(record.stats.frame)},
                   {"impinge:commands", fmt::format("{}", fmt::join(lines, "\n"))},
                   {"impinge:state_hash", hex64(record.stats.state_hash)},
-                  {"impinge:renderer", painter_->renderer_name()}};
+                  {"impinge:renderer", painter_->renderer_name()},
+                  {"impinge:view", view_text(settings_)}};
   if (with_ids_) {
     keep_visible_objects(ids);
     if (id_pictures_ == nullptr) id_pictures_ = std::make_unique<PngSequence>(folder / "ids");

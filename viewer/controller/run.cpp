@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
 #include "engine/frozen/frozen_step.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/step/watcher_list.hpp"
@@ -60,6 +62,24 @@ void check_ledger(const Session& session) {
   };
   for (const Script::Expectation& expectation : script.expectations()) check(expectation.condition, expectation.place);
   for (const Script::Break& point : script.breaks()) check(point.condition, point.place);
+}
+
+/// A run that goes on from its own run.toml writes what it wrote so far, without being asked again.
+RunOptions as_begun(RunOptions options, const Session& session) {
+  if (!options.resume || !session.scene().run) return options;
+  std::error_code error;
+  if (!std::filesystem::equivalent(options.scene, options.out / "run.toml", error)) return options;
+  const RunRecord& begun = *session.scene().run;
+  options.ids |= begun.ids, options.contacts |= begun.contacts, options.export_ply |= begun.export_ply;
+  options.images &= begun.images;
+  return options;
+}
+
+/// Processor time of this thread so far, milliseconds.
+double thread_cpu_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 /// What the command line asks and the scene cannot give.
@@ -196,9 +216,10 @@ int RunResult::exit_code() const {
   return failures > 0 || stopped_by_break ? 1 : 0;
 }
 
-RunResult run(const RunOptions& options, const RunWatcher& watcher) {
-  FolderLock::check_free(options.out);  // at once, however long the scene takes to read
-  Session session(options.scene, options.overrides, options.script, session_options(options));
+RunResult run(const RunOptions& given, const RunWatcher& watcher) {
+  FolderLock::check_free(given.out);  // at once, however long the scene takes to read
+  Session session(given.scene, given.overrides, given.script, session_options(given));
+  const RunOptions options = as_begun(given, session);
   const int last_frame = options.frames.value_or(session.default_last_frame());
   check_options(options, session, last_frame);
   const RunRecord record = record_of(options, session, last_frame);
@@ -227,10 +248,13 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
     restore_snapshot(folder.snapshot(result.resumed_from), session);
     take_up(folder, watcher, session, conditions, exports);
   }
+  double step_cpu_ms = 0.0;
   const auto make_frame = [&] {
     FrozenStep frozen;
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
+    const double begin = thread_cpu_ms();
     const std::vector<Command> commands = session.advance(freezes ? &frozen : nullptr);
+    step_cpu_ms += thread_cpu_ms() - begin;
     FrameStats stats = session.record().stats;
     if (judged) overlap.judge(session.world().bodies(), stats);
     check_figures(stats, judged);
@@ -263,6 +287,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   } catch (const DivergenceError& error) {
     result.diverged = error.what();
   }
+  if (thread_count() == 1 && result.resumed_from < 0) result.step_cpu_ms = step_cpu_ms;
   view.finish();
   exports.finish();
   result.exported = exports.results();
@@ -271,7 +296,7 @@ RunResult run(const RunOptions& options, const RunWatcher& watcher) {
   if (result.diverged.empty() && !result.interrupted) {
     conditions.expectations().note_unchecked(result.last_frame);
     if (watcher.whole) watcher.whole(result);
-    folder.finish();
+    folder.finish(result.step_cpu_ms);
   }
   result.lock = folder.hand_over_lock();
   return result;

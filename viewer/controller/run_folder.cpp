@@ -71,6 +71,8 @@ AppendFile open_table(const fs::path& path, int frame, const std::string& header
   return file;
 }
 
+constexpr std::string_view kStepCpu = "step_cpu_ms = ";  // in the file `done`
+
 /// "its run.toml differs in simulation.substeps, contact.friction and 2 more".
 std::string differing_text(const fs::path& recorded, const std::string& before, const std::string& now) try {
   constexpr std::size_t kMostNamed = 4;
@@ -256,6 +258,15 @@ void RunFolder::add_frozen_step(const FrozenStep& step) {
   write_frozen_step(frozen_step(step.frame), step);
 }
 
-void RunFolder::finish() { write_file(folder_ / "done", "done\n"); }
+void RunFolder::finish(double step_cpu_ms) {
+  write_file(folder_ / "done", step_cpu_ms < 0.0 ? "done\n" : fmt::format("done\n{}{:.3f}\n", kStepCpu, step_cpu_ms));
+}
+
+std::optional<double> recorded_step_cpu_ms(const fs::path& folder) {
+  const std::string text = read_if_there(folder / "done");
+  const std::size_t at = text.find(kStepCpu);
+  if (at == std::string::npos) return std::nullopt;
+  return std::strtod(text.c_str() + at + kStepCpu.size(), nullptr);
+}
 
 }  // namespace impinge

@@ -45,7 +45,8 @@ class RunFolder {
   /// stays.
   void add_snapshot(const Session& session);
   void add_frozen_step(const FrozenStep& step);
-  void finish();
+  /// Says that all of it is there. `step_cpu_ms`: what the steps took of the processor; negative: not known.
+  void finish(double step_cpu_ms);
   /// The folder's, which ends with this object otherwise.
   FolderLock hand_over_lock() { return std::move(lock_); }
 
@@ -68,5 +69,8 @@ class RunFolder {
   AppendFile stats_, contacts_, commands_;
   std::optional<AppendFile> ledger_;  // from the first frame on that has one
 };
+
+/// What finish() was told; none where it wasn't known, or the run isn't finished.
+std::optional<double> recorded_step_cpu_ms(const std::filesystem::path& folder);
 
 }  // namespace impinge

@@ -124,7 +124,9 @@ void Script::read_line(const PlacedText& line, const std::filesystem::path& fold
     const std::string near = nearest_word(first.text, {"at", "from", "expect", "break"});
     const bool command = std::find(command_verbs().begin(), command_verbs().end(), first.text) != command_verbs().end();
     first.refuse(fmt::format("'{}'", first.text), "a line starts with at, from, expect or break",
-                 command        ? "put 'at K' before it"
+                 command ? "put 'at K' before it"
+                 : is_debugger_verb(first.text)
+                     ? fmt::format("'{}' is a line of impinge debug --script; leave it out", first.text)
                  : near.empty() ? "mend the line"
                                 : fmt::format("did you mean '{}'?", near));
   }

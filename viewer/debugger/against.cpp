@@ -135,6 +135,16 @@ std::optional<int> Against::take_news() {
   return first_;
 }
 
+void Against::take_fields(const StepRecord& a) {
+  FieldDifference most{"", "position", "m", 0.0, ""};
+  for (const BodyRecord& body : a.bodies) {
+    const std::optional<Pose> there = model_.pose(first_, BodyIndex(&body - a.bodies.data()));
+    const double apart = there ? (body.pose.position - there->position).norm() : 0.0;
+    if (apart > most.largest) most.body = body.name, most.largest = apart;
+  }
+  if (most.largest > 0.0) fields_ = words_of({most});
+}
+
 std::string Against::take_apart() {
   if (apart_fields_.empty()) return "";
   return model_.apart = std::exchange(apart_fields_, {});

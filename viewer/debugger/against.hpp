@@ -32,6 +32,10 @@ class Against {
   /// The first frame in which positions differ, where there was none with the first difference: found since the last call,
   /// in words; "": not found.
   std::string take_apart();
+  /// Whether A went past the first frame in which they differ, so that nobody looked at both in it.
+  bool lacks_fields() const { return first_ >= 0 && fields_.empty(); }
+  /// From A's record of that frame, and what is known of B's.
+  void take_fields(const StepRecord& a);
   /// In what, in words. `stages` are A's of that frame, null: not known.
   const std::string& tell(int frame, const FrameStages* stages);
   const AgainstModel& model() const { return model_; }

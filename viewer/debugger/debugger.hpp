@@ -62,6 +62,8 @@ class Debugger {
   const ViewSettings& view() const { return session_.view().settings(); }
   /// Of the frame, also in the middle of it.
   std::uint64_t state_hash() const { return hashes_[static_cast<std::size_t>(frame())]; }
+  /// Of a run, or a bundle, that of the scene that it was made of.
+  std::string scene_file_name() const { return session_.scene_file().filename().string(); }
   bool is_interrupted() const { return interrupted_ != nullptr && *interrupted_; }
   std::string note_of_former_paths() const { return session_.note_of_former_paths(); }
   int failures() const { return expectations_.failures(); }

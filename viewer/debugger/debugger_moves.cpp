@@ -46,6 +46,7 @@ void Debugger::jump(int to) {
       (known && std::max(ring_.at_or_before(to).value_or(0), last_snapshot_before(to).value_or(0)) > from)) {
     restore_before(to);
     check_hash(session_.frame());
+    tracks_.note(session_.record());
   }
   if (session_.frame() < std::min(to, folder_last_) && !told_of_missing_) {
     told_of_missing_ = true;
@@ -302,6 +303,10 @@ void Debugger::tell_of_against() {
   const FrameStages* stages = nullptr;
   try {
     if (*first > 0) stages = &stages_of(*first);
+    if (against_->lacks_fields()) {
+      reach(*first);
+      if (session_.frame() == *first) against_->take_fields(session_.record());
+    }
   } catch (const Interrupted&) {
     const InterruptScope finish(nullptr);
     restore_before(*first);

@@ -139,9 +139,7 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
   const std::vector<PlacedText> all = split_words(line);
   const LineWords words(all);
   if (words.empty()) line.refuse("an empty line", "a command is wanted", "write one");
-  const std::vector<std::string> own = {"step", "back",   "seek",  "play", "pause", "select", "panel",
-                                        "ui",   "shot",   "plots", "quit", "break", "find",   "freeze",
-                                        "why",  "bundle", "undo",  "redo", "export"};
+  const std::vector<std::string>& own = debugger_verbs();
   std::vector<std::string> verbs = command_verbs();
   const std::size_t commands = verbs.size();
   verbs.insert(verbs.end(), own.begin(), own.end());

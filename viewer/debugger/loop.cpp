@@ -13,6 +13,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/layers/view_text.hpp"
 #include "viewer/panels/debug/series.hpp"
 
 namespace impinge {
@@ -222,10 +223,11 @@ void DebugLoop::write_plots(const std::string& file, const PlacedText& place) {
 
 PngText DebugLoop::picture_text() const {
   const DebugModel& model = debugger_.model();
-  PngText text = {{"impinge:scene", model.scene},
+  PngText text = {{"impinge:scene", debugger_.scene_file_name()},
                   {"impinge:frame", std::to_string(model.frame)},
                   {"impinge:state_hash", hex64(debugger_.state_hash())},
-                  {"impinge:renderer", window_.renderer_name()}};
+                  {"impinge:renderer", window_.renderer_name()},
+                  {"impinge:view", view_text(*model.view)}};
   if (model.stages != nullptr) text.emplace_back("impinge:stage", model.stages->words(model.place));
   return text;
 }
@@ -243,7 +245,8 @@ void DebugLoop::write_bundle(const std::string& file, const PlacedText& place) {
                  "a folder that may be written to is wanted", "change --out or the name");
   }
   debugger_.record_bundle(file, pointer());
-  debugger_.say(ConsoleLine::message, fmt::format("all of it is in {}; impinge debug opens it anywhere", file));
+  debugger_.say(ConsoleLine::message,
+                fmt::format("all of it is in {}, below --out; impinge debug opens it anywhere", file));
 }
 
 void DebugLoop::shoot(const std::string& file, const PlacedText& place) {

@@ -34,7 +34,7 @@ constexpr Color kOverlap = hex(0xff3b3b), kNearTriangle = hex(0xffd23b), kSpin =
                 kMassCenter = hex(0xffffff);
 constexpr Color kVelocity = hex(0xf5e663), kAabb = hex(0xa9c7e8), kPair = hex(0xd9a6ff), kTriangle = hex(0xff3b6b);
 constexpr Color kFloor = hex(0x3a4048), kLightFloor = hex(0xd3d9e0), kWallEdge = hex(0xdfe6ee),
-                kUngrouped = hex(0x8a9099);
+                kUngrouped = hex(0x8a9099), kNoValue = hex(0xa3a8ae);
 constexpr Color kTetrahedron = hex(0xf4f1de), kHeld = hex(0xf2e9ff), kMoved = hex(0xffa23b), kCarried = hex(0x9be7d0),
                 kOutside = hex(0xff5fb0), kAttachment = hex(0xffe14d), kPull = hex(0xb8f23c);
 constexpr Color kAxisX = hex(0xe8604c), kAxisY = hex(0x5fbf4a), kAxisZ = hex(0x4c8df0);

@@ -72,12 +72,12 @@ void ViewSettings::bind_writing(const Rows& rows) {
   rows.add("panel.legend", show_legend, "What the marks of the visible layers mean, left out where there is no room.");
   rows.add("panel.legend_form", legend_form,
            {{LegendForm::automatic, "automatic"}, {LegendForm::whole, "whole"}, {LegendForm::folded, "folded"}},
-           "Folded, the legend is a heading; automatic, it is where it would cover a tenth of the debugger's view, or "
-           "what is picked there wherever it stood.");
+           "Folded, the legend is a heading; automatic, it is where it would cover a tenth of the picture, or in the "
+           "debugger what is picked wherever it stood.");
   rows.add("panel.timings", show_timings,
            "Times of the stages among the figures; pictures then differ from run to run.");
   rows.add("panel.scale", panel_scale, {0, 16}, "",
-           "Text size in steps of 13 pixels; 0 chooses by the picture's height.");
+           "Text size in steps of 13 pixels; 0 chooses by the picture's shorter side.");
 }
 
 void ViewSettings::bind(ParameterSet& set) {

@@ -37,7 +37,7 @@ struct ViewSettings {
   double line_width = 1.4;     ///< same pixels
   bool show_figures = true, show_legend = true, show_timings = false;
   LegendForm legend_form = LegendForm::automatic;
-  int panel_scale = 0;  ///< text size in steps of 13 pixels; 0: by the picture's height
+  int panel_scale = 0;  ///< text size in steps of 13 pixels; 0: by the shorter side of the picture
   bool antialiasing = true;
   BackdropStyle backdrop = BackdropStyle::dark;
   ColorMap color_map = ColorMap::dusk;
@@ -60,7 +60,7 @@ struct ViewSettings {
   // What a debugger has picked. No rows: pictures of a run have none of it.
   std::vector<std::string> selected;  ///< bodies
   Aabb picked;                        ///< around it, in the world: panels keep away from it
-  double most_legend = 1.0;           ///< share of the picture that an automatic legend may cover
+  double most_legend = 0.1;           ///< share of the picture that an automatic legend may cover
 
   bool is_on(std::string_view layer) const;
   /// Throws InputError with the nearest name for a layer that is not there.

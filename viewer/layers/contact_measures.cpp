@@ -7,6 +7,8 @@
 namespace impinge {
 namespace {
 
+constexpr double kLeastOverlap = 1e-6;  // of a body's size
+
 /// Of the body's material at a point of its triangle; of a deformable body what the nodes that carry it have.
 Vec3 velocity_at(const BodyRecord& body, TriangleIndex triangle, const Vec3& point) {
   if (body.deformable == nullptr) return body.velocity + body.angular_velocity.cross(point - body.pose.position);
@@ -53,6 +55,15 @@ double measure_of(const StepRecord& record, const ContactRecord& contact, Contac
     default:
       return slip_speed(record, contact);
   }
+}
+
+double least_shown(const StepRecord& record, ContactMeasure what) {
+  double largest = 0.0;
+  for (const BodyRecord& body : record.bodies) {
+    const bool is_bounded = !body.bounds.is_empty() && body.bounds.extent().allFinite();
+    if (body.kind != BodyKind::fixed && is_bounded) largest = std::max(largest, body.bounds.extent().norm());
+  }
+  return what == ContactMeasure::overlap ? std::max(kLeastShown, kLeastOverlap * largest) : kLeastShown;
 }
 
 ColorBar bar_of(ContactMeasure what, const ColorScale& scale, ColorMap map) {

@@ -14,8 +14,10 @@ double measure_of(const StepRecord& record, const ContactRecord& contact, Contac
 
 /// Its colours, with numbers in the prefix that the upper end has few figures in.
 ColorBar bar_of(ContactMeasure what, const ColorScale& scale, ColorMap map);
-/// Below what rounding makes there is no picture: at least where an open upper end lies.
+/// At least where an open upper end lies: what is less is rounding, or an overlap of a millionth of the largest body
+/// that moves, and no picture.
 inline constexpr double kLeastShown = 1e-12;
+double least_shown(const StepRecord& record, ContactMeasure what);
 
 /// How fast its two points slide along each other at the end of the frame, m/s.
 double slip_speed(const StepRecord& record, const ContactRecord& contact);

@@ -111,7 +111,7 @@ void draw_contacts(const LayerContext& context, DrawList& list) {
     if (!by_state) most = std::max(most, measure_of(record, record.contacts[i], measure));
   }
   const double mean = carrying > 0 ? sum / carrying : 0.0;
-  const ColorScale scale = own.colors.scale(std::max(most, kLeastShown), false);
+  const ColorScale scale = own.colors.scale(std::max(most, least_shown(record, measure)), false);
   ColorBar bar = bar_of(measure, scale, context.settings.color_map);
   const auto size_of = [&](const ContactRecord& c) {
     if (own.size == Size::same) return c.state == ContactState::open ? 0.65f : 1.0f;

@@ -1,5 +1,7 @@
 // The nodes of deformable bodies that are held: rings, which contacts are not; those being moved are orange and show
 // where they go.
+#include <algorithm>
+
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -7,6 +9,16 @@ namespace impinge {
 namespace {
 
 constexpr double kFramesAhead = 6.0;  // as the velocities layer
+
+/// At any time: a legend that comes and goes with the motion would be in the way.
+bool has_moved_nodes(const StepRecord& record) {
+  return std::any_of(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& body) {
+    const DeformableBody* soft = body.deformable;
+    return soft != nullptr &&
+           (!soft->held_velocity().isZero(0.0) ||
+            std::any_of(soft->held.begin(), soft->held.end(), [](const HeldRegion& r) { return r.is_moved(); }));
+  });
+}
 
 void draw_fixed_nodes(const LayerContext& context, DrawList& list) {
   const float size = 0.85f * static_cast<float>(context.settings.point_size),
@@ -35,7 +47,7 @@ Layer fixed_nodes_layer() {
           false,
           draw_fixed_nodes,
           {{LegendRow::ring, role::kHeld, "node, held", has_held_nodes},
-           {LegendRow::arrow, role::kMoved, "node, moved by the scene", has_held_nodes}}};
+           {LegendRow::arrow, role::kMoved, "node, moved by the scene", has_moved_nodes}}};
 }
 
 }  // namespace impinge

@@ -65,9 +65,8 @@ double reach_of(const StepRecord& record, const ContactRecord& c) {
   return least;
 }
 
-std::vector<double> by_contacts(const DrawSurface& item, std::size_t own, const StepRecord& record,
+std::vector<double> by_contacts(std::span<const Vec3> at, std::size_t own, const StepRecord& record,
                                 ContactMeasure what) {
-  const std::vector<Vec3> at = world_positions(item);
   std::vector<double> values(at.size(), 0.0);
   for (const ContactRecord& c : record.contacts) {
     const bool is_a = static_cast<std::size_t>(c.body_a.value()) == own;
@@ -108,30 +107,46 @@ void draw_heat(const LayerContext& context, DrawList& list) {
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];
     if (body.kind == BodyKind::fixed && !measure) continue;
-    values[i] = measure ? by_contacts(item, item.pick - 1, record, *measure) : speeds(item, body);
+    values[i] = measure ? by_contacts(world_positions(item), item.pick - 1, record, *measure) : speeds(item, body);
     const double highest = values[i].empty() ? 0.0 : *std::max_element(values[i].begin(), values[i].end());
-    if (measure && highest == 0.0) values[i].clear();  // what nothing touches stays as it is
+    if (measure && highest == 0.0) values[i].clear();  // nothing touches it
     most = std::max(most, highest);
   }
-  const ColorScale scale = own.colors.scale(std::max(most, kLeastShown), false);
+  const double least = measure ? least_shown(record, *measure) : kLeastShown;
+  const ColorScale scale = own.colors.scale(std::max(most, least), false);
   const ColorMap map = context.settings.color_map;
   ColorBar bar = measure ? bar_of(*measure, scale, map) : make_color_bar("speed", "m/s", scale, map);
   bool any = false;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i].empty()) continue;
+    if (values[i].empty()) {
+      grey_out(context, list.surfaces[i]);
+      continue;
+    }
     any = true;
     auto heat = std::make_shared<std::vector<float>>();
     for (const double v : values[i]) heat->push_back(bar.place(v));
     list.surfaces[i].heat = std::move(heat);
   }
-  if (!any) return;
-  if (list.color_bars.empty())
-    list.color_bars.push_back(bar);
-  else
-    list.color_bars.front() = bar;  // of the surfaces there is one: instead of stress's or strain's
+  list.color_bars.clear();  // of the surfaces there is one: instead of stress's or strain's
+  if (any) list.color_bars.push_back(bar);
 }
 
 }  // namespace
+
+std::vector<float> heat_at(const LayerContext& context, DrawList& list, std::size_t body, std::span<const Vec3> points,
+                           std::span<const Vec3> velocities) {
+  if (!context.settings.is_on("heat") || list.color_bars.empty()) return {};
+  const std::optional<ContactMeasure> measure = measure_of_heat(context.settings.of_layer<HeatSettings>("heat").of);
+  std::vector<double> values;
+  if (measure)
+    values = by_contacts(points, body, context.record, *measure);
+  else
+    for (const Vec3& v : velocities) values.push_back(v.norm());
+  if (measure && std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; })) return {};
+  std::vector<float> heat;
+  for (const double v : values) heat.push_back(list.color_bars.front().place(v));
+  return heat;
+}
 
 Layer heat_layer() {
   return {"heat",

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/bodies/element_stress.hpp"
+#include "viewer/draw/body_color.hpp"
+#include "viewer/layers/body_style.hpp"
 
 namespace impinge {
 
@@ -24,6 +26,20 @@ std::optional<HeatQuantity> heat_shown(const ViewSettings& settings) {
   if (settings.is_on("strain")) return settings.of_layer<StrainSettings>("strain").of;
   if (settings.is_on("stress")) return settings.of_layer<StressSettings>("stress").of;
   return std::nullopt;
+}
+
+std::string_view layer_instead_of(std::string_view layer, const ViewSettings& settings) {
+  const bool is_stress = layer == "stress";
+  if (!is_stress && layer != "strain") return "";
+  if (settings.is_on("heat")) return "heat";
+  return is_stress && settings.is_on("strain") ? "strain" : "";
+}
+
+void grey_out(const LayerContext& context, DrawSurface& item) {
+  if (item.pick == 0 || item.pick > context.record.bodies.size()) return;
+  const BodyRecord& body = context.record.bodies[item.pick - 1];
+  item.heat = nullptr;
+  if (is_moved_by_contact(body) && !given_color(context.settings.colors, body.name)) item.color = role::kNoValue;
 }
 
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity) {
@@ -94,7 +110,10 @@ void draw_heat(const LayerContext& context, DrawList& list, HeatQuantity quantit
   for (DrawSurface& item : list.surfaces) {
     if (item.pick == 0 || item.pick > record.bodies.size()) continue;
     const BodyRecord& body = record.bodies[item.pick - 1];
-    if (body.deformable == nullptr || body.deformable->embedding.tet.empty()) continue;
+    if (body.deformable == nullptr || body.deformable->embedding.tet.empty()) {
+      grey_out(context, item);
+      continue;
+    }
     const std::vector<double> nodes = node_average(*body.deformable, heat_of_elements(*body.deformable, quantity));
     const std::vector<double> points = values_at_points(body.deformable->embedding, body.deformable->fem.rest(), nodes);
     auto heat = std::make_shared<std::vector<float>>();

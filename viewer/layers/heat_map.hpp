@@ -1,6 +1,8 @@
 // What the stress and strain layers share: a quantity of the tetrahedra as colours of surfaces.
 #pragma once
 
+#include <span>
+
 #include "engine/geometry/tets/embedding.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -21,6 +23,18 @@ struct StrainSettings {
 
 /// What is shown by colours: strain wins over stress; none if neither layer is on.
 std::optional<HeatQuantity> heat_shown(const ViewSettings& settings);
+
+/// The layer that colours the surfaces in place of this one, "" if none does: heat wins over strain, strain over stress.
+std::string_view layer_instead_of(std::string_view layer, const ViewSettings& settings);
+
+/// A body that has no colour of the bar is grey, or its own colour, of the palette, would read as a value. Static and
+/// scripted ones have none of the palette, and one that the user gave a colour keeps it.
+void grey_out(const LayerContext& context, DrawSurface& item);
+
+/// What the heat layer's bar says of points of a body, at the positions and with the velocities given: as shares of the
+/// bar, which is in the list. Empty where that layer is off or nothing touches the body.
+std::vector<float> heat_at(const LayerContext& context, DrawList& list, std::size_t body, std::span<const Vec3> points,
+                           std::span<const Vec3> velocities);
 
 /// Of every tetrahedron: von Mises stress and mean stress (Pa; tension is positive), equivalent strain, J - 1.
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity);

@@ -1,10 +1,14 @@
-// The bodies' names, in their middle: above it a name would stand on the next body of a stack.
+// The bodies' names, in their middle: above it a name would stand on the next body of a stack. In a pale shade of the
+// body's colour: whose body is hidden has its name on the one in front.
 #include <algorithm>
 
+#include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
 namespace {
+
+constexpr float kPale = 0.45f;
 
 struct LabelSettings {
   bool fixed = false;
@@ -14,12 +18,14 @@ struct LabelSettings {
 
 void draw_labels(const LayerContext& context, DrawList& list) {
   const std::vector<std::string>& selected = context.settings.selected;
+  const std::vector<Color> colors = body_colors(context.record, context.settings.colors);
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     const bool is_selected = std::find(selected.begin(), selected.end(), body.name) != selected.end();
     if (body.kind == BodyKind::fixed && !context.own<LabelSettings>().fixed && !is_selected) continue;
     if (body.bounds.is_empty() || !body.bounds.extent().allFinite()) continue;
-    list.labels.push_back({body.bounds.center(), std::string(body.name), role::kInk, body_pick(i)});
+    list.labels.push_back(
+        {body.bounds.center(), std::string(body.name), mix(colors[i], role::kInk, kPale), body_pick(i)});
   }
 }
 

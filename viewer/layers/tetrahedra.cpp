@@ -48,6 +48,24 @@ void draw_edges(const LayerContext& context, DrawList& list, std::size_t index, 
         list.lines.push_back({node(body, tet[a]), node(body, tet[b]), role::kOverlap, 1.6f * width, Depth::both, pick});
 }
 
+/// By the heat layer: a colour for each tetrahedron, at its centre.
+SurfaceHeat heat_of_solids(const LayerContext& context, DrawList& list, std::size_t index,
+                           const std::vector<int>& which) {
+  const DeformableBody& body = *context.record.bodies[index].deformable;
+  std::vector<Vec3> centers, velocities;
+  for (const int t : which) {
+    const Tet& tet = body.fem.rest().tets[static_cast<std::size_t>(t)];
+    centers.push_back(center(body, tet));
+    Vec3& v = velocities.emplace_back(Vec3::Zero());
+    for (int k = 0; k < 4; ++k) v += 0.25 * body.velocity.segment<3>(3 * tet[k]);
+  }
+  const std::vector<float> values = heat_at(context, list, index, centers, velocities);
+  if (values.empty()) return nullptr;
+  auto heat = std::make_shared<std::vector<float>>();
+  for (const float v : values) heat->insert(heat->end(), 12, v);
+  return heat;
+}
+
 void draw_solids(const LayerContext& context, DrawList& list, std::size_t index, Color color) {
   const BodyRecord& record = context.record.bodies[index];
   const DeformableBody& body = *record.deformable;
@@ -71,6 +89,11 @@ void draw_solids(const LayerContext& context, DrawList& list, std::size_t index,
   };
   if (!everted.empty()) add(everted, role::kOverlap);
   DrawSurface& solids = add(upright, color);
+  if (context.settings.is_on("heat")) {
+    grey_out(context, solids);
+    solids.heat = heat_of_solids(context, list, index, upright);
+    return;
+  }
   if (const auto quantity = heat_shown(context.settings)) {
     ColorBar bar = heat_bar(*quantity, heat_scale(context.record, context.settings, *quantity), ColorMap::dusk);
     const std::vector<double> values = heat_of_elements(body, *quantity);

@@ -100,9 +100,9 @@ std::string BalanceNote::energy_text() const {
   const std::optional<EnergyRise> found = find_energy_rise(energies_, least_);
   if (!found) return "";
   return fmt::format(
-      "note:     energy that nobody gave: from frame {} on more than a tenth of what there was, most in frame {}: "
+      "note:     {}: from frame {} on more than a tenth of what there was, most in frame {}: "
       "{:.3g} J, {:.3g} times the {:.3g} J that it had; {}\n",
-      found->first, found->worst, found->rise, found->rise / found->had, found->had, remedy_);
+      kEnergyMark, found->first, found->worst, found->rise, found->rise / found->had, found->had, remedy_);
 }
 
 std::string BalanceNote::attachments_text() const {
@@ -113,7 +113,7 @@ std::string BalanceNote::attachments_text() const {
   std::string lines;
   for (std::size_t i = 0; i < std::min(apart.size(), kMostApart); ++i) {
     const Apart& a = *apart[i];
-    lines += fmt::format("note:     '{}' came apart in frame {}: by {:.3g} m, {:.0f} % of '{}'", a.name, a.first, a.gap,
+    lines += fmt::format("note:     '{}' {} {}: by {:.3g} m, {:.0f} % of '{}'", a.name, kApartMark, a.first, a.gap,
                          100.0 * a.gap / a.size, a.smaller);
     if (a.worst > a.first) lines += fmt::format(", in frame {} by {:.3g} m", a.worst, a.most);
     lines += fmt::format("; {}\n", attachment_remedy_);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "viewer/notes/energy_rise.hpp"
@@ -10,6 +11,9 @@
 namespace impinge {
 
 class World;
+
+/// How its two kinds of lines are known in a run's output.
+inline constexpr std::string_view kEnergyMark = "energy that nobody gave", kApartMark = "came apart in frame";
 
 class BalanceNote {
  public:

@@ -5,6 +5,8 @@
 namespace impinge {
 namespace {
 
+constexpr double kRounding = 1e-7;  // relative to the contacts' velocities: an answer by any other name
+
 std::string count(std::int64_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
 std::string what_ended(const UnsolvedGroups& cause) {
@@ -30,6 +32,7 @@ void ConvergenceNote::add(const FrameStats& stats) {
   if (stats.merged_impacts > 0 && merged_ == 0) first_merged_ = stats.frame;
   merged_ += stats.merged_impacts;
   if (stats.unconverged == 0) return;
+  is_worth_a_word_ |= !(stats.unsolved_residual < kRounding);
   for (const UnsolvedGroups& cause : stats.unsolved) count_unsolved(causes_, cause);
   solves_ += stats.unconverged;
   ++frames_;
@@ -45,7 +48,7 @@ std::string ConvergenceNote::impacts_text() const {
 }
 
 std::string ConvergenceNote::text() const {
-  if (solves_ == 0) return impacts_text();
+  if (!is_worth_a_word_) return impacts_text();
   std::string causes;
   if (causes_.size() == 1) {
     causes = what_ended(causes_.front());

@@ -9,7 +9,7 @@ namespace impinge {
 class ConvergenceNote {
  public:
   void add(const FrameStats& stats);
-  /// A line for each with its end, "" if every solve had an answer and every impact its turn.
+  /// A line for each with its end, "" if every solve had an answer, or as good as one, and every impact its turn.
   std::string text() const;
 
  private:
@@ -19,6 +19,7 @@ class ConvergenceNote {
   std::int64_t solves_ = 0;
   int frames_ = 0, worst_frame_ = 0;
   double worst_ = 0.0;  // m/s
+  bool is_worth_a_word_ = false;
   int merged_ = 0, first_merged_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace impinge {
 std::string crushed_note(std::span<const CrushedBody> bodies) {
   std::string lines;
   for (const CrushedBody& b : bodies) {
-    lines += fmt::format("note:     '{}' ended crushed: of {} tetrahedra ", b.name, b.elements);
+    lines += fmt::format("note:     '{}' {}: of {} tetrahedra ", b.name, kCrushedMark, b.elements);
     if (b.inverted > 0) lines += fmt::format("{} {} inverted", b.inverted, b.inverted == 1 ? "is" : "are");
     if (b.inverted > 0 && b.collapsed > 0) lines += ", ";
     if (b.collapsed > 0)

@@ -108,7 +108,7 @@ std::string WatchdogNote::closing_line() const {
   std::string passes = "nothing passed";
   if (has_passed || was_held || (!judged_ && !named.empty())) {
     const Seen& first = *named.front();
-    const char* did = has_passed ? "passed through" : was_held ? "was held back from" : "may have passed";
+    const std::string_view did = has_passed ? kPassedMark : was_held ? "was held back from" : "may have passed";
     passes = fmt::format("'{}' {} {} {}{}", first.what.name, did, other_of(first.what),
                          place_of(first.frame, first.what.substep), and_more(named.size() - 1));
   } else if (named.empty() && frames_ > 0) {
@@ -118,8 +118,8 @@ std::string WatchdogNote::closing_line() const {
   if (!judged_) return fmt::format("watch:    {}{}\n", passes, has_passed || was_held ? "" : "; --judge tells whether");
   if (!is_deep())
     return fmt::format("judge:    {}, nothing overlaps by more than {:.0f} % of a thickness\n", passes, 100.0 * kDeep);
-  return fmt::format("judge:    {}{}'{}' and '{}' overlap by {:.3g} m, {:.0f} % of {:.3g} m, {}\n",
-                     has_passed ? passes : "", has_passed ? "; " : "", deepest_.a, deepest_.b, deepest_.depth,
+  return fmt::format("judge:    {}{}'{}' and '{}' {} {:.3g} m, {:.0f} % of {:.3g} m, {}\n", has_passed ? passes : "",
+                     has_passed ? "; " : "", deepest_.a, deepest_.b, kDeepMark, deepest_.depth,
                      100.0 * deepest_.share(), deepest_.thickness, place_of(deepest_frame_, deepest_.substep));
 }
 

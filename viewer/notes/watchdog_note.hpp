@@ -3,10 +3,14 @@
 #pragma once
 
 #include <map>
+#include <string_view>
 
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
+
+/// How the closing line of a judged run says that something is wrong.
+inline constexpr std::string_view kPassedMark = "passed through", kDeepMark = "overlap by";
 
 class WatchdogNote {
  public:

@@ -20,8 +20,10 @@ Backdrop backdrop_of(const ViewSettings& settings) {
 /// Sizes in pixels are meant for pictures 720 high; small pictures keep marks that can be seen.
 float pixel_scale(int height) { return std::max(0.5f, static_cast<float>(height) / 720.0f); }
 
-int text_scale(const ViewSettings& settings, int height) {
-  return settings.panel_scale > 0 ? settings.panel_scale : std::max(1, static_cast<int>(std::lround(height / 800.0)));
+/// By the shorter side, so that panels fit pictures that stand upright.
+int text_scale(const ViewSettings& settings, int width, int height) {
+  const int side = std::min(width, height);
+  return settings.panel_scale > 0 ? settings.panel_scale : std::max(1, static_cast<int>(std::lround(side / 800.0)));
 }
 
 RenderStyle style_of(const ViewSettings& settings, int height) {
@@ -95,7 +97,7 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
 
   renderer_.draw(list_, camera, style_of(settings, height()), target_);
 
-  const int scale = text_scale(settings, height());
+  const int scale = text_scale(settings, width(), height());
   if (!overlay_ || overlay_->scale() != scale) overlay_ = std::make_unique<Overlay>(scale);
   overlay_->draw(width(), height(), [&](const Pen& pen) {
     figures_ = draw_figures(pen, record, settings);

@@ -31,6 +31,13 @@ std::vector<int> varied_columns(const ReportTable& table) {
   return list;
 }
 
+/// Whether every job that ended well has a number there.
+bool has_in_all_done(const ReportTable& table, int column) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    if (table.cell(i, "status") == "done" && !std::isfinite(table.number(i, column))) return false;
+  return true;
+}
+
 }  // namespace
 
 ReportChoice choose_columns(const ReportTable& table) {
@@ -40,9 +47,12 @@ ReportChoice choose_columns(const ReportTable& table) {
       if (table.has_positive(table.column(name))) return table.column(name);
     return -1;
   };
-  choice.x = first_of({"step_ms", "wall_ms"});
+  // times of one kind: a job that was stopped and went on has none of the processor's
+  const bool all_have_cpu = has_in_all_done(table, table.column("step_cpu_ms"));
+  choice.x = all_have_cpu ? first_of({"step_cpu_ms", "step_ms", "wall_ms"}) : first_of({"step_ms", "wall_ms"});
   choice.y = first_of({"error_rms_m", "penetration_max_m", "residual_max", "contacts_max"});
   choice.measure = first_of({"error_rms_m", "step_ms", "wall_ms"});
+  if (choice.measure == table.column("step_ms")) choice.measure = choice.x;
   choice.has_errors =
       choice.y >= 0 && table.columns[static_cast<std::size_t>(choice.y)].kind == ReportColumn::error && choice.x >= 0;
   return choice;
@@ -58,7 +68,7 @@ Plot work_precision_plot(const ReportTable& table, const ReportChoice& choice, c
   std::vector<int> keys;
   for (const int c : varied_columns(table)) {
     const ReportColumn& column = table.columns[static_cast<std::size_t>(c)];
-    if (!(column.in_reference && column.is_numeric)) keys.push_back(c);
+    if (!column.is_joined) keys.push_back(c);
   }
   const std::vector<bool> best = table.best(choice.x, choice.y);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

@@ -38,6 +38,18 @@ std::string varied_text(const SweepReport& report, const ReportTable& table) {
                                            : ". Each value is a job.");
 }
 
+// answers that the jobs' own runs don't trust
+std::string doubts_text(const ReportTable& table) {
+  int doubted = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) doubted += table.cell(i, "doubts").empty() ? 0 : 1;
+  if (doubted == 0) return "";
+  return fmt::format(
+      " <b>{} {} in doubt</b>: what {} runs found stands beside {} in the table of jobs, and {} no part in what is "
+      "best.",
+      doubted, doubted == 1 ? "is" : "are", doubted == 1 ? "its" : "their", doubted == 1 ? "it" : "them",
+      doubted == 1 ? "it has" : "they have");
+}
+
 std::string jobs_text(const ReportTable& table) {
   std::map<std::string, int> count;
   for (std::size_t i = 0; i < table.rows.size(); ++i) ++count[table.cell(i, "status")];
@@ -100,10 +112,14 @@ std::string extremes_text(const ReportTable& table, const ReportChoice& choice) 
                        html_text(table.job_name(i, varied)), three_digits(table.number(i, choice.x)),
                        three_digits(table.number(i, choice.y)));
   };
-  if (fastest == closest) return fmt::format("{} is both the fastest and the most exact.", job(fastest));
+  const std::string noise =
+      table.column("spread_step_ms") >= 0
+          ? ""
+          : " Times are of one run each, so small differences between them mean nothing (<code>--repeat</code>).";
+  if (fastest == closest) return fmt::format("{} is both the fastest and the most exact.{}", job(fastest), noise);
   return fmt::format(
-      "{} of the jobs are beaten by no other in both time and error. Fastest of all: {}. Most exact: {}.", count,
-      job(fastest), job(closest));
+      "{} of the jobs are beaten by no other in both time and error. Fastest of all: {}. Most exact: {}.{}", count,
+      job(fastest), job(closest), noise);
 }
 
 }  // namespace
@@ -113,7 +129,7 @@ std::string summary_html(const SweepReport& report, const ReportTable& table, co
   const Parameters& p = base.world().parameters;
   std::string html = "<ul class=\"summary\">\n";
   html += item("Varied:", varied_text(report, table));
-  html += item("Jobs:", jobs_text(table));
+  html += item("Jobs:", jobs_text(table) + doubts_text(table));
   const bool varies_time =
       std::find(report.paths.begin(), report.paths.end(), "simulation.frame_time") != report.paths.end();
   if (varies_time)

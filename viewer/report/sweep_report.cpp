@@ -37,14 +37,14 @@ std::string data_json(const SweepReport& report, const ReportTable& table, const
   for (const ReportColumn& c : table.columns)
     json += fmt::format(
         "{}{{\"name\":{},\"label\":{},\"unit\":{},\"doc\":{},\"kind\":\"{}\",\"numeric\":{},\"main\":{},\"distinct\":{}"
-        ",\"inReference\":{}}}",
+        ",\"joined\":{}}}",
         &c == table.columns.data() ? "" : ",\n", json_text(c.name), json_text(c.label), json_text(c.unit),
-        json_text(c.doc), kind_name(c.kind), c.is_numeric, c.is_main, c.distinct, c.in_reference);
+        json_text(c.doc), kind_name(c.kind), c.is_numeric, c.is_main, c.distinct, c.is_joined);
   json += "],\n\"rows\":[";
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    json += fmt::format("{}{{\"hash\":{},\"status\":{},\"reason\":{},\"cells\":[", i == 0 ? "" : ",\n",
+    json += fmt::format("{}{{\"hash\":{},\"status\":{},\"reason\":{},\"doubts\":{},\"cells\":[", i == 0 ? "" : ",\n",
                         json_text(table.cell(i, "hash")), json_text(table.cell(i, "status")),
-                        json_text(table.cell(i, "reason")));
+                        json_text(table.cell(i, "reason")), json_text(table.cell(i, "doubts")));
     for (std::size_t c = 0; c < table.columns.size(); ++c) json += (c == 0 ? "" : ",") + json_text(table.rows[i][c]);
     json += "]}";
   }
@@ -70,12 +70,27 @@ std::string plots_html(const ReportChoice& choice, bool has_heat) {
       "<div class=\"pair{}\">\n<section>\n<h2>{}</h2>\n<p class=\"note\">A point is a job; a click opens it. "
       "{}</p>\n<div id=\"plot\"></div>\n</section>\n",
       has_heat ? " two" : "", choice.has_errors ? "Error against time" : "One figure against another",
-      "Ringed, on the dashed front: no other job is at most as large in both and smaller in one.");
+      "Ringed, on the dashed front: no other job is at most as large in both and smaller in one. Crossed out: in "
+      "doubt, and no part of the front.");
   if (has_heat)
     html +=
         "<section>\n<h2>Two parameters</h2>\n<p class=\"note\">A cell is a job; a click opens it. Dark is little, "
         "bright is much; the number says how much.</p>\n<div id=\"heat\"></div>\n</section>\n";
   return html + "</div>\n";
+}
+
+/// Each job chose the range of its bar by its own frames, unless somebody gave one to all.
+std::string colours_note(const ViewSettings& view) {
+  ViewSettings settings = view;
+  ParameterSet rows;
+  settings.bind(rows);
+  std::string open;
+  for (const char* layer : {"stress", "strain", "heat"}) {
+    const Parameter* most = rows.find(fmt::format("view.{}.max", layer));
+    if (settings.is_on(layer) && most != nullptr && std::get<double>(most->get()) == 0.0)
+      open += fmt::format("{}<code>--set {}=...</code>", open.empty() ? "" : ", ", most->path);
+  }
+  return open.empty() ? "" : " The bar's range is each picture's own: " + open + " gives all jobs the same colours.";
 }
 
 std::string page(const SweepReport& report, const ReportTable& table, const ReportChoice& choice, const Session& base,
@@ -98,12 +113,14 @@ std::string page(const SweepReport& report, const ReportTable& table, const Repo
   if (frames != "null")
     html +=
         "<h2>Pictures</h2>\n<p class=\"note\">The same frame of every job. The copies here are small and part of this "
-        "page; a job shows where the full ones are.</p>\n<div id=\"frames\"></div>\n";
+        "page; a job shows where the full ones are." +
+        colours_note(base.view().settings()) + "</p>\n<div id=\"frames\"></div>\n";
   html += "<h2>Jobs</h2>\n<p class=\"note screen\">A click on a head sorts, on a job opens it.</p>\n";
   if (choice.has_errors)
     html +=
         "<p class=\"note\">◆ no other job is both faster and more exact. Bold: the smallest time or error of all jobs "
-        "that are done. <small>ref</small>: a job that is its own reference, so it has no error.</p>\n";
+        "that are done and not in doubt. <small>ref</small>: a job that is its own reference, so it has no "
+        "error.</p>\n";
   html += "<div id=\"table\"></div>\n<h2>What was modelled, and what was left out</h2>\n" + model_html(table, out);
   html += "<h3>What leaving things out is worth</h3>\n" + ablation_html(out, report.scene);
   html += "<h2>Machine, versions, noise</h2>\n" + machine_html(table, out);

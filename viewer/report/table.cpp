@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "viewer/sweep/reference.hpp"
+
 namespace impinge {
 
 namespace {
@@ -34,9 +36,15 @@ constexpr std::array kKnown = {
           "kinetic, potential and elastic energy of the last frame less that of frame 0; contact and damping take "
           "energy away",
           false},
-    Known{"energy_drift_max_J", "energy drift, largest", "the largest size of it in any frame", false},
+    Known{"energy_drift_max_J", "energy drift, largest",
+          "the largest size of the change of kinetic, potential and elastic energy since frame 0, in any frame", true},
     Known{"state_hash", "state hash", "equal hashes are equal states, bit for bit", false},
-    Known{"step_ms", "simulation time", "sum over all frames, without pictures", true},
+    Known{"step_ms", "simulation time, by the clock",
+          "sum over all frames, without pictures; what else runs on the machine is in it", false},
+    Known{
+        "step_cpu_ms", "simulation time",
+        "of the processor, sum over all frames, without pictures; what else runs on the machine has little part in it",
+        true},
     Known{"render_ms", "drawing time", "pictures of all frames", false},
     Known{"wall_ms", "wall time", "of the whole process, with loading and files; of the attempt that ended the job",
           false},
@@ -54,10 +62,15 @@ constexpr std::array kKnown = {
     Known{"window_reason", "why this window", "", false},
     Known{"momentum_drift_max_Ns", "momentum drift, largest",
           "the largest change of the momentum since frame 0; gravity and the floor change it", false},
-    Known{"spread_step_ms", "spread of the time", "largest less smallest simulation time of a job's repeated runs",
+    Known{"spread_step_cpu_ms", "spread of the time", "largest less smallest simulation time of a job's repeated runs",
           true},
+    Known{"spread_step_ms", "spread of the time by the clock", "largest less smallest of the repeated runs", false},
     Known{"spread_render_ms", "spread of the drawing time", "largest less smallest of the repeated runs", false},
     Known{"spread_wall_ms", "spread of the wall time", "largest less smallest of the repeated runs", false},
+    Known{"unsafe_motions", "unsafe motions",
+          "motions of bodies that were not safe against passing others, in all frames", true},
+    Known{"doubts", "in doubt", "what the run found wrong with its own answer: such jobs take no part in what is best",
+          true},
     Known{"status", "status", "", true},
     Known{"reason", "reason", "what the run said", true},
 };
@@ -85,6 +98,7 @@ ReportColumn::Kind kind_of(const std::string& name) {
   if (name == "hash") return ReportColumn::hash;
   if (name == "status") return ReportColumn::status;
   if (name == "reason") return ReportColumn::reason;
+  if (name == "doubts") return ReportColumn::doubts;
   if (name == "reference") return ReportColumn::reference;
   if (name == "state_hash" || name == "window_reason") return ReportColumn::text;
   if (name.rfind("spread_", 0) == 0) return ReportColumn::spread;
@@ -111,10 +125,21 @@ void describe(ReportColumn& column) {
   column.is_main = column.kind != ReportColumn::text && column.kind != ReportColumn::hash;
 }
 
+// A line goes along what the reference sets; a formula is one truth for everything, and the line then goes along the
+// time step, if that is varied.
+void mark_joined(ReportTable& table, bool is_formula) {
+  const bool varies_step = std::any_of(table.columns.begin(), table.columns.end(), [](const ReportColumn& column) {
+    return column.kind == ReportColumn::varied && is_time_step_path(column.name);
+  });
+  for (ReportColumn& column : table.columns)
+    column.is_joined = column.kind == ReportColumn::varied && column.is_numeric && column.in_reference &&
+                       (!is_formula || !varies_step || is_time_step_path(column.name));
+}
+
 }  // namespace
 
 const char* kind_name(ReportColumn::Kind kind) {
-  constexpr const char* kNames[] = {"hash", "varied", "status", "reason", "reference",
+  constexpr const char* kNames[] = {"hash", "varied", "status", "reason", "doubts", "reference",
                                     "text", "figure", "error",  "time",   "spread"};
   return kNames[kind];
 }
@@ -173,7 +198,9 @@ bool ReportTable::has_positive(int column) const {
 
 std::vector<bool> ReportTable::best(int x, int y) const {
   std::vector<bool> is_best(rows.size(), false);
-  const auto counts = [&](std::size_t i) { return number(i, x) > 0.0 && number(i, y) > 0.0; };
+  const auto counts = [&](std::size_t i) {
+    return number(i, x) > 0.0 && number(i, y) > 0.0 && cell(i, "doubts").empty();
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!counts(i)) continue;
     is_best[i] = true;
@@ -199,6 +226,7 @@ std::string ReportTable::job_name(std::size_t row, const std::vector<int>& by) c
 ReportTable read_report_table(const std::string& csv, const std::vector<std::string>& paths,
                               const std::vector<std::string>& reference, const ParameterSet& rows) {
   ReportTable table;
+  const bool is_formula = reference.size() == 1 && reference.front().starts_with("case:");
   std::vector<std::vector<std::string>> lines = parse_csv(csv);
   if (lines.empty()) return table;
   for (const std::string& name : lines.front()) {
@@ -211,7 +239,8 @@ ReportTable read_report_table(const std::string& csv, const std::vector<std::str
       column.is_main = true;
       if (const Parameter* row = rows.find(name)) column.unit = row->unit, column.doc = row->doc;
       column.in_reference = std::any_of(reference.begin(), reference.end(),
-                                        [&](const std::string& text) { return text.rfind(name + "=", 0) == 0; });
+                                        [&](const std::string& text) { return text.rfind(name + "=", 0) == 0; }) ||
+                            is_formula;
     } else {
       column.kind = kind_of(name);
       describe(column);
@@ -237,6 +266,9 @@ ReportTable read_report_table(const std::string& csv, const std::vector<std::str
     // what is the same nothing in every job has no place among the main figures
     if (column.kind == ReportColumn::figure && values == std::set<std::string>{"0"}) column.is_main = false;
   }
+  mark_joined(table, is_formula);
+  if (const int cpu = table.column("step_cpu_ms"); cpu < 0 || !table.columns[static_cast<std::size_t>(cpu)].is_main)
+    for (ReportColumn& column : table.columns) column.is_main |= column.name == "step_ms";
   return table;
 }
 

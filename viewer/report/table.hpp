@@ -12,14 +12,15 @@ namespace impinge {
 std::vector<std::vector<std::string>> parse_csv(const std::string& text);
 
 struct ReportColumn {
-  enum Kind { hash, varied, status, reason, reference, text, figure, error, time, spread };
+  enum Kind { hash, varied, status, reason, doubts, reference, text, figure, error, time, spread };
   std::string name;  ///< as in results.csv
   std::string label, unit, doc;
   Kind kind = figure;
   bool is_numeric = false;
   bool is_main = false;       ///< shown before anybody asks for all columns
   int distinct = 0;           ///< different values
-  bool in_reference = false;  ///< a varied path that the reference sets
+  bool in_reference = false;  ///< a varied path that the reference sets, or that a formula is the truth for
+  bool is_joined = false;     ///< jobs that differ in nothing but such columns belong to one line of a plot
 };
 const char* kind_name(ReportColumn::Kind kind);
 
@@ -32,7 +33,7 @@ struct ReportTable {
   /// Whether some row has a number greater than 0 there.
   bool has_positive(int column) const;
   /// Rows that no other beats: none is at most as large in both columns and smaller in one. Only positive numbers
-  /// count.
+  /// count, and only rows whose answers nothing puts in doubt.
   std::vector<bool> best(int x, int y) const;
   std::string job_name(std::size_t row, const std::vector<int>& by) const;  ///< the values of some varied columns
 };

@@ -127,7 +127,10 @@ class Shrinking {
       const std::optional<SmallScene> later = trials_.begun_with(from, end - before);
       if (!later) return note("no frames are left out at the beginning: a ramp of the script would be cut in two");
       if (!adopt(*later, std::min(end - 1, 2 * before))) continue;
-      return note("it begins with a state, start.bin, which is read by this version only");
+      return note(
+          "it begins with a state, start.bin, which is read by this version only and is of all these bodies: those "
+          "that "
+          "took part only before it stay too");
     }
   }
 

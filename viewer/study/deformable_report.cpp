@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/algebra/linear_solver.hpp"
 #include "engine/elements/quadratic_elements.hpp"
 #include "engine/geometry/mass_properties.hpp"
@@ -18,6 +20,14 @@ std::string solvers_of(const LinearSolverChoice& wanted, int dofs) {
   const std::string_view one = automatic_linear_solver(dofs, 1),
                          many = automatic_linear_solver(dofs, kManyRightHandSides);
   return one == many ? fmt::format("{}", one) : fmt::format("{}; {} where it touches something", one, many);
+}
+
+/// "+0.12 % of", and in other words what is as good as all of it or many times as much.
+std::string share_text(double share) {
+  constexpr double kNearlyAll = 5e-5, kMuchMore = 2.0;
+  if (std::abs(share - 1.0) < kNearlyAll) return "as much as";
+  if (share > kMuchMore) return fmt::format("{:.3g} times", share);
+  return fmt::format("{:+.2f} % of", 100.0 * (share - 1.0));
 }
 
 }  // namespace
@@ -47,8 +57,8 @@ void print_deformable_bodies(const Session& session) {
         "    material: {}, young {} Pa, poisson {}, density {:.6g} kg/m^3, damping alpha {} 1/s, beta {} s, {} mass\n",
         soft.model, shortest(m.young), shortest(m.poisson), body.mass / filled, shortest(soft.damping.alpha),
         shortest(soft.damping.beta), fem.mass_kind() == MassKind::lumped ? "lumped" : "consistent");
-    fmt::print("    volume:   {:.6g} m^3 filled ({:+.2f} % of the surface's {:.6g} m^3), mass {:.6g} kg\n", filled,
-               100.0 * (filled / enclosed - 1.0), enclosed, body.mass);
+    fmt::print("    volume:   {:.6g} m^3 filled ({} the surface's {:.6g} m^3), mass {:.6g} kg\n", filled,
+               share_text(filled / enclosed), enclosed, body.mass);
     fmt::print("    solver:   {}\n", solvers_of(session.world().parameters.simulation.linear_solver, soft.dofs()));
     fmt::print("    surface:  {} vertices, {} triangles{}\n", surface.vertices.size(), surface.triangles.size(),
                outside > 0

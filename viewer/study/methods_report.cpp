@@ -44,7 +44,7 @@ void TablePrinter::row(const MethodReport& r) {
                     momentum = has_bodies_ ? fmt::format("{:>11}", figure(r.momentum)) : "";
   fmt::print("{:<42}{:>11}{}{:>11.2f}{:>11}{:>13}{:>11}{:>9}{}{:>11}  {}\n", name, r.iterations, outer, r.ms,
              figure(r.residual), figure(r.natural_map), figure(r.natural_map_relative), r.worst_contact, momentum,
-             figure(r.distance), r.stop_reason);
+             (r.distance_is_bound ? "<" : "") + figure(r.distance), r.stop_reason);
   std::fflush(stdout);
 }
 

@@ -29,6 +29,8 @@ struct MethodReport {
   int worst_contact = -1;
   double complementarity = 0.0, cone_violation = 0.0;  ///< J, N·s
   double distance = 0.0;                               ///< to the exact solution, relative
+  bool distance_is_bound = false;                      ///< it is less than that, which rounding makes
+  double distance_of_lambda = 0.0;                     ///< of a published problem: of λ itself, relative
   std::vector<Vec3> lambda;     ///< empty where there is no finite answer; the stop reason then says why
   std::vector<double> history;  ///< residual before the first and after each iteration
   std::vector<WorkPoint> work;

@@ -49,6 +49,12 @@ class ErrorTaker {
         is_analytic ? against_formula(row, run, window)
                     : sweep_errors(run, job_folder(out_, row.reference) / "run", bodies_, window.seconds);
     if (!errors.exist() && window.reason.rfind("all", 0) == 0) window.reason = "no two frames to compare";
+    if (!errors.mismatch.empty()) window.reason = errors.mismatch;
+    if (errors.exist() && errors.apart >= 0.0)
+      window.reason += fmt::format(
+          "; surfaces of other triangles: compared with the nearest points at the start, up to "
+          "{:.2g} m apart there",
+          errors.apart);
     row.error = errors.rms;
     row.relative_error = errors.relative;
     if (errors.exist() && !is_analytic) {
@@ -83,8 +89,7 @@ class ErrorTaker {
     const SweepJob job = read_sweep_job(job_folder(out_, row.hash));
     std::vector<std::string> overrides = job.options.overrides;
     overrides.insert(overrides.end(), job.changes.begin(), job.changes.end());
-    const Session session(job.options.scene, overrides, job.options.script,
-                          {job.options.width, job.options.height, false});
+    const Session session(job.options.scene, overrides, job.options.script, sweep_session_options(job.options));
     try {
       return analytic_errors(run, analytic_motion(sweep_.analytic_case, session), bodies_, window);
     } catch (const InputError& error) {

@@ -46,16 +46,17 @@ constexpr Function kFunctions[] = {
      }},
 };
 
-ExpressionWords column_words(const SweepWords& paths) {
+ExpressionWords column_words(const SweepWords& paths, bool judged) {
   ExpressionWords words = paths.expression_words();
   words.takes_number = true;
   for (const Function& function : kFunctions)
-    for (const std::string& figure : figure_names(false))
+    for (const std::string& figure : figure_names(judged))
       words.names.push_back(fmt::format("{}({})", function.name, figure));
   std::vector<std::string> functions;
   for (const Function& function : kFunctions) functions.push_back(function.name);
-  words.allowed = fmt::format("{} of a column of stats.csv, as in max(contacts), or a varied path ({}) is wanted",
-                              fmt::join(functions, ", "), fmt::join(paths.expression_words().names, ", "));
+  words.allowed = fmt::format("{} of a column of stats.csv, as in max(contacts){}, or a varied path ({}) is wanted",
+                              fmt::join(functions, ", "), judged ? "" : " (with --judge of judged_... too)",
+                              fmt::join(paths.expression_words().names, ", "));
   return words;
 }
 
@@ -106,9 +107,9 @@ std::vector<double> SweepWords::values(const std::vector<std::string>& job_value
   return numbers;
 }
 
-SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes)
-    : paths_(axes) {
-  const ExpressionWords words = column_words(paths_);
+SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes, bool judged)
+    : paths_(axes), judged_(judged) {
+  const ExpressionWords words = column_words(paths_, judged);
   for (const SweepSetting& setting : settings) {
     const std::string where = setting.where("--column");
     const std::size_t equals = setting.text.find('=');
@@ -140,7 +141,8 @@ std::vector<double> SweepColumns::evaluate(const std::vector<std::string>& job_v
     return std::vector<double>(names_.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<double> values = paths_.values(job_values), results;
   for (const Function& function : kFunctions)
-    for (std::size_t c = 0; c < figure_names(false).size(); ++c) values.push_back(function.over(frames, c));
+    for (const std::string& figure : figure_names(judged_))
+      values.push_back(function.over(frames, sweep_figure(figure)));
   for (const Expression& expression : expressions_) results.push_back(expression.evaluate(values));
   return results;
 }

@@ -37,14 +37,15 @@ class SweepColumns {
  public:
   SweepColumns() = default;
   /// Throws InputError for a name that is taken or has odd letters, an expression that is wrong, and a name that ends
-  /// in _ms where no time is in it, or the other way round.
-  SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes);
+  /// in _ms where no time is in it, or the other way round. `judged`: the jobs have the figures of a judge.
+  SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes, bool judged);
   const std::vector<std::string>& names() const { return names_; }
-  /// A number a column; not finite where there are no frames or the expression says so.
+  /// A number a column; not finite where there are no frames or the expression says so. Frames as of sweep_stats().
   std::vector<double> evaluate(const std::vector<std::string>& job_values, const std::vector<StatsLine>& frames) const;
 
  private:
   SweepWords paths_;
+  bool judged_ = false;
   std::vector<std::string> names_;
   std::vector<Expression> expressions_;
 };

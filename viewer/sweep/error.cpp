@@ -11,6 +11,7 @@
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/world/step_record.hpp"
+#include "viewer/sweep/surface_match.hpp"
 
 namespace impinge {
 
@@ -18,8 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double kApart = 1e-3;  // scene sizes
+// of a body's size: surfaces of other triangles that begin farther apart are no two of the same body at the same place
+constexpr double kOtherBody = 0.1;
 
-double time_of(const StatsLine& line) { return line.figures[figure_index("time_s")]; }
+double time_of(const StatsLine& line) { return line.figures[sweep_figure("time_s")]; }
 
 // frames of two runs that show the same time, up to the window's end; times are sums of steps, rounded
 std::vector<std::pair<std::size_t, std::size_t>> common_frames(const std::vector<StatsLine>& a,
@@ -34,9 +37,13 @@ std::vector<std::pair<std::size_t, std::size_t>> common_frames(const std::vector
   return pairs;
 }
 
-std::vector<Vec3> surface(const fs::path& run, std::size_t frame, const std::string& body) {
+TriangleMesh mesh(const fs::path& run, std::size_t frame, const std::string& body) {
   const fs::path file = run / "surfaces" / fmt::format("{:06}", frame) / (body + ".ply");
-  return is_file(file) ? read_mesh(file).vertices : std::vector<Vec3>();
+  return is_file(file) ? read_mesh(file) : TriangleMesh();
+}
+
+std::vector<Vec3> surface(const fs::path& run, std::size_t frame, const std::string& body) {
+  return mesh(run, frame, body).vertices;
 }
 
 // sum of squared distances and number of points of one pair of frames
@@ -56,6 +63,23 @@ double start_size(const fs::path& run, const std::vector<std::string>& bodies) {
   for (const std::string& body : bodies)
     for (const Vec3& x : surface(run, 0, body)) low = low.cwiseMin(x), high = high.cwiseMax(x);
   return low.x() > high.x() ? 0.0 : (high - low).norm();
+}
+
+// by body; of what is too far from the reference's surface to be the same body's, errors.mismatch says so
+std::map<std::string, SurfaceMatch> match_surfaces(const fs::path& run, const fs::path& reference,
+                                                   const std::vector<std::string>& bodies, SweepErrors& errors) {
+  std::map<std::string, SurfaceMatch> matches;
+  for (const std::string& body : bodies) {
+    const SurfaceMatch& match =
+        matches.emplace(body, SurfaceMatch(mesh(run, 0, body), mesh(reference, 0, body))).first->second;
+    if (match.is_by_number()) continue;
+    errors.apart = std::max(errors.apart, match.apart());
+    if (const double size = start_size(reference, {body}); match.apart() > kOtherBody * size)
+      errors.mismatch =
+          fmt::format("no error: the surface of '{}' begins up to {:.3g} m from the reference's, {:.0f} % of its size",
+                      body, match.apart(), 100.0 * match.apart() / size);
+  }
+  return matches;
 }
 
 // net impulse of the last sub-step on the first body of each pair, by frame
@@ -83,7 +107,7 @@ std::map<std::size_t, PairImpulses> impulses_in(const fs::path& run) {
 }
 
 double sub_step(const std::vector<StatsLine>& lines, std::size_t i) {
-  return i == 0 ? 0.0 : (time_of(lines[i]) - time_of(lines[i - 1])) / lines[i].figures[figure_index("substeps")];
+  return i == 0 ? 0.0 : (time_of(lines[i]) - time_of(lines[i - 1])) / lines[i].figures[sweep_figure("substeps")];
 }
 
 void compare_forces(const fs::path& run, const fs::path& reference, const std::vector<StatsLine>& a,
@@ -148,17 +172,20 @@ SweepErrors sweep_errors(const fs::path& run, const fs::path& reference, const s
   Squares squares;
   double own_depth = 0.0, depth = 0.0;
   const auto energy = [](const StatsLine& line) {
-    return line.figures[figure_index("kinetic_J")] + line.figures[figure_index("potential_J")] +
-           line.figures[figure_index("elastic_J")];
+    return line.figures[sweep_figure("kinetic_J")] + line.figures[sweep_figure("potential_J")] +
+           line.figures[sweep_figure("elastic_J")];
   };
   const auto momentum = [](const StatsLine& line) {
-    return Vec3(line.figures[figure_index("momentum_x")], line.figures[figure_index("momentum_y")],
-                line.figures[figure_index("momentum_z")]);
+    return Vec3(line.figures[sweep_figure("momentum_x")], line.figures[sweep_figure("momentum_y")],
+                line.figures[sweep_figure("momentum_z")]);
   };
+  const std::map<std::string, SurfaceMatch> matches = match_surfaces(run, reference, bodies, errors);
+  if (!errors.mismatch.empty()) return errors;
   for (const auto& [i, k] : frames) {
-    for (const std::string& body : bodies) squares.add(surface(run, i, body), surface(reference, k, body));
-    own_depth = std::max(own_depth, a[i].figures[figure_index("max_penetration_m")]);
-    depth = std::max(depth, b[k].figures[figure_index("max_penetration_m")]);
+    for (const auto& [body, match] : matches)
+      squares.add(surface(run, i, body), match.points(surface(reference, k, body)));
+    own_depth = std::max(own_depth, a[i].figures[sweep_figure("max_penetration_m")]);
+    depth = std::max(depth, b[k].figures[sweep_figure("max_penetration_m")]);
     errors.energy = std::max(errors.energy, std::abs(energy(a[i]) - energy(b[k])));
     errors.momentum = std::max(errors.momentum, (momentum(a[i]) - momentum(b[k])).norm());
     errors.seconds = time_of(a[i]);
@@ -180,7 +207,7 @@ SweepErrors analytic_errors(const fs::path& run, const AnalyticMotion& motion, c
   Squares squares;
   std::size_t count = 0;
   for (std::size_t i = 0; i < lines.size() && time_of(lines[i]) <= window.seconds * (1.0 + 1e-9); ++i) {
-    if (motion.ends_with_contact && lines[i].figures[figure_index("contacts")] > 0.0) {
+    if (motion.ends_with_contact && lines[i].figures[sweep_figure("contacts")] > 0.0) {
       window.seconds = errors.seconds;
       window.reason = fmt::format("the formula holds until the first contact at {:.3g} s", time_of(lines[i]));
       break;

@@ -22,6 +22,7 @@ ErrorWindow automatic_window(const std::filesystem::path& reference, const std::
                              const std::vector<std::string>& bodies);
 
 /// Errors over the frames that both runs have at the same time within the window; -1 where there is nothing to compare.
+/// Points of surfaces with other triangles than the reference's are compared with what is nearest at the start.
 struct SweepErrors {
   double rms = -1.0;       ///< m: root of the mean square over surface points of the bodies and over frames
   double relative = -1.0;  ///< rms over the diagonal of the box around the bodies at the start
@@ -32,6 +33,8 @@ struct SweepErrors {
   double energy = -1.0;          ///< J: largest difference of a frame
   double momentum = -1.0;        ///< N·s: largest difference of a frame
   double seconds = 0.0;          ///< of the last frame compared
+  double apart = -1.0;           ///< m: largest distance of points matched by where they begin; -1 where none had to be
+  std::string mismatch;          ///< why the surfaces have no points to compare, "" if they have
   bool exist() const { return rms >= 0.0; }
 };
 SweepErrors sweep_errors(const std::filesystem::path& run, const std::filesystem::path& reference,

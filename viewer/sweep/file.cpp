@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kKeys = {"version", "scene",        "script",  "set",   "vary",   "zip",
-                                        "filter",  "reference",    "frames",  "size",  "images", "jobs",
-                                        "repeat",  "coarse_first", "columns", "window"};
+const std::vector<std::string> kKeys = {"version", "scene",        "script",  "set",    "vary",   "zip",
+                                        "filter",  "reference",    "frames",  "size",   "images", "jobs",
+                                        "repeat",  "coarse_first", "columns", "window", "judge"};
 
 const TomlNode* value_of(const TomlNode& table, const char* key) {
   const TomlEntry* entry = table.find(key);
@@ -84,6 +84,18 @@ std::vector<SweepSetting> columns(const TomlNode& node) {
                     fmt::format("{}:{}", place.substr(0, place.rfind(':')), column)});
   }
   return list;
+}
+
+// as on the command line: alone, or by sub-step
+void take_judge(const TomlNode& node, RunOptions& run) {
+  if (node.kind != TomlNode::text) {
+    run.judge = scene_flag(node, "sweep.judge");
+    return;
+  }
+  if (node.string != "substeps")
+    refuse(node.place, fmt::format("sweep.judge is '{}'", node.string), "true, false or \"substeps\" is wanted",
+           "change it");
+  run.judge = run.judge_substeps = true;
 }
 
 std::string quoted(const std::vector<std::string>& list) {
@@ -157,6 +169,7 @@ void read_sweep_file(SweepOptions& sweep, RunOptions& run) {
   if (const TomlNode* node = value_of(table, "frames"); node != nullptr && !run.frames)
     run.frames = whole(*node, "frames", 0, 100'000'000);
   if (const TomlNode* node = value_of(table, "images")) run.images = scene_flag(*node, "sweep.images") && run.images;
+  if (const TomlNode* node = value_of(table, "judge"); node != nullptr && !run.judge) take_judge(*node, run);
   if (const TomlNode* node = value_of(table, "size"); node != nullptr && !sweep.size_given) {
     if (node->kind != TomlNode::array || node->items.size() != 2)
       refuse(node->place, fmt::format("sweep.size is {}", format_toml(*node)), "[width, height] is wanted",
@@ -175,6 +188,7 @@ std::string format_sweep_file(const SweepOptions& sweep, const RunOptions& o) {
   out += fmt::format("filter = {}\nreference = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\n",
                      toml_string(sweep.filter.text), quoted(plain(sweep.reference)), o.frames.value_or(0), o.width,
                      o.height, o.images);
+  if (o.judge) out += fmt::format("judge = {}\n", o.judge_substeps ? "\"substeps\"" : "true");
   return out;
 }
 

@@ -42,9 +42,16 @@ int whole_of(const TomlNode& node, const char* what) { return static_cast<int>(s
 
 }  // namespace
 
+SessionOptions sweep_session_options(const RunOptions& options) {
+  SessionOptions session;
+  session.width = options.width, session.height = options.height;
+  session.judge = options.judge, session.judge_substeps = options.judge_substeps;
+  return session;
+}
+
 SweepBase::SweepBase(const RunOptions& options)
     : options_(options),
-      session_(options.scene, options.overrides, options.script, {options.width, options.height, options.judge}),
+      session_(options.scene, options.overrides, options.script, sweep_session_options(options)),
       last_frame_(options.frames.value_or(session_.default_last_frame())) {}
 
 std::string SweepBase::hash(const std::vector<std::string>& changes) const {
@@ -92,6 +99,7 @@ void write_sweep_job(const fs::path& folder, const SweepJob& job) {
   text += fmt::format("set = {}\nvary = {}\nframes = {}\nsize = [{}, {}]\nimages = {}\nsurfaces = {}\ncontacts = {}\n",
                       text_list(o.overrides), text_list(job.changes), o.frames.value_or(0), o.width, o.height, o.images,
                       o.export_ply, o.contacts);
+  if (o.judge) text += fmt::format("judge = true\njudge_substeps = {}\n", o.judge_substeps);
   write_file(folder / "job.toml", text);
 }
 
@@ -115,6 +123,11 @@ SweepJob read_sweep_job(const fs::path& folder) {
   job.options.images = scene_flag(need(table, "images"), "images");
   job.options.export_ply = scene_flag(need(table, "surfaces"), "surfaces");
   job.options.contacts = scene_flag(need(table, "contacts"), "contacts");
+  // an older sweep's jobs were not judged
+  if (const TomlEntry* judge = table.find("judge")) {
+    job.options.judge = scene_flag(judge->value, "judge");
+    job.options.judge_substeps = scene_flag(need(table, "judge_substeps"), "judge_substeps");
+  }
   return job;
 }
 

@@ -25,6 +25,9 @@ struct SweepJob {
   std::string reference;             ///< hash of the job it is measured against, "" for none
 };
 
+/// Of the pictures' size and the judge, which every loading of a sweep's scene has in common.
+SessionOptions sweep_session_options(const RunOptions& options);
+
 /// A scene loaded once, to name the jobs that differ from it by a few values.
 class SweepBase {
  public:

@@ -110,7 +110,7 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
   const Load load = [&](const std::string& text) {
     std::vector<std::string> overrides = run.overrides;
     overrides.push_back(text);
-    const Session tried(run.scene, overrides, run.script, {run.width, run.height, false});
+    const Session tried(run.scene, overrides, run.script, sweep_session_options(run));
   };
   Sweep sweep;
   for (const SweepSetting& setting : options.vary) {
@@ -128,7 +128,7 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
   if (!options.window.text.empty() && sweep.reference == SweepReferenceKind::none)
     refuse(options.window.where("--window"), "a window without a reference", "errors to take over it are wanted",
            "add --reference, or leave it out");
-  sweep.columns = SweepColumns(options.columns, sweep.axes);
+  sweep.columns = SweepColumns(options.columns, sweep.axes, run.judge);
 
   std::vector<std::size_t> order = filtered(options, sweep, count);
   std::vector<Planned> planned;

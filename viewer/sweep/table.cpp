@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/core/error.hpp"
 #include "engine/core/parameter.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
+#include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/stats_table.hpp"
+#include "viewer/sweep/doubts.hpp"
 
 namespace impinge {
 
@@ -46,7 +49,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines) {
 
 double sum(const std::vector<StatsLine>& lines, const char* name) {
   double total = 0.0;
-  for (const StatsLine& line : lines) total += line.figures[figure_index(name)];
+  for (const StatsLine& line : lines) total += line.figures[sweep_figure(name)];
   return total;
 }
 
@@ -84,13 +87,15 @@ const std::vector<std::string>& sweep_error_columns() {
 }
 
 const std::vector<std::string>& sweep_spread_columns() {
-  static const std::vector<std::string> kColumns = {"spread_step_ms", "spread_render_ms", "spread_wall_ms"};
+  static const std::vector<std::string> kColumns = {"spread_step_ms", "spread_render_ms", "spread_wall_ms",
+                                                    "spread_step_cpu_ms"};
   return kColumns;
 }
 
 bool is_sweep_column(const std::string& name) {
-  static const std::vector<std::string> kOthers = {"hash",        "status",         "reason", "reference",
-                                                   "error_rms_m", "error_relative", "wall_ms"};
+  static const std::vector<std::string> kOthers = {"hash",        "status",         "reason",  "reference",
+                                                   "error_rms_m", "error_relative", "wall_ms", "unsafe_motions",
+                                                   "doubts",      "step_cpu_ms"};
   for (const std::vector<std::string>* list :
        {&sweep_figure_columns(), &sweep_error_columns(), &sweep_spread_columns(), &kOthers})
     if (std::find(list->begin(), list->end(), name) != list->end()) return true;
@@ -99,7 +104,17 @@ bool is_sweep_column(const std::string& name) {
 
 std::vector<StatsLine> sweep_stats(const std::filesystem::path& run) {
   if (!is_file(run / "stats.csv")) return {};
-  return whole_rows(read_file(run / "stats.csv", kMostOfTable), false);
+  const std::string text = read_file(run / "stats.csv", kMostOfTable);
+  const bool judged = text.substr(0, text.find('\n')).find(",judged_") != std::string::npos;
+  std::vector<StatsLine> lines = whole_rows(text, judged);
+  if (judged) return lines;
+  const std::vector<std::string>& names = figure_names(false);
+  for (StatsLine& line : lines) {
+    std::vector<double> all(figure_names(true).size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < names.size(); ++i) all[sweep_figure(names[i])] = line.figures[i];
+    line.figures = std::move(all);
+  }
+  return lines;
 }
 
 double median(std::vector<double> values) {
@@ -110,6 +125,7 @@ double median(std::vector<double> values) {
 
 SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats, SweepRow& row) {
   row.outcome = read_sweep_outcome(folder);
+  if (row.outcome.is_final()) row.doubts = sweep_doubts(folder / "output.txt");
   row.cells.assign(sweep_figure_columns().size(), "");
   SweepMeasure measure;
   measure.spreads.assign(sweep_spread_columns().size(), "");
@@ -117,7 +133,8 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
   measure.runs.push_back(sweep_stats(folder / "run"));
   const std::vector<StatsLine>& lines = measure.runs.front();
   if (lines.empty()) return measure;
-  std::vector<double> walls;
+  std::vector<double> walls, cpu;
+  if (const auto ms = recorded_step_cpu_ms(folder / "run")) cpu.push_back(*ms);
   if (row.outcome.wall_ms > 0.0) walls.push_back(row.outcome.wall_ms);
   for (int k = 2; k <= repeats; ++k) {
     const SweepOutcome outcome = read_sweep_outcome(repeat_folder(folder, k));
@@ -135,33 +152,36 @@ SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats,
     }
     walls.push_back(outcome.wall_ms);
     measure.runs.push_back(std::move(again));
+    if (const auto ms = recorded_step_cpu_ms(repeat_folder(folder, k) / "run")) cpu.push_back(*ms);
   }
   std::vector<double> steps, renders;
   for (const std::vector<StatsLine>& run : measure.runs)
     steps.push_back(sum(run, "step_ms")), renders.push_back(sum(run, "render_ms"));
-  if (repeats > 1) measure.spreads = {spread(steps), spread(renders), spread(walls)};
+  if (repeats > 1) measure.spreads = {spread(steps), spread(renders), spread(walls), spread(cpu)};
+  if (!cpu.empty()) row.step_cpu_ms = number(median(cpu));
   if (!walls.empty()) row.outcome.wall_ms = median(walls);
 
   const auto largest = [&](const char* name) {
     double most = 0.0;
-    for (const StatsLine& line : lines) most = std::max(most, line.figures[figure_index(name)]);
+    for (const StatsLine& line : lines) most = std::max(most, line.figures[sweep_figure(name)]);
     return most;
   };
   const auto energy = [&](const StatsLine& line) {
-    return line.figures[figure_index("kinetic_J")] + line.figures[figure_index("potential_J")] +
-           line.figures[figure_index("elastic_J")];
+    return line.figures[sweep_figure("kinetic_J")] + line.figures[sweep_figure("potential_J")] +
+           line.figures[sweep_figure("elastic_J")];
   };
   const auto momentum = [&](const StatsLine& line) {
-    return Vec3(line.figures[figure_index("momentum_x")], line.figures[figure_index("momentum_y")],
-                line.figures[figure_index("momentum_z")]);
+    return Vec3(line.figures[sweep_figure("momentum_x")], line.figures[sweep_figure("momentum_y")],
+                line.figures[sweep_figure("momentum_z")]);
   };
-  const auto last = [&](const char* name) { return lines.back().figures[figure_index(name)]; };
+  const auto last = [&](const char* name) { return lines.back().figures[sweep_figure(name)]; };
   double drift = 0.0, push = 0.0;
   for (const StatsLine& line : lines) {
     drift = std::max(drift, std::abs(energy(line) - energy(lines.front())));
     push = std::max(push, (momentum(line) - momentum(lines.front())).norm());
   }
   row.work_ms = median(steps);
+  row.unsafe_motions = number(sum(lines, "unsafe_motions"));
   row.cells = {number(last("frame")),
                number(last("max_penetration_m")),
                number(largest("max_penetration_m")),
@@ -186,7 +206,7 @@ std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows
   for (const std::string& name : sweep_figure_columns()) out += "," + name;
   if (table.has_reference) out += ",reference,error_rms_m,error_relative";
   for (const std::string& name : table.more) out += "," + name;
-  out += ",wall_ms\n";
+  out += ",wall_ms,step_cpu_ms,unsafe_motions,doubts\n";
   for (const SweepRow& row : rows) {
     out += row.hash;
     for (const std::string& value : row.values) out += "," + cell(value);
@@ -196,7 +216,8 @@ std::string sweep_csv(const SweepTable& table, const std::vector<SweepRow>& rows
       out += fmt::format(",{},{},{}", row.reference, row.error < 0 ? "" : number(row.error),
                          row.relative_error < 0 ? "" : number(row.relative_error));
     for (const std::string& value : row.more) out += "," + cell(value);
-    out += fmt::format(",{}\n", row.outcome.wall_ms > 0 ? fmt::format("{:.3f}", row.outcome.wall_ms) : "");
+    out += fmt::format(",{},{},{},{}\n", row.outcome.wall_ms > 0 ? fmt::format("{:.3f}", row.outcome.wall_ms) : "",
+                       row.step_cpu_ms, row.unsafe_motions, cell(row.doubts));
   }
   return out;
 }
@@ -227,7 +248,7 @@ std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& 
     std::vector<std::string>& line = lines.emplace_back();
     line.push_back(row.hash.substr(0, 8));
     line.insert(line.end(), row.values.begin(), row.values.end());
-    line.push_back(status_name(row.outcome.status));
+    line.push_back(status_name(row.outcome.status) + std::string(row.doubts.empty() ? "" : ", in doubt"));
     line.push_back(figure(row, "frames").empty() ? "-" : figure(row, "frames"));
     for (const char* name : {"penetration_max_m", "residual_max", "contacts_max", "energy_drift_last_J", "step_ms"})
       line.push_back(three_digits(figure(row, name)));
@@ -236,6 +257,7 @@ std::string sweep_summary(const SweepTable& table, const std::vector<SweepRow>& 
     if (!row.outcome.reason.empty())
       reasons +=
           fmt::format("{}: {}: {}\n", row.hash.substr(0, 8), status_name(row.outcome.status), row.outcome.reason);
+    if (!row.doubts.empty()) reasons += fmt::format("{}: in doubt: {}\n", row.hash.substr(0, 8), row.doubts);
   }
   return aligned(lines) + reasons;
 }

@@ -13,6 +13,9 @@ struct SweepRow {
   SweepOutcome outcome;
   std::vector<std::string> cells;  ///< of sweep_figure_columns(); empty where there is no figure
   std::vector<std::string> more;   ///< of SweepTable::more
+  std::string step_cpu_ms;         ///< of all steps, the median of repeats; "" where it isn't known
+  std::string unsafe_motions;      ///< in all frames
+  std::string doubts;              ///< why the answer isn't to be trusted, "" if the run found nothing
   double work_ms = 0.0;            ///< sum of step_ms, the median of repeats
   double error = -1.0;             ///< metres, -1 for none
   double relative_error = -1.0;    ///< in sizes of the scene
@@ -34,7 +37,8 @@ const std::vector<std::string>& sweep_spread_columns();
 /// Whether results.csv has, or may have, a column of that name.
 bool is_sweep_column(const std::string& name);
 
-/// The whole frames of a run's stats.csv; empty where there is none.
+/// The whole frames of a run's stats.csv; empty where there is none. Figures stand in the order of figure_names(true):
+/// those of a judge are no numbers where nobody judged.
 std::vector<StatsLine> sweep_stats(const std::filesystem::path& run);
 
 /// What a job's folder says: outcome, figures, times as medians over the repeats and their spreads (largest less
@@ -46,6 +50,9 @@ struct SweepMeasure {
 /// Fills outcome, cells and work. A repeat whose states differ from the first run's makes the outcome `unequal`, with
 /// where.
 SweepMeasure measure_sweep_job(const std::filesystem::path& folder, int repeats, SweepRow& row);
+
+/// Where a figure stands in a line of sweep_stats().
+inline std::size_t sweep_figure(std::string_view name) { return figure_index(name, true); }
 
 double median(std::vector<double> values);
 

@@ -28,14 +28,14 @@ std::vector<std::string> words_of(const fs::path& folder, const SweepJob& job) {
   const RunOptions& o = job.options;
   // there may be thousands
   std::vector<std::string> words = {"impinge",   "run", o.scene.string(), "--out", (folder / "run").string(),
-                                    "--threads", "1",   "--snapshots",    "8",     "--resume",
-                                    "--quiet"};
+                                    "--threads", "1",   "--snapshots",    "8",     "--resume"};
   const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
   if (!o.script.empty()) add({"--script", o.script.string()});
   if (o.frames) add({"--frames", std::to_string(*o.frames)});
   for (const std::string& text : o.overrides) add({"--set", text});
   for (const std::string& text : job.changes) add({"--set", text});
   if (given_memory_limit() > 0) add({"--memory-limit", std::to_string(given_memory_limit())});
+  if (o.judge) add({o.judge_substeps ? "--judge=substeps" : "--judge"});
   if (o.contacts) add({"--contacts"});
   if (o.export_ply) add({"--export", "ply"});
   if (o.images)

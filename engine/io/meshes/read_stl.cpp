@@ -88,7 +88,8 @@ TriangleMesh read_stl(const std::string& name, std::string_view bytes) {
   // some writers start binary files with "solid" too, so the size decides
   const bool fits = bytes.size() >= kHead && bytes.size() == kHead + std::uint64_t{facets} * kFacet;
   if (fits && facets <= kMostElements) return read_binary(name, bytes, facets);
-  if (bytes.substr(0, 5) == "solid") return read_ascii(name, bytes);
+  // of a binary file that is cut off the zeros tell
+  if (bytes.substr(0, 5) == "solid" && bytes.find('\0') == std::string_view::npos) return read_ascii(name, bytes);
   throw InputError(
       fmt::format("{}: byte 80: {} facets in a file of {} bytes; binary STL has 84 + 50 bytes a facet, ASCII STL "
                   "starts with 'solid'; export the file again",

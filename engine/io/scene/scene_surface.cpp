@@ -77,6 +77,10 @@ SurfaceFile& SurfaceFiles::file_named(const std::string& name) {
 }
 
 TriangleMesh SurfaceFiles::read_file_of(const fs::path& path, const TomlNode& node, const SurfaceKeys& keys) {
+  if (const std::string kind = path.extension().string(); kind == ".msh" || kind == ".veg")
+    refuse(node.place, fmt::format("surface {} holds tetrahedra, and not a surface", toml_string(node.string)),
+           "ply, off, obj, stl and what assimp reads are surfaces",
+           fmt::format("it is the volume of a deformable body: volume = {}", toml_string(node.string)));
   const MeshCount count = estimate_mesh(path);
   check_memory(node.place,
                fmt::format("surface {} ({}, about {:.2g} triangles)", toml_string(node.string),

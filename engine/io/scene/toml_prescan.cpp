@@ -9,10 +9,21 @@
 
 namespace impinge {
 
+namespace {
+
+constexpr std::size_t kTarMark = 257;  // where a tar says what it is, bytes
+
+}  // namespace
+
 std::string_view prescanned_toml(const std::string& name, std::string_view text) {
   if (text.size() > kMostTomlBytes)
     throw InputError(fmt::format("{}:1:1: a file of {} bytes; at most {} are taken; split the scene", name, text.size(),
                                  kMostTomlBytes));
+  if (text.substr(std::min(text.size(), kTarMark), 5) == "ustar")
+    throw InputError(fmt::format(
+        "{}: this is a tar, as a bundle of impinge debug is one; a scene file (TOML) is wanted; impinge debug "
+        "and impinge replay open a bundle, and tar xf makes a folder of it, with a run.toml",
+        name));
   check_utf8(name, text);
   int line = 1;
   for (std::size_t begin = 0; begin < text.size(); ++line) {

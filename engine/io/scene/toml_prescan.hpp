@@ -12,8 +12,8 @@ inline constexpr std::size_t kMostTomlLine = 64u << 10;  ///< bytes
 /// list that [[...]] adds to is one more.
 inline constexpr int kMostTomlDepth = 64;
 
-/// The text without a byte order mark. Throws InputError `name:line:column: ...` if it is not UTF-8 or a limit is
-/// passed. Columns count characters, not bytes, from 1.
+/// The text without a byte order mark. Throws InputError `name:line:column: ...` if it is not UTF-8, a limit is
+/// passed, or it is a tar. Columns count characters, not bytes, from 1.
 std::string_view prescanned_toml(const std::string& name, std::string_view text);
 
 }  // namespace impinge

@@ -69,6 +69,11 @@ TEST_CASE("the note counts each cause for itself where there are several") {
   stats.unconverged = 1;
   stats.residual = 0.25;
   stats.unsolved = {{SolveEnd::cap, "lcp.max_iterations", 1}};
+  stats.unsolved_residual = 1e-9;  // relative: as good as an answer
+  note.add(stats);
+  CHECK(note.text().empty());
+  note = {};
+  stats.unsolved_residual = 0.5;
   note.add(stats);
   CHECK(note.text() ==
         "note:     1 group solve in 1 frame stopped at lcp.max_iterations; the largest residual was 0.25 m/s in frame "

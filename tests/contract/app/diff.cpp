@@ -83,6 +83,29 @@ TEST_CASE("an interrupted run with ids goes on with ids") {
   for (int frame = 0; frame <= 6; ++frame)
     CHECK(slurp(runs.folder / fmt::format("parts/ids/{:06}.png", frame)) ==
           slurp(runs.folder / fmt::format("whole/ids/{:06}.png", frame)));
+  // from its own run.toml it goes on as it began, with nothing said again
+  const Outcome longer = impinge_run(runs.folder.path(), {"run", "parts/run.toml", "--out", "parts", "--resume",
+                                                          "--size", "320x180", "--frames", "8"});
+  INFO(longer.err);
+  CHECK(longer.code == 0);
+  CHECK(fs::exists(runs.folder / "parts/ids/000008.png"));
+}
+
+TEST_CASE("pictures that are looked at otherwise say so: the camera, the layers, a row of the view") {
+  const Runs runs;
+  runs.run("plain");
+  const auto says = [&](const std::vector<std::string>& more, const std::string& words) {
+    std::vector<std::string> all = more;
+    all.insert(all.end(), {"--force"});
+    runs.run("other", all);
+    const Outcome outcome = runs.diff({"plain", "other"});
+    INFO(outcome.out);
+    CHECK(outcome.code == 1);
+    CHECK(holds(outcome.out, "only the drawing changed, since " + words));
+  };
+  says({"--set", "view.camera.fov=20"}, "the camera moved (fov is ");
+  says({"--set", "view.layers=[\"meshes\"]"}, "view.layers is ");
+  says({"--set", "view.backdrop=flat"}, "view.backdrop is as usual in A, flat in B");
 }
 
 TEST_CASE("another vector width or instruction set of the rasteriser is no difference") {

@@ -91,6 +91,11 @@ TEST_CASE("an export of some frames has those alone, and what an earlier one lef
   CHECK(slurp(folder / "e/foreign.000003.ply") == "stays");
   fs::remove(folder / "e/foreign.000003.ply");
   for (const std::string& format : kRead) check_read(folder / "out", format, folder / "e", "2:11:3");
+  // several at once are what each alone is
+  REQUIRE(impinge_run(folder.path(), {"export", "out", "--format", "poses.json,poses.csv", "--out", "both"}).code == 0);
+  REQUIRE(impinge_run(folder.path(), {"export", "out", "--format", "poses.csv", "--out", "one"}).code == 0);
+  CHECK(slurp(folder / "both/poses.csv") == slurp(folder / "one/poses.csv"));
+  CHECK(fs::exists(folder / "both/poses.json"));
 }
 
 TEST_CASE("what a run exports while it runs is what its folder gives afterwards, to the byte") {

@@ -6,6 +6,7 @@
 #include "engine/core/error.hpp"
 #include "engine/frozen/read_friction_contact.hpp"
 #include "tests/support/program/program.hpp"
+#include "tests/support/program/sweep_results.hpp"
 #include "tests/support/program/temp_folder.hpp"
 
 using namespace impinge;
@@ -80,6 +81,37 @@ TEST_CASE("published friction-contact problems: what is wrong is named with its 
     const auto file = folder.write("p.dat", dense.substr(0, length));
     CHECK_THROWS_AS(read_friction_contact(file), InputError);
   }
+}
+
+TEST_CASE("impinge step: impulses that differ and do the same are told, and no distance is nothing that isn't") {
+  // twice the same contact: whoever carries how much, their sum is (1, 0, 0)
+  std::string text = "3\n2\n0\n6\n6\n6 6\n";
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) text += row % 3 == column % 3 ? "1 " : "0 ";
+    text += "\n";
+  }
+  const TempFolder folder;
+  folder.write("p.dat", text + "-1 0 0 -1 0 0\n0.5 0.5\n");
+  const Outcome outcome = impinge_run(folder.path(), {"step", "p.dat", "--out", "result"});
+  CAPTURE(outcome.out, outcome.err);
+  REQUIRE(outcome.code == 0);
+  const auto first_carries = [&](const std::string& method) {
+    const std::string solution = slurp(folder / fmt::format("result/solution_{}.csv", method));
+    return std::stod(solution.substr(solution.find("\n0,0.5,") + 7));
+  };
+  const std::size_t named = outcome.out.find("reference: ") + 11;
+  const double reference = first_carries(outcome.out.substr(named, outcome.out.find(' ', named) - named));
+  int others = 0;
+  for (const Row& row : csv_rows(folder / "result/methods.csv")) {
+    CAPTURE(row.at("method"));
+    if (row.at("residual").empty() || std::stod(row.at("residual")) > 1e-6) continue;
+    const bool is_other = std::abs(first_carries(row.at("method")) - reference) > 1e-3;
+    if (is_other) CHECK(std::stod(row.at("distance_to_exact")) > 0.0);
+    CHECK(std::stod(row.at("distance_to_exact")) < 1e-5);
+    others += is_other;
+  }
+  REQUIRE(others >= 1);
+  CHECK(outcome.out.find("λ is not unique here") != std::string::npos);
 }
 
 TEST_CASE("impinge step: a table, and with --out the files; wrong input ends with 2") {

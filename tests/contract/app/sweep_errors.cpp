@@ -163,6 +163,64 @@ TEST_CASE("the contact force error is the difference of the weights that bodies 
   }
 }
 
+TEST_CASE("surfaces of other triangles are compared at the same material points") {
+  // one tetrahedron thrown with a spin, its corners in three orders: the same motion, and no error but what the files'
+  // digits make
+  const SweepFiles files;
+  const auto off = [](const std::vector<int>& order) {
+    const double corners[4][3] = {{0.1, 0, 0}, {-0.1, 0, 0.1}, {-0.1, 0, -0.1}, {0, 0.2, 0}};
+    const int faces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+    std::string text = "OFF\n4 4 0\n";
+    std::vector<int> place(4);
+    for (int i = 0; i < 4; ++i) {
+      place[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = i;
+      const double* x = corners[order[static_cast<std::size_t>(i)]];
+      text += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
+    }
+    for (const auto& f : faces)
+      text += fmt::format("3 {} {} {}\n", place[static_cast<std::size_t>(f[0])], place[static_cast<std::size_t>(f[1])],
+                          place[static_cast<std::size_t>(f[2])]);
+    return text;
+  };
+  files.folder.write("a.off", off({0, 1, 2, 3}));
+  files.folder.write("b.off", off({2, 0, 3, 1}));
+  files.folder.write("large.off", replaced(off({2, 0, 3, 1}), "0 0.2 0", "0 0.4 0"));
+  files.folder.write(
+      "rock.toml",
+      "[[body]]\nname = \"rock\"\nkind = \"dynamic\"\nsurface = \"a.off\"\nangular_velocity = [1, 2, 3]\n"
+      "velocity = [1, 0, 0]\n");
+  const std::vector<std::string> words = {"--vary",      "body.rock.surface=a.off,b.off,large.off",
+                                          "--reference", "body.rock.surface=a.off",
+                                          "--window",    "all",
+                                          "--frames",    "20"};
+  REQUIRE(files.run("out", words, "rock.toml").code == 0);
+  const std::vector<Row> rows = sweep_results(files.folder / "out");
+  CHECK(std::stod(rows[0].at("error_rms_m")) == 0.0);
+  CHECK(std::stod(rows[1].at("error_rms_m")) < 1e-12);
+  CHECK(rows[1].at("window_reason").find("nearest points at the start") != std::string::npos);
+  CHECK(rows[2].at("error_rms_m").empty());
+  CHECK(rows[2].at("window_reason").find("the surface of 'rock' begins up to") != std::string::npos);
+}
+
+TEST_CASE("boxes of more and more cells come nearer to the finest") {
+  const SweepFiles files;
+  files.folder.write(
+      "beam.toml",
+      "[simulation]\nsubsteps = 2\n[[body]]\nname = \"beam\"\nkind = \"deformable\"\nshape = { box = { "
+      "size = [1, 0.2, 0.2] } }\nvolume = { lattice = { cells = 4 } }\nmaterial = { young = 5e5, poisson "
+      "= 0.3, density = 1000, damping = [5, 0.05] }\nfixed = { box = { min = [-0.51, -1, -1], max = "
+      "[-0.499, 1, 1] } }\n");
+  const Outcome outcome = files.run("out",
+                                    {"--vary", "body.beam.volume.lattice.cells=5,10", "--reference",
+                                     "body.beam.volume.lattice.cells=15", "--window", "all", "--frames", "10"},
+                                    "beam.toml");
+  INFO(outcome.err << outcome.out);
+  REQUIRE(outcome.code == 0);
+  const std::vector<double> errors = numbers(sweep_results(files.folder / "out"), "error_rms_m");
+  CHECK(errors[0] > 2.0 * errors[1]);
+  CHECK(errors[1] > 0.0);
+}
+
 TEST_CASE("the automatic window ends where a start aside has grown as the scene's instability says") {
   // a ball on top of a ball, frictionless: theta'' = g / R theta with R the distance of the centres. The start is aside
   // by 1e-9 of the size in a direction whose level part is cos(1.2) of it; that part grows as cosh to 1e-3 of the size.

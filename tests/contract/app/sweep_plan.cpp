@@ -114,6 +114,9 @@ TEST_CASE("repeats make times medians with a spread, and change no other column"
     std::sort(sums.begin(), sums.end());
     CHECK(sums[0] < sums[2]);
     CHECK(std::stod(row.at("step_ms")) == Approx(sums[1]).epsilon(1e-12));
+    // of the processor: no more than the clock saw, but for what it counts in whole ticks
+    CHECK(std::stod(row.at("step_cpu_ms")) > 0.0);
+    CHECK(std::stod(row.at("step_cpu_ms")) < 1.5 * sums[2] + 5.0);
     CHECK(std::stod(row.at("spread_step_ms")) == Approx(sums[2] - sums[0]).epsilon(1e-9));
     CHECK(std::stod(row.at("step_mean_ms")) == Approx(sums[1] / 21).epsilon(1e-12));
     CHECK(std::stod(row.at("spread_wall_ms")) > 0);

@@ -123,6 +123,29 @@ TEST_CASE("the report takes whatever columns the table has, and nothing in it ca
         std::string::npos);
 }
 
+TEST_CASE("a formula is the truth for every job: a line a method, along the time step, and no caution") {
+  ParameterSet rows;
+  const std::string csv =
+      "hash,response.method,simulation.substeps,contact.friction,status,reason,step_ms,error_rms_m,wall_ms,doubts\n"
+      "aa,penalty,1,0.1,done,,10,1e-3,20,\nbb,penalty,2,0.1,done,,20,5e-4,30,\n"
+      "cc,quick,1,0.1,done,,5,1e-4,20,it blew up\ndd,quick,2,0.2,done,,20,1e-4,30,\n";
+  const std::vector<std::string> paths = {"response.method", "simulation.substeps", "contact.friction"};
+  const ReportTable table = read_report_table(csv, paths, {"case:sliding"}, rows);
+  const auto joined = [&](const ReportTable& of) {
+    std::string names;
+    for (const ReportColumn& column : of.columns)
+      if (column.is_joined) names += (names.empty() ? "" : " ") + column.name;
+    return names;
+  };
+  CHECK(joined(table) == "simulation.substeps");
+  CHECK(joined(read_report_table(csv, paths, {"contact.friction=1"}, rows)) == "contact.friction");
+  for (const std::string& path : paths) CHECK(table.columns[static_cast<std::size_t>(table.column(path))].in_reference);
+  const ReportChoice choice = choose_columns(table);
+  CHECK(work_precision_plot(table, choice, "s").series.size() == 3);
+  // what is in doubt neither is best nor beats another
+  CHECK(table.best(choice.x, choice.y) == std::vector<bool>{true, false, false, true});
+}
+
 TEST_CASE("an ablation runs the scene with each economy off, and the sweep's report shows it") {
   const TempFolder folder;
   folder.write("s.toml", replaced(kCrateScene, "velocity = [1, 0, 0]\n", "velocity = [1, 0, 0]\nfriction = 0\n"));

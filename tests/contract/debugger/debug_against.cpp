@@ -67,6 +67,9 @@ TEST_CASE("A and B part in the frame in which their runs do, and A is as it is a
     CAPTURE(runs.out, runs.err);
     CHECK(runs.out.find(wanted < 0 ? "A and B (b) are the same"
                                    : fmt::format("A and B (b) differ from frame {} on", wanted)) != std::string::npos);
+    // and what is elsewhere then has its name
+    if (wanted >= 0 && both.out.find("'s position by ") != std::string::npos)
+      CHECK(runs.out.find("'s position by ") != std::string::npos);
   }
   CHECK(differ >= 3);
 }

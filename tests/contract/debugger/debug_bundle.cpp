@@ -249,6 +249,9 @@ TEST_CASE("what is no whole bundle is refused by one message, and nothing of it 
   folder.write("other/file", "x");
   REQUIRE(std::system(("cd " + folder.path().string() + " && tar cf x.tar other && tar cf y.tar other").c_str()) == 0);
   CHECK_FALSE(is_bundle(folder / "y.tar"));
+  // and what a whole one is not: a scene
+  for (const char* command : {"run", "info", "check"})
+    check_refused(impinge_run(folder.path(), {command, "b.tar"}), "b.tar: this is a tar, as a bundle of impinge debug");
   CHECK(debug(folder, "y.tar", "look.script").code == 2);
 }
 

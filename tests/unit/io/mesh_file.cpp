@@ -118,6 +118,8 @@ TEST_CASE("what is wrong is located") {
   std::string cut = stl_binary(mesh);
   cut.pop_back();
   CHECK(starts_with(message("a.stl", cut), "a.stl: byte 80: 4 facets in a file of 283 bytes"));
+  cut.replace(0, 5, "solid");  // as some writers of binary files begin
+  CHECK(starts_with(message("a.stl", cut), "a.stl: byte 80: 4 facets in a file of 283 bytes"));
   CHECK(starts_with(message("a.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0\n"),
                     "a.stl:5:10: the line ends early"));
 }

@@ -36,6 +36,9 @@ void draw_within(Ui& ui, const DebugModel& model, CommandLines& lines) {
     }
     if (ImGui::Selectable(fmt::format("##{}", i).c_str(), i == now) && first != model.place)
       lines.push_back(fmt::format("{} stage {}", first > model.place ? "step" : "back", std::abs(first - model.place)));
+    // once, when another is the present one: who scrolls away meanwhile is let
+    if (int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), -1); i == now && shown != model.place)
+      ImGui::SetScrollHereY(), shown = model.place;
     ui.name(fmt::format("stages/{}", i));
     ImGui::SameLine(8.0f * ui.unit());
     ImGui::TextUnformatted(std::string(name_of(entry.kind)).c_str());

@@ -107,7 +107,9 @@ void draw_strip(const DebugModel& model, const Series& series, const Axis& axis,
   draw_line(values, axis, scale, ink(rgb), std::max(1.0f, text / 10.0f));
   list.AddText({axis.left - kNames * unit, middle}, ink(rgb), shortened(series.name, (kNames - 6.0f) * unit).c_str());
   // digits end where units begin
-  const NumberText value = series.text(values[static_cast<std::size_t>(model.frame)]);
+  // within a frame they are not known yet
+  NumberText value = series.text(values[static_cast<std::size_t>(model.frame)]);
+  if (model.stages != nullptr) value = {"end " + value.digits, value.unit};
   const float edge = axis.right + kDigits * unit, width = ImGui::CalcTextSize(value.digits.c_str()).x;
   list.AddText({edge - width, middle}, ink(0xf2f4f7), value.digits.c_str());
   list.AddText({edge + 5.0f * unit, middle}, ink(0x98a2b0), value.unit.c_str());

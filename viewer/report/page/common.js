@@ -54,5 +54,6 @@ function jobName(row, without = []) {
 
 // rows that nothing beats: no other is at most as large in both columns and smaller in one
 function best(x, y, among) {
+  among = among.filter(r => !rows[r].doubts);  // an answer in doubt neither is best nor beats another
   return among.filter(r => !among.some(o => number(o, x) <= number(r, x) && number(o, y) <= number(r, y) && (number(o, x) < number(r, x) || number(o, y) < number(r, y))));
 }

@@ -12,11 +12,11 @@ function openJob() {
   dialog.replaceChildren(
       element('button', {class: 'close', onclick: () => dialog.close(), 'aria-label': 'close'}, '✕'),
       element('h2', {}, jobName(i)),
-      element('p', {}, `Job ${hash}: ${rows[i].status}.`, rows[i].reason ? ' ' + rows[i].reason : ''),
+      element('p', {}, `Job ${hash}: ${rows[i].status}.`, rows[i].reason ? ' ' + rows[i].reason : '', rows[i].doubts ? ' In doubt: ' + rows[i].doubts : ''),
       element('p', {class: 'links'}, file('run/', 'folder of the run'), file('run/stats.csv', 'figures by frame'), file('run/run.toml', 'resolved scene'), data.frames ? file('run/frames/', 'all pictures') : null, file('output.txt', 'what it said')),
       element('p', {}, 'Run it again, from the folder of this page: ', element('code', {}, `impinge run ${folder}run/run.toml --out again`)),
       pictures ? element('div', {class: 'strip'}, ...data.frames.numbers.map((n, k) => [n, pictures.pictures[k]]).concat([[pictures.last, pictures.lastPicture]]).map(([n, p]) => p ? element('a', {href: `${folder}run/frames/${String(n).padStart(6, '0')}.png`, title: 'full size'}, element('img', {src: p, alt: frameText(n), loading: 'lazy'}), element('small', {}, frameText(n))) : null)) : null,
-      element('table', {class: 'plain'}, element('tbody', {}, ...columns.map((c, k) => ['hash', 'status', 'reason'].includes(c.kind) ? null : line(k)))));
+      element('table', {class: 'plain'}, element('tbody', {}, ...columns.map((c, k) => ['hash', 'status', 'reason', 'doubts'].includes(c.kind) ? null : line(k)))));
   if (!dialog.open) dialog.showModal();
   dialog.scrollTop = 0;
 }

@@ -51,6 +51,7 @@ function makePlot(place) {
   if (state.y < 0) state.y = usable[0];
   const options = usable.map(i => [i, heading(i)]);
   const logs = {};
+  const joined = varied.filter(c => columns[c].joined);
   const drawing = element('div', {class: 'drawing'}), legend = element('div', {class: 'legend'}), note = element('p', {class: 'note'});
   const logBox = key => {
     const box = element('input', {type: 'checkbox', onchange: () => { logs[key] = box.checked; draw(); }});
@@ -58,14 +59,14 @@ function makePlot(place) {
   };
   const logX = logBox('x'), logY = logBox('y');
   const choose = key => value => { state[key] = Number(value); delete logs[key]; draw(); };
-  const groups = [['auto', 'what the reference leaves alone'], ['none', 'nothing'], ...varied.filter(c => columns[c].distinct > 1).map(c => [c, columns[c].name])];
+  const groups = [['auto', joined.length ? 'all but ' + joined.map(c => columns[c].name).join(', ') : 'every job'], ['none', 'nothing'], ...varied.filter(c => columns[c].distinct > 1).map(c => [c, columns[c].name])];
   place.append(
       element('div', {class: 'controls'}, chooser('across', options, state.x, choose('x')), logX.label, chooser('up', options, state.y, choose('y')), logY.label,
               chooser('a colour for', groups, state.group, value => { state.group = value; state.hidden.clear(); draw(); })),
       legend, drawing, note);
 
-  // jobs that differ only in numbers that the reference sets belong to one line
-  const keyColumns = () => state.group === 'none' ? [] : state.group !== 'auto' ? [Number(state.group)] : varied.filter(c => !(columns[c].inReference && isNumeric(c)));
+  // jobs that differ only in what is joined belong to one line
+  const keyColumns = () => state.group === 'none' ? [] : state.group !== 'auto' ? [Number(state.group)] : varied.filter(c => !joined.includes(c));
   function nameOf(row) {
     const keys = keyColumns();
     return keys.length === 0 ? 'all jobs' : jobName(row, varied.filter(c => !keys.includes(c)));
@@ -118,7 +119,7 @@ function makePlot(place) {
         point.append(shape('line', {x1: x.at(Math.max(v - half, v * 0.05)), x2: x.at(v + half), y1: py, y2: py, stroke: Colors[k % Colors.length], 'stroke-width': 1.4}));
       }
       if (front.includes(i)) point.append(shape('circle', {cx: px, cy: py, r: 9.5, class: 'ring'}));
-      point.append(shape('circle', {cx: px, cy: py, r: 11, fill: 'transparent'}), markOf(k, px, py), shape('title', {}, `${jobName(i)}\n${heading(state.x)}: ${format(number(i, state.x))}\n${heading(state.y)}: ${format(number(i, state.y))}`));
+      point.append(shape('circle', {cx: px, cy: py, r: 11, fill: 'transparent'}), markOf(k, px, py), rows[i].doubts ? shape('path', {d: `M${px - 7} ${py - 7}L${px + 7} ${py + 7}M${px - 7} ${py + 7}L${px + 7} ${py - 7}`, class: 'doubt'}) : '', shape('title', {}, `${jobName(i)}\n${rows[i].doubts ? 'in doubt: ' + rows[i].doubts + '\n' : ''}${heading(state.x)}: ${format(number(i, state.x))}\n${heading(state.y)}: ${format(number(i, state.y))}`));
       svg.append(point);
     }
     return svg;

@@ -2,10 +2,10 @@
 
 function makeTable(place) {
   const rank = i => ({varied: 0, status: 1, time: 2, spread: 3, error: 4})[columns[i].kind] ?? 5;
-  const always = columns.map((c, i) => i).filter(i => columns[i].main && columns[i].kind !== 'reason').sort((a, b) => rank(a) - rank(b) || a - b), every = columns.map((c, i) => i).filter(i => !['hash', 'reason'].includes(columns[i].kind));
+  const always = columns.map((c, i) => i).filter(i => columns[i].main && !['reason', 'doubts'].includes(columns[i].kind)).sort((a, b) => rank(a) - rank(b) || a - b), every = columns.map((c, i) => i).filter(i => !['hash', 'reason', 'doubts'].includes(columns[i].kind));
   const state = {all: false, only: false, sort: -1, up: true};
   const x = columnAt(data.plot.x), y = columnAt(data.plot.y);
-  const judged = rows.map((r, i) => i).filter(i => rows[i].status === 'done' && isFinite(number(i, x)) && isFinite(number(i, y)));
+  const judged = rows.map((r, i) => i).filter(i => rows[i].status === 'done' && !rows[i].doubts && isFinite(number(i, x)) && isFinite(number(i, y)));
   const reference = columnAt('reference'), isOwn = i => reference >= 0 && rows[i].cells[reference] === rows[i].hash;
   const front = data.reference.length ? best(x, y, judged.filter(i => !isOwn(i))) : [];
   const smallest = {};
@@ -36,9 +36,10 @@ function makeTable(place) {
                      figure ? format(number(i, c)) : columns[c].kind === 'reference' ? text.slice(0, 8) : text);
     };
     // the reason on a line of its own, in sight however wide the table is
-    const why = (i, width) => rows[i].reason ? [element('tr', {class: 'why ' + rows[i].status}, element('td', {colspan: width}, element('div', {}, rows[i].reason)))] : [];
+    const why = (i, width) => [[rows[i].reason, rows[i].status], [rows[i].doubts && 'in doubt: ' + rows[i].doubts, 'doubted']].filter(([text]) => text)
+        .map(([text, kind]) => element('tr', {class: 'why ' + kind}, element('td', {colspan: width}, element('div', {}, text))));
     table.replaceChildren(element('thead', {}, element('tr', {}, element('th', {scope: 'col'}, 'job'), ...shown.map(head))),
-        element('tbody', {}, ...order.flatMap(i => [element('tr', {id: 'row-' + rows[i].hash, class: rows[i].status + (front.includes(i) ? ' best' : '')},
+        element('tbody', {}, ...order.flatMap(i => [element('tr', {id: 'row-' + rows[i].hash, class: rows[i].status + (rows[i].doubts ? ' doubted' : '') + (front.includes(i) ? ' best' : '')},
             element('th', {scope: 'row'}, element('a', {href: '#job-' + rows[i].hash}, rows[i].hash.slice(0, 8)), front.includes(i) ? element('span', {class: 'star', title: 'no other job is both faster and more exact'}, ' ◆') : isOwn(i) ? element('small', {title: 'this job is its own reference'}, ' ref') : null),
             ...shown.map(c => cell(i, c))), ...why(i, shown.length + 1)])));
   }
