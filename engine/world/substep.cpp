@@ -113,14 +113,10 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
 
 /// Rows before anything is cut: whether the sub-step may have some, and the piece has. And whether a long way was cut.
 struct Asking {
-<<<<<<< HEAD
   bool may = true, has = false, is_cut = false;
-=======
-  bool may = true, has = false;
   /// Whether the piece was cut for what deforms: driven into each other, soft surfaces pass in the next one too, which shows
   /// only when all its looks are spent. It grows from this one's length then.
   bool bends = false;
->>>>>>> h2
   /// Takes them back where a solve with them has no answer: it is cut then.
   bool is_refused(SubStep& step) {
     if (!has || is_usable(step)) return false;
@@ -131,7 +127,7 @@ struct Asking {
   /// What the next piece tries: all that is left, or after a cut of a long way a few times as much, since the next meeting is as near as
   /// a rule, and what a long motion comes upon is dear to find, to solve and to look back at.
   double next_share(double share, int motions) const {
-    if (has && motions > kPatience) return kGrowth * share;
+    if (bends || (has && motions > kPatience)) return kGrowth * share;
     return is_cut ? kAfterCut * share : 1.0;
   }
 };
@@ -376,11 +372,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         share *= ask_or_cut(bodies_, *unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
-<<<<<<< HEAD
     next = asking.next_share(share, motion);
-=======
-    next = asking.bends || (asking.has && motion > kPatience) ? kGrowth * share : 1.0;
->>>>>>> h2
     rest = share == rest ? 0.0 : rest - share;
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);
