@@ -1,10 +1,11 @@
-// Newmark without damping where waves cross a soft body within a few sub-steps: what is stopped at its surface goes on by
+// Newmark, and the energy-momentum scheme that is one in contact, without damping where waves cross a soft body within a few sub-steps: what is stopped at its surface goes on by
 // the accelerations that the scheme remembers, and contact makes energy. It was measured (tests/README.md, "Newmark in
 // contact").
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "engine/bodies/deformable_body.hpp"
 #include "engine/core/units.hpp"
@@ -29,7 +30,8 @@ class UndampedNewmark : public Warning {
  public:
   std::vector<Finding> look(const SceneAtStart& start) const override {
     const Parameters& p = start.world.parameters;
-    if (p.simulation.integrator.name() != "newmark") return {};
+    const std::string_view name = p.simulation.integrator.name();
+    if (name != "newmark" && name != "energy_momentum") return {};
     const double h = p.simulation.time_step(), enough = kEnoughDamping * h;
     struct Found {
       double crossings;
@@ -47,10 +49,9 @@ class UndampedNewmark : public Warning {
     std::vector<Finding> findings;
     for (const auto& [crossings, body] : found)
       findings.push_back(
-          {fmt::format(
-               "waves cross '{}', {} thick, {:.3g} times in a sub-step of {}; from {:g} on newmark makes energy "
-               "in contact unless damping holds it down",
-               body->name, length_text(body->size), crossings, time_text(h), kMostCrossings),
+          {fmt::format("waves cross '{}', {} thick, {:.3g} times in a sub-step of {}; from {:g} on {} makes energy "
+                       "in contact unless damping holds it down",
+                       body->name, length_text(body->size), crossings, time_text(h), kMostCrossings, name),
            "take " + enough_damping(p) + " or more, a quarter of a sub-step, or another simulation.integrator"});
     return findings;
   }
@@ -59,7 +60,8 @@ class UndampedNewmark : public Warning {
 }  // namespace
 
 Entry<Warning> undamped_newmark_warning() {
-  return entry<Warning, UndampedNewmark>("undamped-newmark", "newmark without damping makes energy in contact");
+  return entry<Warning, UndampedNewmark>("undamped-newmark",
+                                         "newmark or energy_momentum without damping makes energy in contact");
 }
 
 }  // namespace impinge

@@ -215,6 +215,7 @@ TEST_CASE("preflight: newmark without damping is told of by how often waves cros
   check_trap(folder, {"damped too little", "undamped-newmark", cube(0.01, ", damping = [5, 0.00103]"), {"'jelly'"}});
   CHECK_FALSE(warns(folder, cube(0.01, ", damping = [0, 0.00105]"), "undamped-newmark"));
   CHECK_FALSE(warns(folder, cube(0.01, ""), "undamped-newmark", {"--set", "simulation.integrator=implicit_euler"}));
+  CHECK(warns(folder, cube(0.01, ""), "undamped-newmark", {"--set", "simulation.integrator=energy_momentum"}));
   CHECK_FALSE(warns(folder, cube(0.067, ""), "undamped-newmark"));  // 0.197 crossings
   CHECK(warns(folder, cube(0.065, ""), "undamped-newmark"));
 }
