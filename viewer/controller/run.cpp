@@ -75,11 +75,28 @@ RunOptions as_begun(RunOptions options, const Session& session) {
   return options;
 }
 
+RunStart start_of(const RunOptions& options) {
+  return options.resume ? RunStart::resume : options.force ? RunStart::force : RunStart::anew;
+}
+
 /// Processor time of this thread so far, milliseconds.
 double thread_cpu_ms() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// Makes the next frame, and adds what it took.
+std::vector<Command> timed_advance(Session& session, FrozenStep* frozen, double& step_cpu_ms) {
+  const double begin = thread_cpu_ms();
+  std::vector<Command> commands = session.advance(frozen);
+  step_cpu_ms += thread_cpu_ms() - begin;
+  return commands;
+}
+
+void tell_of_former_paths(const RunWatcher& watcher, const Session& session) {
+  const std::string note = session.note_of_former_paths();
+  if (!note.empty() && watcher.message) watcher.message("note: " + note);
 }
 
 /// What the command line asks and the scene cannot give.
@@ -226,12 +243,10 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   Exports exports = open_exports(options, session, last_frame);
   FrameView& view = session.view();
   if (options.images) view.open(session.scene_file().filename().string(), options.ids);
-  const RunStart how = options.resume ? RunStart::resume : options.force ? RunStart::force : RunStart::anew;
-  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), how,
+  RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), start_of(options),
                    options.snapshot_megabytes << 20);
 
-  if (const std::string note = session.note_of_former_paths(); !note.empty() && watcher.message)
-    watcher.message("note: " + note);
+  tell_of_former_paths(watcher, session);
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = result.is_judged = session.is_judged();
@@ -248,13 +263,10 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
     restore_snapshot(folder.snapshot(result.resumed_from), session);
     take_up(folder, watcher, session, conditions, exports);
   }
-  double step_cpu_ms = 0.0;
   const auto make_frame = [&] {
     FrozenStep frozen;
     const bool freezes = options.freeze && session.frame() + 1 == *options.freeze;
-    const double begin = thread_cpu_ms();
-    const std::vector<Command> commands = session.advance(freezes ? &frozen : nullptr);
-    step_cpu_ms += thread_cpu_ms() - begin;
+    const std::vector<Command> commands = timed_advance(session, freezes ? &frozen : nullptr, result.step_cpu_ms);
     FrameStats stats = session.record().stats;
     if (judged) overlap.judge(session.world().bodies(), stats);
     check_figures(stats, judged);
@@ -287,7 +299,7 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   } catch (const DivergenceError& error) {
     result.diverged = error.what();
   }
-  if (thread_count() == 1 && result.resumed_from < 0) result.step_cpu_ms = step_cpu_ms;
+  if (thread_count() != 1 || result.resumed_from >= 0) result.step_cpu_ms = -1.0;
   view.finish();
   exports.finish();
   result.exported = exports.results();

@@ -59,7 +59,7 @@ struct RunResult {
   std::size_t frozen_contacts = 0, frozen_groups = 0;
   double frames_per_second = 0;  ///< of simulated time
   /// Processor time of all steps, milliseconds; -1: not known, since there were several threads or an earlier process.
-  double step_cpu_ms = -1.0;
+  double step_cpu_ms = 0.0;
   std::vector<CrushedBody> crushed;   ///< as the last frame left them
   std::string diverged;               ///< why, if the simulation left the finite numbers
   std::vector<std::string> exported;  ///< what there is to open, one a format
