@@ -125,10 +125,8 @@ class Assembly {
     const Vec3 error = hold.point_a - hold.point_b;
     const double away = error.norm() > 0.0 ? std::max(0.0, velocity_before.dot(error.normalized())) : 0.0,
                  most = input_.settings.max_push_out.at(rows.scale.speed) + away;
-    const Vec3 normal = rows.directions.row(0);
-    const double back = normal.dot(recovery(error, most));
-    rows.surface.x() += back;
-    if (add(index, std::move(rows), {slide.a.point, hold.at_b})) note(result_.recovery, back * normal);
+    rows.surface.x() += rows.directions.row(0).dot(recovery(error, most));
+    add(index, std::move(rows), {slide.a.point, hold.at_b});
   }
 
   AssembledGroup finish() {

@@ -29,7 +29,7 @@ struct AssembledGroup {
   std::vector<BodyIndex> rigid, deformable;                     ///< of the system's blocks
   std::vector<ContactIndex> contacts;                           ///< of its rows
   std::vector<std::pair<MaterialPoint, MaterialPoint>> points;  ///< of its rows: where they act on A and B
-  /// By row, m/s, world axes: the velocity with which an attachment is asked to take its error back; empty: nothing is.
+  /// By row, m/s, world axes: the velocity with which a point is asked to come back to where it is held; empty: none is.
   std::vector<Vec3> recovery;
   std::vector<Vec3> drift;  ///< by row, metres: of an attachment, what is left to recovery on positions; empty: nothing
   double meeting = 0.0;     ///< s, when two whom nothing else touches meet in flight; 0: none do

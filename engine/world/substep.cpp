@@ -372,7 +372,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         share *= ask_or_cut(bodies_, *unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
-    next = asking.next_share(share, motion);
+    next = piece < kMostPieces ? std::max(kLeastShare, asking.next_share(share, motion)) : 1.0;
     rest = share == rest ? 0.0 : rest - share;
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);

@@ -17,7 +17,7 @@
 namespace impinge {
 namespace {
 
-constexpr int kHalvings = 7;          // of a lattice edge, until its vertex is where the skin passes
+constexpr int kHalvings = 9;          // of a lattice edge, until its vertex is where the skin passes
 constexpr double kLeastShare = 0.02;  // of a lattice edge, at either end: no two vertices of the skin at one node
 
 // the six tetrahedra of a cube round its diagonal from corner 0 to corner 7; corner i stands at (i & 1, i >> 1 & 1,
@@ -123,7 +123,7 @@ class Skin {
     return (d >= layer ? 4 : 0) + (d % layer >= row ? 2 : 0) + (d % layer % row != 0 ? 1 : 0);
   }
 
-  /// By halving: the nearest part of a surface may be one that lies within another.
+  /// By halving, from within: the nearest part of a surface may be one that lies within another.
   void place_vertices() {
     skin_.vertices.resize(ends_.size());
     parallel_for(ends_.size(), 256, [&](std::size_t i) {
@@ -133,7 +133,7 @@ class Skin {
         const double middle = 0.5 * (low + high);
         (is_inside_(in + middle * (out - in)) ? low : high) = middle;
       }
-      skin_.vertices[i] = in + std::clamp(0.5 * (low + high), kLeastShare, 1.0 - kLeastShare) * (out - in);
+      skin_.vertices[i] = in + std::clamp(low, kLeastShare, 1.0 - kLeastShare) * (out - in);
     });
   }
 

@@ -43,9 +43,6 @@ std::string brief(double v, int digits) {
 
 void tooltip(const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  // what was clicked is known by now, and what stands beside it is to be seen: not before the pointer moves again
-  const ImVec2 now = ImGui::GetMousePos(), clicked = ImGui::GetIO().MouseClickedPos[0];
-  if (now.x == clicked.x && now.y == clicked.y) return;
   // below what it explains, or above where there is no room below
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), window = ImGui::GetIO().DisplaySize;
   const float gap = 0.3f * ImGui::GetFontSize(), wrap = ImGui::GetFontSize() * 28.0f;
