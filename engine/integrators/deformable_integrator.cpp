@@ -1,5 +1,8 @@
 #include "engine/integrators/deformable_integrator.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/integrators/pull_spring.hpp"
@@ -84,6 +87,40 @@ void solve_free_velocity(const DeformableBody& body, DeformableStep& step, Linea
     step.residual = report.residual;
   }
   step.converged = step.linear_status == SolveStatus::ok;
+}
+
+VecX momentum_balance(const DeformableBody& body, const DeformableStep& step, const VecX& v, const VecX& elastic,
+                      const VecX& damping, const VecX& applied, double& size) {
+  VecX inertia, momentum;
+  body.fem.multiply_mass(v - step.v_hat, inertia);
+  body.fem.multiply_mass(step.v_hat, momentum);
+  VecX g = inertia + step.tau * (damping - elastic - applied);
+  const Vec3 pulled = add_pull(body, step, v, -1.0, g);
+  size = std::max({momentum.norm(), inertia.norm(), step.tau * damping.norm(), step.tau * elastic.norm(),
+                   step.tau * applied.norm(), pulled.norm()});
+  return g;
+}
+
+double largest_stiffness(const DeformableBody& body, const DeformableStep& step) {
+  double largest = 0.0;
+  for (int i = 0; i < body.nodes(); ++i)
+    largest = std::max(largest, step.tangent.values[body.fem.pattern()->diagonal[i]].trace());
+  return largest;
+}
+
+double rounding_of_balance(const DeformableBody& body, const DeformableStep& step, double largest_stiffness) {
+  const double extent = step.start.cwiseAbs().maxCoeff();
+  return 1e-15 * step.tau * largest_stiffness * extent * std::sqrt(static_cast<double>(body.nodes()));
+}
+
+bool newton_direction(LinearSolver& solver, const VecX& g, DeformableStep& step, VecX& direction) {
+  step.linear_status = solver.factorize(step.a);
+  if (step.linear_status != SolveStatus::ok) return false;
+  direction.setZero(g.size());
+  const SolveReport report = solver.solve(-g, direction);
+  step.linear_iterations += report.iterations;
+  step.linear_status = report.status;
+  return report.status == SolveStatus::ok || report.status == SolveStatus::not_converged;
 }
 
 void OneStepScheme::linearize(DeformableBody& body, const VecX& v, DeformableStep& step) const {

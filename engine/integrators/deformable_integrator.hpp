@@ -45,6 +45,16 @@ double damping_potential(const DeformableBody& body, const DeformableStep& step,
 void applied_impulses(const DeformableBody& body, const DeformableStep& step, StepImpulses& out);
 /// Solves step.a v* = step.b, starting from the body's velocity.
 void solve_free_velocity(const DeformableBody& body, DeformableStep& step, LinearSolver& solver);
+/// g = M (v − v̂) + τ (damping − elastic − applied), forces in N over all nodes, and what pulls, kg m/s; `size`: the largest of
+/// its parts.
+VecX momentum_balance(const DeformableBody& body, const DeformableStep& step, const VecX& v, const VecX& elastic,
+                      const VecX& damping, const VecX& applied, double& size);
+/// The largest of a node with itself in step.tangent, N/m.
+double largest_stiffness(const DeformableBody& body, const DeformableStep& step);
+/// Forces are sums of products of stiffness and position: what of g can't be told from zero with that one, kg m/s.
+double rounding_of_balance(const DeformableBody& body, const DeformableStep& step, double largest_stiffness);
+/// −A⁻¹ g over the free nodes; false: there is none. step says how it fared.
+bool newton_direction(LinearSolver& solver, const VecX& g, DeformableStep& step, VecX& direction);
 /// Newton's method with a projected tangent and a line search on the incremental potential, whose gradient is g.
 void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solver, const NewtonSettings& settings);
 /// One sub-step from begin to advance, without contact.

@@ -30,15 +30,7 @@ class IncrementalPotential {
 
   /// g at v, and the size of the largest of its parts, kg m/s.
   VecX gradient(const VecX& v, const VecX& elastic_force, double& size) const {
-    VecX inertia, momentum;
-    body_.fem.multiply_mass(v - step_.v_hat, inertia);
-    body_.fem.multiply_mass(step_.v_hat, momentum);
-    const VecX damping = damping_force(body_, step_, v);
-    VecX g = inertia + step_.tau * (damping - elastic_force - applied_);
-    const Vec3 pulled = add_pull(body_, step_, v, -1.0, g);
-    size = std::max({momentum.norm(), inertia.norm(), step_.tau * damping.norm(), step_.tau * elastic_force.norm(),
-                     step_.tau * applied_.norm(), pulled.norm()});
-    return g;
+    return momentum_balance(body_, step_, v, elastic_force, damping_force(body_, step_, v), applied_, size);
   }
 
  private:
@@ -70,26 +62,16 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
     add_pull_to_system(body, step);
     const VecX v_free = body.gather_free(v);
     step.b = step.a * v_free - g;
-    // forces are sums of products of stiffness and position, so they can't be told from zero below their rounding
-    double largest = 0.0;
-    for (int i = 0; i < body.nodes(); ++i)
-      largest = std::max(largest, k.values[body.fem.pattern()->diagonal[i]].trace());
-    const double extent = step.start.cwiseAbs().maxCoeff();
-    const double rounding = 1e-15 * step.tau * largest * extent * std::sqrt(static_cast<double>(body.nodes()));
+    const double largest = largest_stiffness(body, step), extent = step.start.cwiseAbs().maxCoeff();
     const double potential_rounding = 1e-15 * step.tau / step.s * largest * extent * extent;
-    if (residual <= settings.tolerance * size + rounding) {
+    if (residual <= settings.tolerance * size + rounding_of_balance(body, step, largest)) {
       step.converged = true;
       break;
     }
     if (step.newton_iterations >= settings.max_iterations || !std::isfinite(residual)) break;
 
-    step.linear_status = solver.factorize(step.a);
-    if (step.linear_status != SolveStatus::ok) break;
-    VecX direction = VecX::Zero(g.size());
-    const SolveReport report = solver.solve(-g, direction);
-    step.linear_iterations += report.iterations;
-    step.linear_status = report.status;
-    if (report.status != SolveStatus::ok && report.status != SolveStatus::not_converged) break;
+    VecX direction;
+    if (!newton_direction(solver, g, step, direction)) break;
 
     const double slope = dot(direction, g), before = potential.value(v, elastic);
     bool lowered = false;

@@ -51,15 +51,11 @@ class EnergyMomentum : public OneStepScheme {
       step.residual = first > 0.0 ? g.norm() / first : 0.0;
       find_system(body, v, step);
       step.b = step.a * v - g;
-      step.converged = g.norm() <= newton_.tolerance * size + rounding(body, step);
+      step.converged =
+          g.norm() <= newton_.tolerance * size + rounding_of_balance(body, step, largest_stiffness(body, step));
       if (step.converged || step.newton_iterations >= newton_.max_iterations || !std::isfinite(g.norm())) break;
-      step.linear_status = solver.factorize(step.a);
-      if (step.linear_status != SolveStatus::ok) break;
-      VecX direction = VecX::Zero(g.size());
-      const SolveReport report = solver.solve(-g, direction);
-      step.linear_iterations += report.iterations;
-      step.linear_status = report.status;
-      if (report.status != SolveStatus::ok && report.status != SolveStatus::not_converged) break;
+      VecX direction;
+      if (!newton_direction(solver, g, step, direction)) break;
       if (!go_down(body, step, direction, v, g, size)) break;
     }
     step.v_star = v;
@@ -89,25 +85,12 @@ class EnergyMomentum : public OneStepScheme {
 
   /// g over the free nodes, and the size of the largest of its parts, kg m/s.
   VecX residual(DeformableBody& body, const VecX& v, const DeformableStep& step, double& size) const {
-    const VecX all = body.with_held(v), applied = applied_force(body, step.gravity);
-    VecX g, momentum, elastic;
-    body.fem.multiply_mass(all - step.v_hat, g);
-    body.fem.multiply_mass(step.v_hat, momentum);
+    const VecX all = body.with_held(v);
+    VecX elastic;
     body.fem.mean_forces(step.start, step.position(all), elastic);
-    const VecX damping = damping_force(body, step, 0.5 * (step.v_hat + all));
-    size = std::max(
-        {momentum.norm(), g.norm(), step.tau * damping.norm(), step.tau * elastic.norm(), step.tau * applied.norm()});
-    g += step.tau * (damping - elastic - applied);
-    size = std::max(size, add_pull(body, step, all, -1.0, g).norm());
-    return body.gather_free(g);
-  }
-
-  /// Forces are sums of products of stiffness and position, so they can't be told from zero below their rounding.
-  static double rounding(const DeformableBody& body, const DeformableStep& step) {
-    double largest = 0.0;
-    for (int i = 0; i < body.nodes(); ++i)
-      largest = std::max(largest, step.tangent.values[body.fem.pattern()->diagonal[i]].trace());
-    return 1e-15 * step.tau * largest * step.start.cwiseAbs().maxCoeff() * std::sqrt(static_cast<double>(body.nodes()));
+    return body.gather_free(momentum_balance(body, step, all, elastic,
+                                             damping_force(body, step, 0.5 * (step.v_hat + all)),
+                                             applied_force(body, step.gravity), size));
   }
 
   /// As much of the direction as lowers the residual; false: none does.

@@ -1,6 +1,6 @@
-// Newmark, and the energy-momentum scheme that is one in contact, without damping where waves cross a soft body within a few sub-steps: what is stopped at its surface goes on by
-// the accelerations that the scheme remembers, and contact makes energy. It was measured (tests/README.md, "Newmark in
-// contact").
+// Newmark, and the energy-momentum scheme that is one in contact, without damping where waves cross a soft body within a
+// few sub-steps: what is stopped at its surface goes on by the accelerations that the scheme remembers, and contact makes
+// energy. It was measured (tests/README.md, "Newmark in contact").
 #include <fmt/format.h>
 
 #include <algorithm>

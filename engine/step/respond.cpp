@@ -111,6 +111,7 @@ class GroupSolve {
     if (floats() || !wins_energy()) return;
     const AssembledGroup asked = now_;
     const ResponseResult response = result_.response;
+    const std::optional<FrozenGroup> frozen = result_.frozen;
     const double won = energy_won(bodies_, asked).first;
     const bool is_answered = is_usable();
     const auto solve_for = [&](double share, const std::vector<Vec3>& start) {
@@ -128,7 +129,7 @@ class GroupSolve {
       if (!solve_for(share, start)) solve_for(0.0, none);
     }
     if ((is_answered && !is_usable()) || !(energy_won(bodies_, now_).first < won))
-      now_ = asked, result_.response = response;
+      now_ = asked, result_.response = response, result_.frozen = frozen;
   }
 
   /// What can't move holds two that meet in flight until they do, too: what it makes of their velocities without the meeting.

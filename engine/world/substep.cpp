@@ -124,8 +124,8 @@ struct Asking {
     begin(step);
     return true;
   }
-  /// What the next piece tries: all that is left, or after a cut of a long way a few times as much, since the next meeting is as near as
-  /// a rule, and what a long motion comes upon is dear to find, to solve and to look back at.
+  /// What the next piece tries: all that is left, or after a cut of a long way a few times as much, since the next meeting
+  /// is as near as a rule, and what a long motion comes upon is dear to find, to solve and to look back at.
   double next_share(double share, int motions) const {
     if (bends || (has && motions > kPatience)) return kGrowth * share;
     return is_cut ? kAfterCut * share : 1.0;

@@ -82,7 +82,8 @@ Distance distance(const ConeProblem& problem, std::vector<Vec3> lambda, const st
   }
   const double size = energy_norm(problem, exact), error = energy_norm(problem, lambda),
                least = least_energy_norm(problem, lambda), unit = size > 0.0 ? size : 1.0;
-  return {std::max(error, least) / unit, error<least, exact_squares> 0.0 ? std::sqrt(squares / exact_squares) : 0.0};
+  const double of_lambda = exact_squares > 0.0 ? std::sqrt(squares / exact_squares) : 0.0;
+  return {std::max(error, least) / unit, (error < least), of_lambda};
 }
 
 /// The shortest of several, where they are short: what else the machine does shows less.
