@@ -13,6 +13,7 @@
 namespace impinge {
 namespace {
 
+constexpr double kShortest = 1e-6;  // of a sub-step: what is left of it where two meet as it ends
 /// Of the activation distance: how far parts of one body are kept apart. What rests on itself with a gap of nothing
 /// crosses itself by what a sub-step leaves of it, and a crossing, however shallow, is seen from its other side later.
 constexpr double kSelfDistance = 0.01;
@@ -185,7 +186,7 @@ class Assembly {
     motion.velocity_before = motion.free_velocity + acceleration * (met - 0.5 * h);
     motion.after = acceleration * (0.5 * h - met);
     row.velocity_before = motion.velocity_before;
-    row.bound = row_bound(motion, input_.settings, h - met);
+    row.bound = row_bound(motion, input_.settings, std::max(h - met, kShortest * h));
     row.impact = met;
   }
 
