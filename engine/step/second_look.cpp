@@ -17,6 +17,7 @@ namespace {
 constexpr double kTolerance = 1e-2;  // of the activation distance: overlap that recovery takes for little
 constexpr int kMostBack = 8;         // of the dropped contacts of a pair that come back at once
 constexpr double kNearly = 1e-4;     // relative residual: what is answered to this is worth more than an overlap
+constexpr double kFarWorse = 10.0;   // than what a solve left: what goes in by as much more can't be overlooked
 
 bool is_rigid(const Body& body) { return body.kind() != BodyKind::deformable; }
 bool is_of(const Collision& c, const BodyPair& pair) { return c.body_a == pair.a && c.body_b == pair.b; }
@@ -88,6 +89,16 @@ bool SecondLook::find(StageTimes& times) {
     });
   });
   return !back_.empty() || !found_.empty() || !ahead_.empty();
+}
+
+double SecondLook::missed_speed() const {
+  double fastest = 0.0;
+  for (const std::vector<Collision>* list : {&back_, &found_, &ahead_})
+    for (const Collision& c : *list) {
+      const double beyond = -end_gap(c) - by_.contact.activation(pair_size(bodies_[c.body_a], bodies_[c.body_b]));
+      fastest = std::max(fastest, beyond / step_.time_step);
+    }
+  return fastest;
 }
 
 void SecondLook::find_dropped() {
@@ -334,7 +345,11 @@ int SolvedBefore::solve_changed(Bodies& bodies, std::span<const Attachment> atta
   return iterations;
 }
 
-bool SolvedBefore::was_better(const SubStep& step) const {
+bool SolvedBefore::was_better(const SubStep& step, double missed_speed) const {
+  double left = 0.0;
+  for (const GroupResult& r : step.results)
+    if (!r.is_answered()) left = std::max(left, r.verdict.residual());
+  if (missed_speed > kFarWorse * left) return false;
   const auto unanswered = [](const std::vector<GroupResult>& results) {
     return std::count_if(results.begin(), results.end(), [](const GroupResult& r) {
       return !r.is_answered() && (r.is_contradiction || !(r.verdict.relative <= kNearly));

@@ -20,6 +20,8 @@ class SecondLook {
   /// Whether the solved velocities lead into what has no contact and would end as an overlap: contacts that were dropped,
   /// and what no search has found yet. Changes nothing.
   bool find(StageTimes& times);
+  /// How fast the deepest of that goes beyond the activation distance until the end, m/s; 0: none is as deep.
+  double missed_speed() const;
   /// Adds that to the step's pairs, triangle pairs and collisions. `carried`: as reduce_contacts has it.
   void add(const ContactCache& carried);
 
@@ -59,8 +61,8 @@ class SolvedBefore {
   /// the impulses in the step's results. Returns the iterations of the answers that this replaces.
   int solve_changed(Bodies& bodies, std::span<const Attachment> attachments, const Solving& how, SubStep& step,
                     StageTimes& times) const;
-  /// Whether more groups had an answer.
-  bool was_better(const SubStep& step) const;
+  /// Whether more groups had an answer, and what that did not see was not far more than what is left unanswered now.
+  bool was_better(const SubStep& step, double missed_speed) const;
   /// Returns by how much more iterations it gives up than those of the answers that it brings back.
   int restore(SubStep& step) const;
 

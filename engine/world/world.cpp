@@ -245,10 +245,11 @@ void World::look_again(Solving& how) {
         std::none_of(s.results.begin(), s.results.end(), [](const GroupResult& r) { return r.is_provisional; });
     if (!is_missed && is_answer) return;
     const SolvedBefore before(s, s.contacts(attachments_));
+    const double missed = is_missed ? look.missed_speed() : 0.0;
     if (is_missed) look.add(cache_), --left;
     how.is_provisional = is_missed;
     stats_.lcp_iterations += before.solve_changed(bodies_, attachments_, how, s, stats_.times);
-    if (is_missed && before.was_better(s)) {
+    if (is_missed && before.was_better(s, missed)) {
       stats_.lcp_iterations += before.restore(s);
       left = 0;
       continue;
