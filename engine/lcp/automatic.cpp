@@ -14,10 +14,14 @@
 // dear) needed 4 to 10 roots of N on published problems and frozen steps of deformable bodies (N 120 to 3,300). They are
 // tried where that is less than Newton's price, and left where their rate doesn't keep it.
 //
-// Rigid bodies in many contacts go from a few steps of Newton's, which find an answer that is near, to rounded equations
-// (smoothing_newton.cpp) until kEnough; from there on both have the steps that bring digits, which they do in a wall at
-// once. What they leave is handed on as it is, not converged: in a heap that tumbles the rest takes minutes a frame and
-// moves nothing that can be seen.
+// Rigid bodies in many contacts first come to kEnough. A λ that comes from the step before is brought there by alternating
+// directions (ADMM), whose iterations cost a thirtieth of Newton's steps in a heap of a thousand boxes; where they creep,
+// which they do as the heap comes to rest, they go on from the answer of widely rounded equations (smoothing_newton.cpp), which
+// has forces right throughout and single contacts wrong, so that some 50 iterations end it. From nothing it is Newton that
+// finds what a wall carries. From there on Newton, then rounded equations have the steps that bring digits, which they do at
+// once in what stands, and what comes to rest needs: with 1e-3 it trembles. What they leave is handed on as it is, not
+// converged: in a heap that tumbles the rest takes minutes a frame and moves nothing that can be seen, and they are left after
+// kFewest steps.
 //
 // With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders: after
 // kNewtonSteps of them rounded equations are tried from where it began, then Newton again from the better of the two, and
@@ -29,6 +33,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/conjugate_sweeps.hpp"
 #include "engine/lcp/gauss_seidel_sweep.hpp"
 #include "engine/lcp/node_space.hpp"
@@ -59,9 +64,12 @@ constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost besid
 constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
 constexpr std::size_t kMany = 500;    // with which its steps are dear
 constexpr int kFewSteps = 20;         // of it there, and again as long as they leave less than kGain
+constexpr int kFewest = 8;            // the same of what is in motion, from an answer within kEnough
 constexpr double kGain = 0.3;
-constexpr double kEnough = 1e-3;  // a relative residual
-constexpr int kSomeSteps = 40;    // of rounded equations, likewise
+constexpr double kEnough = 1e-3;   // a relative residual
+constexpr double kInReach = 1e-2;  // one from which alternating directions find it soon
+constexpr double kAlmost = 5e-5;   // one that rounded equations bring to the last digits soon, if Newton doesn't
+constexpr int kSomeSteps = 40;     // of rounded equations, likewise
 constexpr int kRounds = 2;  // of rounded equations, of conjugate sweeps, which end what those creep at, and Newton
 constexpr int kLastDigits = 100;   // sweeps
 constexpr int kMoreSteps = 300;    // of Newton's
@@ -71,7 +79,16 @@ constexpr int kAny = std::numeric_limits<int>::max();
 constexpr double kFarBetter = 0.1;    // where there is no answer nothing at all may pass for a little better than most
 constexpr double kNearEnough = 1e-5;  // a relative residual that another method betters seldom
 
-using SolverEntry = Entry<LcpSolver>();
+using Solve = LcpResult(const ConeProblem&, const LcpSettings&, std::vector<Vec3>&);
+
+template <Entry<LcpSolver> (*Method)()>
+LcpResult by(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda) {
+  return Method().make()->solve(problem, settings, lambda);
+}
+
+constexpr Solve* kNewton = by<semismooth_newton_solver>;
+constexpr Solve* kRounded = by<smoothing_newton_solver>;
+constexpr Solve* kConjugateSweeps = by<nonsmooth_nonlinear_conjugate_gradient_solver>;
 
 class Automatic : public LcpSolver {
  public:
@@ -91,6 +108,7 @@ class Automatic : public LcpSolver {
     const double steps = stop.residual() < kGood && !is_zero(lambda) ? kStepsFromNear : kSteps;
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
+    const bool is_cold = is_zero(lambda);
     const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       const double change = gauss_seidel_sweep(problem, lambda);
@@ -103,9 +121,9 @@ class Automatic : public LcpSolver {
       const double left = sweep > first + price ? price + 1.0 : sweeps_left(changes, goal);
       const double by_conjugate = dense && newton ? kConjugateSweep * kConjugateOfRoot * std::sqrt(left) : kInfinity;
       if (left <= std::min({price, by_conjugate, static_cast<double>(settings.max_iterations - sweep)})) continue;
-      if (bodies) return solve_bodies(problem, settings, sweep, lambda);
-      if (!newton) return go_on(nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings, sweep, lambda);
-      if (!dense) return go_on(semismooth_newton_solver, problem, settings, sweep, lambda);
+      if (bodies) return solve_bodies(problem, settings, is_cold, sweep, lambda);
+      if (!newton) return go_on(kConjugateSweeps, problem, settings, sweep, lambda);
+      if (!dense) return go_on(kNewton, problem, settings, sweep, lambda);
       if (by_conjugate < price && conjugate_sweeps_end(problem, settings, goal, price, stop, sweep, lambda))
         return {sweep, StopReason::converged};
       if (sweep == settings.max_iterations) break;
@@ -163,9 +181,9 @@ class Automatic : public LcpSolver {
   static bool newton_or_rounded(int most, const ConeProblem& problem, const LcpSettings& settings, LcpResult& result,
                                 std::vector<Vec3>& lambda) {
     std::vector<Vec3> rounded = lambda;
-    result = go_on(semismooth_newton_solver, problem, settings, result.iterations, lambda, most);
+    result = go_on(kNewton, problem, settings, result.iterations, lambda, most);
     if (has_ended(result, settings)) return true;
-    result = go_on(smoothing_newton_solver, problem, settings, result.iterations, rounded);
+    result = go_on(kRounded, problem, settings, result.iterations, rounded);
     if (result.reason == StopReason::converged ||
         judge(problem, rounded).map.relative < judge(problem, lambda).map.relative)
       lambda = std::move(rounded);
@@ -173,30 +191,52 @@ class Automatic : public LcpSolver {
   }
 
   /// Of rigid bodies.
-  static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, int sweeps,
+  static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, bool is_cold, int sweeps,
                                 std::vector<Vec3>& lambda) {
     LcpResult result{sweeps, StopReason::stagnated};
     if (lambda.size() < kLarge) return by_what_there_is(problem, settings, result, lambda);
-    if (bring_digits(semismooth_newton_solver, kFewSteps, problem, settings, result, lambda)) return result;
-    if (settings.measure != Measure::natural_map || settings.tolerance >= kEnough)
-      return by_what_there_is(problem, settings, result, lambda);
-    if (!(judge(problem, lambda).map.relative <= kEnough)) {
-      LcpSettings enough = settings;
-      enough.tolerance = kEnough;
-      result = by_what_there_is(problem, enough, result, lambda);
-      if (!result.solved()) return result;
+    const bool is_rough = settings.tolerance >= kEnough;
+    if (settings.measure != Measure::natural_map) {
+      if (!bring_digits(kNewton, kFewSteps, problem, settings, result, lambda))
+        result = by_what_there_is(problem, settings, result, lambda);
+      return result;
     }
-    if (bring_digits(smoothing_newton_solver, kSomeSteps, problem, settings, result, lambda)) return result;
-    if (!(judge(problem, lambda).map.relative <= kNearEnough)) return result;
-    result =
-        go_on(nonsmooth_nonlinear_conjugate_gradient_solver, problem, settings, result.iterations, lambda, kLastDigits);
-    if (!has_ended(result, settings))
-      bring_digits(semismooth_newton_solver, kFewSteps, problem, settings, result, lambda);
+    LcpSettings enough = settings;
+    enough.tolerance = std::max(settings.tolerance, kEnough);
+    const auto is_within = [&](double relative) { return judge(problem, lambda).map.relative <= relative; };
+    if (!is_within(enough.tolerance)) {
+      const bool is_near = !is_cold || is_within(kInReach);
+      if ((is_near || !bring_digits(kNewton, kFewSteps, problem, enough, result, lambda)) &&
+          !come_near(problem, enough, result, lambda))
+        result = by_what_there_is(problem, enough, result, lambda);
+      if (is_rough || !result.solved()) return result;
+    }
+    if (bring_digits(kNewton, settings.is_in_motion ? kFewest : kFewSteps, problem, settings, result, lambda))
+      return result;
+    if ((settings.is_in_motion && !is_within(kAlmost)) ||
+        bring_digits(kRounded, kSomeSteps, problem, settings, result, lambda) || !is_within(kNearEnough))
+      return result;
+    result = go_on(kConjugateSweeps, problem, settings, result.iterations, lambda, kLastDigits);
+    if (!has_ended(result, settings)) bring_digits(kNewton, kFewSteps, problem, settings, result, lambda);
     return result;
   }
 
+  /// Alternating directions; where they creep from the answer of widely rounded equations. Whether nothing is left to do.
+  static bool come_near(const ConeProblem& problem, const LcpSettings& settings, LcpResult& result,
+                        std::vector<Vec3>& lambda) {
+    std::vector<Vec3> rounded = lambda;
+    result = go_on(alternate_directions, problem, settings, result.iterations, lambda);
+    if (has_ended(result, settings)) return true;
+    LcpSettings wide = settings;
+    wide.tolerance = std::max(settings.tolerance, kInReach);
+    result = go_on(kRounded, problem, wide, result.iterations, rounded);
+    result = go_on(alternate_directions, problem, settings, result.iterations, rounded);
+    if (judge(problem, rounded).map.relative < judge(problem, lambda).map.relative) lambda = std::move(rounded);
+    return has_ended(result, settings);
+  }
+
   /// As many steps of a method as bring digits; whether nothing is left to do.
-  static bool bring_digits(SolverEntry* method, int steps, const ConeProblem& problem, const LcpSettings& settings,
+  static bool bring_digits(Solve* method, int steps, const ConeProblem& problem, const LcpSettings& settings,
                            LcpResult& result, std::vector<Vec3>& lambda) {
     double before, now = judge(problem, lambda).map.relative;
     do {
@@ -214,43 +254,41 @@ class Automatic : public LcpSolver {
   /// With many contacts rounded equations, with others Newton; then what else there is.
   static LcpResult by_what_there_is(const ConeProblem& problem, const LcpSettings& settings, LcpResult result,
                                     std::vector<Vec3>& lambda) {
-    const auto newton = semismooth_newton_solver, smoothing = smoothing_newton_solver,
-               conjugate = nonsmooth_nonlinear_conjugate_gradient_solver;
-    const auto go = [&](SolverEntry* method, std::vector<Vec3>& from, int most) {
+    const auto go = [&](Solve* method, std::vector<Vec3>& from, int most) {
       result = go_on(method, problem, settings, result.iterations, from, most);
       return has_ended(result, settings);
     };
     const auto residual = [&](const std::vector<Vec3>& of) { return judge(problem, of).map.relative; };
     if (lambda.size() >= kLarge) {
       for (int round = 0; round < kRounds; ++round)
-        if (go(smoothing, lambda, kAny) || go(conjugate, lambda, kLastDigits) || go(newton, lambda, kMoreSteps))
+        if (go(kRounded, lambda, kAny) || go(kConjugateSweeps, lambda, kLastDigits) || go(kNewton, lambda, kMoreSteps))
           return result;
       if (residual(lambda) <= kNearEnough) return result;
     } else {
       const bool is_dear = lambda.size() >= kMany;
       const auto will_do = [&] { return is_dear && residual(lambda) <= kNearEnough; };
       if (newton_or_rounded(kNewtonSteps, problem, settings, result, lambda) || will_do() ||
-          go(newton, lambda, is_dear ? kNewtonSteps : kAny) || will_do())
+          go(kNewton, lambda, is_dear ? kNewtonSteps : kAny) || will_do())
         return result;
     }
     std::vector<Vec3> other(lambda.size(), Vec3::Zero());
-    const bool ended = go(newton, other, kAny);
+    const bool ended = go(kNewton, other, kAny);
     if (result.reason == StopReason::converged || residual(other) < kFarBetter * residual(lambda)) lambda = other;
-    if (ended || go(conjugate, lambda, kConjugate) || residual(lambda) <= kNearEnough) return result;
-    if (go(smoothing, lambda, kAny)) return result;
-    go(newton, lambda, kAny);
+    if (ended || go(kConjugateSweeps, lambda, kConjugate) || residual(lambda) <= kNearEnough) return result;
+    if (go(kRounded, lambda, kAny)) return result;
+    go(kNewton, lambda, kAny);
     return result;
   }
 
   /// At most `most` iterations of another method from `lambda`, which is left as it was if they don't better it.
-  static LcpResult go_on(SolverEntry* method, const ConeProblem& problem, LcpSettings settings, int spent,
+  static LcpResult go_on(Solve* method, const ConeProblem& problem, LcpSettings settings, int spent,
                          std::vector<Vec3>& lambda, int most = kAny) {
     const std::vector<Vec3> before = lambda;
     const bool is_cut_short = most < settings.max_iterations - spent;
     settings.max_iterations = std::min(most, settings.max_iterations - spent);
     if (settings.max_iterations <= 0) return {spent, StopReason::iteration_cap};
     if (settings.history != nullptr) settings.history->pop_back();  // the next one begins with the same residual
-    LcpResult result = method().make()->solve(problem, settings, lambda);
+    LcpResult result = method(problem, settings, lambda);
     if (!result.solved() && !(judge(problem, lambda).map.relative < judge(problem, before).map.relative))
       lambda = before;
     result.iterations += spent;

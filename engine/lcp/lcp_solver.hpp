@@ -21,6 +21,8 @@ struct LcpSettings {
   double tolerance = 1e-8;  ///< of the relative residual that `measure` names
   int max_iterations = 1000;
   Measure measure = Measure::natural_map;
+  /// The bodies are on their way: digits that are dear change nothing that can be seen, as they do in what comes to rest.
+  bool is_in_motion = false;
   /// if given, gets the relative residual before the first and after each iteration
   std::vector<double>* history = nullptr;
 };

@@ -24,6 +24,7 @@ constexpr double kWorthwhile = 0.9;               // of what turning took before
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
 constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
+constexpr double kMoves = 0.03;             // of √(g size): the speed of a body of what does not come to rest yet
 constexpr double kRoughly = 1e-3;  // relative residual that tells where contacts are missed; a large group may keep it
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
@@ -68,6 +69,7 @@ class GroupSolve {
 
   void solve() {
     ResponseContext context = how_.context;
+    context.lcp.is_in_motion = moves();
     if (is_rough_) context.lcp.tolerance = std::max(context.lcp.tolerance, kRoughly);
     solve(context);
   }
@@ -163,6 +165,14 @@ class GroupSolve {
     return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
   }
 
+  /// Whether a body of it is on its way, by its free velocity: by more than gravity gives in the piece.
+  bool moves() const {
+    const double given = input_.gravity * input_.time_step;
+    return std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](BodyIndex b) {
+      return bodies_[b].fastest_point() > given + kMoves * speed_scale(input_.gravity, bodies_[b].size);
+    });
+  }
+
   /// Whether there is an answer to go on with: of many rigid bodies one that is near the exact one serves, too.
   bool is_usable() {
     if (result_.response.converged()) return true;
@@ -206,8 +216,12 @@ class GroupSolve {
     result_.is_provisional = may_wait();
     if (result_.is_provisional) return;
     ResponseContext context = how_.context;
+    context.lcp.is_in_motion = moves();
     context.lcp.max_iterations =
         std::min(context.lcp.max_iterations, kLonger * std::max(before_, result_.response.iterations) + kFewIterations);
+    // what is on its way and had no exact answer without turning has none with it
+    const bool is_loose = !result_.response.converged() && context.lcp.is_in_motion;
+    if (is_loose) context.lcp.tolerance = std::max(context.lcp.tolerance, judge_group(system()).relative);
     for (int i = 0; i < most && lost > 0.0; ++i) {
       check_interrupt();
       GroupSystem system_before = system();
@@ -215,6 +229,8 @@ class GroupSolve {
       std::optional<FrozenGroup> frozen_before = result_.frozen;
       ask_for_turning(system(), gaps, bounds_, how_.contact, input_.time_step);
       solve(context);
+      if (is_loose && !(judge_group(system()).relative <= how_.context.lcp.tolerance))
+        result_.response.ended = response_before.ended, result_.response.limit = response_before.limit;
       double now = INFINITY;
       if (is_usable() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
       if (!(now < lost)) {
