@@ -35,16 +35,15 @@ double ConditionReader::value(const BodyTerm& term, const StepRecord& record, Bo
       return std::max(0.0, -gap(a, b, record, bodies, true));
     case BodyFunction::gap:
       return gap(a, b, record, bodies, false);
-    case BodyFunction::speed:
-      return record.bodies[static_cast<std::size_t>(term.a)].velocity.norm();
     case BodyFunction::energy: {
       const Balance of_body = bodies[term.a].balance(record.gravity);
       return of_body.kinetic + of_body.elastic + of_body.potential;
     }
-    case BodyFunction::energy_from:
-      break;  // of no body, maybe
+    default: {
+      const BodyRecord& body = record.bodies[static_cast<std::size_t>(term.a)];
+      return part_of_motion(term.function, body.pose.position, body.velocity);
+    }
   }
-  return 0.0;
 }
 
 /// The smallest of their contacts' gaps; of two without contacts how far their surfaces are apart. Not a number where
