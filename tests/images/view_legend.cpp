@@ -42,10 +42,11 @@ int brightness(const Image& image, const Camera& camera, const Vec3& point, doub
 TEST_CASE("the legend lists the contacts that are in the picture") {
   ViewSettings settings = settings_with({"contacts"});
   std::vector<float> heights;
-  for (const std::vector<ContactState>& states :
-       {std::vector<ContactState>{}, {ContactState::stick}, {ContactState::stick, ContactState::open},
-        {ContactState::open, ContactState::slip, ContactState::stick},
-        {ContactState::slip, ContactState::slip, ContactState::slip}}) {
+  for (const std::vector<ContactState>& states : {std::vector<ContactState>{},
+                                                  {ContactState::stick},
+                                                  {ContactState::stick, ContactState::open},
+                                                  {ContactState::open, ContactState::slip, ContactState::stick},
+                                                  {ContactState::slip, ContactState::slip, ContactState::slip}}) {
     HandMadeRecord scene;
     const int a = scene.add("a", BodyKind::dynamic, Sphere{0.1}, {0, 5, 0});
     for (const ContactState state : states) scene.touch(a, a, Vec3::Zero(), Vec3::UnitY(), state);
@@ -90,7 +91,8 @@ TEST_CASE("what a row of the legend explains is drawn in the row's colour") {
     }
     for (const LegendRow& row : layer.legend) {
       CAPTURE(std::string(layer.name), std::string(row.text));
-      if (row.present == nullptr) CHECK((lists[0].has_color(layer.name, row.color) || lists[1].has_color(layer.name, row.color)));
+      if (row.present == nullptr)
+        CHECK((lists[0].has_color(layer.name, row.color) || lists[1].has_color(layer.name, row.color)));
     }
   }
 }
@@ -173,7 +175,8 @@ TEST_CASE("a body's axis is a bar, and a contact's force an arrow") {
   // along x, the red axis beside the orange force
   HandMadeRecord axis, force;
   axis.add("a", BodyKind::dynamic, Sphere{0.1}, Vec3::Zero());
-  const int b = force.add("b", BodyKind::dynamic, Sphere{0.1}, {0, 9, 0}), c = force.add("c", BodyKind::fixed, Sphere{0.1}, {0, 9, 0});
+  const int b = force.add("b", BodyKind::dynamic, Sphere{0.1}, {0, 9, 0}),
+            c = force.add("c", BodyKind::fixed, Sphere{0.1}, {0, 9, 0});
   force.touch(b, c, Vec3::Zero(), Vec3::UnitX(), ContactState::stick).lambda.x() = 1e6;
   ViewSettings settings = settings_with({"mass_centers"}), forces = settings_with({"contact_forces"});
   for (ViewSettings* each : {&settings, &forces}) {
@@ -182,7 +185,8 @@ TEST_CASE("a body's axis is a bar, and a contact's force an arrow") {
     each->line_width = 6.0;
   }
   forces.arrow_length = 40.0;  // forces may be five times as long
-  const Image with_axis = painted(axis.record(), settings, 640, 360), with_force = painted(force.record(), forces, 640, 360);
+  const Image with_axis = painted(axis.record(), settings, 640, 360),
+              with_force = painted(force.record(), forces, 640, 360);
   const Image no_axis = painted(StepRecord{}, settings, 640, 360), no_force = painted(StepRecord{}, forces, 640, 360);
   /// Pixels across it, at each column right of the middle.
   const auto widths = [](const Image& image, const Image& without) {

@@ -92,15 +92,19 @@ void belong_to_suite() {
 }
 
 SuiteWorker::SuiteWorker(const SuiteOptions& options, const std::string& name, int threads)
-    : name_(name),
-      out_(memfd_create("outcome", MFD_CLOEXEC)),
-      err_(memfd_create("messages", MFD_CLOEXEC)) {
-  std::vector<std::string> words = {"/proc/self/exe", "test",   options.folder.string(),
-                                    "--worker=" + name, "--out", options.out.string(), "--size", fmt::format("{}x{}", options.width, options.height),
-                                    "--threads",      std::to_string(threads)};
+    : name_(name), out_(memfd_create("outcome", MFD_CLOEXEC)), err_(memfd_create("messages", MFD_CLOEXEC)) {
+  std::vector<std::string> words = {"/proc/self/exe",
+                                    "test",
+                                    options.folder.string(),
+                                    "--worker=" + name,
+                                    "--out",
+                                    options.out.string(),
+                                    "--size",
+                                    fmt::format("{}x{}", options.width, options.height),
+                                    "--threads",
+                                    std::to_string(threads)};
   if (options.update) words.emplace_back("--update");
-  if (given_memory_limit() > 0)
-    words.insert(words.end(), {"--memory-limit", std::to_string(given_memory_limit())});
+  if (given_memory_limit() > 0) words.insert(words.end(), {"--memory-limit", std::to_string(given_memory_limit())});
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_adddup2(&streams, out_, STDOUT_FILENO);

@@ -35,8 +35,8 @@ struct Runs {
   Outcome operator()(const std::string& script, const std::vector<std::string>& more = {}) const {
     folder.write("a.script", script);
     std::filesystem::remove_all(folder / "out");
-    std::vector<std::string> words = {"run",     "s.toml", "--script",   "a.script", "--frames",
-                                      "20",      "--out",  "out",        "--no-images"};
+    std::vector<std::string> words = {"run", "s.toml", "--script", "a.script",   "--frames",
+                                      "20",  "--out",  "out",      "--no-images"};
     words.insert(words.end(), more.begin(), more.end());
     return impinge_run(folder.path(), words);
   }
@@ -55,8 +55,12 @@ TEST_CASE("expect: positions and velocities of bodies are those of a throw") {
   std::string script;
   for (const int n : {0, 1, 7, 20}) {
     const double t = 0.1 * n, y = 20 + 5 * t - 0.1 * n * (n + 1) / 2.0, vy = 5 - 10 * t;
-    for (const auto& [name, value] : {std::pair{"position_x", 3 - 2 * t}, {"position_y", y}, {"position_z", -4 + t / 2},
-                                      {"velocity_x", -2.0}, {"velocity_y", vy}, {"velocity_z", 0.5}})
+    for (const auto& [name, value] : {std::pair{"position_x", 3 - 2 * t},
+                                      {"position_y", y},
+                                      {"position_z", -4 + t / 2},
+                                      {"velocity_x", -2.0},
+                                      {"velocity_y", vy},
+                                      {"velocity_z", 0.5}})
       script += fmt::format("expect abs({}(ball) - {}) < 1e-9 at {}\n", name, value, n);
   }
   script += "expect abs(position_z(post) - 70) + abs(position_x(post) + 50) == 0 from 0 to 20\n";
@@ -84,8 +88,9 @@ TEST_CASE("expect: a range holds in every frame of it, ends included") {
                       "in frame 15") != std::string::npos);
   CHECK(count(late.err, "a.script:1:1") == 2);
   // the run ends within the second, before the third
-  const Outcome beyond = runs("expect bodies == 2 from 0 to 20\nexpect bodies == 2 from 10 to 30\n"
-                              "expect bodies == 3 from 21 to 30\n");
+  const Outcome beyond = runs(
+      "expect bodies == 2 from 0 to 20\nexpect bodies == 2 from 10 to 30\n"
+      "expect bodies == 3 from 21 to 30\n");
   CHECK(beyond.code == 0);
   CHECK(count(beyond.err, "not checked") == 2);
   CHECK(beyond.err.find("a.script:2:1: expected in frames 10 to 30, and not checked after the last frame 20") !=
