@@ -17,7 +17,7 @@ constexpr BodyFigure kBodyFigures[] = {
     {"depth", "m", F::depth, 2, everywhere, "How far the two overlap, 0 if they don't."},
     {"gap", "m", F::gap, 2, everywhere,
      "Smallest gap of their contacts; without contacts, in conditions, how far their surfaces are apart."},
-    {"force", "N", F::force, 2, plots, "Sum of the normal forces of their contacts."},
+    {"force", "N", F::force, 2, everywhere, "Sum of the normal forces of their contacts, last sub-step."},
     {"speed", "m/s", F::speed, 1, everywhere, "Of the centre of mass."},
     {"energy", "J", F::energy, 1, conditions, "Kinetic, elastic and potential."},
     {"position_x", "m", F::position_x, 1, everywhere, "Where the centre of mass is, in the world."},

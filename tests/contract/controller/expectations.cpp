@@ -73,6 +73,42 @@ TEST_CASE("expect: positions and velocities of bodies are those of a throw") {
   CHECK(off.err.find("found position_y(ball) = 20.4") != std::string::npos);
 }
 
+TEST_CASE("expect: the force between a crate and the floor is its weight") {
+  const TempFolder folder;
+  folder.write("s.toml", R"(
+[simulation]
+gravity = [0, -10, 0]
+sleeping = false
+[[body]]
+name = "crate"
+kind = "dynamic"
+shape = { box = { size = [1, 0.5, 2] } }
+material = { density = 500 }
+position = [0, 0.25, 0]
+[[body]]
+name = "floor"
+kind = "static"
+shape = { plane = { normal = [0, 1, 0], offset = 0 } }
+[[body]]
+name = "far"
+kind = "static"
+shape = { box = { size = [1, 1, 1] } }
+position = [50, 0, 0]
+)");
+  const auto run = [&](const std::string& script) {
+    folder.write("a.script", script);
+    return impinge_run(folder.path(), {"run", "s.toml", "--script", "a.script", "--frames", "40", "--out", "out",
+                                       "--no-images", "--force", "--set", "simulation.substeps=3"});
+  };
+  // 500 kg, 5000 N
+  const Outcome good =
+      run("expect abs(force(crate,floor) - 5000) < 0.5 && force(floor,crate) == force(crate,floor) from 20 to 40\n"
+          "expect force(far,crate) == 0 from 0 to 40\nexpect force(crate,floor) == 0 at 0\n");
+  INFO(good.err);
+  CHECK(good.code == 0);
+  CHECK(run("expect force(crate,floor) > 5001 at 40\n").code == 1);
+}
+
 TEST_CASE("expect: a range holds in every frame of it, ends included") {
   const Runs runs;
   // y is 20 + n/2 - n (n + 1)/20: 20 in frame 9, 19.5 in frame 10, 18.9 in frame 11
