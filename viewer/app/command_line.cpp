@@ -222,6 +222,8 @@ void Options::size(const char* name, int& width, int& height, const std::string&
       name, [&](int w, int h) { width = w, height = h; }, doc);
 }
 
+void Options::hidden(const char* name, std::string& to) { app_.add_option(name, to)->group(""); }
+
 void Options::take() {
   for (const auto& [text, take] : texts_)
     if (!text.empty()) take(text);

@@ -21,6 +21,7 @@
 #include "viewer/layers/layer.hpp"
 #include "viewer/preflight/preflight.hpp"
 #include "viewer/report/parts.hpp"
+#include "viewer/state/body_figures.hpp"
 #include "viewer/sweep/reference.hpp"
 
 namespace impinge {
@@ -188,6 +189,18 @@ Listing list_figures() {
   return list;
 }
 
+Listing list_body_figures() {
+  Listing list;
+  list.heading = {"call", "unit", "where", "meaning"};
+  for (const BodyFigure& figure : body_figures())
+    list.add(list.heading, {fmt::format("{}({})", figure.name, figure.arguments()), std::string(figure.unit),
+                            !figure.in_plots()        ? "conditions"
+                            : !figure.in_conditions() ? "plots"
+                                                      : "everywhere",
+                            std::string(figure.doc)});
+  return list;
+}
+
 Listing list_sources() {
   Listing list;
   for (const LedgerSourceInfo& source : ledger_sources())
@@ -239,6 +252,7 @@ const std::vector<Topic> kTopics = {
     {"linear_solvers", [] { return listing_of(linear_solvers()); }},
     {"cases", list_cases},
     {"figures", list_figures},
+    {"body_figures", list_body_figures},
     {"shapes", list_shapes},
     {"warnings", list_warnings},
     {"sources", list_sources},

@@ -129,7 +129,10 @@ MeshReport MeshCommand::look_at(const std::string& file) {
     if (mend_.remesh > 0)
       check_memory("", fmt::format("{} with --remesh {}", file, mend_.remesh), remesh_memory(mesh, mend_.remesh),
                    "use fewer cells");
+    const std::optional<double> enclosed = enclosed_volume(mesh);
     MendedMesh mended = mend(std::move(mesh), mend_);
+    constexpr double kRounding = 5e-3;  // of what rays find
+    if (enclosed && mended.report.volume_before > (1.0 + kRounding) * *enclosed) report.enclosed = enclosed;
     mesh = std::move(mended.mesh);
     report.mended = mended.report;
     report.problem_left = mended.problem;

@@ -47,6 +47,8 @@ class Options {
   void real(const char* name, double& to, double low, double high, const std::string& doc);
   /// Names with commas between them.
   void names(const char* name, std::vector<std::string>& to, const std::string& doc);
+  /// What the program says to processes that it starts itself: in no --help.
+  void hidden(const char* name, std::string& to);
   /// WIDTHxHEIGHT, pixels.
   void size(const char* name, int& width, int& height, const std::string& doc);
   void size(const char* name, const std::function<void(int width, int height)>& take, const std::string& doc);

@@ -17,6 +17,11 @@ class TestCommand : public SubCommand {
                 "WIDTHxHEIGHT of pictures without a baseline yet (default: 320x180)");
     options.flag("--update", suite_.update,
                  "write the pictures that `expect image` lines name where they differ or are missing, and say which");
+    options.names("--only", suite_.only, "NAME[,NAME...]: run only these tests of the folder, NAME as in NAME.toml");
+    options.whole("--jobs", suite_.jobs, 1, 4096,
+                  "tests at once, each in a process of its own (default: 1, one after another); what is printed and "
+                  "written is the same");
+    options.hidden("--worker", suite_.worker);
     memory_option(options);
     threads_option(options);
   }

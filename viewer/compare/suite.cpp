@@ -3,15 +3,22 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
+#include <thread>
 
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/core/parameter.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/compare/picture_comparison.hpp"
+#include "viewer/compare/suite_worker.hpp"
 #include "viewer/controller/run.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/png_sequence.hpp"
@@ -65,14 +72,63 @@ class Suite {
     if (names_.empty())
       throw InputError(folder_.string() +
                        ": holds no script; NAME.toml with NAME.script beside it is wanted; see impinge test --help");
+    options_.out = out_;
+    if (!options.worker.empty()) return;  // the process that started this one has seen to the rest
+    choose();
     make_folder(out_);
     lock_ = FolderLock::take(out_);
     // the outcome of a long suite must not be lost for want of a place
     if (!options.junit.empty()) write_file(options.junit, junit_xml(suite_, {}));
   }
 
+  /// In a process for one test.
+  int work() {
+    belong_to_suite();
+    SuiteResult result;
+    result.outcome.name = options_.worker;
+    try {
+      result.outcome = run_one(options_.worker);
+    } catch (const OutputError& error) {
+      result.gave_up = error.what();
+    }
+    print_result(result);
+    return 0;
+  }
+
   int run() {
     std::vector<TestOutcome> outcomes;
+    if (options_.jobs > 1)
+      run_beside(outcomes);
+    else
+      run_in_turn(outcomes);
+    if (!options_.junit.empty()) write_file(options_.junit, junit_xml(suite_, outcomes));
+    const auto bad =
+        std::count_if(outcomes.begin(), outcomes.end(), [](const TestOutcome& o) { return o.kind != TestOutcome::ok; });
+    fmt::print("{}{}: {} ok, {} failed\n", plural(outcomes.size(), "test"),
+               options_.only.empty() ? "" : fmt::format(" of {}", all_),
+               static_cast<std::ptrdiff_t>(outcomes.size()) - bad, bad);
+    return bad == 0 ? 0 : 1;
+  }
+
+ private:
+  /// Leaves the tests that are meant.
+  void choose() {
+    all_ = names_.size();
+    if (options_.only.empty()) return;
+    const std::vector<std::string> known(names_.begin(), names_.end());
+    names_.clear();
+    for (const std::string& name : options_.only) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        const std::string near = nearest_word(name, known);
+        throw InputError(fmt::format("command line: --only names '{}'; tests of {}: {}; {}", name, folder_.string(),
+                                     fmt::join(known, ", "),
+                                     near.empty() ? "use some of them" : fmt::format("did you mean '{}'?", near)));
+      }
+      names_.insert(name);
+    }
+  }
+
+  void run_in_turn(std::vector<TestOutcome>& outcomes) {
     for (const std::string& name : names_) {
       try {
         outcomes.push_back(run_one(name));
@@ -85,15 +141,61 @@ class Suite {
       }
       print(outcomes.back());
     }
-    if (!options_.junit.empty()) write_file(options_.junit, junit_xml(suite_, outcomes));
-    const auto bad =
-        std::count_if(outcomes.begin(), outcomes.end(), [](const TestOutcome& o) { return o.kind != TestOutcome::ok; });
-    fmt::print("{}: {} ok, {} failed\n", plural(outcomes.size(), "test"),
-               static_cast<std::ptrdiff_t>(outcomes.size()) - bad, bad);
-    return bad == 0 ? 0 : 1;
   }
 
- private:
+  /// Several at once, told in the order in which they would be run one after another.
+  void run_beside(std::vector<TestOutcome>& outcomes) {
+    setenv("LP_NUM_THREADS", "0", 1);  // the renderer paints in the run's own thread
+    const std::vector<std::string> names(names_.begin(), names_.end());
+    const int threads = std::max(1, thread_count() / options_.jobs);
+    std::map<std::size_t, SuiteWorker> running;
+    std::map<std::size_t, SuiteResult> ended;  // whose turn hasn't come
+    bool goes_on = true;
+    for (std::size_t next = 0; outcomes.size() < names.size();) {
+      while (goes_on && next < names.size() && running.size() < static_cast<std::size_t>(options_.jobs)) {
+        running.try_emplace(next, options_, names[next], threads);
+        ++next;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      take_ended(running, [&](std::size_t place, SuiteResult result) {
+        goes_on = goes_on && result.gave_up.empty();
+        ended[place] = std::move(result);
+      });
+      while (ended.contains(outcomes.size())) tell(outcomes, ended.at(outcomes.size()));
+      if (const auto* flag = InterruptScope::flag(); flag != nullptr && *flag) {
+        stop(running);
+        give_up(outcomes, names[outcomes.size()], "interrupted");
+        throw Interrupted{};
+      }
+    }
+  }
+  static void take_ended(std::map<std::size_t, SuiteWorker>& running,
+                         const std::function<void(std::size_t place, SuiteResult)>& take) {
+    for (auto it = running.begin(); it != running.end();) {
+      std::optional<SuiteResult> result = it->second.poll();
+      if (result) take(it->first, std::move(*result));
+      it = result ? running.erase(it) : std::next(it);
+    }
+  }
+  void tell(std::vector<TestOutcome>& outcomes, SuiteResult& result) {
+    if (!result.gave_up.empty()) {
+      give_up(outcomes, result.outcome.name, result.gave_up);
+      throw OutputError(result.gave_up);
+    }
+    outcomes.push_back(std::move(result.outcome));
+    print(outcomes.back());
+  }
+  /// They have as long as a program has that is interrupted; what is left then is ended.
+  static void stop(std::map<std::size_t, SuiteWorker>& running) {
+    for (const auto& [place, worker] : running) worker.interrupt();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1100);
+    while (!running.empty() && std::chrono::steady_clock::now() < end) {
+      take_ended(running, [](std::size_t, const SuiteResult&) {});
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    running.clear();
+  }
+
   /// No room for what a test writes is none for the next, and who interrupts one wants an end to all: the suite ends.
   /// Its XML must not pass for that of a good one.
   void give_up(std::vector<TestOutcome>& outcomes, const std::string& name, const std::string& reason) const {
@@ -243,15 +345,19 @@ class Suite {
     std::fflush(stdout);
   }
 
-  const SuiteOptions& options_;
+  SuiteOptions options_;
   fs::path folder_, out_;
   FolderLock lock_;  // of out_
   std::string suite_;
   std::set<std::string> names_;
+  std::size_t all_ = 0;  // tests that the folder has
 };
 
 }  // namespace
 
-int run_suite(const SuiteOptions& options) { return Suite(options).run(); }
+int run_suite(const SuiteOptions& options) {
+  Suite suite(options);
+  return options.worker.empty() ? suite.run() : suite.work();
+}
 
 }  // namespace impinge

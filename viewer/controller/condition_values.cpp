@@ -26,25 +26,33 @@ double ConditionReader::value(const BodyTerm& term, const StepRecord& record, Bo
   const BodyIndex a(std::min(term.a, term.b)), b(std::max(term.a, term.b));
   const bool is_of_pair = term.function == BodyFunction::gap || term.function == BodyFunction::depth;
   if (bodies[term.a].absent || (is_of_pair && bodies[term.b].absent))  // nobody can say anything of it yet
-    return term.function == BodyFunction::contacts || term.function == BodyFunction::depth ? 0.0 : NAN;
+    return term.function == BodyFunction::contacts || term.function == BodyFunction::depth ||
+                   term.function == BodyFunction::force
+               ? 0.0
+               : NAN;
   switch (term.function) {
     case BodyFunction::contacts:
       return static_cast<double>(std::count_if(record.contacts.begin(), record.contacts.end(),
                                                [&](const ContactRecord& c) { return c.body_a == a && c.body_b == b; }));
+    case BodyFunction::force: {
+      double impulse = 0.0;
+      for (const ContactRecord& c : record.contacts)
+        if (c.body_a == a && c.body_b == b) impulse += c.lambda.x();
+      return impulse * std::max(1, record.stats.substeps) / record.frame_time;
+    }
     case BodyFunction::depth:
       return std::max(0.0, -gap(a, b, record, bodies, true));
     case BodyFunction::gap:
       return gap(a, b, record, bodies, false);
-    case BodyFunction::speed:
-      return record.bodies[static_cast<std::size_t>(term.a)].velocity.norm();
     case BodyFunction::energy: {
       const Balance of_body = bodies[term.a].balance(record.gravity);
       return of_body.kinetic + of_body.elastic + of_body.potential;
     }
-    case BodyFunction::energy_from:
-      break;  // of no body, maybe
+    default: {
+      const BodyRecord& body = record.bodies[static_cast<std::size_t>(term.a)];
+      return part_of_motion(term.function, body.pose.position, body.velocity);
+    }
   }
-  return 0.0;
 }
 
 /// The smallest of their contacts' gaps; of two without contacts how far their surfaces are apart. Not a number where

@@ -9,18 +9,32 @@
 
 namespace impinge {
 
+namespace {
+
+std::string in_frames(const Script::Expectation& expectation) {
+  if (!expectation.is_range()) return "";
+  return fmt::format(" in frames {} to {}", expectation.first, expectation.last);
+}
+
+}  // namespace
+
 void Expectations::check(int frame, const ConditionValues& values,
                          const std::function<std::filesystem::path()>& picture) {
   const auto fail = [&](const std::string& line) {
     ++failures_;
     if (report_) report_(line);
   };
-  for (const Script::Expectation& expectation : script_.expectations()) {
-    if (expectation.frame != frame) continue;
+  failed_.resize(script_.expectations().size());
+  for (std::size_t i = 0; i < failed_.size(); ++i) {
+    const Script::Expectation& expectation = script_.expectations()[i];
+    if (!expectation.is_of(frame)) continue;
+    failed_[i].erase(failed_[i].lower_bound(frame), failed_[i].end());  // what was made before is another future
     const std::vector<double> found = values(expectation.condition);
     if (expectation.condition.holds(found)) continue;
-    fail(fmt::format("{}: frame {}: expected {}; found {}", expectation.place, frame, expectation.condition.text(),
-                     expectation.condition.describe(found, figure_names(judged_))));
+    if (failed_[i].empty())
+      fail(fmt::format("{}: frame {}: expected {}{}; found {}", expectation.place, frame, expectation.condition.text(),
+                       in_frames(expectation), expectation.condition.describe(found, figure_names(judged_))));
+    failed_[i].insert(frame);
   }
   for (const Script::ImageExpectation& image : script_.images()) {
     if (!pictures_ || image.frame != frame) continue;
@@ -32,7 +46,7 @@ void Expectations::check(int frame, const ConditionValues& values,
 
 bool Expectations::asks_of_bodies(int frame) const {
   return std::any_of(script_.expectations().begin(), script_.expectations().end(), [&](const auto& expectation) {
-    return expectation.frame == frame && !expectation.condition.terms().empty();
+    return expectation.is_of(frame) && !expectation.condition.terms().empty();
   });
 }
 
@@ -42,11 +56,22 @@ bool Expectations::needs_picture(int frame) const {
   return false;
 }
 
-void Expectations::note_unchecked(int last_frame) const {
+void Expectations::tell_rest(int last_frame) const {
+  if (!report_) return;
   int count = 0;
-  for (const Script::Expectation& expectation : script_.expectations()) count += expectation.frame > last_frame;
+  for (std::size_t i = 0; i < script_.expectations().size(); ++i) {
+    const Script::Expectation& expectation = script_.expectations()[i];
+    count += expectation.first > last_frame;
+    if (i < failed_.size() && failed_[i].size() > 1)
+      report_(fmt::format("{}: expected {}{}: failed in {} of these, last in frame {}", expectation.place,
+                          expectation.condition.text(), in_frames(expectation), failed_[i].size(),
+                          *failed_[i].rbegin()));
+    if (expectation.first <= last_frame && expectation.last > last_frame)
+      report_(fmt::format("note: {}: expected in frames {} to {}, and not checked after the last frame {}",
+                          expectation.place, expectation.first, expectation.last, last_frame));
+  }
   for (const Script::ImageExpectation& image : script_.images()) count += image.frame > last_frame;
-  if (count > 0 && report_)
+  if (count > 0)
     report_(fmt::format("note: {} expect {} after the last frame {} and {} not checked", count,
                         count == 1 ? "line lies" : "lines lie", last_frame, count == 1 ? "was" : "were"));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 
 #include "viewer/controller/condition_values.hpp"
 #include "viewer/controller/script.hpp"
@@ -21,14 +22,16 @@ class Expectations {
   /// Whether one of the frame's lines asks of bodies: then the figures alone don't judge it.
   bool asks_of_bodies(int frame) const;
   bool needs_picture(int frame) const;
-  /// Says how many `expect` lines lie after the last frame.
-  void note_unchecked(int last_frame) const;
+  /// At the end: in how many frames lines failed that are of several, and how many lie after the last frame.
+  void tell_rest(int last_frame) const;
+  /// Lines that failed, however many of their frames.
   int failures() const { return failures_; }
 
  private:
   const Script& script_;
   bool judged_ = false, pictures_ = true;
   std::function<void(const std::string&)> report_;
+  std::vector<std::set<int>> failed_;  // of each line with a condition, the frames
   int failures_ = 0;
 };
 

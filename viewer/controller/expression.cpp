@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/parameter.hpp"
 #include "viewer/controller/expression_parser.hpp"
@@ -69,6 +70,8 @@ double Expression::evaluate(std::span<const double> values) const {
       stack.push_back(values[step.name]);
     } else if (step.operation == Operation::negate) {
       stack.back() = -stack.back();
+    } else if (step.operation == Operation::absolute) {
+      stack.back() = std::abs(stack.back());
     } else if (step.operation == Operation::logical_not) {
       stack.back() = stack.back() == 0.0;
     } else {

@@ -4,6 +4,7 @@
 //   and     = not { "&&" not }          sum     = product { ( + - ) product }
 //   not     = "!" not | compare         product = unary { ( * / ) unary }
 //                                       unary   = "-" unary | number | name | call | text | "(" or ")"
+//                                                | "abs" "(" sum ")"
 //                                       call    = function "(" body { "," body } ")"
 //
 // A name may hold dots and be a function of one word, `max(contacts)`; a text, bare or in quotes, is compared by == and
@@ -15,18 +16,11 @@
 
 #include "engine/ledger/frame_ledger.hpp"
 #include "viewer/controller/text_place.hpp"
+#include "viewer/state/body_figures.hpp"
 
 namespace impinge {
 
-/// What may be asked of one or two bodies.
-enum class BodyFunction : std::uint8_t {
-  contacts,    ///< of the two, handed to the response
-  depth,       ///< how deep they overlap, metres
-  gap,         ///< between them, metres; negative inside
-  speed,       ///< of a centre of mass, m/s
-  energy,      ///< kinetic, elastic and potential, J
-  energy_from  ///< what a source of the ledger did in the frame, to a body or to all, J
-};
+/// What is asked of one or two bodies.
 struct BodyTerm {
   BodyFunction function = BodyFunction::contacts;
   int a = 0, b = 0;  ///< places in ExpressionWords::bodies; b of a function of two; of energy_from: a is -1 for all
@@ -67,6 +61,7 @@ class Expression {
     number,
     name,
     negate,
+    absolute,
     logical_not,
     add,
     subtract,

@@ -19,22 +19,6 @@ constexpr int kMostDepth = 64;
 enum class Type { number, condition, text };
 constexpr const char* kTypeNames[] = {"a number", "a condition", "a text"};
 
-struct FunctionRow {
-  const char* name;
-  BodyFunction function;
-  int bodies;
-};
-constexpr FunctionRow kFunctions[] = {
-    {"contacts", BodyFunction::contacts, 2}, {"depth", BodyFunction::depth, 2},
-    {"gap", BodyFunction::gap, 2},           {"speed", BodyFunction::speed, 1},
-    {"energy", BodyFunction::energy, 1},     {"energy_from", BodyFunction::energy_from, 1}};
-
-/// What stands between a function's parentheses.
-std::string_view arguments_of(const FunctionRow& row) {
-  if (row.function == BodyFunction::energy_from) return "SOURCE or SOURCE,A";
-  return row.bodies == 2 ? "A,B" : "A";
-}
-
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; }
 
 // descends the grammar of the header; each function says what it read
@@ -190,7 +174,7 @@ class Parser {
     return longest;
   }
   /// The function whose call stands here, or null; `at_` is then behind its parenthesis.
-  const FunctionRow* take_function() {
+  const BodyFigure* take_function() {
     if (words_.bodies.empty()) return nullptr;
     std::size_t end = at_;
     while (end < text_.text.size() && is_word(text_.text[end])) ++end;
@@ -198,17 +182,19 @@ class Parser {
     std::size_t open = end;
     while (open < text_.text.size() && (text_.text[open] == ' ' || text_.text[open] == '\t')) ++open;
     if (open == text_.text.size() || text_.text[open] != '(') return nullptr;
-    for (const FunctionRow& row : kFunctions)
-      if (row.name == name) {
+    std::vector<std::string> known = {"abs"};
+    for (const BodyFigure& figure : body_figures()) {
+      if (!figure.in_conditions()) continue;
+      if (figure.name == name) {
         at_ = open + 1;
-        return &row;
+        return &figure;
       }
-    std::vector<std::string> known;
-    for (const FunctionRow& row : kFunctions) known.emplace_back(row.name);
+      known.emplace_back(figure.name);
+    }
     const std::string near = nearest_word(name, known);
     text_.part(at_, end - at_)
         .refuse(fmt::format("unknown function '{}'", name),
-                fmt::format("allowed: {}", fmt::join(body_functions(), ", ")),
+                fmt::format("allowed: abs(NUMBER), {}", fmt::join(body_functions(), ", ")),
                 near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
   }
   int read_body() {
@@ -245,7 +231,7 @@ class Parser {
                 fmt::format("sources of the ledger: {}", fmt::join(known, ", ")),
                 near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
   }
-  Type read_call(const FunctionRow& function) {
+  Type read_call(const BodyFigure& function) {
     BodyTerm term;
     term.function = function.function;
     if (function.function == BodyFunction::energy_from) {
@@ -276,8 +262,29 @@ class Parser {
     steps_.push_back(step);
     return Type::number;
   }
+  /// Whether `abs` and its parenthesis stand here; a figure of that name comes first.
+  bool take_absolute() {
+    if (text_.text.substr(at_, 3) != "abs" || std::find(names_.begin(), names_.end(), "abs") != names_.end())
+      return false;
+    const std::size_t begin = at_;
+    at_ += 3;
+    if (take("(")) return true;
+    at_ = begin;
+    return false;
+  }
+  Type read_absolute() {
+    deepen();
+    skip_blanks();
+    const PlacedText inner = here();
+    want(read_sum(), Type::number, inner);
+    --depth_;
+    if (!take(")")) here().refuse(found(), "')' should stand here: abs takes one number", "close the parenthesis");
+    emit(Operation::absolute);
+    return Type::number;
+  }
   Type read_name() {
-    if (const FunctionRow* function = take_function()) return read_call(*function);
+    if (take_absolute()) return read_absolute();
+    if (const BodyFigure* function = take_function()) return read_call(*function);
     const std::size_t begin = at_;
     if (const std::size_t longest = longest_name(); longest > 0)
       at_ += longest;
@@ -299,10 +306,14 @@ class Parser {
       all.insert(all.end(), words_.texts.begin(), words_.texts.end());
       if (!words_.bodies.empty()) all.insert(all.end(), body_functions().begin(), body_functions().end());
       const std::string near = nearest_word(name, all);
+      // as parameters are written, which are what a body is given and not where it is
+      const bool is_path = !words_.bodies.empty() && name.starts_with("body.");
       text_.part(begin, at_ - begin)
           .refuse(fmt::format("unknown figure '{}'", name),
                   words_.allowed.empty() ? fmt::format("allowed: {}", fmt::join(all, ", ")) : words_.allowed,
-                  near.empty() ? "use one of them" : fmt::format("did you mean '{}'?", near));
+                  is_path        ? "ask of a body by a call: position_y(A), velocity_y(A), speed(A)"
+                  : near.empty() ? "use one of them"
+                                 : fmt::format("did you mean '{}'?", near));
     }
     Step step{Operation::name};
     step.name = static_cast<int>(it - names_.begin());
@@ -349,7 +360,8 @@ class Parser {
 const std::vector<std::string>& body_functions() {
   static const std::vector<std::string> list = [] {
     std::vector<std::string> calls;
-    for (const FunctionRow& row : kFunctions) calls.push_back(fmt::format("{}({})", row.name, arguments_of(row)));
+    for (const BodyFigure& figure : body_figures())
+      if (figure.in_conditions()) calls.push_back(fmt::format("{}({})", figure.name, figure.arguments()));
     return calls;
   }();
   return list;

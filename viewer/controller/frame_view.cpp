@@ -213,6 +213,7 @@ double FrameView::draw(const StepRecord& record, std::span<const Command> comman
                   {"impinge:state_hash", hex64(record.stats.state_hash)},
                   {"impinge:renderer", painter_->renderer_name()},
                   {"impinge:view", view_text(settings_)}};
+  if (const std::string colors = painter_->colors(); !colors.empty()) text.emplace_back("impinge:colors", colors);
   if (with_ids_) {
     keep_visible_objects(ids);
     if (id_pictures_ == nullptr) id_pictures_ = std::make_unique<PngSequence>(folder / "ids");

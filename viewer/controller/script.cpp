@@ -92,9 +92,17 @@ int Script::read_frame(const PlacedText& word) {
   const auto [end, error] = std::from_chars(word.text.data(), word.text.data() + word.text.size(), frame);
   if (error != std::errc() || end != word.text.data() + word.text.size() || frame < 0 || frame > kMostFrames)
     word.refuse(fmt::format("'{}'", word.text), fmt::format("a frame number from 0 to {} is wanted", kMostFrames),
-                "mend it");
+                word.text.find("..") != std::string_view::npos ? "write from A to B for several frames" : "mend it");
   last_frame_ = std::max(last_frame_, frame);
   return frame;
+}
+
+std::pair<int, int> Script::read_frames(const PlacedText& first, const PlacedText& last, const char* what) {
+  const std::pair<int, int> frames{read_frame(first), read_frame(last)};
+  if (frames.second < frames.first)
+    last.refuse(fmt::format("frame {} after frame {}", frames.second, frames.first),
+                fmt::format("{} ends at or after its start", what), "swap the frames");
+  return frames;
 }
 
 void Script::read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows,
@@ -137,10 +145,7 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
   if (words.size() < 8) words[0].refuse("an incomplete ramp", usage, "write from 50 to 80 ramp contact.friction 0 0.8");
   if (words[2].text != "to") words[2].refuse(fmt::format("'{}'", words[2].text), usage, "write 'to' here");
   if (words[4].text != "ramp") words[4].refuse(fmt::format("'{}'", words[4].text), usage, "write 'ramp' here");
-  const int first = read_frame(words[1]), last = read_frame(words[3]);
-  if (last < first)
-    words[3].refuse(fmt::format("frame {} after frame {}", last, first), "a ramp ends at or after its start",
-                    "swap the frames");
+  const auto [first, last] = read_frames(words[1], words[3], "a ramp");
   const std::vector<const Parameter*> found = find_rows(words[5], rows, first == 0 && last == 0);
   const Parameter& row = *found.front();
   if (row.kind != ParameterKind::real && row.kind != ParameterKind::integer && row.kind != ParameterKind::vector3)
@@ -169,13 +174,23 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
 void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
                          const ExpressionWords& conditions) {
   const std::size_t n = words.size();
+  const bool is_range = n >= 6 && words[n - 4].text == "from" && words[n - 2].text == "to";
+  if (is_range && words[1].text == "image")
+    words[n - 4].refuse("frames of a picture", "expect image FILE [tolerance N] at K is wanted",
+                        "write a line for each frame that has a picture");
+  if (is_range) {
+    const auto [first, last] = read_frames(words[n - 3], words[n - 1], "what is expected");
+    expectations_.push_back(
+        {first, last, Expression(spanning(words.subspan(1, n - 5), line), conditions), words[0].place()});
+    return;
+  }
   if (n < 4 || words[n - 2].text != "at")
-    words[0].refuse("'expect' without 'at K' at its end", "expect CONDITION at K is wanted",
-                    "write expect contacts > 0 at 120");
+    words[0].refuse("'expect' without 'at K' or 'from A to B' at its end",
+                    "expect CONDITION at K, or from A to B, is wanted", "write expect contacts > 0 at 120");
   const int frame = read_frame(words[n - 1]);
   const std::span<const PlacedText> inner = words.subspan(1, n - 3);
   if (inner[0].text != "image") {
-    expectations_.push_back({frame, Expression(spanning(inner, line), conditions), words[0].place()});
+    expectations_.push_back({frame, frame, Expression(spanning(inner, line), conditions), words[0].place()});
     return;
   }
   if (inner.size() != 2 && !(inner.size() == 4 && inner[2].text == "tolerance"))

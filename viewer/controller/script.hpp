@@ -4,6 +4,7 @@
 //   at K COMMAND
 //   from A to B ramp PATH VALUE VALUE            linear, A and B inclusive
 //   expect CONDITION at K
+//   expect CONDITION from A to B                 in every frame of them, A and B inclusive
 //   expect image FILE [tolerance N] at K
 //   break when CONDITION
 //   # comment
@@ -19,9 +20,11 @@ namespace impinge {
 class Script {
  public:
   struct Expectation {
-    int frame = 0;
+    int first = 0, last = 0;  ///< frames in which it must hold
     Expression condition;
     std::string place;
+    bool is_of(int frame) const { return first <= frame && frame <= last; }
+    bool is_range() const { return first < last; }
   };
   struct ImageExpectation {
     int frame = 0;
@@ -66,6 +69,7 @@ class Script {
   void read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
                    const ExpressionWords& conditions);
   int read_frame(const PlacedText& word);
+  std::pair<int, int> read_frames(const PlacedText& first, const PlacedText& last, const char* what);
 
   std::vector<Timed> timed_;
   std::vector<Expectation> expectations_;

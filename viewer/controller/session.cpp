@@ -320,4 +320,22 @@ void Session::restore(ByteReader& in) {
   write_below();
 }
 
+void Session::take_over(Session& from) {
+  for (const Parameter& row : rows_.all())
+    if (const Parameter* given = from.rows_.find(row.path); row.set && given != nullptr) row.set(given->get());
+  const std::vector<std::string> names = world_.bodies().names(), theirs = from.bodies().names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto their = std::find(theirs.begin(), theirs.end(), names[i]);
+    if (their == theirs.end()) continue;
+    ByteWriter state;
+    from.bodies()[BodyIndex(their - theirs.begin())].save(state);
+    ByteReader in(state.bytes());
+    Body& body = world_.bodies()[BodyIndex(i)];
+    body.restore(in);
+    body.asleep = false, body.island = {};  // islands are numbered by bodies, and some of those may be gone
+    body.update_world_vertices();
+  }
+  world_.start_restored();
+}
+
 }  // namespace impinge

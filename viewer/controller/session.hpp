@@ -58,6 +58,10 @@ class Session {
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 
+  /// Before frame 0: parameters and bodies become as they are in another session, those that have the same path or name.
+  /// All are awake. Throws InputError where a body of that name is of another make.
+  void take_over(Session& from);
+
   int frame() const { return frame_; }  ///< the last one made, -1 before the first
   const World& world() const { return world_; }
   Bodies& bodies() { return world_.bodies(); }

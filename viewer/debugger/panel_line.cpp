@@ -39,9 +39,11 @@ std::vector<std::pair<std::string, bool>> parse_switches(LineWords words, const 
 [[noreturn]] void refuse_quantity(const PlacedText& word, const std::string& text,
                                   const std::vector<std::string>& bodies) {
   std::vector<std::string> names;
-  for (const QuantityName& name : quantity_names())
-    names.push_back(fmt::format("{}(a){}", name.name, name.of_pairs ? fmt::format(", {}(a,b)", name.name) : ""));
-  names.emplace_back("energy_from(source), energy_from(source,a)");
+  for (const BodyFigure& f : body_figures())
+    if (f.function == BodyFunction::energy_from)
+      names.emplace_back("energy_from(source), energy_from(source,a)");
+    else if (f.in_plots())
+      names.push_back(fmt::format("{}(a){}", f.name, f.bodies == 2 ? fmt::format(", {}(a,b)", f.name) : ""));
   word.refuse(fmt::format("'{}'", text),
               fmt::format("{} of bodies {}, without blanks, are wanted", fmt::join(names, ", "), some_of(bodies)),
               "mend the name");

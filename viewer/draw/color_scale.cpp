@@ -1,5 +1,7 @@
 #include "viewer/draw/color_scale.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,6 +76,13 @@ double rounded_up(double value) {
   for (const double step : {1.0, 2.0, 5.0, 10.0})
     if (value <= step * power * (1.0 + 1e-12)) return step * power;
   return 10.0 * power;
+}
+
+std::string bar_text(const ColorBar& bar) {
+  const auto shown = [&](double value) { return fmt::format("{:.4g}", bar.factor * value); };
+  return fmt::format("{}, {}{} to {}{}{}{}{}", bar.title, bar.below ? "<" : "", shown(bar.scale.low),
+                     bar.exceeded ? ">" : "", shown(bar.scale.high), bar.unit.empty() ? "" : " ", bar.unit,
+                     bar.scale.form == ScaleForm::logarithmic ? ", logarithmic" : "");
 }
 
 }  // namespace impinge

@@ -45,6 +45,9 @@ struct ScaleSettings {
 /// With numbers in the prefix that the upper end has few figures in; a scale that diverges has colours of its own.
 ColorBar make_color_bar(const std::string& title, const std::string& unit, const ColorScale& scale, ColorMap chosen);
 
+/// The bar in words: "von Mises stress, 0 to >200 kPa".
+std::string bar_text(const ColorBar& bar);
+
 /// The least of 1, 2 and 5 times a power of ten that is not below a positive value.
 double rounded_up(double value);
 

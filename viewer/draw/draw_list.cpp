@@ -1,5 +1,7 @@
 #include "viewer/draw/draw_list.hpp"
 
+#include <algorithm>
+
 namespace impinge {
 
 void DrawList::clear() {
@@ -17,6 +19,27 @@ void DrawList::clear() {
 void DrawList::end_layer(std::string_view name) {
   layers.push_back(
       {name, points.size(), lines.size(), arrows.size(), surfaces.size(), triangles.size(), planes.size()});
+}
+
+bool DrawList::has_color(std::string_view layer, Color color) const {
+  DrawnLayer before;
+  for (const DrawnLayer& drawn : layers) {
+    const auto has = [&](const auto& items, std::size_t DrawnLayer::*count) {
+      const auto begin = items.begin() + static_cast<std::ptrdiff_t>(before.*count),
+                 end = items.begin() + static_cast<std::ptrdiff_t>(drawn.*count);
+      return std::any_of(begin, end, [&](const auto& item) {
+        if constexpr (requires { item.heat; })
+          if (item.heat != nullptr) return false;  // of the bar's colours
+        return with_alpha(item.color, color.a) == color;
+      });
+    };
+    if (drawn.name == layer &&
+        (has(points, &DrawnLayer::points) || has(lines, &DrawnLayer::lines) || has(arrows, &DrawnLayer::arrows) ||
+         has(surfaces, &DrawnLayer::surfaces) || has(triangles, &DrawnLayer::triangles)))
+      return true;
+    before = drawn;
+  }
+  return false;
 }
 
 void DrawList::leave_out(const std::function<bool(PickId)>& is_out) {

@@ -46,6 +46,7 @@ struct DrawArrow {
   float width = 2.5f;  ///< of the shaft, pixels
   Depth depth = Depth::on_top;
   PickId pick = 0;
+  bool has_head = true;  ///< else a bar from its tail
 };
 
 /// A quantity at each position of a surface, as a share of the colour bar's range.
@@ -112,6 +113,8 @@ struct DrawList {
   void clear();
   /// What was added since the last such call belongs to that layer.
   void end_layer(std::string_view name);
+  /// Whether the layer drew something in that colour, of any opacity.
+  bool has_color(std::string_view layer, Color color) const;
   /// Takes away what belongs to such things.
   void leave_out(const std::function<bool(PickId)>& is_out);
   /// The twelve edges of a box given in the frame of `pose`.

@@ -58,7 +58,7 @@ void Marks::draw(const DrawList& list, const ViewTransform& view, float pixel_sc
   for (const Depth depth : {Depth::tested, Depth::both, Depth::on_top}) {
     draw_triangles(list, view, depth);
     draw_lines(list, view, pixel_scale, depth);
-    draw_arrows(list, view, pixel_scale, depth);
+    for (const bool heads : {false, true}) draw_arrows(list, view, pixel_scale, depth, heads);
     draw_points(list, view, pixel_scale, depth);
   }
   glDepthMask(GL_TRUE);
@@ -80,16 +80,16 @@ void Marks::draw_triangles(const DrawList& list, const ViewTransform& view, Dept
   });
 }
 
-void Marks::draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale,
-                          bool arrows, Depth depth) {
+void Marks::draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, bool heads, float rim,
+                          Depth depth) {
   if (segments.empty()) return;
   segment_array_.set_vertices(segments.data(), segments.size() * sizeof(Segment));
   segment_program_.use();
   segment_program_.set("projection", view.projection);
   segment_program_.set("picture", Eigen::Vector2f(static_cast<float>(view.width), static_cast<float>(view.height)));
   segment_program_.set("nearest", static_cast<float>(view.near));
-  segment_program_.set("head", arrows ? 1.0f : 0.0f);
-  segment_program_.set("rim", arrows ? 1.1f * pixel_scale : 0.0f);
+  segment_program_.set("head", heads ? 1.0f : 0.0f);
+  segment_program_.set("rim", rim);
   with_depth(depth, [&](float opacity) {
     segment_program_.set("opacity", opacity);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(segments.size()));
@@ -101,13 +101,13 @@ void Marks::draw_lines(const DrawList& list, const ViewTransform& view, float pi
   for (const DrawLine& line : list.lines)
     if (line.depth == depth)
       segments.push_back({view.to_eye(line.a), view.to_eye(line.b), packed(line.color), line.width * pixel_scale});
-  draw_segments(segments, view, pixel_scale, false, depth);
+  draw_segments(segments, view, false, 0.0f, depth);
 }
 
-void Marks::draw_arrows(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth) {
+void Marks::draw_arrows(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth, bool heads) {
   std::vector<Segment> segments;
   for (const DrawArrow& arrow : list.arrows) {
-    if (arrow.depth != depth) continue;
+    if (arrow.depth != depth || arrow.has_head != heads) continue;
     double scale = 1.0;
     if (arrow.length_px > 0.0f) {
       const double away = -(view.rotation * (arrow.tail - view.eye)).z();
@@ -116,7 +116,7 @@ void Marks::draw_arrows(const DrawList& list, const ViewTransform& view, float p
     segments.push_back({view.to_eye(arrow.tail), view.to_eye(arrow.tail + scale * arrow.direction), packed(arrow.color),
                         arrow.width * pixel_scale});
   }
-  draw_segments(segments, view, pixel_scale, true, depth);
+  draw_segments(segments, view, heads, 1.1f * pixel_scale, depth);
 }
 
 void Marks::draw_points(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth) {

@@ -37,9 +37,9 @@ class Marks {
 
   void draw_triangles(const DrawList& list, const ViewTransform& view, Depth depth);
   void draw_lines(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth);
-  void draw_arrows(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth);
+  void draw_arrows(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth, bool heads);
   void draw_points(const DrawList& list, const ViewTransform& view, float pixel_scale, Depth depth);
-  void draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, float pixel_scale, bool arrows,
+  void draw_segments(const std::vector<Segment>& segments, const ViewTransform& view, bool heads, float rim,
                      Depth depth);
 
   Program segment_program_, point_program_, flat_program_;

@@ -45,14 +45,6 @@ std::vector<Color> body_colors(const StepRecord& record, const std::vector<std::
   return colors;
 }
 
-bool has_fixed(const StepRecord& record) {
-  // a plane is drawn as a floor
-  return any_body(record,
-                  [](const BodyRecord& b) { return b.kind == BodyKind::fixed && b.shape->as<Plane>() == nullptr; });
-}
-bool has_scripted(const StepRecord& record) {
-  return any_body(record, [](const BodyRecord& b) { return b.kind == BodyKind::scripted; });
-}
 bool has_rigid(const StepRecord& record) {
   return any_body(record,
                   [](const BodyRecord& b) { return b.kind == BodyKind::dynamic || b.kind == BodyKind::scripted; });

@@ -11,8 +11,6 @@ std::vector<Color> body_colors(const StepRecord& record, const std::vector<std::
 
 /// Whether the scene has such bodies (or nodes, vertices, tetrahedra of some body): what a legend need not explain
 /// else.
-bool has_fixed(const StepRecord& record);
-bool has_scripted(const StepRecord& record);
 bool has_rigid(const StepRecord& record);
 bool has_deformable(const StepRecord& record);
 bool has_held_nodes(const StepRecord& record);

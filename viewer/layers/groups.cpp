@@ -1,5 +1,7 @@
 // Colours the surfaces by collision group instead of by body. A group has the colour of its first body, so that it
 // keeps its colour while it lasts.
+#include <algorithm>
+
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -24,6 +26,12 @@ void draw_groups(const LayerContext& context, DrawList& list) {
   }
 }
 
+bool has_ungrouped(const StepRecord& record) {
+  return std::any_of(record.bodies.begin(), record.bodies.end(), [](const BodyRecord& body) {
+    return is_moved_by_contact(body) && !body.deleted && body.group.is_none();
+  });
+}
+
 }  // namespace
 
 Layer groups_layer() {
@@ -31,7 +39,7 @@ Layer groups_layer() {
           "Surfaces coloured by collision group.",
           false,
           draw_groups,
-          {{LegendRow::area, role::kUngrouped, "in no collision group"}}};
+          {{LegendRow::area, role::kUngrouped, "in no collision group", has_ungrouped}}};
 }
 
 }  // namespace impinge

@@ -25,11 +25,13 @@ struct LayerContext {
 
 /// What one of a layer's marks means.
 struct LegendRow {
-  enum Mark { area, point, ring, line, arrow };
+  enum Mark { area, point, ring, target, line, bar, arrow };
   Mark mark = area;
   Color color;
   const char* text = "";
-  bool (*present)(const StepRecord& record) = nullptr;   ///< whether the scene has such a thing; null: it may
+  /// Whether the scene has such a thing: then it is explained in all frames. Null: where the layer drew something of
+  /// the row's colour in this one.
+  bool (*present)(const StepRecord& record) = nullptr;
   bool (*used)(const ViewSettings& settings) = nullptr;  ///< whether it is drawn so as things are set; null: it is
 };
 

@@ -1,4 +1,5 @@
-// Centres of mass and the axes of the bodies' frames: x red, y green, z blue.
+// Centres of mass and the axes of the bodies' frames: x red, y green, z blue. Targets, which no contact is, and bars
+// without heads, which no force is: their colours alone are near those of open contacts and of forces.
 #include "viewer/layers/body_style.hpp"
 #include "viewer/layers/layer.hpp"
 
@@ -13,10 +14,12 @@ void draw_mass_centers(const LayerContext& context, DrawList& list) {
     if (body.kind == BodyKind::fixed) continue;
     const Color colors[3] = {role::kAxisX, role::kAxisY, role::kAxisZ};
     for (int axis = 0; axis < 3 && body.deformable == nullptr; ++axis)  // a deformable body has no frame
-      list.arrows.push_back(
-          {body.pose.position, body.pose.rotation.col(axis), colors[axis], length, width, Depth::on_top, body_pick(i)});
-    list.points.push_back({body.pose.position, role::kMassCenter,
-                           0.8f * static_cast<float>(context.settings.point_size), Depth::on_top, body_pick(i)});
+      list.arrows.push_back({body.pose.position, body.pose.rotation.col(axis), colors[axis], length, width,
+                             Depth::on_top, body_pick(i), false});
+    const float size = 1.4f * static_cast<float>(context.settings.point_size);
+    for (const auto& [color, share] :
+         {std::pair{role::kMassCenter, 1.0f}, {role::kOutline, 0.55f}, {role::kMassCenter, 0.28f}})
+      list.points.push_back({body.pose.position, color, share * size, Depth::on_top, body_pick(i)});
   }
 }
 
@@ -27,10 +30,10 @@ Layer mass_centers_layer() {
           "Centres of mass with the axes of the bodies' frames.",
           false,
           draw_mass_centers,
-          {{LegendRow::point, role::kMassCenter, "centre of mass"},
-           {LegendRow::arrow, role::kAxisX, "body axis x", has_rigid},
-           {LegendRow::arrow, role::kAxisY, "body axis y", has_rigid},
-           {LegendRow::arrow, role::kAxisZ, "body axis z", has_rigid}}};
+          {{LegendRow::target, role::kMassCenter, "centre of mass"},
+           {LegendRow::bar, role::kAxisX, "body axis x"},
+           {LegendRow::bar, role::kAxisY, "body axis y"},
+           {LegendRow::bar, role::kAxisZ, "body axis z"}}};
 }
 
 }  // namespace impinge

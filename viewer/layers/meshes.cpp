@@ -45,8 +45,7 @@ Layer meshes_layer() {
           "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.",
           true,
           draw_meshes,
-          {{LegendRow::area, role::kScripted, "scripted body", has_scripted},
-           {LegendRow::area, role::kStatic, "static body", has_fixed}}};
+          {{LegendRow::area, role::kScripted, "scripted body"}, {LegendRow::area, role::kStatic, "static body"}}};
 }
 
 }  // namespace impinge

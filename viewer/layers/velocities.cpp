@@ -52,8 +52,7 @@ Layer velocities_layer() {
       "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).",
       false,
       draw_velocities,
-      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"},
-       {LegendRow::arrow, role::kSpin, "axis of rotation", has_rigid}}};
+      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation"}}};
 }
 
 }  // namespace impinge

@@ -23,6 +23,12 @@ FramePainter::~FramePainter() {
 
 std::string FramePainter::renderer_name() const { return parts_->context->renderer_name(); }
 
+std::string FramePainter::colors() const {
+  std::string lines;
+  for (const ColorBar& bar : parts_->scene.color_bars()) lines += (lines.empty() ? "" : "\n") + bar_text(bar);
+  return lines;
+}
+
 void FramePainter::paint(const StepRecord& record, const ViewSettings& settings, Image& out) {
   parts_->context->make_current();
   parts_->scene.paint(record, settings);

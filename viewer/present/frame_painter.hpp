@@ -23,6 +23,8 @@ class FramePainter {
   void paint(const StepRecord& record, const ViewSettings& settings, Image& out);
   /// The same picture, and what each of its pixels shows; panels are objects too. Labels belong to what is behind them.
   void paint(const StepRecord& record, const ViewSettings& settings, Image& out, IdImage& ids);
+  /// What the colours of the last picture mean, a line a bar; "" where they mean nothing.
+  std::string colors() const;
   /// What draws, with its version: "llvmpipe (LLVM 15.0.6, 256 bits) 22.3.6".
   std::string renderer_name() const;
 

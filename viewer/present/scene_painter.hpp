@@ -31,6 +31,10 @@ class ScenePainter {
   std::optional<Seen> look_at(const StepRecord& record, const ViewSettings& settings, double x, double y);
   /// Where the legend of the last picture is; no width: nowhere.
   const PanelArea& legend() const { return legend_; }
+  /// Its colour bars, drawn or left out for want of room.
+  const std::vector<ColorBar>& color_bars() const { return list_.color_bars; }
+  /// Where they are; no width: nowhere.
+  const std::vector<PanelArea>& bars() const { return bars_; }
   /// What each pixel of what was painted last shows; panels are objects too. Labels belong to what is behind them.
   /// `pickable`: without locked bodies, so that what lies behind them is found.
   void read_ids(const StepRecord& record, const ViewSettings& settings, IdImage& ids, bool pickable = false);

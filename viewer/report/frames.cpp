@@ -36,6 +36,16 @@ int last_picture(const fs::path& out, const std::string& hash) {
   return last;
 }
 
+// which range each colour stands for in it, "" where colours have none
+std::string colors_of(const fs::path& file) {
+  try {
+    for (const auto& [key, text] : read_png_text(file))
+      if (key == "impinge:colors") return text;
+  } catch (const InputError&) {
+  }
+  return "";
+}
+
 // "" where the file is cut off by a crash: as if it weren't there
 std::string small_copy(const fs::path& file, std::pair<int, int>& size) {
   try {
@@ -67,12 +77,14 @@ std::string frames_json(const ReportTable& table, const fs::path& out, double fr
   const auto frame_of = [&](std::size_t i) {
     return i % per_job < frames.size() ? frames[i % per_job] : lasts[i / per_job] < last ? lasts[i / per_job] : -1;
   };
-  std::vector<std::string> pictures(jobs * per_job);
+  std::vector<std::string> pictures(jobs * per_job), colors(jobs * per_job);
   std::vector<std::pair<int, int>> sizes(pictures.size());
   parallel_for(pictures.size(), 1, [&](std::size_t i) {
     if (frame_of(i) < 0 || frame_of(i) > lasts[i / per_job]) return;
     const fs::path file = picture(out, table.cell(i / per_job, "hash"), frame_of(i));
-    if (is_file(file)) pictures[i] = small_copy(file, sizes[i]);
+    if (!is_file(file)) return;
+    pictures[i] = small_copy(file, sizes[i]);
+    colors[i] = colors_of(file);
   });
   const auto size = *std::max_element(sizes.begin(), sizes.end());
   if (size.first == 0) return "null";
@@ -88,6 +100,8 @@ std::string frames_json(const ReportTable& table, const fs::path& out, double fr
                         lasts[i], *(begin + static_cast<std::ptrdiff_t>(frames.size())));
     for (std::size_t k = 0; k < frames.size(); ++k)
       json += fmt::format("{}\"{}\"", k == 0 ? "" : ",", *(begin + static_cast<std::ptrdiff_t>(k)));
+    json += "],\"colors\":[";  // of these and of the last picture
+    for (std::size_t k = 0; k < per_job; ++k) json += (k == 0 ? "" : ",") + json_text(colors[i * per_job + k]);
     json += "]}\n";
     first = false;
   }

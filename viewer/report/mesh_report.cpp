@@ -44,9 +44,22 @@ std::string as_a_body(const MeshReport& report) {
                      *report.facts.problem, mends);
 }
 
-std::string change_text(double before, double after) {
+double percent(double before, double after) { return 100.0 * (after - before) / before + 0.0; }
+
+/// Signed volumes count twice what two parts have in common: where that is gone, the change is told of what is left.
+std::string change_text(const MeshReport& report) {
+  const double before = report.mended->volume_before, after = report.mended->volume_after;
+  if (report.enclosed && std::abs(after - *report.enclosed) < std::abs(after - before))
+    return fmt::format(
+        "{:.6g} m³ before, {:.3g} m³ of it more than once, where parts overlap; {:.6g} m³ after ({:+.2g} % "
+        "of the {:.4g} m³ that they take up)",
+        before, before - *report.enclosed, after, percent(*report.enclosed, after), *report.enclosed);
   std::string text = fmt::format("{:.6g} m³ before, {:.6g} m³ after", before, after);
-  if (before > 0.0) text += fmt::format(" ({:+.3g} %)", 100.0 * (after - before) / before + 0.0);
+  const bool may_overlap = report.facts.crossings > 0 && (!report.after || report.after->crossings == 0);
+  if (before > 0.0)
+    text +=
+        fmt::format(" ({:+.3g} %{})", percent(before, after),
+                    may_overlap && after < before && !report.facts.is_closed ? ", overlaps counted twice before" : "");
   return text;
 }
 
@@ -80,9 +93,9 @@ std::string report_json(const MeshReport& r) {
     std::string steps;
     for (const std::string& step : r.mended->steps()) steps += (steps.empty() ? "" : ", ") + json_text(step);
     out += fmt::format(
-        ", \"mend\": {{\"steps\": [{}], \"volume_before\": {}, \"volume_after\": {}, \"largest_move\": {}, "
-        "\"problem\": {}, \"surface\": {}}}",
-        steps, json_number(r.mended->volume_before), json_number(r.mended->volume_after),
+        ", \"mend\": {{\"steps\": [{}], \"volume_before\": {}, \"enclosed_before\": {}, \"volume_after\": {}, "
+        "\"largest_move\": {}, \"problem\": {}, \"surface\": {}}}",
+        steps, json_number(r.mended->volume_before), optional_number(r.enclosed), json_number(r.mended->volume_after),
         json_number(r.mended->largest_move), r.problem_left ? json_text(*r.problem_left) : "null",
         r.after ? facts_json(*r.after) : "null");
   }
@@ -101,7 +114,7 @@ std::string mended_rows(const MeshReport& r) {
   const std::vector<std::string> steps = r.mended->steps();
   if (steps.empty()) out += row("mended:", "nothing to do");
   for (std::size_t i = 0; i < steps.size(); ++i) out += row(i == 0 ? "mended:" : "", steps[i]);
-  out += row("volume:", change_text(r.mended->volume_before, r.mended->volume_after));
+  out += row("volume:", change_text(r));
   out += row("moved:", r.mended->largest_move > 0.0 ? fmt::format("a vertex {:.3g} m at most", r.mended->largest_move)
                                                     : "no vertex");
   if (r.problem_left) out += row("left:", "it " + *r.problem_left);

@@ -21,6 +21,7 @@ struct MeshReport {
   std::optional<MendReport> mended;
   std::optional<std::string> problem_left;  ///< of the mended surface
   std::optional<DecimateReport> decimated;
+  std::optional<double> enclosed;  ///< m³ of space, of the file's surface; none: not known, or the same as its volume
   std::optional<MeshFacts> after;  ///< of the mended or decimated surface
   std::string written;             ///< where to
 };

@@ -52,6 +52,7 @@ class Shrinking {
     replace_surfaces();
     drop_bodies();
     begin_with_state();
+    if (!best_.scene.run.start.empty()) drop_bodies();  // of those that took part only before it
     trials_.complete(best_);
     write();
   }
@@ -86,7 +87,9 @@ class Shrinking {
     fewest<std::string>(others, [&](const std::vector<std::string>& some) {
       std::vector<std::string> names = wanted_;
       names.insert(names.end(), some.begin(), some.end());
-      return names.size() < best_.scene.scene.bodies.size() && adopt(best_.scene.with_bodies(names));
+      if (names.size() >= best_.scene.scene.bodies.size()) return false;
+      const std::optional<SmallScene> less = trials_.with_bodies(best_.scene, names);
+      return less && adopt(*less);
     });
   }
 
@@ -117,7 +120,7 @@ class Shrinking {
     }
   }
 
-  /// Where a scene can't say how it is by then, a state does. It is one of these bodies, so nothing else can go after it.
+  /// Where a scene can't say how it is by then, a state does.
   void begin_with_state() {
     const SmallScene from = best_.scene;
     const int end = best_.frame;
@@ -127,10 +130,7 @@ class Shrinking {
       const std::optional<SmallScene> later = trials_.begun_with(from, end - before);
       if (!later) return note("no frames are left out at the beginning: a ramp of the script would be cut in two");
       if (!adopt(*later, std::min(end - 1, 2 * before))) continue;
-      return note(
-          "it begins with a state, start.bin, which is read by this version only and is of all these bodies: those "
-          "that "
-          "took part only before it stay too");
+      return note("it begins with a state, start.bin, which is read by this version only");
     }
   }
 

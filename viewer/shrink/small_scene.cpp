@@ -231,6 +231,20 @@ std::optional<SmallScene> SmallScene::begun_with(int frame, const std::string& s
   return later;
 }
 
+SmallScene SmallScene::begun_anew(double time, const StepRecord& record, const std::string& state) const {
+  SmallScene later = *this;
+  later.run.start = state;
+  for (const BodyRecord& body : record.bodies) {
+    if (body.kind != BodyKind::scripted) continue;
+    for (TomlNode& table : later.scene.bodies) {
+      if (text_of(table, "name") != body.name) continue;
+      TomlNode& motion = table.find("motion")->value;
+      motion = motion_from(motion, time, body.file_pose);
+    }
+  }
+  return later;
+}
+
 SmallScene SmallScene::with_surface(const std::string& name, const std::string& other) const {
   SmallScene changed = *this;
   const std::function<void(TomlNode&)> change = [&](TomlNode& node) {

@@ -28,6 +28,8 @@ struct SmallScene {
   std::optional<SmallScene> begun_at(int frame, const StepRecord& record, const std::vector<Pose>& start) const;
   /// Begins with a state, that of its frame. None where a ramp is cut in two.
   std::optional<SmallScene> begun_with(int frame, const std::string& state) const;
+  /// Begins with another state, whose time is 0: what is moved by its scene does sooner by `time` what it does later.
+  SmallScene begun_anew(double time, const StepRecord& record, const std::string& state) const;
   /// With another file in place of a surface.
   SmallScene with_surface(const std::string& name, const std::string& other) const;
 };

@@ -125,6 +125,30 @@ std::optional<SmallScene> Trials::begun_with(const SmallScene& scene, int frame)
   return scene.begun_with(frame, state.string());
 }
 
+std::optional<SmallScene> Trials::with_bodies(const SmallScene& scene, const std::vector<std::string>& names) {
+  SmallScene less = scene.with_bodies(names);
+  if (scene.run.start.empty()) return less;
+  try {
+    const std::unique_ptr<Session> all = load(scene);
+    if (all->scene().bodies.size() != static_cast<std::size_t>(all->bodies().size().value())) return std::nullopt;
+    // what lines do comes after it
+    SmallScene bare = less.begun_anew(all->world().time(), all->record(), "");
+    bare.run.script.clear();
+    const std::unique_ptr<Session> left = load(bare);
+    left->take_over(*all);
+    left->advance();
+    const fs::path state = folder_ / fmt::format("left_{}.bin", ++states_);
+    write_snapshot(state, *left);
+    return less.begun_anew(all->world().time(), all->record(), state.string());
+  } catch (const OutputError&) {
+    throw;
+  } catch (const InputError&) {
+    return std::nullopt;
+  } catch (const DivergenceError&) {
+    return std::nullopt;
+  }
+}
+
 void Trials::complete(Trial& trial) {
   const std::unique_ptr<Session> session = load(trial.scene);
   while (session->frame() < trial.frame - 1) session->advance();

@@ -35,6 +35,10 @@ class Trials {
   /// The same with a file of the state, which is that of its bodies and no others; none where a ramp is cut in two.
   std::optional<SmallScene> begun_with(const SmallScene& scene, int frame);
 
+  /// With these bodies alone. Of a scene that begins with a state they begin as they do there, awake; none where bodies
+  /// that lines add are among that state.
+  std::optional<SmallScene> with_bodies(const SmallScene& scene, const std::vector<std::string>& names);
+
   int tried() const { return tried_; }
   std::filesystem::path folder() const { return folder_; }
 
@@ -45,7 +49,7 @@ class Trials {
   std::filesystem::path folder_;
   std::string condition_;
   std::vector<std::string> opening_;
-  int tried_ = 0;
+  int tried_ = 0, states_ = 0;
 };
 
 }  // namespace impinge

@@ -23,7 +23,7 @@ std::optional<Quantity> parse_energy_from(std::string_view text, const std::vect
   const std::size_t comma = text.find(',');
   const std::optional<LedgerSource> source = find_ledger_source(text.substr(0, comma));
   if (!source) return std::nullopt;
-  Quantity quantity{Quantity::energy_from, {}, {}, *source};
+  Quantity quantity{BodyFunction::energy_from, {}, {}, *source};
   if (comma == std::string_view::npos) return quantity;
   const std::optional<BodyIndex> body = body_of(text.substr(comma + 1), bodies);
   if (!body) return std::nullopt;
@@ -33,33 +33,23 @@ std::optional<Quantity> parse_energy_from(std::string_view text, const std::vect
 
 }  // namespace
 
-std::string_view Quantity::unit() const {
-  return what == energy_from ? "J" : quantity_names()[static_cast<std::size_t>(what)].unit;
-}
-
-const std::vector<QuantityName>& quantity_names() {
-  static const std::vector<QuantityName> names = {
-      {"speed", "m/s", false}, {"contacts", ""}, {"gap", "m"}, {"depth", "m"}, {"force", "N"}};
-  return names;
-}
-
 std::optional<Quantity> parse_quantity(std::string_view text, const std::vector<std::string>& bodies) {
   const std::size_t open = text.find('(');
   if (open == std::string_view::npos || !text.ends_with(')')) return std::nullopt;
-  if (text.substr(0, open) == "energy_from") return parse_energy_from(text.substr(open + 1), bodies);
-  const std::vector<QuantityName>& names = quantity_names();
-  const auto name =
-      std::find_if(names.begin(), names.end(), [&](const QuantityName& n) { return n.name == text.substr(0, open); });
-  if (name == names.end()) return std::nullopt;
+  const std::span<const BodyFigure> all = body_figures();
+  const auto figure =
+      std::find_if(all.begin(), all.end(), [&](const BodyFigure& f) { return f.name == text.substr(0, open); });
+  if (figure == all.end() || !figure->in_plots()) return std::nullopt;
+  if (figure->function == BodyFunction::energy_from) return parse_energy_from(text.substr(open + 1), bodies);
   const std::string_view inner = text.substr(open + 1, text.size() - open - 2);
   const std::size_t comma = inner.find(',');
-  Quantity quantity{static_cast<Quantity::What>(name - names.begin()), {}, {}};
+  Quantity quantity{figure->function, {}, {}};
   const std::optional<BodyIndex> a = body_of(inner.substr(0, comma), bodies);
   if (!a) return std::nullopt;
   quantity.a = *a;
   if (comma == std::string_view::npos) return quantity;
   const std::optional<BodyIndex> b = body_of(inner.substr(comma + 1), bodies);
-  if (!b || !name->of_pairs) return std::nullopt;
+  if (!b || figure->bodies != 2) return std::nullopt;
   quantity.b = *b;
   if (quantity.b < quantity.a) std::swap(quantity.a, quantity.b);
   return quantity;
@@ -84,7 +74,7 @@ void Tracks::note(const StepRecord& record) {
   Frame frame;
   frame.substep_time = record.stats.substeps > 0 ? record.frame_time / record.stats.substeps : 0.0;
   for (const BodyRecord& body : record.bodies) {
-    OfBody& own = frame.bodies.emplace_back(OfBody{body.pose, body.velocity.norm(), !body.deleted, body.asleep, {}});
+    OfBody& own = frame.bodies.emplace_back(OfBody{body.pose, body.velocity, !body.deleted, body.asleep, {}});
     if (!keeps_surfaces_ || body.deformable == nullptr) continue;
     for (const Vec3& x : body.vertices) own.surface.push_back((x - body.pose.position).cast<float>());
   }
@@ -115,10 +105,13 @@ double Tracks::value(int number, const Quantity& quantity) const {
   const auto it = frames_.find(number);
   if (it == frames_.end()) return kNone;
   const Frame& frame = it->second;
-  if (quantity.what == Quantity::energy_from)
+  if (quantity.what == BodyFunction::energy_from)
     return impinge::energy_from(frame.ledger.get(), quantity.source, quantity.a.value());
   const auto body = static_cast<std::size_t>(quantity.a.value());
-  if (quantity.what == Quantity::speed) return frame.has(quantity.a) ? frame.bodies[body].speed : kNone;
+  if (info_of(quantity.what).bodies == 1)
+    return frame.has(quantity.a)
+               ? part_of_motion(quantity.what, frame.bodies[body].pose.position, frame.bodies[body].velocity)
+               : kNone;
   const Touch* touch = nullptr;
   if (quantity.b.is_none()) {
     if (const auto of = frame.touched.find(quantity.a); of != frame.touched.end()) touch = &of->second;
@@ -126,11 +119,11 @@ double Tracks::value(int number, const Quantity& quantity) const {
     touch = &of->second;
   }
   switch (quantity.what) {
-    case Quantity::contacts:
+    case BodyFunction::contacts:
       return touch == nullptr ? 0.0 : touch->contacts;
-    case Quantity::gap:
+    case BodyFunction::gap:
       return touch == nullptr ? kNone : touch->gap;
-    case Quantity::depth:
+    case BodyFunction::depth:
       return touch == nullptr ? 0.0 : std::max(0.0, -touch->gap);
     default:
       return touch == nullptr ? 0.0 : frame.substep_time > 0.0 ? touch->impulse / frame.substep_time : kNone;

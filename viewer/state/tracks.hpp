@@ -9,23 +9,18 @@
 #include <vector>
 
 #include "engine/world/step_record.hpp"
+#include "viewer/state/body_figures.hpp"
 
 namespace impinge {
 
 /// A number of a body or a pair: "speed(ball)", "gap(crate,ball)"; or of the ledger: "energy_from(friction)" of all
 /// bodies, "energy_from(friction,crate)" of one.
 struct Quantity {
-  enum What { speed, contacts, gap, depth, force, energy_from };
-  What what = speed;
+  BodyFunction what = BodyFunction::speed;
   BodyIndex a, b;  ///< b none: of a alone; a none: of all
   LedgerSource source = LedgerSource::gravity;
-  std::string_view unit() const;
+  std::string_view unit() const { return info_of(what).unit; }
 };
-struct QuantityName {
-  std::string_view name, unit;
-  bool of_pairs = true;
-};
-const std::vector<QuantityName>& quantity_names();
 /// None if the text is none of a body that there is.
 std::optional<Quantity> parse_quantity(std::string_view text, const std::vector<std::string>& bodies);
 
@@ -58,7 +53,7 @@ class Tracks {
  private:
   struct OfBody {
     Pose pose;
-    double speed = 0.0;
+    Vec3 velocity = Vec3::Zero();
     bool is_there = true;  // not deleted
     bool asleep = false;
     std::vector<Eigen::Vector3f> surface;  // from the pose's position, where surfaces are kept

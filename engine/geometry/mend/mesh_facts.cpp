@@ -10,6 +10,7 @@
 #include "engine/geometry/disjoint_sets.hpp"
 #include "engine/geometry/mass_properties.hpp"
 #include "engine/geometry/mend/sheets.hpp"
+#include "engine/geometry/ray_columns.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
@@ -230,6 +231,26 @@ MeshFacts measure(const TriangleMesh& given, MeshMarks* marks) {
   marks->crossing.erase(std::unique(marks->crossing.begin(), marks->crossing.end()), marks->crossing.end());
   marks->mesh = std::move(mesh);
   return facts;
+}
+
+std::optional<double> enclosed_volume(const TriangleMesh& mesh) {
+  constexpr double kRays = 200.0;
+  const TriangleMesh welded = weld(mesh).mesh;
+  if (welded.triangles.empty() || !make_topology(welded).is_closed()) return std::nullopt;
+  Aabb box;
+  for (const Vec3& p : welded.vertices) box.include(p);
+  const double spacing = box.extent().maxCoeff() / kRays;
+  if (!(spacing > 0.0)) return std::nullopt;
+  int axis = 0;
+  box.extent().minCoeff(&axis);  // along which rays are fewest crossings apart, and most of them meet it
+  const RayColumns rays(welded, axis, spacing);
+  const auto [i0, i1] = rays.u_range(box.min[rays.u_axis()], box.max[rays.u_axis()]);
+  const auto [j0, j1] = rays.v_range(box.min[rays.v_axis()], box.max[rays.v_axis()]);
+  double length = 0.0;
+  for (int j = j0; j < j1; ++j)
+    for (int i = i0; i < i1; ++i)
+      for (const RayColumns::Interval& inside : rays.inside(i, j)) length += inside.high - inside.low;
+  return length * spacing * spacing;
 }
 
 }  // namespace impinge

@@ -179,6 +179,7 @@ TEST_CASE("every command that computes ends soon after a signal") {
       {"debug", "slow.toml", "--headless", "--script", "step.script", "--record", "r.script"},
       {"debug", "slow.toml", "--headless", "--script", "play.script"},
       {"test", "suite", "--out", "tested", "--junit", "junit.xml"},
+      {"test", "suite", "--jobs", "2", "--out", "tested_beside", "--junit", "junit.xml"},
       {"info", "slow.toml", "--ablation", "--frames", "2", "--out", "ablation"},
       {"sweep", "slow.toml", "--vary", "contact.friction=0.1,0.2", "--frames", "2", "--no-images", "--out", "sweep"}};
   Random random(2);

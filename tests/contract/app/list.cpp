@@ -15,7 +15,7 @@ namespace {
 
 const char* const kTopics[] = {"parameters",    "layers",    "responses",   "lcp_solvers",    "broad_phases",
                                "narrow_phases", "materials", "integrators", "linear_solvers", "cases",
-                               "figures",       "shapes",    "warnings",    "sources"};
+                               "figures",       "shapes",    "warnings",    "sources",        "body_figures"};
 
 std::size_t letters(const std::string& line) {
   return static_cast<std::size_t>(

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <regex>
+
 #include "engine/geometry/mass_properties.hpp"
+#include "engine/geometry/mend/mesh_facts.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/mesh_text.hpp"
 #include "tests/support/geometry/meshes.hpp"
@@ -66,6 +69,45 @@ TEST_CASE("mesh --mend says what it did, and what it writes is a solid") {
   CHECK(says(mend, "moved:       no vertex"));
   CHECK(signed_volume(read_mesh(folder / "new.ply")) == Approx(1.0));
   CHECK(says(impinge_run(folder.path(), {"mesh", "new.ply", "--mend"}), "nothing to do"));
+}
+
+TEST_CASE("mesh: what overlaps counted twice is told apart from what mending did") {
+  const TempFolder folder;
+  // two cubes of 1 m³, one moved by 0.4 m: 0.6 m³ are in both, 1.4 m³ in one at least
+  TriangleMesh both = box(Vec3::Constant(0.5), {4, 4, 4});
+  const TriangleMesh one = both;
+  const int count = static_cast<int>(one.vertices.size());
+  for (const Vec3& p : one.vertices) both.vertices.push_back(p + Vec3(0.4, 0, 0));
+  for (const Triangle& t : one.triangles) both.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  folder.write("both.off", off_text(both));
+  CHECK(enclosed_volume(one).value() == Approx(1.0).epsilon(5e-3));
+  CHECK(enclosed_volume(both).value() == Approx(1.4).epsilon(5e-3));
+  TriangleMesh open = both;
+  open.triangles.pop_back();
+  CHECK_FALSE(enclosed_volume(open));
+  const Outcome page = impinge_run(folder.path(), {"mesh", "both.off", "--mend", "--remesh", "80"});
+  CAPTURE(page.out);
+  std::smatch found;
+  REQUIRE(
+      std::regex_search(page.out, found,
+                        std::regex("volume: +2 m³ before, ([0-9.]+) m³ of it more than once, where parts overlap; "
+                                   "([0-9.]+) m³ after \\(([-+0-9.]+) % of the ([0-9.]+) m³ that they take up\\)")));
+  CHECK(std::stod(found[1]) == Approx(0.6).epsilon(5e-3));
+  CHECK(std::stod(found[2]) == Approx(1.4).epsilon(5e-3));
+  CHECK(std::abs(std::stod(found[3])) < 0.5);
+  CHECK(std::stod(found[4]) == Approx(1.4).epsilon(5e-3));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "both.off", "--mend", "--remesh", "80", "--json"}),
+             "\"enclosed_before\": 1.4"));
+  // without a new skin the overlap is still there and still counts twice
+  const Outcome kept = impinge_run(folder.path(), {"mesh", "both.off", "--mend"});
+  CHECK(says(kept, "volume:      2 m³ before, 2 m³ after (+0 %)"));
+  CHECK(says(kept, "overlaps count twice"));
+  folder.write("one.off", off_text(one));
+  CHECK_FALSE(says(impinge_run(folder.path(), {"mesh", "one.off", "--mend", "--remesh", "80"}), "overlap"));
+  // what isn't closed has no inside to measure: the change says what it may come from
+  folder.write("open.off", off_text(open));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "open.off", "--mend", "--remesh", "80"}),
+             "%, overlaps counted twice before)"));
 }
 
 TEST_CASE("mesh --decimate writes as many triangles as are asked for, of the same volume") {

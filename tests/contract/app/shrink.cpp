@@ -199,6 +199,81 @@ TEST_CASE("bodies that deform begin later with a state, and go on as they did, b
   CHECK(impinge_run(folder.path(), {"replay", "more.tar"}).code == 0);
 }
 
+TEST_CASE("a body that is needed only before the state with which it begins goes too") {
+  const TempFolder folder;
+  // without gravity: a hammer sets a soft block going, which arrives at a wall much later
+  const std::string scene = R"(
+[simulation]
+gravity = [0, 0, 0]
+[[body]]
+name = "hammer"
+kind = "dynamic"
+shape = { box = { size = [0.5, 1, 1] } }
+material = { density = 4000 }
+position = [-0.9, 0, 0]
+velocity = [4, 0, 0]
+[[body]]
+name = "block"
+kind = "deformable"
+shape = { box = { size = [1, 1, 1] } }
+volume = { lattice = { cells = 2 } }
+material = { young = 1e6, poisson = 0.3, density = 1000, damping = [0, 0.01] }
+[[body]]
+name = "wall"
+kind = "static"
+shape = { box = { size = [0.5, 4, 4] } }
+position = [2.5, 0, 0]
+)" + bystanders(2);
+  make_bundle(folder, scene, 60);
+  const Small small = shrink(folder, "contacts(block,wall) > 0");
+  INFO(small.outcome.out);
+  CHECK(small.bodies == std::vector<std::string>{"block", "wall"});
+  CHECK(small.frame <= 3);
+  CHECK(small.outcome.out.find("note: it begins with a state") != std::string::npos);
+  // it flies as the hammer left it: of 2 t at 4 m/s, which stick to 1 t or bounce off it
+  const std::string bytes = slurp(folder / "small.tar");
+  folder.write("small.csv", std::string(parse_bundle("small.tar", bytes).parts.at("stats.csv")));
+  const double speed = numbers(csv_rows(folder / "small.csv"), "momentum_x").front() / 1000.0;
+  CHECK(speed > 8.0 / 3.0 - 0.01);
+  CHECK(speed < 16.0 / 3.0 + 0.01);
+  // what was made small once, and begins with a state, can be made small again
+  fs::rename(folder / "small.tar", folder / "b.tar");
+  const Small again = shrink(folder, "contacts(block,wall) > 0", "again.tar");
+  CHECK(again.bodies == small.bodies);
+}
+
+TEST_CASE("what a scene moves goes on as it was in the state of fewer bodies") {
+  const TempFolder folder;
+  // a hammer shoves a soft block along a lift that rises a second later
+  const std::string scene = R"(
+[contact]
+friction = 0
+[[body]]
+name = "lift"
+kind = "scripted"
+shape = { box = { size = [40, 0.5, 4] } }
+motion = [{ time = 0, position = [0, -0.75, 0] }, { time = 1, position = [0, -0.75, 0] }, { time = 2, position = [0, 0.25, 0] }, { time = 9, position = [0, 0.25, 0] }]
+[[body]]
+name = "block"
+kind = "deformable"
+shape = { box = { size = [1, 1, 1] } }
+volume = { lattice = { cells = 2 } }
+material = { young = 1e6, poisson = 0.3, density = 1000, damping = [0, 0.01] }
+[[body]]
+name = "hammer"
+kind = "dynamic"
+shape = { box = { size = [0.5, 0.9, 0.9] } }
+material = { density = 4000 }
+position = [-1, 0, 0]
+velocity = [4, 0, 0]
+)";
+  make_bundle(folder, scene, 110);
+  const Small small = shrink(folder, "position_x(block) > 2 && position_y(block) > 0.5 && position_y(lift) > -10");
+  INFO(small.outcome.out);
+  CHECK(small.bodies == std::vector<std::string>{"lift", "block"});
+  CHECK(small.frame <= 3);
+}
+
 TEST_CASE("a shrink that is interrupted keeps the smallest bundle by then") {
   const TempFolder folder;
   make_bundle(folder, std::string(kRigid) + bystanders(60, 10.0), 120);

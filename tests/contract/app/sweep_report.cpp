@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include "engine/core/rows.hpp"
 #include "tests/support/program/refusal.hpp"
@@ -68,6 +69,26 @@ TEST_CASE("the report of a sweep works in a browser, asks for nothing outside an
   CHECK(used.code == 0);
   CHECK(used.out.find("FAILED") == std::string::npos);
   CHECK(count_of(used.out, "ok ") > 20);
+}
+
+TEST_CASE("the report gives each picture's range of colours, since each chooses its own") {
+  const TempFolder folder;
+  folder.write("s.toml", kCrateScene);
+  const auto ranges = [&](const std::string& out, const std::string& max) {
+    REQUIRE(impinge_run(folder.path(),
+                        {"sweep", "s.toml", "--set", "view.layer.heat=true", "--set", "view.heat.max=" + max, "--set",
+                         "simulation.gravity=[0,0,0]", "--vary", "body.crate.velocity=[0,3,0],[0,30,0]", "--frames",
+                         "1", "--size", "320x180", "--out", out})
+                .code == 0);
+    const std::string page = slurp(folder / out / "report.html");
+    std::set<std::string> texts;
+    for (std::size_t at = 0; (at = page.find("\"speed, ", at)) != std::string::npos; ++at)
+      texts.insert(page.substr(at + 1, page.find('"', at + 1) - at - 1));
+    return texts;
+  };
+  // 1, 2 or 5 times a power of ten above 3 and 30
+  CHECK(ranges("own", "0") == std::set<std::string>{"speed, 0 to 5 m/s", "speed, 0 to 50 m/s"});
+  CHECK(ranges("same", "40") == std::set<std::string>{"speed, 0 to 40 m/s"});
 }
 
 TEST_CASE("a sweep without reference, pictures and a second parameter has a report without their sections") {

@@ -124,6 +124,72 @@ TEST_CASE("what is wrong with one test is an error of that test, and the others 
   CHECK(holds(slurp(suite.folder / "junit.xml"), "failures=\"0\" errors=\"5\""));
 }
 
+TEST_CASE("test --only runs the tests that it names, and knows no others") {
+  const Suite suite;
+  suite.folder.write("suite/late.toml", kScene);
+  suite.folder.write("suite/late.script", "expect bodies == 7 at 1\n");
+  const Outcome one = suite.run({"--only", "fall", "--junit", "one.xml"});
+  CHECK(one.code == 0);
+  CHECK(holds(one.out, "ok      fall: "));
+  CHECK_FALSE(holds(one.out, "rest"));
+  CHECK(holds(one.out, "1 test of 3: 1 ok, 0 failed"));
+  CHECK_FALSE(fs::exists(suite.folder / "out/late"));
+  CHECK(holds(slurp(suite.folder / "one.xml"), "tests=\"1\""));
+  const Outcome two = suite.run({"--only", "late,fall"});
+  CHECK(two.code == 1);
+  CHECK(two.out.find("ok      fall") < two.out.find("FAILED  late"));
+  CHECK(holds(two.out, "2 tests of 3: 1 ok, 1 failed"));
+  // written anew: the picture of the test that is named and no other
+  CHECK(suite.run({"--only", "fall", "--update"}).code == 0);
+  CHECK_FALSE(fs::exists(suite.folder / "suite/pictures"));
+  check_refused(suite.folder, {"test", "suite", "--only", "fall,reast"},
+                "command line: --only names 'reast'; tests of suite: fall, late, rest", "did you mean 'rest'?");
+  check_refused(suite.folder, {"test", "suite", "--only", "fall,"}, "command line: --only is 'fall,'", "without gaps");
+}
+
+TEST_CASE("test --jobs: what is told and written is the same, in the same order, however many run at once") {
+  const Suite suite;
+  REQUIRE(suite.run({"--update"}).code == 0);
+  suite.folder.write("suite/rest.toml", replaced(kScene, "size = [1, 0.5, 1]", "size = [1, 0.52, 1]"));
+  suite.folder.write("suite/bad.toml", "[[body]]\nname = 3\n");
+  suite.folder.write("suite/bad.script", "expect contacts > 0 at 1\n");
+  // the first by name ends last
+  suite.folder.write("suite/a_long.toml", kScene);
+  suite.folder.write("suite/a_long.script", "expect contacts > 100 from 0 to 150\n");
+  const auto timeless = [](const std::string& text) {
+    return std::regex_replace(text, std::regex(R"(\([0-9.]+ s\)|time="[0-9.]+"|out[0-9])"), "T");
+  };
+  const auto tell = [&](const char* jobs, const char* out) {
+    const Outcome outcome = impinge_run(
+        suite.folder.path(), {"test", "suite", "--out", out, "--jobs", jobs, "--junit", std::string(out) + ".xml"});
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.empty());
+    return timeless(outcome.out + slurp(suite.folder / (std::string(out) + ".xml")));
+  };
+  const std::string one = tell("1", "out1");
+  CHECK(holds(one, "4 tests: 1 ok, 3 failed"));
+  CHECK(holds(one, "suite/a_long.script:1:1: frame 0: expected contacts > 100 in frames 0 to 150; found contacts = "));
+  CHECK(tell("3", "out3") == one);
+  for (const char* name : {"rest/report.html", "a_long/report.html", "rest/run/frames/000004.png"})
+    CHECK(timeless(slurp(suite.folder / "out3" / name)) == timeless(slurp(suite.folder / "out1" / name)));
+  check_refused(suite.folder, {"test", "suite", "--jobs", "0"}, "command line: --jobs is '0'", "from 1 to 4096");
+}
+
+TEST_CASE("test --jobs: a test whose process can't write ends the suite, which says so") {
+  const Suite suite;
+  suite.folder.write("out/fall", "a file where a folder is to be");
+  for (const char* jobs : {"1", "2"}) {
+    CAPTURE(jobs);
+    const Outcome outcome = suite.run({"--jobs", jobs, "--junit", "junit.xml"});
+    CHECK(outcome.code == 2);
+    CHECK(holds(outcome.err, "out/fall"));
+    CHECK_FALSE(holds(outcome.out, "rest"));
+    const std::string xml = slurp(suite.folder / "junit.xml");
+    CHECK(holds(xml, "<error"));
+    CHECK(holds(xml, "the tests after this one were not run"));
+  }
+}
+
 TEST_CASE("a suite that can't be run at all is refused") {
   const Suite suite;
   check_refused(suite.folder, {"test", "nowhere"}, "nowhere: ", "there is no such folder");

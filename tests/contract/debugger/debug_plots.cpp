@@ -42,6 +42,7 @@ TEST_CASE("the table of plots has what a fall by formula and contacts.csv have")
   folder.write("a.script",
                "panel plot -contacts -max_penetration_m -kinetic_J\n"
                "panel plot +speed(ball) +contacts(crate,floor) +gap(floor,crate) +depth(crate) +contacts(crate)\n"
+               "panel plot +velocity_y(ball) +position_y(ball)\n"
                "step 60\nback 10\nplots p.csv\npanel axis log\nshot end.png\n");
   const Outcome outcome = debug(folder, "s.toml", "a.script", {"--out", "one", "--record", "r.script"});
   INFO(outcome.err);
@@ -49,9 +50,14 @@ TEST_CASE("the table of plots has what a fall by formula and contacts.csv have")
   const auto rows = table(slurp(folder / "one/p.csv"));
   REQUIRE(rows.size() == 62);
   CHECK(rows[0] == std::vector<std::string>{"frame", "time_s", "speed(ball)", "contacts(crate,floor)",
-                                            "gap(floor,crate)", "depth(crate)", "contacts(crate)"});
-  for (int frame = 0; frame <= 8; ++frame)  // nothing touches the ball yet
+                                            "gap(floor,crate)", "depth(crate)", "contacts(crate)", "velocity_y(ball)",
+                                            "position_y(ball)"});
+  for (int frame = 0; frame <= 8; ++frame) {  // nothing touches the ball yet
     CHECK(std::abs(std::stod(rows[frame + 1][2]) - 9.81 * frame / 60.0) < 1e-9);
+    CHECK(std::abs(std::stod(rows[frame + 1][7]) + 9.81 * frame / 60.0) < 1e-9);
+    const double n = 2.0 * frame, dt = 1.0 / 120.0;  // sub-steps of kRigid
+    CHECK(std::abs(std::stod(rows[frame + 1][8]) - std::stod(rows[1][8]) + 9.81 * dt * dt * n * (n + 1) / 2) < 1e-9);
+  }
 
   REQUIRE(impinge_run(folder.path(), {"run", "s.toml", "--out", "run", "--frames", "60", "--no-images", "--contacts"})
               .code == 0);
@@ -118,9 +124,11 @@ TEST_CASE("a figure of a body that is not there is one message") {
   folder.write("s.toml", kRigid);
   const std::pair<const char*, const char*> cases[] = {
       {"panel plot +speed(bal)\n",
-       "a.script:1:13: 'speed(bal)'; speed(a), contacts(a), contacts(a,b), gap(a), gap(a,b), depth(a), depth(a,b), "
-       "force(a), force(a,b), energy_from(source), energy_from(source,a) of bodies floor, crate, ball, without blanks, "
-       "are wanted; mend the name"},
+       "a.script:1:13: 'speed(bal)'; contacts(a), contacts(a,b), depth(a), depth(a,b), gap(a), gap(a,b), force(a), "
+       "force(a,b), speed(a), position_x(a), position_y(a), position_z(a), velocity_x(a), velocity_y(a), "
+       "velocity_z(a), "
+       "energy_from(source), energy_from(source,a) of bodies floor, crate, ball, without blanks, are wanted; mend the "
+       "name"},
       {"panel plot +speed(ball,crate)\n", "a.script:1:13: 'speed(ball,crate)'; "},
       {"panel plot +sped(ball)\n", "a.script:1:13: 'sped(ball)'; "},
       {"panel plot speed(ball)\n", "a.script:1:12: 'speed(ball)'; +COLUMN or -COLUMN is wanted; "},

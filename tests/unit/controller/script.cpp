@@ -123,10 +123,14 @@ TEST_CASE("conditions follow the usual rules of precedence") {
   CHECK_FALSE(holds("(a > 1 || b > 1) && contacts > 1", {2, 0, 0}));
   CHECK(holds("!(a > 1) && !b > 5 || a != a + 1", {0, 0, 0}));
   CHECK(holds("a > 1e-3", {2e-3, 0, 0}));
+  CHECK(holds("abs(a) + abs( b - 7 ) * 2 == 11 && -abs(-a) == -3 && abs(abs(-2)) == 2", {-3, 3, 0}));
+  CHECK_FALSE(holds("abs(a - b) < 5", {-3, 3, 0}));
   for (const char* text : {"a > 1", "a < 1", "a == a", "a != a", "a >= 0"})
     CHECK_FALSE(holds(text, {std::numeric_limits<double>::quiet_NaN(), 0, 0}));
-  for (const char* text : {"", "a", "a >", "> a", "a > 1 2", "a > (1", "a > 1)", "a = 1", "a & b", "x > 1", "a > 1 > 2",
-                           "(a > 1) + 1 > 0", "a && b", "1e999 > a", "a > 1 ||", "!a"}) {
+  for (const char* text : {"",          "a",         "a >",           "> a",    "a > 1 2",         "a > (1",
+                           "a > 1)",    "a = 1",     "a & b",         "x > 1",  "a > 1 > 2",       "(a > 1) + 1 > 0",
+                           "a && b",    "1e999 > a", "a > 1 ||",      "!a",     "abs(a > 1) == 1", "abs a > 1",
+                           "abs(a > 1", "abs() > 1", "abs(a, b) > 1", "abs > 1"}) {
     INFO(text);
     CHECK(refused(text));
   }
@@ -176,12 +180,13 @@ TEST_CASE("damaged scripts are refused or read, never more") {
                                "at 2 set simulation.gravity [0, -10, 0]",
                                "at 2 camera orbit 30 -5.5",
                                "expect contacts > 0 && (a + 1) * 2 < b at 120",
+                               "expect abs(a - 1) < 2 from 10 to 120",
                                "break when a / b >= 1e-3",
                                "at 0 layer +contacts -meshes"};
   test::Random random(5);
   int bad = 0, good = 0;
   for (int i = 0; i < 20000; ++i) {
-    std::string line = lines[random.below(6)];
+    std::string line = lines[random.below(7)];
     for (int n = 1 + random.below(3); n > 0 && !line.empty(); --n) {
       const auto at = static_cast<std::size_t>(random.below(static_cast<int>(line.size())));
       if (random.below(3) == 0)

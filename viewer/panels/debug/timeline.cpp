@@ -121,9 +121,10 @@ std::vector<std::string> quantities_of_selected(const DebugModel& model) {
   const std::vector<BodyIndex> selected = selected_bodies(model);
   for (const BodyIndex body : selected) words += (words.empty() ? "" : ",") + name_of(model, body);
   std::vector<std::string> all;
-  for (const QuantityName& name : quantity_names())
-    if (!selected.empty() && (selected.size() == 1 || name.of_pairs))
-      all.push_back(fmt::format("{}({})", name.name, words));
+  for (const BodyFigure& figure : body_figures())
+    if (!selected.empty() && figure.in_plots() && figure.function != BodyFunction::energy_from &&
+        (selected.size() == 1 || figure.bodies == 2))
+      all.push_back(fmt::format("{}({})", figure.name, words));
   return all;
 }
 

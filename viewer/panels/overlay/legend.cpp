@@ -29,6 +29,16 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 4.2f * u, ink, 24);
       list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 1.9f * u, dark, 24);
       break;
+    case LegendRow::target:
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 6.4f * u, dark, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 5.2f * u, ink, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 3.4f * u, dark, 24);
+      list.AddCircleFilled({x + 0.5f * kMark * u, middle}, 1.6f * u, ink, 24);
+      break;
+    case LegendRow::bar:
+      list.AddLine({x + 2.0f * u, middle}, {right - 2.0f * u, middle}, dark, 4.4f * u);
+      list.AddLine({x + 3.0f * u, middle}, {right - 3.0f * u, middle}, ink, 2.6f * u);
+      break;
     case LegendRow::line:
       list.AddLine({x, middle}, {right, middle}, ink, 1.6f * u);
       break;
@@ -40,12 +50,13 @@ void draw_mark(const Pen& pen, const LegendRow& row, float x, float y) {
   }
 }
 
-std::vector<LegendRow> legend_rows(const StepRecord& record, const ViewSettings& settings) {
+std::vector<LegendRow> legend_rows(const StepRecord& record, const DrawList& list, const ViewSettings& settings) {
   std::vector<LegendRow> rows;
   for (const Layer& layer : layers())
     if (settings.is_on(layer.name))
       std::copy_if(layer.legend.begin(), layer.legend.end(), std::back_inserter(rows), [&](const LegendRow& row) {
-        return (row.present == nullptr || row.present(record)) && (row.used == nullptr || row.used(settings));
+        const bool is_there = row.present == nullptr ? list.has_color(layer.name, row.color) : row.present(record);
+        return is_there && (row.used == nullptr || row.used(settings));
       });
   return rows;
 }
@@ -66,7 +77,7 @@ std::optional<PanelArea> free_corner(const Pen& pen, const PanelArea& area, cons
   return std::nullopt;
 }
 
-PanelArea draw_folded(const Pen& pen, const PanelArea& other, const PanelArea& picked, std::size_t marks) {
+PanelArea draw_heading(const Pen& pen, const PanelArea& other, const PanelArea& picked, std::size_t marks) {
   const std::string text = "legend (" + std::to_string(marks) + ")";
   const float pad = pen.padding();
   PanelArea area{0.0f, 0.0f, pen.text_width(text) + 2.0f * pad, pen.text_size + 2.0f * pad, true};
@@ -79,12 +90,12 @@ PanelArea draw_folded(const Pen& pen, const PanelArea& other, const PanelArea& p
 
 }  // namespace
 
-PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other,
-                      const PanelArea& picked) {
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const DrawList& list, const ViewSettings& settings,
+                      const PanelArea& other, const PanelArea& picked) {
   if (!settings.show_legend) return {};
-  const std::vector<LegendRow> rows = legend_rows(record, settings);
+  const std::vector<LegendRow> rows = legend_rows(record, list, settings);
   if (rows.empty()) return {};
-  if (settings.legend_form == LegendForm::folded) return draw_folded(pen, other, picked, rows.size());
+  if (settings.legend_form == LegendForm::folded) return draw_heading(pen, other, picked, rows.size());
   const float mark = (kMark + (pen.is_small() ? 0.5f : 1.0f) * kAfterMark) * pen.unit, pad = pen.padding();
   float text = 0.0f;
   for (const LegendRow& row : rows) text = std::max(text, pen.text_width(row.text));
@@ -93,15 +104,13 @@ PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettin
   area.height = static_cast<float>(rows.size()) * pen.row() + 2.0f * pad - (pen.row() - pen.text_size);
   area = in_corner(pen, area, 0);
   const bool is_automatic = settings.legend_form == LegendForm::automatic;
-  const bool is_large =
-      area.width * area.height > static_cast<float>(settings.most_legend) * pen.picture_width * pen.picture_height;
-  if (is_automatic && is_large) return draw_folded(pen, other, picked, rows.size());
+  if (is_automatic && is_large(pen, area, settings)) return draw_heading(pen, other, picked, rows.size());
   const bool meets = other.width > 0.0f && area.x < other.x + other.width + pen.margin();
   if (meets || area.width > 0.5f * pen.picture_width || area.height + 2.0f * pen.margin() > pen.picture_height)
     return {};
   if (picked.width > 0.0f) {
     const std::optional<PanelArea> free = free_corner(pen, area, other, picked);
-    if (!free && is_automatic) return draw_folded(pen, other, picked, rows.size());
+    if (!free && is_automatic) return draw_heading(pen, other, picked, rows.size());
     area = free.value_or(area);
   }
   pen.sheet(area.x, area.y, area.width, area.height);
@@ -112,6 +121,10 @@ PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettin
     y += pen.row();
   }
   return area;
+}
+
+bool is_large(const Pen& pen, const PanelArea& area, const ViewSettings& settings) {
+  return area.width * area.height > static_cast<float>(settings.most_legend) * pen.picture_width * pen.picture_height;
 }
 
 }  // namespace impinge

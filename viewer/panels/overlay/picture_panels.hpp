@@ -17,18 +17,21 @@ struct PanelArea {
 /// its height.
 PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
 
-/// What the visible layers' marks mean, as far as the scene has such things, at the top right; left out where it would
+/// What the marks in `list` mean, and those of what the scene has at any time, at the top right; left out where it would
 /// meet `other`. What is picked, at `picked`, it leaves in sight: by another corner, or folded.
-PanelArea draw_legend(const Pen& pen, const StepRecord& record, const ViewSettings& settings, const PanelArea& other,
-                      const PanelArea& picked = {});
+PanelArea draw_legend(const Pen& pen, const StepRecord& record, const DrawList& list, const ViewSettings& settings,
+                      const PanelArea& other, const PanelArea& picked = {});
 
 /// What the colours of heated surfaces mean, at the bottom right; left out with the legend, or where it would meet one
-/// of `taken`.
+/// of `taken`. Small where it would cover more of the picture than the legend may.
 PanelArea draw_color_bar(const Pen& pen, const ColorBar& bar, const ViewSettings& settings,
                          const std::vector<PanelArea>& taken);
 
 /// The caption and the lines of the script, at the bottom; left out where it would meet one of `taken`.
 PanelArea draw_caption(const Pen& pen, const ViewSettings& settings, const std::vector<PanelArea>& taken);
+
+/// Whether a panel of that size covers more of the picture than the settings let a legend cover.
+bool is_large(const Pen& pen, const PanelArea& area, const ViewSettings& settings);
 
 /// Whether two panels share a pixel; those that were left out don't.
 bool panels_meet(const PanelArea& a, const PanelArea& b);
