@@ -1,5 +1,7 @@
 #include "engine/step/group_result.hpp"
 
+#include "engine/contact/attachments.hpp"
+
 namespace impinge {
 
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
@@ -24,6 +26,45 @@ double gap_of(const SolvedContact& contact, const Bodies& bodies) {
 Vec3 normal_of(const SolvedContact& contact, const Bodies& bodies) {
   const BodyIndex owner = contact.collision.normal_owner;
   return owner.is_none() ? contact.collision.normal : Vec3(bodies[owner].pose.rotation * contact.local_normal);
+}
+
+void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const CollisionGroup& group,
+               const ContactList& contacts, GroupResult& result) {
+  const GroupSystem& s = solved.system;
+  std::vector<Vec3> linear(s.rigid.size(), Vec3::Zero()), angular = linear;
+  for (std::size_t i = 0; i < s.contacts.size(); ++i) {
+    const ContactRows& rows = s.contacts[i];
+    const Vec3 lambda = s.lambda[i], on_a = rows.directions.transpose() * lambda;
+    const auto [a, b] = contacts.bodies(solved.contacts[i]);
+    const Vec3 tangent = rows.kind == RowKind::contact
+                             ? Vec3(rows.directions.transpose() * Vec3(0.0, lambda.y(), lambda.z()))
+                             : Vec3(Vec3::Zero());
+    result.rows.push_back({rows.kind, a, b, rows.a, rows.b, on_a - tangent, tangent});
+    if (solved.meeting > 0.0)
+      result.rows.back().way_a = rows.impact * bodies[a].twist().linear,
+      result.rows.back().way_b = rows.impact * bodies[b].twist().linear;
+    for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)})
+      if (side->rigid >= 0) linear[side->rigid] += sign * on_a, angular[side->rigid] += side->arm.cross(sign * on_a);
+  }
+  std::vector<VecX> nodes;
+  for (std::size_t k = 0; k < s.deformable.size(); ++k)
+    nodes.push_back(s.deformable_impulse(static_cast<int>(k), s.lambda));
+  result.row_impulse = solved.by_body(group, linear, angular, nodes);
+}
+
+std::vector<FrozenContact> frozen_geometry(const Bodies& bodies, const AssembledGroup& group,
+                                           const ContactList& contacts) {
+  std::vector<FrozenContact> list;
+  for (const ContactIndex c : group.contacts) {
+    const ContactKey key = contacts.key(c);
+    if (const Collision* at = contacts.collision(c)) {
+      list.push_back({at->body_a, at->body_b, at->triangle_a, at->triangle_b, at->point_a, at->point_b, key.feature});
+    } else {
+      const AttachmentHold hold = hold_of(contacts.attachment(c), bodies);
+      list.push_back({key.body_a, key.body_b, {}, {}, hold.point_a, hold.point_b, key.feature});
+    }
+  }
+  return list;
 }
 
 }  // namespace impinge

@@ -73,4 +73,12 @@ struct GroupResult {
   double assemble_ms = 0.0, response_ms = 0.0;
 };
 
+/// What the rows of a solved group gave, into `rows` and `row_impulse` of its result.
+void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const CollisionGroup& group,
+               const ContactList& contacts, GroupResult& result);
+
+/// Where the rows of a group act, for a frozen step.
+std::vector<FrozenContact> frozen_geometry(const Bodies& bodies, const AssembledGroup& group,
+                                           const ContactList& contacts);
+
 }  // namespace impinge

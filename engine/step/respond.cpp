@@ -20,6 +20,8 @@ namespace {
 
 // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
 constexpr double kPushOutTolerance = 1e-3;
+// of many that come to rest: it is of the widest gap that may close among them, and what it leaves they rest with
+constexpr double kPushOutOfMany = 5e-4;
 constexpr double kWorthwhile = 0.9;               // of what turning took before another solve: more is no gain
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
@@ -277,7 +279,8 @@ class GroupSolve {
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, now_.drift, how_.contact, input_.time_step);
     ResponseContext loose = how_.context;
-    loose.lcp.tolerance = kPushOutTolerance;
+    loose.lcp.is_in_motion = moves();
+    loose.lcp.tolerance = is_large() && !loose.lcp.is_in_motion ? kPushOutOfMany : kPushOutTolerance;
     loose.recovers_overlap = true;
     const ResponseResult solved = how_.response.solve(recovery, how_.lcp, loose);
     count(solved);
@@ -362,47 +365,10 @@ class GroupSolve {
       result_.frozen->answer = {s.lambda, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta};
       result_.frozen->rigid_bodies = now_.rigid;
       result_.frozen->deformable_bodies = now_.deformable;
-      result_.frozen->geometry = frozen_geometry();
+      result_.frozen->geometry = frozen_geometry(bodies_, now_, input_.contacts);
     }
-    if (how_.keeps_rows) keep_rows();
+    if (how_.keeps_rows) keep_rows(bodies_, now_, group_, input_.contacts, result_);
     result_.contacts = std::move(now_.contacts);
-  }
-
-  void keep_rows() {
-    const GroupSystem& s = system();
-    std::vector<Vec3> linear(s.rigid.size(), Vec3::Zero()), angular = linear;
-    for (std::size_t i = 0; i < s.contacts.size(); ++i) {
-      const ContactRows& rows = s.contacts[i];
-      const Vec3 lambda = s.lambda[i], on_a = rows.directions.transpose() * lambda;
-      const auto [a, b] = input_.contacts.bodies(now_.contacts[i]);
-      const Vec3 tangent = rows.kind == RowKind::contact
-                               ? Vec3(rows.directions.transpose() * Vec3(0.0, lambda.y(), lambda.z()))
-                               : Vec3(Vec3::Zero());
-      result_.rows.push_back({rows.kind, a, b, rows.a, rows.b, on_a - tangent, tangent});
-      if (now_.meeting > 0.0)
-        result_.rows.back().way_a = rows.impact * bodies_[a].twist().linear,
-        result_.rows.back().way_b = rows.impact * bodies_[b].twist().linear;
-      for (const auto& [side, sign] : {std::pair(&rows.a, 1.0), std::pair(&rows.b, -1.0)})
-        if (side->rigid >= 0) linear[side->rigid] += sign * on_a, angular[side->rigid] += side->arm.cross(sign * on_a);
-    }
-    std::vector<VecX> nodes;
-    for (std::size_t k = 0; k < s.deformable.size(); ++k)
-      nodes.push_back(s.deformable_impulse(static_cast<int>(k), s.lambda));
-    result_.row_impulse = now_.by_body(group_, linear, angular, nodes);
-  }
-
-  std::vector<FrozenContact> frozen_geometry() const {
-    std::vector<FrozenContact> list;
-    for (const ContactIndex c : now_.contacts) {
-      const ContactKey key = input_.contacts.key(c);
-      if (const Collision* at = input_.contacts.collision(c)) {
-        list.push_back({at->body_a, at->body_b, at->triangle_a, at->triangle_b, at->point_a, at->point_b, key.feature});
-      } else {
-        const AttachmentHold hold = hold_of(input_.contacts.attachment(c), bodies_);
-        list.push_back({key.body_a, key.body_b, {}, {}, hold.point_a, hold.point_b, key.feature});
-      }
-    }
-    return list;
   }
 
   void count(const ResponseResult& solved) {

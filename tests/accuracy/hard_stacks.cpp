@@ -170,6 +170,24 @@ TEST_CASE("of a wall of five thousand contacts every solve has an answer") {
   }
 }
 
+TEST_CASE("a heap of four hundred boxes falls with a residual of a thousandth at most, and says where that is all") {
+  World world;
+  prepare(world);
+  Random random(4242);
+  add_pile(world, random, 400);
+  world.start();
+  std::int64_t contacts = 0;
+  for (int i = 1; i <= 40; ++i) {
+    world.step();
+    const FrameStats& stats = world.record().stats;
+    contacts = std::max(contacts, stats.contacts);
+    CAPTURE(i, stats.residual_coulomb);
+    CHECK(stats.residual_coulomb <= 1e-3);
+    CHECK((stats.unconverged > 0 || stats.residual_coulomb <= 1.01 * world.parameters.lcp.tolerance));
+  }
+  CHECK(contacts > 2000);
+}
+
 TEST_CASE("a pile of two hundred boxes comes to rest without sleeping", "[long]") {
   World world;
   prepare(world);

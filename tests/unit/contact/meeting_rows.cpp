@@ -24,7 +24,9 @@ TEST_CASE("what meets as its sub-step ends has a row of numbers, and rebounds wi
     c.normal = -Vec3::UnitY();
     c.point_b = {0.0, gap, 0.0};
     c.gap = gap;
-    c.meeting = std::make_shared<const Meeting>(Meeting{share * kTimeStep, {}, {}, false});
+    Meeting meeting;
+    meeting.time = share * kTimeStep;
+    c.meeting = std::make_shared<const Meeting>(meeting);
     CollisionGroup group;
     group.bodies = {BodyIndex(1)};
     group.contacts = {ContactIndex(0)};
