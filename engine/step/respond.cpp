@@ -21,7 +21,7 @@ namespace {
 // positions only: a tenth of a percent of the overlap is accurate enough, the rest is seen again in the next sub-step
 constexpr double kPushOutTolerance = 1e-3;
 // of many that come to rest: it is of the widest gap that may close among them, and what it leaves they rest with
-constexpr double kPushOutOfMany = 5e-4;
+constexpr double kPushOutOfMany = 7e-4;
 constexpr double kWorthwhile = 0.9;               // of what turning took before another solve: more is no gain
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
 constexpr double kEnergyTolerance = 1e-7;
