@@ -301,7 +301,8 @@ class Automatic : public LcpSolver {
 
 Entry<LcpSolver> automatic_solver() {
   return entry<LcpSolver, Automatic>(
-      "automatic", "Gauss-Seidel; where it is slow conjugate sweeps (soft bodies), semismooth or smoothing Newton");
+      "automatic",
+      "Gauss-Seidel; where it is slow conjugate sweeps (soft bodies), semismooth or smoothing Newton, ADMM");
 }
 
 }  // namespace impinge

@@ -167,11 +167,15 @@ class GroupSolve {
     return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
   }
 
-  /// Whether a body of it is on its way, by its free velocity: by more than gravity gives in the piece.
+  /// Whether a body of it is on its way, by its free velocity without what gravity has given to it in the piece.
   bool moves() const {
-    const double given = input_.gravity * input_.time_step;
     return std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](BodyIndex b) {
-      return bodies_[b].fastest_point() > given + kMoves * speed_scale(input_.gravity, bodies_[b].size);
+      const Body& body = bodies_[b];
+      const double fast = kMoves * speed_scale(input_.gravity, body.size);
+      if (body.kind() != BodyKind::dynamic) return body.fastest_point() > fast;
+      const Twist free = body.twist();
+      const Vec3 before = free.linear - input_.time_step * how_.context.gravity;
+      return before.norm() + free.angular.norm() * body.radius > fast;
     });
   }
 
