@@ -32,8 +32,7 @@ class Descent {
         next_(n_),
         w_next_(n_) {
     for (std::size_t i = 0; i < n_; ++i) {
-      const Mat3& d = problem.w->diagonal(i);
-      const double size = problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
+      const double size = diagonal_scale(problem, i);
       scale_.push_back(size > 0.0 ? size : 1.0);
     }
   }

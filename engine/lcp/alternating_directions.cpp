@@ -45,8 +45,8 @@ class Alternation {
 
   LcpResult run() {
     if (measure(lambda_)) return finish(0, StopReason::converged);
-    weigh(kWeight);
-    start(lambda_);
+    weigh();
+    start();
     double before = best_residual_;
     for (int i = 1; i <= settings_.max_iterations; ++i) {
       step();
@@ -82,23 +82,21 @@ class Alternation {
   }
 
   /// P.
-  void weigh(double kappa) {
+  void weigh() {
     std::vector<Mat3> g(n_);
     for (std::size_t i = 0; i < n_; ++i) {
-      const Mat3& d = problem_.w->diagonal(i);
-      const double scale = problem_.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
+      const double scale = diagonal_scale(problem_, i);
       const double factor = problem_.kind_of(i) == RowKind::contact ? 1.0 : kOfEquations;
-      weight_[i] = scale > 0.0 ? factor * kappa / scale : 0.0;
+      weight_[i] = scale > 0.0 ? factor * kWeight / scale : 0.0;
       g[i] = weight_[i] * Mat3::Identity();
     }
     matrix_.factorize(g);
   }
 
-  void start(const std::vector<Vec3>& lambda) {
-    problem_.w->begin(lambda);
-    velocities(problem_, u_);
+  /// From λ, whose velocities measure() has left.
+  void start() {
     for_strips([&](std::size_t i, VecX& sum) {
-      y_[i] = problem_.dual(i, u_[i]) - lambda[i] / weight_[i];
+      y_[i] = problem_.dual(i, u_[i]) - lambda_[i] / weight_[i];
       project(i, sum);
     });
   }

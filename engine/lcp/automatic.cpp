@@ -105,10 +105,10 @@ class Automatic : public LcpSolver {
     SweepStop stop(problem, settings);
     problem.w->begin(lambda);
     if (stop.solved(lambda)) return {0, StopReason::converged};
-    const double steps = stop.residual() < kGood && !is_zero(lambda) ? kStepsFromNear : kSteps;
+    const bool is_cold = is_zero(lambda);
+    const double steps = stop.residual() < kGood && !is_cold ? kStepsFromNear : kSteps;
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
-    const bool is_cold = is_zero(lambda);
     const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       const double change = gauss_seidel_sweep(problem, lambda);

@@ -59,6 +59,11 @@ double gauss_seidel_sweep(const ConeProblem& problem, std::vector<Vec3>& lambda)
   return change;
 }
 
+double diagonal_scale(const ConeProblem& problem, std::size_t i) {
+  const Mat3& d = problem.w->diagonal(i);
+  return problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0;
+}
+
 void velocities(const ConeProblem& problem, std::vector<Vec3>& u) {
   u.resize(problem.q.size());
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = problem.w->row(i, problem.has_one_row(i)) + problem.q[i];

@@ -12,6 +12,9 @@ double relax_contact(const ConeProblem& problem, std::size_t i, std::vector<Vec3
 /// relax_contact for each contact in order; the largest change, m/s.
 double gauss_seidel_sweep(const ConeProblem& problem, std::vector<Vec3>& lambda);
 
+/// How easily contact i moves: W_ii of one row, of more the mean of its diagonal, 1/kg; 0 where both bodies are held.
+double diagonal_scale(const ConeProblem& problem, std::size_t i);
+
 /// u = W λ + q for the operator's present λ.
 void velocities(const ConeProblem& problem, std::vector<Vec3>& u);
 

@@ -27,8 +27,7 @@ NewtonSearch::NewtonSearch(const ConeProblem& problem, const LcpSettings& settin
       kept_(n_) {
   for (std::size_t i = 0; i < n_; ++i) {
     rho_.push_back(alart_curnier_scale(problem, i));
-    const Mat3& d = problem.w->diagonal(i);
-    scale_.push_back(problem.has_one_row(i) ? d(0, 0) : d.trace() / 3.0);
+    scale_.push_back(diagonal_scale(problem, i));
   }
 }
 
