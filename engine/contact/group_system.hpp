@@ -32,6 +32,7 @@ struct ContactRows {
   double gap = 0.0;              ///< g0, metres
   double bound = 0.0;            ///< J v >= bound along n, m/s
   double turning = 0.0;          ///< <= 0: how much less than J v says the gap grows, because bodies turn, metres
+  Vec3 rolling = Vec3::Zero();   ///< part of surface: what J v leaves out because the place that rolls there moves on
   double friction = 0.0;         ///< 0: a contact without tangential rows
   double restitution = 0.0;      ///< e of the pair; where this is an impact the bound holds its bounce already
   double velocity_before = 0.0;  ///< J v along n before the sub-step, m/s: what a bounce is a part of

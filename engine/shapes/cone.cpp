@@ -68,6 +68,9 @@ class Cone final : public ConvexShape {
     return face;
   }
   std::vector<Vec3> tips() const override { return {{0.0, apex_, 0.0}}; }
+  Vec3 rolled(const Vec3& place, const Vec3& from, const Vec3& to) const override {
+    return rolled_about_y(place, from, to);
+  }
   TriangleMesh surface(double edge) const override {
     const double length = apex_ - base_;
     const int around = std::clamp(static_cast<int>(std::ceil(4.0 * std::numbers::pi * radius_ / edge)), 12, 256);

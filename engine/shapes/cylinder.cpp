@@ -60,6 +60,9 @@ class Cylinder final : public ConvexShape {
     for (const double y : {-half_, half_}) face.add({lowest.x(), y, lowest.z()});
     return face;
   }
+  Vec3 rolled(const Vec3& place, const Vec3& from, const Vec3& to) const override {
+    return rolled_about_y(place, from, to);
+  }
   TriangleMesh surface(double edge) const override {
     // half as long round the rim: ten to a ring would cut off 6 % of it
     const int around = std::clamp(static_cast<int>(std::ceil(4.0 * std::numbers::pi * radius_ / edge)), 12, 256);

@@ -36,6 +36,7 @@ class Sphere final : public ConvexShape {
   double signed_distance(const Vec3& x) const override { return x.norm() - radius; }
   Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
   double rounding() const override { return radius; }
+  Vec3 rolled(const Vec3&, const Vec3&, const Vec3& to) const override { return radius * to; }
   TriangleMesh surface(double edge) const override;
   TriangleMesh drawn() const override;
   std::vector<double> dimensions() const override { return {radius}; }

@@ -26,4 +26,13 @@ TriangleMesh surface_of_revolution(const std::vector<Vec2>& profile, double y_be
   return mesh;
 }
 
+Vec3 rolled_about_y(const Vec3& place, const Vec3& from, const Vec3& to) {
+  constexpr double kSame = 1e-6;  // of the rim's radius, and the sine of the least angle at which it is one place
+  const Vec2 rim(place.x(), place.z()), side(from.x(), from.z()), side_then(to.x(), to.z());
+  const double radius = rim.norm(), lean = side.norm(), lean_then = side_then.norm();
+  if (!(lean > kSame && lean_then > kSame)) return place;
+  if (!((rim - radius / lean * side).norm() <= kSame * radius)) return place;
+  return {radius / lean_then * side_then.x(), place.y(), radius / lean_then * side_then.y()};
+}
+
 }  // namespace impinge

@@ -9,4 +9,8 @@ namespace impinge {
 /// at either pole.
 TriangleMesh surface_of_revolution(const std::vector<Vec2>& rings, double y_below, double y_above, int around);
 
+/// ConvexSet::rolled of what is round about y: where it is touched with the rim through `place` that goes round, and a
+/// place that turns with the body stays.
+Vec3 rolled_about_y(const Vec3& place, const Vec3& from, const Vec3& to);
+
 }  // namespace impinge

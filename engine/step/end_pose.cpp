@@ -193,6 +193,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   std::vector<Collision> found;
   find_collisions(end.colliders(), pairs, at_rest(by), 0.0, triangles, found);
   std::vector<double> ends;  // gaps there, of those that stay
+  const auto turns = [&](BodyIndex b) { return end.colliders()[b].pose.rotation != bodies[b].pose.rotation; };
   std::erase_if(found, [&](Collision& c) {
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
     const bool is_rigid = !deforms(bodies[c.body_a]) && !deforms(bodies[c.body_b]);
@@ -203,7 +204,7 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
     c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a);
     c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);
     c.gap = c.normal.dot(c.point_a - c.point_b);
-    c.normal_owner = {};
+    if (!c.normal_owner.is_none() && turns(c.normal_owner)) c.normal_owner = {};
     if (at_end >= std::min(c.gap, 0.0) - allowed) return true;
     ends.push_back(at_end);
     return false;

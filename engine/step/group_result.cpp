@@ -1,8 +1,17 @@
 #include "engine/step/group_result.hpp"
 
+#include <algorithm>
+
 #include "engine/contact/attachments.hpp"
 
 namespace impinge {
+
+double fastest_point(const BodyVector& velocity, double radius) {
+  double fastest = velocity.twist.linear.norm() + velocity.twist.angular.norm() * radius;
+  for (Eigen::Index k = 0; k + 2 < velocity.nodes.size(); k += 3)
+    fastest = std::max(fastest, velocity.nodes.segment<3>(k).norm());
+  return fastest;
+}
 
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
                                double friction, const Bodies& bodies) {

@@ -23,6 +23,9 @@ struct SolvedContact {
   double residual = 0.0;  ///< its own natural map, as the judge measures it (GroupVerdict::of_contacts)
 };
 
+/// Of a body that moves so; `radius`: how far a rigid one reaches, metres. m/s.
+double fastest_point(const BodyVector& velocity, double radius);
+
 /// The collision at the bodies' present poses, not solved.
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
                                double friction, const Bodies& bodies);

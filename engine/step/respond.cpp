@@ -13,7 +13,7 @@
 #include "engine/response/least_violation.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/tasks.hpp"
-#include "engine/step/turning.hpp"
+#include "engine/step/turns/turning.hpp"
 
 namespace impinge {
 namespace {
@@ -31,14 +31,6 @@ constexpr double kRoughly = 1e-3;  // relative residual that tells where contact
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
-/// Of a body that moves so; `radius`: how far a rigid one reaches, metres.
-double fastest_point(const BodyVector& velocity, double radius) {
-  double fastest = velocity.twist.linear.norm() + velocity.twist.angular.norm() * radius;
-  for (Eigen::Index k = 0; k + 2 < velocity.nodes.size(); k += 3)
-    fastest = std::max(fastest, velocity.nodes.segment<3>(k).norm());
-  return fastest;
-}
-
 /// The solution of one group, from its system to the value that it hands on.
 class GroupSolve {
  public:
@@ -49,6 +41,7 @@ class GroupSolve {
   GroupResult run() {
     make_system();
     is_rough_ = may_wait() && now_.deformable.empty();
+    if (is_large()) trust_ = Trust::none;  // each other answer would be as dear as the first
     solve_before_meeting();
     solve_expecting_turns();
     pay_for_recovery();
@@ -97,9 +90,12 @@ class GroupSolve {
     const std::vector<Vec3> start = system().lambda;
     const bool are_told = expect_turns();
     solve();
+    if (are_told && is_usable() && wins_energy() && limit_turning(system(), bounds_, how_.contact, input_.time_step)) {
+      system().lambda = start;
+      solve();
+    }
     if (are_told && (!is_usable() || wins_energy())) {
-      for (std::size_t i = 0; i < bounds_.size(); ++i)
-        system().contacts[i].bound = bounds_[i], system().contacts[i].turning = 0.0;
+      forget_turning(system(), bounds_);
       system().lambda = start;
       solve();
     }
@@ -143,17 +139,19 @@ class GroupSolve {
     if (!before_meeting_.contacts.empty()) count(how_.response.solve(before_meeting_, how_.lcp, how_.context));
   }
 
+  /// Of many contacts by what is expected of them; of few by free velocities what rolls, whose turning impulses change
+  /// little.
   bool expect_turns() {
-    if (how_.expected.empty() || !follows_turns() || !is_large()) return false;
+    if (!follows_turns() || (is_large() && how_.expected.empty())) return false;
+    if (!is_large() && !is_turning(bodies_, now_, how_.contact, input_.time_step)) return false;
     GroupSystem& s = system();
     s.clear_delta();
-    for (std::size_t i = 0; i < now_.rigid.size(); ++i) {
+    for (std::size_t i = 0; is_large() && i < now_.rigid.size(); ++i) {
       const Collider& to = how_.expected[now_.rigid[i]];
       s.delta_velocity[i] = to.velocity - s.rigid[i].velocity;
       s.delta_angular_velocity[i] = to.angular_velocity - s.rigid[i].angular_velocity;
     }
-    const std::vector<double> gaps = end_gaps(bodies_, now_, input_.contacts, input_.time_step);
-    const bool are_told = ask_for_turning(s, gaps, bounds_, how_.contact, input_.time_step);
+    const bool are_told = ask_for_turning(s, look_at_ends(), bounds_, how_.contact, input_.time_step);
     s.clear_delta();
     return are_told;
   }
@@ -213,14 +211,23 @@ class GroupSolve {
   /// Rigid bodies: the same rows, told how much nearer their points come because bodies turn on the way. An answer that
   /// can't be had, or does no better than the one before, is not taken; what takes far longer than the one before can't.
   void follow_turns() {
-    const int most = how_.contact.turning_solves;
-    if (!follows_turns() || !is_usable()) return;
-    const auto look = [&] { return end_gaps(bodies_, now_, input_.contacts, input_.time_step); };
-    std::vector<double> gaps = look();
-    double lost = most_lost(system(), gaps, how_.contact);
-    if (lost == 0.0) return;
+    // where bodies turn otherwise than was counted on, with less of that
+    while (follow_turns_once() && trust_ != Trust::none) {
+      trust_ = trust_ == Trust::facets ? Trust::lifts : Trust::none;
+      forget_turning(system(), bounds_);
+      if (trust_ == Trust::lifts) expect_turns();
+      solve();
+    }
+  }
+
+  /// Whether contacts end deeper than positions may take back.
+  bool follow_turns_once() {
+    if (!follows_turns() || !is_usable()) return false;
+    EndRows ends = look_at_ends();
+    double lost = most_lost(system(), ends, how_.contact, input_.time_step);
+    if (lost == 0.0) return false;
     result_.is_provisional = may_wait();
-    if (result_.is_provisional) return;
+    if (result_.is_provisional) return false;
     ResponseContext context = how_.context;
     context.lcp.is_in_motion = moves();
     context.lcp.max_iterations =
@@ -228,25 +235,33 @@ class GroupSolve {
     // what is on its way and had no exact answer without turning has none with it
     const bool is_loose = !result_.response.converged() && context.lcp.is_in_motion;
     if (is_loose) context.lcp.tolerance = std::max(context.lcp.tolerance, judge_group(system()).relative);
-    for (int i = 0; i < most && lost > 0.0; ++i) {
+    for (int i = 0; i < how_.contact.turning_solves && lost > 0.0; ++i) {
       check_interrupt();
       GroupSystem system_before = system();
       const ResponseResult response_before = result_.response;
       std::optional<FrozenGroup> frozen_before = result_.frozen;
-      ask_for_turning(system(), gaps, bounds_, how_.contact, input_.time_step);
+      ask_for_turning(system(), ends, bounds_, how_.contact, input_.time_step);
       solve(context);
       if (is_loose && !(judge_group(system()).relative <= how_.context.lcp.tolerance))
         result_.response.ended = response_before.ended, result_.response.limit = response_before.limit;
       double now = INFINITY;
-      if (is_usable() && !wins_energy()) gaps = look(), now = most_lost(system(), gaps, how_.contact);
+      EndRows ends_now;
+      if (is_usable() && !wins_energy())
+        ends_now = look_at_ends(), now = most_lost(system(), ends_now, how_.contact, input_.time_step);
       if (!(now < lost)) {
         system() = std::move(system_before);
         result_.response = response_before, result_.frozen = std::move(frozen_before);
-        return;
+        break;
       }
-      if (now > kWorthwhile * lost) return;
+      ends = std::move(ends_now);
+      if (now > kWorthwhile * lost) break;
       lost = now;
     }
+    return ends_deep(system(), ends, how_.contact);
+  }
+
+  EndRows look_at_ends() const {
+    return rows_at_end(bodies_, now_, input_.contacts, how_.contact, input_.time_step, trust_);
   }
 
   /// Unless somebody moves bodies of the group by a motion of his own, who may give it some.
@@ -390,6 +405,7 @@ class GroupSolve {
   AssembledGroup now_;
   GroupSystem before_meeting_;  // solved, where two meet in flight
   bool is_rough_ = false;
+  Trust trust_ = Trust::facets;
   GroupResult result_;
 };
 

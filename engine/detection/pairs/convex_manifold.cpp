@@ -7,9 +7,10 @@
 namespace impinge {
 namespace {
 
-constexpr double kNearlyParallel = 0.05;  // sine: lines closer to parallel than this are held at both ends
-constexpr double kMerge = 1e-4;           // of the smaller face: corners closer than this are one
-constexpr double kTie = 1e-9;             // of the size: gaps closer than this are equal
+constexpr double kNearlyParallel = 0.05;     // sine: lines closer to parallel than this are held at both ends
+constexpr double kMerge = 1e-4;              // of the smaller face: corners closer than this are one
+constexpr double kSameNormal = 1.0 - 1e-12;  // cosine: the way out is a face's normal
+constexpr double kTie = 1e-9;                // of the size: gaps closer than this are equal
 
 /// A corner of a clipped face. `edge` is where the side from it to the next lies: a side of the incident face (>= 0)
 /// or, below zero, ~p along side p of the reference face.
@@ -261,6 +262,8 @@ std::vector<Candidate> convex_candidates(const PlacedConvex& first, const Placed
   own.normal = gap.normal;
   own.point_first = gap.point_a;
   own.point_second = gap.point_b;
+  if (std::max(facing_a, facing_b) > kSameNormal)
+    own.owner = facing_a >= facing_b ? NormalOwner::first : NormalOwner::second;
   points.push_back(own);
   return points;
 }

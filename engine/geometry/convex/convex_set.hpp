@@ -42,6 +42,11 @@ class ConvexSet {
     face.add(support(direction) + rounding() * direction);
     return face;
   }
+  /// Where the surface touches what faces `to` (unit, as of facing) when it touched at `place` what faced `from`, and rolls:
+  /// corners and flat parts with the same place.
+  virtual Vec3 rolled(const Vec3& place, const Vec3& from, const Vec3& to) const {
+    return place + rounding() * (to - from);
+  }
   /// Points in which a curved surface ends; of a polyhedron none, its corners are known.
   virtual std::vector<Vec3> tips() const { return {}; }
   /// The corners, edges and faces of a set that has no other surface; null for all others.

@@ -1,0 +1,110 @@
+#include "engine/step/turns/fine_facets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "engine/shapes/primitives.hpp"
+
+namespace impinge {
+namespace {
+
+constexpr double kTouching = 0.02;         // of the activation distance: a corner that it stands on
+constexpr double kSweep = 2.0;             // of the turn: what comes down in it or in the next one
+constexpr double kFinest = 0.25;           // radians between corners of what may be round
+constexpr double kSameFace = 1.0 - 1e-10;  // cosine
+constexpr double kSmooth = 0.998;          // the same, of the faces of a hollow: a bend of 3.6 degrees
+
+/// The rows of one pair.
+class FineFacets {
+ public:
+  FineFacets(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings,
+             std::span<const RowEnd> rows, const Vec3& turn, EndRows& ends)
+      : bodies_(bodies),
+        group_(group),
+        settings_(settings),
+        rows_(rows),
+        axis_(turn.normalized()),
+        turn_(turn.norm()),
+        ends_(ends) {}
+
+  void roll(std::size_t first, std::size_t last) {
+    const std::vector<double> own(ends_.gaps.begin() + static_cast<std::ptrdiff_t>(first),
+                                  ends_.gaps.begin() + static_cast<std::ptrdiff_t>(last));
+    std::vector<std::size_t> takers, order(last - first);
+    std::iota(order.begin(), order.end(), first);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) { return gap_now(l) < gap_now(r); });
+    for (const std::size_t e : order) {
+      std::optional<std::size_t> nearest;
+      for (const std::size_t c : takers) {
+        if (!(own[e - first] < own[c - first]) || !hands_over(e, c)) continue;
+        if (!nearest || distance(c, e) < distance(*nearest, e)) nearest = c;
+      }
+      if (!nearest) {
+        takers.push_back(e);
+        continue;
+      }
+      ends_.handed_over[e] = 1;
+      if (own[e - first] < ends_.gaps[*nearest]) answer_for(e, *nearest, own[e - first]);
+    }
+  }
+
+ private:
+  void answer_for(std::size_t e, std::size_t c, double gap) {
+    ends_.gaps[c] = gap;
+    ends_.rolling[c] = group_.system.contacts[c].directions * rows_[c].half_way(bodies_, rows_[e].then());
+    ends_.rolling[c].x() = 0.0;
+    ends_.is_round[c] = 1;
+  }
+  double gap_now(std::size_t i) const { return rows_[i].of->gap; }
+  double distance(std::size_t c, std::size_t e) const { return (rows_[c].now() - rows_[e].now()).squaredNorm(); }
+
+  /// Whether what comes down at e touches at c now, on the same face and no farther round the body than it turns.
+  bool hands_over(std::size_t e, std::size_t c) const {
+    if (ends_.is_on_face[c] == 0 || ends_.is_on_face[e] == 0) return false;
+    const RowEnd &now = rows_[c], &then = rows_[e];
+    if (now.of->normal_owner != then.of->normal_owner) return false;
+    const double activation = settings_.activation_distance.at(group_.system.contacts[c].scale.length);
+    if (!(now.of->gap < kTouching * activation && now.of->gap < then.of->gap)) return false;
+    if (const double cosine = now.of->normal.dot(then.of->normal); !(cosine > kSameFace))
+      return cosine > kSmooth && is_ball(now.body()) && distance(c, e) < kSweep * kSweep * way(now).squaredNorm();
+    const Vec3 from = across(now), to = across(then);
+    return std::atan2(from.cross(to).norm(), from.dot(to)) < std::min(kSweep * turn_, kFinest);
+  }
+
+  bool is_ball(BodyIndex body) const { return bodies_[body].shape->as<Sphere>() != nullptr; }
+  Vec3 way(const RowEnd& row) const { return row.end().pose.position - bodies_[row.body()].pose.position; }
+
+  Vec3 across(const RowEnd& row) const {
+    const Vec3 arm = row.now() - bodies_[row.body()].pose.position;
+    return arm - axis_ * axis_.dot(arm);
+  }
+
+  const Bodies& bodies_;
+  const AssembledGroup& group_;
+  const ContactSettings& settings_;
+  std::span<const RowEnd> rows_;
+  const Vec3 axis_;
+  const double turn_;
+  EndRows& ends_;
+};
+
+}  // namespace
+
+void roll_over_facets(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings,
+                      double time_step, std::span<const RowEnd> rows, EndRows& ends) {
+  for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
+    last = first + 1;
+    if (rows[first].of == nullptr) continue;
+    const auto is_same = [&](const RowEnd& row) {
+      return row.of != nullptr && row.of->body_a == rows[first].of->body_a && row.of->body_b == rows[first].of->body_b;
+    };
+    while (last < rows.size() && is_same(rows[last])) ++last;
+    const Vec3 turn = time_step * (rows[first].a.spin - rows[first].b.spin);
+    if (last - first > 1 && turn.norm() > 0.0)
+      FineFacets(bodies, group, settings, rows, turn, ends).roll(first, last);
+  }
+}
+
+}  // namespace impinge

@@ -1,0 +1,37 @@
+// One contact of rigid bodies where the sub-step ends.
+#pragma once
+
+#include "engine/bodies/bodies.hpp"
+#include "engine/detection/collision.hpp"
+
+namespace impinge {
+
+/// A body then; its spin changes on the way though its angular momentum does not.
+struct BodyEnd {
+  Pose pose;
+  double turn = 0.0;                                   ///< radians
+  Vec3 spin = Vec3::Zero(), spin_then = Vec3::Zero();  ///< rad/s
+};
+
+struct RowEnd {
+  const Collision* of = nullptr;
+  BodyEnd a, b;
+  Vec3 normal = Vec3::Zero(), point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< of the material that touches now
+
+  /// Of a contact whose normal is that of a face: whether the face is B's, so that A is what rolls on it.
+  bool rolls_a() const { return of->normal_owner == of->body_b; }
+  BodyIndex body() const { return rolls_a() ? of->body_a : of->body_b; }
+  BodyIndex face() const { return rolls_a() ? of->body_b : of->body_a; }
+  const BodyEnd& end() const { return rolls_a() ? a : b; }
+  const BodyEnd& face_end() const { return rolls_a() ? b : a; }
+  double sign() const { return rolls_a() ? 1.0 : -1.0; }
+  const Vec3& now() const { return rolls_a() ? of->point_a : of->point_b; }
+  const Vec3& then() const { return rolls_a() ? point_a : point_b; }
+  const Vec3& face_then() const { return rolls_a() ? point_b : point_a; }
+
+  /// What J v leaves out half way, m/s, where the place that touches goes from now() to `then`: the mean of both ends less
+  /// the first.
+  Vec3 half_way(const Bodies& bodies, const Vec3& then) const;
+};
+
+}  // namespace impinge
