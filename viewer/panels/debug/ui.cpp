@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "viewer/draw/palette.hpp"
-#include "viewer/gl/text_font.hpp"
+#include "viewer/image/text_font.hpp"
 
 namespace impinge {
 namespace {
