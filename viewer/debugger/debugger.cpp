@@ -21,10 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kConsoleLines = 500;
 
-std::string pointer_line(const Vec2& pointer) {
-  return fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y()));
-}
-
 std::string word_of(const std::string& line, int n) {
   std::size_t begin = 0;
   for (; n > 0 && begin < line.size(); --n) begin = std::min(line.find(' ', begin), line.size() - 1) + 1;
@@ -399,16 +395,16 @@ void Debugger::record_camera() {
   add_recorded(target);
 }
 
-void Debugger::record_picture(const std::string& line, const Vec2& pointer) {
-  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) add_recorded(pointer_line(pointer));
+void Debugger::record_picture(const std::string& line, const UiPointer& pointer) {
+  if (pointer.is_there()) add_recorded(pointer.line());
   if (playing_) add_recorded("play");  // the button shows it
   add_recorded(line);
   if (playing_) add_recorded("pause");
 }
 
-std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
+std::vector<std::string> Debugger::recording(const UiPointer& pointer) const {
   std::vector<std::string> lines = recorded_;
-  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) lines.push_back(pointer_line(pointer));
+  if (pointer.is_there()) lines.push_back(pointer.line());
   if (playing_) lines.push_back("play");
   return lines;
 }

@@ -25,7 +25,7 @@ std::string as_text(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const Vec2& pointer) {
+std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const UiPointer& pointer) {
   const int home = frame(), place = within_ ? within_->place : -1;
   std::vector<std::string> by_hand;
   for (const auto& [frame, commands] : by_hand_)
