@@ -339,3 +339,8 @@ void Session::take_over(Session& from) {
 }
 
 }  // namespace impinge
+    if (body.absent && !from.bodies()[BodyIndex(their - theirs.begin())].absent) {
+      Act act;
+      act.verb = Act::add, act.body = names[i];
+      world_.act(act);
+    }

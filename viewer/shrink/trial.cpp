@@ -126,14 +126,20 @@ std::optional<SmallScene> Trials::begun_with(const SmallScene& scene, int frame)
 }
 
 std::optional<SmallScene> Trials::with_bodies(const SmallScene& scene, const std::vector<std::string>& names) {
-  SmallScene less = scene.with_bodies(names);
+  return with_state_of(scene, scene.with_bodies(names));
+}
+
+std::optional<SmallScene> Trials::without_added(const SmallScene& scene, const std::string& name) {
+  return with_state_of(scene, scene.without({name}));
+}
+
+std::optional<SmallScene> Trials::with_state_of(const SmallScene& scene, const SmallScene& less) {
   if (scene.run.start.empty()) return less;
   try {
     const std::unique_ptr<Session> all = load(scene);
-    if (all->scene().bodies.size() != static_cast<std::size_t>(all->bodies().size().value())) return std::nullopt;
-    // what lines do comes after it
+    // what lines do comes after it, but for bodies that they add and that the state has
     SmallScene bare = less.begun_anew(all->world().time(), all->record(), "");
-    bare.run.script.clear();
+    bare.run.script = bare.additions_at_start();
     const std::unique_ptr<Session> left = load(bare);
     left->take_over(*all);
     left->advance();
