@@ -12,8 +12,8 @@
 #include "viewer/bundle/scene.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/debugger/session_scopes.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 namespace {
@@ -60,7 +60,7 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
 void Debugger::read_run_folder() {
   const fs::path file = run_folder_ / "stats.csv";
   const std::string text = read_file(file, std::uint64_t{1} << 32);
-  std::vector<StatsLine> rows = whole_rows(text, session_.is_judged());
+  std::vector<StatsLine> rows = whole_rows(text, session_.stats_shape());
   // a run that was cut off may have ended within a line, but not before one
   if (const auto lines = std::count(text.begin(), text.end(), '\n'); rows.empty() || std::ssize(rows) + 1 < lines)
     throw InputError(
@@ -69,6 +69,7 @@ void Debugger::read_run_folder() {
   for (StatsLine& row : rows) {
     hashes_.push_back(std::stoull(row.state_hash, nullptr, 16));
     history_.push_back(std::move(row.figures));
+    own_.push_back(std::move(row.own));
   }
   folder_last_ = static_cast<int>(rows.size()) - 1;
 }
@@ -138,6 +139,7 @@ void Debugger::note_frame() {
   if (frame < hashes_.size()) {
     check_hash(session_.frame());
   } else {
+    own_.push_back(session_.own_values(figures));
     history_.push_back(std::move(figures));
     hashes_.push_back(record.stats.state_hash);
     expectations_.check(

@@ -154,6 +154,7 @@ class Debugger {
   std::filesystem::path run_folder_;
   int folder_last_ = -1;                      // last frame up to which the folder's snapshots are of this run
   std::vector<std::vector<double>> history_;  // figures by frame
+  std::vector<std::vector<double>> own_;      // values of the scene's own columns by frame
   std::vector<std::uint64_t> hashes_;         // by frame
   Tracks tracks_;
   std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first

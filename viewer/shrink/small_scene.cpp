@@ -179,6 +179,9 @@ SmallScene SmallScene::without(const std::set<std::string>& others) const {
     ParameterValue value = row.get();
     if (row.path == "view.hidden" || row.path == "view.locked")
       std::erase_if(std::get<std::vector<std::string>>(value), is_gone);
+    if (row.path == "record.columns")
+      std::erase_if(std::get<std::vector<std::string>>(value),
+                    [&](const std::string& column) { return names_one_of(column, less.gone); });
     if (row.path == "view.colors")
       std::erase_if(std::get<std::vector<std::string>>(value),
                     [&](const std::string& entry) { return is_gone(std::string(name_in(entry))); });

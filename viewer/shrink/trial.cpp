@@ -11,8 +11,8 @@
 #include "viewer/bundle/scene.hpp"
 #include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/snapshot_file.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/present/png_sequence.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -56,14 +56,15 @@ std::optional<Trial> Trials::run(Session& session, const SmallScene& scene, int 
   if (judged) watchers.add(&overlap);
   watchers.add(&breaks);
   session.watch(&watchers);
-  const StatsColumns columns(judged);
+  const StatsColumns columns(session.stats_shape());
   std::string table = columns.header() + "\n";
   for (int frame = 0; frame <= last_frame; ++frame) {
     session.advance();
     FrameStats stats = session.record().stats;
     if (judged) overlap.judge(session.world().bodies(), stats);
     const std::vector<double> figures = figure_values(stats, judged);
-    table += columns.row(without_times(figures, judged), stats.state_hash) + "\n";
+    const std::vector<double> timeless = without_times(figures, judged);
+    table += columns.row(timeless, stats.state_hash, session.own_values(timeless)) + "\n";
     breaks.end(frame, figures, session.record(), session.bodies());
     if (!breaks.next(frame, 0)) continue;
     session.watch(nullptr);
