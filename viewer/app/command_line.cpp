@@ -35,19 +35,6 @@ double real_number(const std::string& text, const std::string& what, double low,
   return value;
 }
 
-std::vector<std::string> names_between_commas(const std::string& text, const std::string& what) {
-  std::vector<std::string> list;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    if (end == begin)
-      refuse_option(fmt::format("{} is '{}'", what, text), "names with commas between them are wanted",
-                    "write them without gaps");
-    list.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return list;
-}
-
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
   for (const Entry<SubCommand>& command : sub_commands()) names.emplace_back(command.name);
@@ -121,6 +108,22 @@ int print(const std::string& text) {
 
 void refuse_option(const std::string& found, const std::string& allowed, const std::string& remedy) {
   throw InputError(fmt::format("command line: {}; {}; {}", found, allowed, remedy));
+}
+
+std::vector<std::string> names_between_commas(const std::string& text, const std::string& what) {
+  std::vector<std::string> list(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_escaped = text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ',';
+    if (is_escaped) ++i;
+    if (text[i] == ',' && !is_escaped)
+      list.emplace_back();
+    else
+      list.back() += text[i];
+  }
+  if (std::find(list.begin(), list.end(), "") != list.end())
+    refuse_option(fmt::format("{} is '{}'", what, text), "names with commas between them are wanted",
+                  "write them without gaps");
+  return list;
 }
 
 void Options::word(const char* name, std::string& to, const std::string& doc) {
@@ -205,6 +208,14 @@ void Options::names(const char* name, std::vector<std::string>& to, const std::s
       name, [=, &to](const std::string& text) { to = names_between_commas(text, name); }, doc);
 }
 
+void Options::name_lists(const char* name, std::vector<std::string>& to, const std::string& doc) {
+  const auto take = [=, &to](const std::string& text) {
+    for (std::string& one : names_between_commas(text, name)) to.push_back(std::move(one));
+  };
+  lists_.emplace_back(std::vector<std::string>(), take);
+  texts(name, lists_.back().first, doc);
+}
+
 void Options::size(const char* name, const std::function<void(int, int)>& take, const std::string& doc) {
   const auto read = [=](const std::string& text) {
     const std::size_t x = text.find('x');
@@ -227,6 +238,8 @@ void Options::hidden(const char* name, std::string& to) { app_.add_option(name, 
 void Options::take() {
   for (const auto& [text, take] : texts_)
     if (!text.empty()) take(text);
+  for (const auto& [texts, take] : lists_)
+    for (const std::string& text : texts) take(text);
 }
 
 int run_command_line(int count, const char* const* words) {

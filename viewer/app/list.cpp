@@ -18,6 +18,7 @@
 #include "viewer/app/listing.hpp"
 #include "viewer/app/sub_command.hpp"
 #include "viewer/controller/frame_view.hpp"
+#include "viewer/controller/own_columns.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/preflight/preflight.hpp"
 #include "viewer/report/parts.hpp"
@@ -71,6 +72,7 @@ class AllRows {
     world_.parameters.bind(rows_);
     view_.bind(rows_);
     bind_silence(rows_, silenced_);
+    bind_own_columns(rows_, columns_);
     BodyDescription body;
     body.name = "NAME";
     body.shape = Sphere(1.0);
@@ -99,7 +101,7 @@ class AllRows {
  private:
   World world_;
   FrameView view_;
-  std::vector<std::string> silenced_;
+  std::vector<std::string> silenced_, columns_;
   ParameterSet rows_;
   std::vector<std::unique_ptr<Material>> materials_;
 };

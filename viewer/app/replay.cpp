@@ -7,7 +7,7 @@
 #include "viewer/app/shared_options.hpp"
 #include "viewer/bundle/bundle.hpp"
 #include "viewer/controller/session.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -32,7 +32,7 @@ int replay(const std::filesystem::path& folder, const std::string& name) {
 
   int frames = 0, different = 0;
   const std::string file = (folder / "stats.csv").string();
-  StatsReader reader(table, session.is_judged(), file);
+  StatsReader reader(table, session.stats_shape(), file);
   for (StatsLine row; reader.next(row);) {
     session.advance();
     const std::string hash = hex64(session.record().stats.state_hash);

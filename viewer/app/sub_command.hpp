@@ -45,8 +45,10 @@ class Options {
   void whole(const char* name, std::optional<int>& to, int low, int high, const std::string& doc);
   void whole(const char* name, const std::function<void(int)>& take, int low, int high, const std::string& doc);
   void real(const char* name, double& to, double low, double high, const std::string& doc);
-  /// Names with commas between them.
+  /// Names with commas between them; a comma that belongs to a name is written \,.
   void names(const char* name, std::vector<std::string>& to, const std::string& doc);
+  /// The same, and the option may be given several times.
+  void name_lists(const char* name, std::vector<std::string>& to, const std::string& doc);
   /// What the program says to processes that it starts itself: in no --help.
   void hidden(const char* name, std::string& to);
   /// WIDTHxHEIGHT, pixels.
@@ -61,6 +63,7 @@ class Options {
  private:
   CLI::App& app_;
   std::deque<std::pair<std::string, std::function<void(const std::string&)>>> texts_;
+  std::deque<std::pair<std::vector<std::string>, std::function<void(const std::string&)>>> lists_;
 };
 
 class SubCommand {

@@ -17,7 +17,9 @@ class TestCommand : public SubCommand {
                 "WIDTHxHEIGHT of pictures without a baseline yet (default: 320x180)");
     options.flag("--update", suite_.update,
                  "write the pictures that `expect image` lines name where they differ or are missing, and say which");
-    options.names("--only", suite_.only, "NAME[,NAME...]: run only these tests of the folder, NAME as in NAME.toml");
+    options.name_lists("--only", suite_.only,
+                       "NAME[,NAME...], may be given several times: run only these tests of the folder, NAME as in "
+                       "NAME.toml; a comma that belongs to a name is written \\, (in quotes for the shell)");
     options.whole("--jobs", suite_.jobs, 1, 4096,
                   "tests at once, each in a process of its own (default: 1, one after another); what is printed and "
                   "written is the same");

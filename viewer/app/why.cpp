@@ -13,8 +13,8 @@
 #include "viewer/app/frame_progress.hpp"
 #include "viewer/app/shared_options.hpp"
 #include "viewer/controller/session.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/report/pair_report.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -97,7 +97,7 @@ int WhyCommand::run() {
   Session session(open_source(), overrides_, script_);
   if (is_run_) {
     const fs::path table = source_ / "stats.csv";
-    for (StatsLine& row : whole_rows(read_file(table, std::uint64_t{64} << 30), session.is_judged()))
+    for (StatsLine& row : whole_rows(read_file(table, std::uint64_t{64} << 30), session.stats_shape()))
       hashes_.push_back(std::move(row.state_hash));
     if (hashes_.empty())
       throw InputError(fmt::format("{}: has no frames; a recorded run is wanted; run the scene first", table.string()));

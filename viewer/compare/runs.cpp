@@ -233,7 +233,7 @@ class Comparison {
       for (const RecordedRun* run : {&a_, &b_})
         if (!is_file(run->picture(frame)))
           return fmt::format("none: {} has no picture of frame {}", run->folder().string(), frame);
-    constexpr int kMargin = 10, kScale = 2, kLine = 7 * kScale + 8, kWidth = 400;
+    constexpr int kMargin = 10, kScale = 2, kLine = text_height(kScale) + 4, kWidth = 400;
     constexpr Rgb kPaper = {18, 20, 24}, kInk = {225, 225, 225};
     Image sheet;
     int width = 0, height = 0, y = kMargin;

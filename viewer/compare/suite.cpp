@@ -111,6 +111,12 @@ class Suite {
   }
 
  private:
+  /// As --only names it.
+  static std::string as_given(const std::string& name) {
+    std::string text;
+    for (const char c : name) text += c == ',' ? std::string("\\,") : std::string(1, c);
+    return text;
+  }
   /// Leaves the tests that are meant.
   void choose() {
     all_ = names_.size();
@@ -119,9 +125,11 @@ class Suite {
     names_.clear();
     for (const std::string& name : options_.only) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        const std::string near = nearest_word(name, known);
+        std::vector<std::string> written;
+        for (const std::string& test : known) written.push_back(as_given(test));
+        const std::string near = nearest_word(as_given(name), written);
         throw InputError(fmt::format("command line: --only names '{}'; tests of {}: {}; {}", name, folder_.string(),
-                                     fmt::join(known, ", "),
+                                     fmt::join(written, ", "),
                                      near.empty() ? "use some of them" : fmt::format("did you mean '{}'?", near)));
       }
       names_.insert(name);

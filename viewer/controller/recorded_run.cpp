@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uint64_t kMostOfTable = std::uint64_t{64} << 30;
 
-std::vector<StatsLine> read_rows(const fs::path& file, bool judged) {
+std::vector<StatsLine> read_rows(const fs::path& file, const StatsShape& shape) {
   const std::string table = read_file(file, kMostOfTable);
   const std::string name = file.string();
-  StatsReader reader(table, judged, name);
+  StatsReader reader(table, shape, name);
   std::vector<StatsLine> rows;
   for (StatsLine row; reader.next(row); rows.push_back(row))
     if (row.figures[0] != static_cast<double>(rows.size()))
@@ -44,7 +44,7 @@ RecordedRun::RecordedRun(const fs::path& folder) : folder_(folder) {
     throw InputError((folder / "run.toml").string() +
                      ": has no table [run]; a file that a run wrote is wanted; name the --out of an impinge run");
   is_judged_ = session_->is_judged();
-  rows_ = read_rows(folder / "stats.csv", is_judged_);
+  rows_ = read_rows(folder / "stats.csv", session_->stats_shape());
 }
 
 fs::path RecordedRun::picture(int frame) const { return folder_ / "frames" / PngSequence::file_name(frame); }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viewer/controller/session.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 

@@ -62,6 +62,7 @@ void check_ledger(const Session& session) {
   };
   for (const Script::Expectation& expectation : script.expectations()) check(expectation.condition, expectation.place);
   for (const Script::Break& point : script.breaks()) check(point.condition, point.place);
+  for (const Expression& column : session.own_columns().expressions()) check(column, session.place_of_columns());
 }
 
 /// A run that goes on from its own run.toml writes what it wrote so far, without being asked again.
@@ -244,7 +245,7 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   FrameView& view = session.view();
   if (options.images) view.open(session.scene_file().filename().string(), options.ids);
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), start_of(options),
-                   options.snapshot_megabytes << 20);
+                   options.snapshot_megabytes << 20, session.stats_shape());
 
   tell_of_former_paths(watcher, session);
   RunResult result;
@@ -279,12 +280,12 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
       result.frozen_contacts = frozen.contacts();
       result.frozen_groups = frozen.groups.size();
     }
-    folder.add_frame(session.record(), commands, stats);
+    const std::vector<double> figures = figure_values(stats, judged);
+    folder.add_frame(session.record(), commands, stats, session.own_values(figures));
     exports.add(session.record());
     result.last_frame = frame;
     tell_of_frame(watcher, stats, last_frame, commands, session.world());
     if (options.images && conditions.expectations().needs_picture(frame)) view.finish();
-    const std::vector<double> figures = figure_values(stats, judged);
     conditions.check(frame, figures, session);
     result.stopped_by_break = stop = conditions.stop(frame, figures, session);
     if (!stop) folder.add_snapshot(session);  // a run that is resumed makes this frame again, and stops again

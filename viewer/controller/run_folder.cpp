@@ -12,10 +12,10 @@
 #include "engine/io/paths.hpp"
 #include "engine/io/scene/run_record.hpp"
 #include "engine/ledger/ledger_table.hpp"
-#include "viewer/controller/contacts_table.hpp"
 #include "viewer/controller/run_files.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/export/surface_export.hpp"
+#include "viewer/tables/contacts_table.hpp"
 
 namespace impinge {
 
@@ -98,8 +98,8 @@ bool is_our_number(const fs::path& path, const char* ending) {
 }  // namespace
 
 RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::string& run_toml, RunStart how,
-                     std::uint64_t snapshot_bytes)
-    : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes), columns_(run.judge) {
+                     std::uint64_t snapshot_bytes, const StatsShape& shape)
+    : folder_(folder), run_(run), most_snapshot_bytes_(snapshot_bytes), columns_(shape) {
   try {
     check_new(how, run_toml);  // before anything is written, the lock's file among it
   } catch (const InputError&) {
@@ -113,9 +113,9 @@ RunFolder::RunFolder(const fs::path& folder, const RunRecord& run, const std::st
   if (how == RunStart::force && is_run_folder(folder_)) empty_run_folder(folder_);
   if (how == RunStart::resume) {
     const std::string text = read_if_there(folder_ / "stats.csv");
-    kept_ = whole_rows(text, run_.judge);
+    kept_ = whole_rows(text, shape);
     kept_.resize(static_cast<std::size_t>(last_resumable(kept_)) + 1);
-    if (!kept_.empty()) columns_ = StatsColumns(std::string_view(text).substr(0, text.find('\n')), run_.judge);
+    if (!kept_.empty()) columns_ = StatsColumns(std::string_view(text).substr(0, text.find('\n')), shape);
   }
   write_file(folder_ / "run.toml", run_toml);
   clear_markers();
@@ -213,7 +213,8 @@ fs::path RunFolder::id_picture(int frame) const { return folder_ / "ids" / (six_
 
 fs::path RunFolder::frozen_step(int frame) const { return folder_ / "frozen" / (six_digits(frame) + ".step"); }
 
-void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats) {
+void RunFolder::add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats,
+                          std::span<const double> own) {
   const int frame = record.stats.frame;
   if (run_.export_ply) {
     const fs::path surfaces = folder_ / "surfaces" / six_digits(frame);
@@ -230,7 +231,7 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
     for (const BodyRecord& body : record.bodies) names.emplace_back(body.name);
     ledger_->append(ledger_rows(*record.stats.ledger, frame, record.stats.time, names));
   }
-  stats_.append(columns_.row(stats) + "\n");
+  stats_.append(columns_.row(stats, own) + "\n");
 }
 
 void RunFolder::add_snapshot(const Session& session) {

@@ -14,7 +14,7 @@
 #include "engine/io/folder_lock.hpp"
 #include "viewer/controller/command.hpp"
 #include "viewer/controller/session.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -27,7 +27,7 @@ class RunFolder {
   /// one, or resumed since another version wrote its states; otherwise it holds run.toml and the files that grow, cut
   /// back to the last frame from which the run can go on.
   RunFolder(const std::filesystem::path& folder, const RunRecord& run, const std::string& run_toml, RunStart how,
-            std::uint64_t snapshot_bytes);
+            std::uint64_t snapshot_bytes, const StatsShape& shape);
 
   /// Rows of the frames that are kept, 0 to resume_frame(); empty for a new run.
   const std::vector<StatsLine>& kept() const { return kept_; }
@@ -39,8 +39,9 @@ class RunFolder {
   const std::filesystem::path& path() const { return folder_; }
 
   /// Everything of a frame but its picture; the row of stats.csv comes last. `stats`: the record's, with what was
-  /// measured since.
-  void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats);
+  /// measured since; `own`: the values of the scene's own columns.
+  void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats,
+                 std::span<const double> own);
   /// Of every frame, until they fill their room: then every second one is given up, and so on. The last one always
   /// stays.
   void add_snapshot(const Session& session);

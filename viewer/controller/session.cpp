@@ -86,6 +86,7 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   world_.parameters.bind(rows_);
   view_.bind(rows_);
   bind_silence(rows_, silenced_);
+  bind_own_columns(rows_, column_texts_);
   scene_ = load_scene(scene_file, overrides, world_, rows_);
   judge_substeps_ = options.judge_substeps || (scene_.run && scene_.run->judge_substeps);
   judge_ = options.judge || judge_substeps_ || (scene_.run && scene_.run->judge);
@@ -101,6 +102,7 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   pictures_may_be_missing_ = options.pictures_may_be_missing;
   added_.read(script_name_, script_lines_, scene_, world_, rows_);
   read_script();
+  read_columns();
   start();
   try {
     view_.settle(world_.record(), options.width, options.height);
@@ -116,7 +118,28 @@ void Session::read_script() {
 bool Session::list_added(std::vector<Addition> by_hand) {
   if (!added_.list(std::move(by_hand), scene_, world_, rows_)) return false;
   read_script();  // bodies that it speaks of may have changed places
+  read_columns();
   return true;
+}
+
+std::string Session::place_of_columns() const {
+  const auto given = scene_.places.find("record.columns");
+  return given == scene_.places.end() ? scene_.path.string() : given->second;
+}
+
+/// The table's head is written before the first line of a script counts.
+void Session::read_columns() {
+  own_columns_ = OwnColumns(column_texts_, condition_words(), place_of_columns());
+  for (const Command& command : script_.commands_at(0))
+    if (const auto* set = std::get_if<SetCommand>(&command); set != nullptr && set->path == "record.columns")
+      throw InputError(
+          set->place +
+          ": record.columns in a script; the columns of a run are its scene's; write it into the scene, or "
+          "--set record.columns=[...]");
+}
+
+std::vector<double> Session::own_values(std::span<const double> figures) {
+  return own_columns_.values(figures, world_.record(), world_.bodies());
 }
 
 void Session::start() {
@@ -331,6 +354,11 @@ void Session::take_over(Session& from) {
     from.bodies()[BodyIndex(their - theirs.begin())].save(state);
     ByteReader in(state.bytes());
     Body& body = world_.bodies()[BodyIndex(i)];
+    if (body.absent && !from.bodies()[BodyIndex(their - theirs.begin())].absent) {
+      Act act;
+      act.verb = Act::add, act.body = names[i];
+      world_.act(act);
+    }
     body.restore(in);
     body.asleep = false, body.island = {};  // islands are numbered by bodies, and some of those may be gone
     body.update_world_vertices();

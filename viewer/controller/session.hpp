@@ -9,8 +9,10 @@
 #include "viewer/controller/added_bodies.hpp"
 #include "viewer/controller/condition_values.hpp"
 #include "viewer/controller/frame_view.hpp"
+#include "viewer/controller/own_columns.hpp"
 #include "viewer/controller/script.hpp"
 #include "viewer/export/exporter.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -77,6 +79,12 @@ class Session {
   const std::vector<std::string>& silenced() const { return silenced_; }
   /// What conditions may speak of: figures and bodies.
   ExpressionWords condition_words() const { return impinge::condition_words(figure_names(judge_), world_.bodies()); }
+  const OwnColumns& own_columns() const { return own_columns_; }
+  /// Of the frame just made, by own_columns(); `figures` are its own, judged if they are.
+  std::vector<double> own_values(std::span<const double> figures);
+  StatsShape stats_shape() const { return {judge_, own_columns_.names()}; }
+  /// Where record.columns is given.
+  std::string place_of_columns() const;
   bool is_judged() const { return judge_; }  ///< asked for, or recorded in a run.toml
   bool is_judged_by_substep() const { return judge_substeps_; }
   /// Who looks on while frames are made, none: null.
@@ -92,6 +100,7 @@ class Session {
   void apply(const Command& command);
   void add_body(const Act& act);
   void read_script();
+  void read_columns();
   void start();
   /// Throws InputError where they don't go together, with the place of what was set last.
   void take_parameters();
@@ -101,7 +110,8 @@ class Session {
 
   World world_;
   FrameView view_;
-  std::vector<std::string> silenced_;
+  std::vector<std::string> silenced_, column_texts_;
+  OwnColumns own_columns_;
   ParameterSet rows_;
   Scene scene_;
   AddedBodies added_;

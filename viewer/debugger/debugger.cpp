@@ -12,18 +12,14 @@
 #include "viewer/bundle/scene.hpp"
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/debugger/session_scopes.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kConsoleLines = 500;
-
-std::string pointer_line(const Vec2& pointer) {
-  return fmt::format("ui move {} {}", shortest(pointer.x()), shortest(pointer.y()));
-}
 
 std::string word_of(const std::string& line, int n) {
   std::size_t begin = 0;
@@ -64,7 +60,7 @@ Debugger::Debugger(const fs::path& scene, const std::vector<std::string>& overri
 void Debugger::read_run_folder() {
   const fs::path file = run_folder_ / "stats.csv";
   const std::string text = read_file(file, std::uint64_t{1} << 32);
-  std::vector<StatsLine> rows = whole_rows(text, session_.is_judged());
+  std::vector<StatsLine> rows = whole_rows(text, session_.stats_shape());
   // a run that was cut off may have ended within a line, but not before one
   if (const auto lines = std::count(text.begin(), text.end(), '\n'); rows.empty() || std::ssize(rows) + 1 < lines)
     throw InputError(
@@ -73,6 +69,7 @@ void Debugger::read_run_folder() {
   for (StatsLine& row : rows) {
     hashes_.push_back(std::stoull(row.state_hash, nullptr, 16));
     history_.push_back(std::move(row.figures));
+    own_.push_back(std::move(row.own));
   }
   folder_last_ = static_cast<int>(rows.size()) - 1;
 }
@@ -142,6 +139,7 @@ void Debugger::note_frame() {
   if (frame < hashes_.size()) {
     check_hash(session_.frame());
   } else {
+    own_.push_back(session_.own_values(figures));
     history_.push_back(std::move(figures));
     hashes_.push_back(record.stats.state_hash);
     expectations_.check(
@@ -399,16 +397,16 @@ void Debugger::record_camera() {
   add_recorded(target);
 }
 
-void Debugger::record_picture(const std::string& line, const Vec2& pointer) {
-  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) add_recorded(pointer_line(pointer));
+void Debugger::record_picture(const std::string& line, const UiPointer& pointer) {
+  if (pointer.is_there()) add_recorded(pointer.line());
   if (playing_) add_recorded("play");  // the button shows it
   add_recorded(line);
   if (playing_) add_recorded("pause");
 }
 
-std::vector<std::string> Debugger::recording(const Vec2& pointer) const {
+std::vector<std::string> Debugger::recording(const UiPointer& pointer) const {
   std::vector<std::string> lines = recorded_;
-  if (pointer.x() >= 0.0 && pointer.y() >= 0.0) lines.push_back(pointer_line(pointer));
+  if (pointer.is_there()) lines.push_back(pointer.line());
   if (playing_) lines.push_back("play");
   return lines;
 }

@@ -22,6 +22,7 @@
 #include "viewer/debugger/edits.hpp"
 #include "viewer/debugger/line.hpp"
 #include "viewer/debugger/snapshot_ring.hpp"
+#include "viewer/panels/debug/ui.hpp"
 
 namespace impinge {
 
@@ -71,8 +72,8 @@ class Debugger {
   /// A file was written by that line.
   void record_file(const std::string& line) { add_recorded(line); }
   /// A picture was taken: with what was done, since it says where, and the pointer shows.
-  void record_shot(const std::string& file, const Vec2& pointer) { record_picture("shot " + file, pointer); }
-  void record_bundle(const std::string& file, const Vec2& pointer) { record_picture("bundle " + file, pointer); }
+  void record_shot(const std::string& file, const UiPointer& pointer) { record_picture("shot " + file, pointer); }
+  void record_bundle(const std::string& file, const UiPointer& pointer) { record_picture("bundle " + file, pointer); }
   /// Writes the last sub-step of the frame as it was handed to the response. Throws InputError where it can't.
   void freeze(const std::filesystem::path& file);
   /// All frames that are known, and says what there is to open; "" if it was interrupted. Throws InputError where the
@@ -81,12 +82,12 @@ class Debugger {
   void record_freeze(const std::string& file) { add_recorded("freeze " + file), trace_ = other; }
   /// The moment, for format_bundle; what was seen is for others to add. Throws InputError where a file that the scene reads
   /// can't be read any more.
-  std::pair<BundleHead, std::map<std::string, std::string>> bundle(const Vec2& pointer);
+  std::pair<BundleHead, std::map<std::string, std::string>> bundle(const UiPointer& pointer);
   /// To a moment that a bundle has, of which the folder is its run's; nothing of it is recorded.
   void open_at(const BundleHead& moment, const std::vector<std::string>& lines);
   /// What was done so far, as lines that do it again. `pointer`: where it is now, so that what it hovers over looks the
   /// same.
-  std::vector<std::string> recording(const Vec2& pointer) const;
+  std::vector<std::string> recording(const UiPointer& pointer) const;
 
  private:
   void do_command(const Command& command);
@@ -134,7 +135,7 @@ class Debugger {
   void record(const std::string& line);
   void record_transport(const std::string& line);
   void record_camera();
-  void record_picture(const std::string& line, const Vec2& pointer);
+  void record_picture(const std::string& line, const UiPointer& pointer);
   std::vector<std::string> opening_lines() const;
   bool is_pending(int by_hand) const;
   std::string bundled_figures() const;
@@ -153,6 +154,7 @@ class Debugger {
   std::filesystem::path run_folder_;
   int folder_last_ = -1;                      // last frame up to which the folder's snapshots are of this run
   std::vector<std::vector<double>> history_;  // figures by frame
+  std::vector<std::vector<double>> own_;      // values of the scene's own columns by frame
   std::vector<std::uint64_t> hashes_;         // by frame
   Tracks tracks_;
   std::map<int, std::vector<Command>> by_hand_;  // by the frame that shows them first

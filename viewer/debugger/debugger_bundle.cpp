@@ -11,8 +11,8 @@
 #include "engine/frozen/frozen_step_file.hpp"
 #include "viewer/bundle/scene.hpp"
 #include "viewer/controller/snapshot_file.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/debugger/debugger.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 namespace {
@@ -25,7 +25,7 @@ std::string as_text(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const Vec2& pointer) {
+std::pair<BundleHead, std::map<std::string, std::string>> Debugger::bundle(const UiPointer& pointer) {
   const int home = frame(), place = within_ ? within_->place : -1;
   std::vector<std::string> by_hand;
   for (const auto& [frame, commands] : by_hand_)
@@ -76,9 +76,16 @@ std::string Debugger::bundled_figures() const {
     if (std::all_of(rows.begin(), rows.end(), [&](const auto& row) { return !std::isnan(row[place]); }))
       header += (header.empty() ? "" : ",") + std::string(figure.name);
   }
-  const StatsColumns columns(header, judged);
+  const StatsShape shape = session_.stats_shape();
+  for (const std::string& name : *shape.own) header += "," + name;
+  const StatsColumns columns(header, shape);
   std::string text = header + "\n";
-  for (std::size_t k = 0; k < rows.size(); ++k) text += columns.row(rows[k], hashes_[k]) + "\n";
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    std::vector<double> own = own_[k];
+    for (std::size_t c = 0; c < own.size(); ++c)
+      if (shape.own->at(c).ends_with("_ms")) own[c] = 0.0;  // as without_times()
+    text += columns.row(rows[k], hashes_[k], own) + "\n";
+  }
   return text;
 }
 

@@ -95,6 +95,7 @@ void Debugger::exchange(Future& future) {
   exchange_after(frame, by_hand_, future.by_hand);
   exchange_after(frame, changed_frames_, future.changed_frames);
   exchange_after(frame, history_, future.history);
+  exchange_after(frame, own_, future.own);
   exchange_after(frame, hashes_, future.hashes);
   std::swap(folder_last_, future.folder_last);
 }

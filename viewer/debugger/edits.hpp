@@ -16,7 +16,7 @@ struct Future {
   int frame = 0;
   std::map<int, std::vector<Command>> by_hand;
   std::set<int> changed_frames;
-  std::vector<std::vector<double>> history;  ///< figures
+  std::vector<std::vector<double>> history, own;  ///< figures, and values of the scene's own columns
   std::vector<std::uint64_t> hashes;
   int folder_last = -1;  ///< up to where a run's folder has their states
 };

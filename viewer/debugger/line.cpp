@@ -99,7 +99,8 @@ DebugLine parse_input(const PlacedText& line, LineWords words) {
       i.x = number(words[3], -1e15, 1e15);
       break;
     case InputLine::move:
-      want(words, 4, 4, "ui move X Y");
+      want(words, 4, 5, "ui move X Y [clicked]");
+      if (words.size() == 5) i.has_clicked = find(words[4], "word", {"clicked"}) == 0;
       i.x = number(words[2], -1e5, 1e5);
       i.y = number(words[3], -1e5, 1e5);
       break;

@@ -55,6 +55,7 @@ struct InputLine {
   std::string name;                       ///< widget, button, key or text
   double x = 0.0, y = 0.0;                ///< move; wheel: y; drag: value in x; wait: in x
   bool goes_down = true, goes_up = true;  ///< key
+  bool has_clicked = false;               ///< move
 };
 struct FileLine {
   enum What { shot, plots, bundle };

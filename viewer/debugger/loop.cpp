@@ -184,6 +184,7 @@ void DebugLoop::input(const InputLine& line, const PlacedText& place) {
     }
     case InputLine::move:
       ui.add({UiEvent::move, static_cast<float>(line.x), static_cast<float>(line.y)});
+      if (line.has_clicked) ui.add({UiEvent::clicked});
       break;
     case InputLine::press:
       ui.add({UiEvent::press, 0, 0, code_of(button_names(), line.name)});

@@ -30,7 +30,7 @@ class DebugLoop {
   }
   bool has_quit() const { return quit_; }
   int frame() const { return debugger_.model().frame; }
-  Vec2 pointer() const { return {window_.ui().mouse_x(), window_.ui().mouse_y()}; }
+  UiPointer pointer() const { return window_.ui().pointer(); }
   /// The window as it is once everything that was asked for shows.
   Image picture();
 

@@ -59,6 +59,32 @@ void Camera::fit(const Aabb& box, double aspect) {
   eye = target + direction * radius / std::sin(std::min(half, half_across));
 }
 
+void Camera::take_in(std::span<const Vec3> points, double aspect) {
+  constexpr double kUsed = 0.97;     // of the half picture: nothing sticks to its border
+  constexpr double kNearest = 0.05;  // of the distance to the target
+  const Mat3 axes = view_rotation();
+  const double up_slope = kUsed * std::tan(0.5 * fov_deg * kDegree);
+  const double slope[2] = {up_slope * aspect, up_slope};
+  // at x across and d deep, from p across and s farther back: |x - p| <= (d + s) slope, for all x
+  double high[2] = {0.0, 0.0}, low[2] = {0.0, 0.0}, back = 0.0;
+  for (const Vec3& point : points) {
+    const Vec3 seen = axes * (point - eye);
+    const double depth = -seen.z();
+    for (int a = 0; a < 2; ++a) {
+      high[a] = std::max(high[a], seen[a] - depth * slope[a]);
+      low[a] = std::min(low[a], seen[a] + depth * slope[a]);
+    }
+    back = std::max(back, kNearest * distance() - depth);
+  }
+  for (int a = 0; a < 2; ++a) back = std::max(back, (high[a] - low[a]) / (2.0 * slope[a]));
+  Vec3 shift = back * axes.row(2).transpose();
+  for (int a = 0; a < 2; ++a)
+    shift += std::clamp(0.0, high[a] - back * slope[a], std::max(high[a] - back * slope[a], low[a] + back * slope[a])) *
+             axes.row(a).transpose();
+  eye += shift;
+  target += shift;
+}
+
 double Camera::pixel_size_at(const Vec3& point, int height) const {
   const double depth = -(view_rotation() * (point - eye)).z();
   return depth > 0.0 ? 2.0 * depth * std::tan(0.5 * fov_deg * kDegree) / height : 0.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "engine/geometry/aabb.hpp"
 
@@ -24,6 +25,10 @@ struct Camera {
   /// Looks at the middle of the box from the present direction, near enough that the box's sphere just fits a picture
   /// of that aspect (width / height). Does nothing for an empty box.
   void fit(const Aabb& box, double aspect = 16.0 / 9.0);
+
+  /// Goes back along its line of sight, and across it, no farther than it takes to have these points, and what it had
+  /// before at the target's depth, in a picture of that aspect. Stays where it is if they are in it.
+  void take_in(std::span<const Vec3> points, double aspect);
 
   double distance() const { return (eye - target).norm(); }
   /// Rows: right, up, backwards. Maps world directions to the eye's axes (it looks along -z).

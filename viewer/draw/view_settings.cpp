@@ -104,6 +104,11 @@ void ViewSettings::bind(ParameterSet& set) {
   rows.add("camera.follow", followed,
            "The body that the camera goes along with: eye and target are then relative to its centre.");
 
+  rows.add(
+      "camera.fit", camera_fit, {{CameraFit::start, "start"}, {CameraFit::all, "all"}},
+      "The camera stays where it was put, by itself or by eye and target; or it goes back from there in each picture, "
+      "as far as it takes to have all bodies in it that move.");
+
   Parameter list;
   list.path = "view.layers";
   list.kind = ParameterKind::text_list;

@@ -26,8 +26,12 @@ enum class LegendForm { automatic, whole, folded };
 /// Which lines of the script stand below a picture for a while: those that change what happens, or also what is seen.
 enum class CaptionLines { none, changes, all };
 
+/// Where the camera stands in a picture: where it was put, or so far back from there that all that moves is in it.
+enum class CameraFit { start, all };
+
 struct ViewSettings {
   Camera camera;
+  CameraFit camera_fit = CameraFit::start;
   bool camera_given = false;        ///< else the painter fits the camera to what it paints
   std::string followed;             ///< body whose centre eye and target are relative to; "": they are the world's
   std::vector<LayerSwitch> layers;  ///< in the order they are drawn; layers/layer.hpp fills them in

@@ -38,12 +38,17 @@ std::vector<Span> spans(int from, int to) {
   return spans;
 }
 
-/// At most `room` characters, the last ones: they tell frames apart.
-std::string label_of(const std::filesystem::path& frame, int room) {
+/// At most `room` pixels wide, the last characters: they tell frames apart.
+std::string label_of(const std::filesystem::path& frame, int room, int scale) {
   const std::string stem = frame.stem().string();
   const std::string digits = stem.substr(stem.find_last_not_of("0123456789") + 1);
-  const std::string& label = digits.empty() ? stem : digits;
-  return label.substr(label.size() - std::min(label.size(), static_cast<std::size_t>(room)));
+  std::string label = digits.empty() ? stem : digits;
+  while (!label.empty() && text_width(label, scale) > room) {
+    std::size_t next = 1;  // of a character, which in UTF-8 may be several bytes
+    while (next < label.size() && (static_cast<unsigned char>(label[next]) & 0xc0) == 0x80) ++next;
+    label.erase(0, next);
+  }
+  return label;
 }
 
 /// Evenly from the first to the last.
@@ -102,7 +107,7 @@ Image make_contact_sheet(std::span<const std::filesystem::path> frames, int colu
     const Image small = reduce_image(frame, width, height);
     const int x = kMargin + k % columns * (width + kMargin), y = kMargin + k / columns * cell_height;
     for (int row = 0; row < height; ++row) std::copy_n(small.pixel(0, row), 3 * width, sheet.pixel(x, y + row));
-    draw_text(sheet, x, y + height + 4, label_of(path, (width + kMargin) / (6 * label_scale)), kInk, label_scale);
+    draw_text(sheet, x, y + height + 4, label_of(path, width, label_scale), kInk, label_scale);
   }
   return sheet;
 }

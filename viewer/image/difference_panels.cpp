@@ -30,9 +30,10 @@ Rgb heat(int level, int tolerance) {
 
 /// `text` in lines of at most `width` pixels, broken at blanks where there are any.
 std::vector<std::string> wrap(std::string text, int width, int scale) {
-  const auto room = static_cast<std::size_t>(std::max(width / (6 * scale), 1));
   std::vector<std::string> lines;
-  while (text.size() > room) {
+  while (text_width(text, scale) > width) {
+    std::size_t room = text.size();
+    while (room > 1 && text_width(std::string_view(text).substr(0, room), scale) > width) --room;
     const std::size_t blank = text.rfind(' ', room);
     const bool breaks = blank != std::string::npos && blank > 0;
     lines.push_back(text.substr(0, breaks ? blank : room));
@@ -76,8 +77,8 @@ Image difference_overlay(const Image& a, const Image& b, int tolerance, int surr
 Image difference_panels(const Image& a, const Image& b, const Difference& difference, const Image* mask) {
   const int width = std::max({a.width, b.width, 1}), height = std::max({a.height, b.height, 1});
   const int zoom = std::max(1, kMinPanelWidth / width);
-  const int panel = width * zoom, scale = panel >= 900 ? 3 : 2, line = text_height(scale) + kGap;
-  const int sheet_width = 3 * panel + 4 * kGap, top = line + kGap;
+  const int panel = width * zoom, scale = panel >= 900 ? 3 : 2, line = text_height(scale) + kGap / 2;
+  const int sheet_width = 3 * panel + 4 * kGap, top = text_height(scale) + 2 * kGap;
   const std::vector<std::string> lines = wrap(difference.reason, sheet_width - 2 * kGap, scale);
   Image sheet(sheet_width, top + height * zoom + kGap + static_cast<int>(lines.size()) * line);
   fill_rectangle(sheet, 0, 0, sheet.width, sheet.height, kSheet);

@@ -1,4 +1,4 @@
-// Small fixed letters for pictures made without OpenGL: captions of difference panels and contact sheets.
+// Letters in pictures made without OpenGL: captions of difference panels and contact sheets. They are those of panels.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@ namespace impinge {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// Pixels that a text takes: letters are 5 x 7 with one column between them, times `scale`.
+/// Pixels that a line of text takes. Letters are drawn 12 pixels high, with what is above and below them, 18 with `scale`
+/// 2, and 6 more with each; one row is left below for parentheses, which reach lower.
 int text_width(std::string_view text, int scale = 1);
-inline int text_height(int scale = 1) { return 7 * scale; }
+constexpr int text_height(int scale = 1) { return 7 + 6 * scale; }
 
-/// Draws one line with its upper left corner at (x, y), clipped to the image. Lower case is drawn as capitals, a
-/// character outside ASCII's printable ones, byte by byte, as a box.
+/// Draws one line, UTF-8, with its upper left corner at (x, y), clipped to the image.
 void draw_text(Image& image, int x, int y, std::string_view text, Rgb colour, int scale = 1);
 
 /// Fills, or draws inwards as a border `thickness` pixels wide, the rectangle [x, x + width) x [y, y + height),

@@ -50,6 +50,24 @@ Camera camera_in_world(const StepRecord& record, const ViewSettings& settings) {
   return camera;
 }
 
+Camera camera_of_picture(const StepRecord& record, const ViewSettings& settings, double aspect) {
+  Camera camera = camera_in_world(record, settings);
+  if (settings.camera_fit == CameraFit::start) return camera;
+  const BodySet left_out = not_drawn(record, settings);
+  std::vector<Vec3> corners;
+  for (std::size_t i = 0; i < record.bodies.size(); ++i) {
+    const BodyRecord& body = record.bodies[i];
+    if (body.kind == BodyKind::fixed || body.bounds.is_empty() || left_out.has(BodyIndex(static_cast<int>(i))))
+      continue;
+    for (int bits = 0; bits < 8; ++bits)
+      corners.emplace_back(bits & 1 ? body.bounds.max.x() : body.bounds.min.x(),
+                           bits & 2 ? body.bounds.max.y() : body.bounds.min.y(),
+                           bits & 4 ? body.bounds.max.z() : body.bounds.min.z());
+  }
+  camera.take_in(corners, aspect);
+  return camera;
+}
+
 void check_names(const StepRecord& record, const ViewSettings& settings) {
   std::vector<std::string> bodies;
   for (const BodyRecord& body : record.bodies) bodies.emplace_back(body.name);

@@ -33,6 +33,9 @@ Vec3 camera_origin(const StepRecord& record, const ViewSettings& settings);
 /// In the world's coordinates, whatever it follows.
 Camera camera_in_world(const StepRecord& record, const ViewSettings& settings);
 
+/// The same, back so far that a picture of that aspect has all that view.camera.fit wants in it.
+Camera camera_of_picture(const StepRecord& record, const ViewSettings& settings, double aspect);
+
 /// Throws SettingsError at the first name of a body that isn't there, or colour that is none.
 void check_names(const StepRecord& record, const ViewSettings& settings);
 

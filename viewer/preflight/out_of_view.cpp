@@ -47,7 +47,7 @@ Vec3 way_of(const Body& body, double time, const Vec3& gravity) {
 class OutOfView : public ViewWarning {
  public:
   std::vector<Finding> look(const ViewAtStart& start) const override {
-    if (!start.camera_given) return {};
+    if (!start.camera_given || start.settings.camera_fit == CameraFit::all) return {};
     const Parameters::Simulation& p = start.world.parameters.simulation;
     std::vector<Finding> found;
     for (const Body& body : start.world.bodies()) {

@@ -137,12 +137,16 @@ void DebugWindow::use_mouse(const DebugModel& model, CommandLines& lines) {
   hold_.reset();
 }
 
+Camera DebugWindow::camera(const DebugModel& model) const {
+  return camera_of_picture(*model.record, *model.view, static_cast<double>(scene_.width()) / scene_.height());
+}
+
 void DebugWindow::take_hold(const DebugModel& model) {
   const double x = pressed_x_ - layout_.view.x + 0.5, y = pressed_y_ - layout_.view.y + 0.5;
   const auto seen = scene_.look_at(*model.record, *model.view, x, y);
   if (!seen) return;
   const BodyRecord& body = model.record->bodies[static_cast<std::size_t>(seen->body.value())];
-  const auto at = camera_in_world(*model.record, *model.view).project(seen->point, scene_.width(), scene_.height());
+  const auto at = camera(model).project(seen->point, scene_.width(), scene_.height());
   if (!at) return;
   hold_ = Hold{std::string(body.name),
                body.deformable != nullptr ? body.deformable->own_coordinates(seen->point)
@@ -154,8 +158,7 @@ void DebugWindow::take_hold(const DebugModel& model) {
 void DebugWindow::drag(const DebugModel& model, CommandLines& lines) {
   if (hold_->has_pulled && !hold_->is_moved) return;  // that it can't be was said once
   const double x = ui_.mouse_x() - layout_.view.x + 0.5, y = ui_.mouse_y() - layout_.view.y + 0.5;
-  const Vec3 to =
-      camera_in_world(*model.record, *model.view).unproject(x, y, hold_->depth, scene_.width(), scene_.height());
+  const Vec3 to = camera(model).unproject(x, y, hold_->depth, scene_.width(), scene_.height());
   lines.push_back(fmt::format("pull {} {} to {}", hold_->body, words_of(hold_->own), words_of(to)));
   hold_->has_pulled = true;
 }

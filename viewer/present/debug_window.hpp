@@ -40,6 +40,7 @@ class DebugWindow {
 
  private:
   void use_mouse(const DebugModel& model, CommandLines& lines);
+  Camera camera(const DebugModel& model) const;
   void take_hold(const DebugModel& model);
   void drag(const DebugModel& model, CommandLines& lines);
   std::string pick(const DebugModel& model, float x, float y);

@@ -31,8 +31,9 @@ RenderStyle style_of(const ViewSettings& settings, int height) {
 }
 
 Camera camera_of(const StepRecord& record, const ViewSettings& settings, int width, int height) {
-  return settings.camera_given ? camera_in_world(record, settings)
-                               : fitted_camera(record, settings.camera, static_cast<double>(width) / height);
+  const double aspect = static_cast<double>(width) / height;
+  return settings.camera_given ? camera_of_picture(record, settings, aspect)
+                               : fitted_camera(record, settings.camera, aspect);
 }
 
 /// What is written over the picture hides what is behind it.

@@ -52,7 +52,7 @@ class Shrinking {
     replace_surfaces();
     drop_bodies();
     begin_with_state();
-    if (!best_.scene.run.start.empty()) drop_bodies();  // of those that took part only before it
+    if (!best_.scene.run.start.empty()) drop_bodies(), drop_added();  // of those that took part only before it
     trials_.complete(best_);
     write();
   }
@@ -91,6 +91,17 @@ class Shrinking {
       const std::optional<SmallScene> less = trials_.with_bodies(best_.scene, names);
       return less && adopt(*less);
     });
+  }
+
+  /// Bodies that lines add, and that a state with which it begins has.
+  void drop_added() {
+    const std::vector<std::string> added = best_.scene.added();
+    begin("bodies", added.size());
+    for (const std::string& name : added) {
+      if (names_one_of(options_.condition, {name})) continue;
+      const std::optional<SmallScene> less = trials_.without_added(best_.scene, name);
+      if (less) adopt(*less);
+    }
   }
 
   void drop_attachments() {

@@ -138,9 +138,29 @@ std::vector<std::string> SmallScene::bodies() const {
 }
 
 SmallScene SmallScene::with_bodies(const std::vector<std::string>& names) const {
-  SmallScene less = *this;
+  std::set<std::string> others;
   for (const std::string& name : bodies())
-    if (!is_among(names, name)) less.gone.insert(name);
+    if (!is_among(names, name)) others.insert(name);
+  return without(others);
+}
+
+std::vector<std::string> SmallScene::added() const {
+  std::vector<std::string> names;
+  for (const std::string& line : run.script)
+    if (is_addition(line)) names.emplace_back(words_of(line)[3].text);
+  return names;
+}
+
+std::vector<std::string> SmallScene::additions_at_start() const {
+  std::vector<std::string> lines;
+  std::copy_if(run.script.begin(), run.script.end(), std::back_inserter(lines),
+               [](const std::string& line) { return is_addition(line) && last_frame_of(line) == 0; });
+  return lines;
+}
+
+SmallScene SmallScene::without(const std::set<std::string>& others) const {
+  SmallScene less = *this;
+  less.gone.insert(others.begin(), others.end());
   const auto is_gone = [&](const std::string& name) { return less.gone.contains(name); };
   std::erase_if(less.scene.bodies, [&](const TomlNode& body) { return is_gone(text_of(body, "name")); });
   std::erase_if(less.scene.attachments,
@@ -159,6 +179,9 @@ SmallScene SmallScene::with_bodies(const std::vector<std::string>& names) const 
     ParameterValue value = row.get();
     if (row.path == "view.hidden" || row.path == "view.locked")
       std::erase_if(std::get<std::vector<std::string>>(value), is_gone);
+    if (row.path == "record.columns")
+      std::erase_if(std::get<std::vector<std::string>>(value),
+                    [&](const std::string& column) { return names_one_of(column, less.gone); });
     if (row.path == "view.colors")
       std::erase_if(std::get<std::vector<std::string>>(value),
                     [&](const std::string& entry) { return is_gone(std::string(name_in(entry))); });

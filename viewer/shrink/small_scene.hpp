@@ -21,6 +21,9 @@ struct SmallScene {
   std::vector<std::string> bodies() const;  ///< names
   /// With these bodies alone; what speaks of the others goes with them: attachments, lines of the script.
   SmallScene with_bodies(const std::vector<std::string>& names) const;
+  SmallScene without(const std::set<std::string>& bodies) const;
+  std::vector<std::string> added() const;               ///< names of bodies that lines add
+  std::vector<std::string> additions_at_start() const;  ///< the lines that do so in frame 0
   SmallScene with_attachments(const std::vector<std::size_t>& places) const;
   SmallScene with_lines(const std::vector<std::string>& lines) const;
   /// Begins where `record` is, after so many frames; `start`: where the bodies' files were before them. None where the

@@ -11,8 +11,8 @@
 #include "viewer/bundle/scene.hpp"
 #include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/snapshot_file.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/present/png_sequence.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -56,14 +56,15 @@ std::optional<Trial> Trials::run(Session& session, const SmallScene& scene, int 
   if (judged) watchers.add(&overlap);
   watchers.add(&breaks);
   session.watch(&watchers);
-  const StatsColumns columns(judged);
+  const StatsColumns columns(session.stats_shape());
   std::string table = columns.header() + "\n";
   for (int frame = 0; frame <= last_frame; ++frame) {
     session.advance();
     FrameStats stats = session.record().stats;
     if (judged) overlap.judge(session.world().bodies(), stats);
     const std::vector<double> figures = figure_values(stats, judged);
-    table += columns.row(without_times(figures, judged), stats.state_hash) + "\n";
+    const std::vector<double> timeless = without_times(figures, judged);
+    table += columns.row(timeless, stats.state_hash, session.own_values(timeless)) + "\n";
     breaks.end(frame, figures, session.record(), session.bodies());
     if (!breaks.next(frame, 0)) continue;
     session.watch(nullptr);
@@ -126,14 +127,20 @@ std::optional<SmallScene> Trials::begun_with(const SmallScene& scene, int frame)
 }
 
 std::optional<SmallScene> Trials::with_bodies(const SmallScene& scene, const std::vector<std::string>& names) {
-  SmallScene less = scene.with_bodies(names);
+  return with_state_of(scene, scene.with_bodies(names));
+}
+
+std::optional<SmallScene> Trials::without_added(const SmallScene& scene, const std::string& name) {
+  return with_state_of(scene, scene.without({name}));
+}
+
+std::optional<SmallScene> Trials::with_state_of(const SmallScene& scene, const SmallScene& less) {
   if (scene.run.start.empty()) return less;
   try {
     const std::unique_ptr<Session> all = load(scene);
-    if (all->scene().bodies.size() != static_cast<std::size_t>(all->bodies().size().value())) return std::nullopt;
-    // what lines do comes after it
+    // what lines do comes after it, but for bodies that they add and that the state has
     SmallScene bare = less.begun_anew(all->world().time(), all->record(), "");
-    bare.run.script.clear();
+    bare.run.script = bare.additions_at_start();
     const std::unique_ptr<Session> left = load(bare);
     left->take_over(*all);
     left->advance();

@@ -35,15 +35,17 @@ class Trials {
   /// The same with a file of the state, which is that of its bodies and no others; none where a ramp is cut in two.
   std::optional<SmallScene> begun_with(const SmallScene& scene, int frame);
 
-  /// With these bodies alone. Of a scene that begins with a state they begin as they do there, awake; none where bodies
-  /// that lines add are among that state.
+  /// With these bodies of the scene alone. Of a scene that begins with a state they begin as they do there, awake.
   std::optional<SmallScene> with_bodies(const SmallScene& scene, const std::vector<std::string>& names);
+  /// The same without a body that a line adds.
+  std::optional<SmallScene> without_added(const SmallScene& scene, const std::string& name);
 
   int tried() const { return tried_; }
   std::filesystem::path folder() const { return folder_; }
 
  private:
   std::unique_ptr<Session> load(const SmallScene& scene);
+  std::optional<SmallScene> with_state_of(const SmallScene& scene, const SmallScene& less);
   std::optional<Trial> run(Session& session, const SmallScene& scene, int last_frame);
 
   std::filesystem::path folder_;

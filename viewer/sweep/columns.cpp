@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/io/scene/scene_values.hpp"
@@ -23,13 +24,15 @@ constexpr Function kFunctions[] = {
     {"max",
      [](const std::vector<StatsLine>& f, std::size_t c) {
        double most = f.front().figures[c];
-       for (const StatsLine& line : f) most = std::max(most, line.figures[c]);
+       for (const StatsLine& line : f)  // a frame without a number is no frame
+         if (std::isnan(most) || line.figures[c] > most) most = line.figures[c];
        return most;
      }},
     {"min",
      [](const std::vector<StatsLine>& f, std::size_t c) {
        double least = f.front().figures[c];
-       for (const StatsLine& line : f) least = std::min(least, line.figures[c]);
+       for (const StatsLine& line : f)
+         if (std::isnan(least) || line.figures[c] < least) least = line.figures[c];
        return least;
      }},
     {"mean",
@@ -46,11 +49,19 @@ constexpr Function kFunctions[] = {
      }},
 };
 
-ExpressionWords column_words(const SweepWords& paths, bool judged) {
+/// Columns of stats.csv that are numbers.
+std::vector<std::string> numbers_of(const StatsShape& shape) {
+  std::vector<std::string> names = figure_names(shape.judged);
+  names.insert(names.end(), shape.own->begin(), shape.own->end());
+  return names;
+}
+
+ExpressionWords column_words(const SweepWords& paths, const StatsShape& shape) {
+  const bool judged = shape.judged;
   ExpressionWords words = paths.expression_words();
   words.takes_number = true;
   for (const Function& function : kFunctions)
-    for (const std::string& figure : figure_names(judged))
+    for (const std::string& figure : numbers_of(shape))
       words.names.push_back(fmt::format("{}({})", function.name, figure));
   std::vector<std::string> functions;
   for (const Function& function : kFunctions) functions.push_back(function.name);
@@ -64,8 +75,22 @@ ExpressionWords column_words(const SweepWords& paths, bool judged) {
 bool is_of_time(const std::string& word) {
   const std::size_t open = word.find('(');
   if (open == std::string::npos) return false;
-  const Figure* figure = find_figure(std::string_view(word).substr(open + 1, word.size() - open - 2));
-  return figure != nullptr && figure->kind == FigureKind::time;
+  return std::string_view(word).substr(0, word.size() - 1).ends_with("_ms");
+}
+
+/// What is asked of bodies is a column of stats.csv first.
+void refuse_calls(const std::string& where, const std::string& expression) {
+  for (const BodyFigure& figure : body_figures()) {
+    const std::string call = std::string(figure.name) + "(";
+    const std::size_t at = expression.find(call);
+    if (at == std::string::npos ||
+        (at > 0 && (std::isalnum(static_cast<unsigned char>(expression[at - 1])) != 0 || expression[at - 1] == '_')))
+      continue;
+    const std::string asked = expression.substr(at, expression.find(')', at) - at) + ")";
+    refuse(where, fmt::format("{}, which asks of bodies", asked),
+           "columns of stats.csv are wanted, and a scene may have its own",
+           fmt::format("add --set 'record.columns=[\"a = {}\"]' and write last(a)", asked));
+  }
 }
 
 bool is_name(const std::string& text) {
@@ -107,9 +132,12 @@ std::vector<double> SweepWords::values(const std::vector<std::string>& job_value
   return numbers;
 }
 
-SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes, bool judged)
-    : paths_(axes), judged_(judged) {
-  const ExpressionWords words = column_words(paths_, judged);
+SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes,
+                           const StatsShape& shape)
+    : paths_(axes) {
+  const ExpressionWords words = column_words(paths_, shape);
+  for (const std::string& figure : figure_names(shape.judged)) figures_.push_back(sweep_figure(figure));
+  for (std::size_t k = 0; k < shape.own->size(); ++k) figures_.push_back(figure_names(true).size() + k);
   for (const SweepSetting& setting : settings) {
     const std::string where = setting.where("--column");
     const std::size_t equals = setting.text.find('=');
@@ -123,6 +151,7 @@ SweepColumns::SweepColumns(const std::vector<SweepSetting>& settings, const std:
         std::any_of(axes.begin(), axes.end(), [&](const SweepAxis& axis) { return axis.path == name; }) ||
         is_sweep_column(name) || std::find(names_.begin(), names_.end(), name) != names_.end();
     if (is_taken) refuse(where, fmt::format("a second column '{}'", name), "names must differ", "rename it");
+    refuse_calls(where, setting.text.substr(equals + 1));
     const PlacedSetting placed(setting, "--column", equals + 1);
     expressions_.emplace_back(placed.text(), words);
     names_.push_back(name);
@@ -141,8 +170,7 @@ std::vector<double> SweepColumns::evaluate(const std::vector<std::string>& job_v
     return std::vector<double>(names_.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<double> values = paths_.values(job_values), results;
   for (const Function& function : kFunctions)
-    for (const std::string& figure : figure_names(judged_))
-      values.push_back(function.over(frames, sweep_figure(figure)));
+    for (const std::size_t figure : figures_) values.push_back(function.over(frames, figure));
   for (const Expression& expression : expressions_) results.push_back(expression.evaluate(values));
   return results;
 }

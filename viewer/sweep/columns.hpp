@@ -2,8 +2,8 @@
 #pragma once
 
 #include "viewer/controller/expression.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/sweep/values.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -31,21 +31,21 @@ class SweepWords {
   ExpressionWords words_;
 };
 
-/// Columns NAME=EXPR over f(COLUMN), f one of last, max, min, mean, sum over the frames and COLUMN one of stats.csv,
-/// and over the varied paths.
+/// Columns NAME=EXPR over f(COLUMN), f one of last, max, min, mean, sum over the frames and COLUMN one of stats.csv, the
+/// scene's own among them, and over the varied paths.
 class SweepColumns {
  public:
   SweepColumns() = default;
   /// Throws InputError for a name that is taken or has odd letters, an expression that is wrong, and a name that ends
-  /// in _ms where no time is in it, or the other way round. `judged`: the jobs have the figures of a judge.
-  SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes, bool judged);
+  /// in _ms where no time is in it, or the other way round. `shape`: of the jobs' stats.csv.
+  SweepColumns(const std::vector<SweepSetting>& settings, const std::vector<SweepAxis>& axes, const StatsShape& shape);
   const std::vector<std::string>& names() const { return names_; }
   /// A number a column; not finite where there are no frames or the expression says so. Frames as of sweep_stats().
   std::vector<double> evaluate(const std::vector<std::string>& job_values, const std::vector<StatsLine>& frames) const;
 
  private:
   SweepWords paths_;
-  bool judged_ = false;
+  std::vector<std::size_t> figures_;  // where those that a function may be of stand in a line
   std::vector<std::string> names_;
   std::vector<Expression> expressions_;
 };

@@ -128,7 +128,7 @@ Sweep plan_sweep(const SweepOptions& options, const RunOptions& run, const Sweep
   if (!options.window.text.empty() && sweep.reference == SweepReferenceKind::none)
     refuse(options.window.where("--window"), "a window without a reference", "errors to take over it are wanted",
            "add --reference, or leave it out");
-  sweep.columns = SweepColumns(options.columns, sweep.axes, run.judge);
+  sweep.columns = SweepColumns(options.columns, sweep.axes, base.session().stats_shape());
 
   std::vector<std::size_t> order = filtered(options, sweep, count);
   std::vector<Planned> planned;

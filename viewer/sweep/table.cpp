@@ -11,8 +11,8 @@
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/controller/run_folder.hpp"
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/sweep/doubts.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -106,12 +106,12 @@ std::vector<StatsLine> sweep_stats(const std::filesystem::path& run) {
   if (!is_file(run / "stats.csv")) return {};
   const std::string text = read_file(run / "stats.csv", kMostOfTable);
   const bool judged = text.substr(0, text.find('\n')).find(",judged_") != std::string::npos;
-  std::vector<StatsLine> lines = whole_rows(text, judged);
-  if (judged) return lines;
-  const std::vector<std::string>& names = figure_names(false);
+  std::vector<StatsLine> lines = whole_rows(text, {judged, std::nullopt});
+  const std::vector<std::string>& names = figure_names(judged);
   for (StatsLine& line : lines) {
     std::vector<double> all(figure_names(true).size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < names.size(); ++i) all[sweep_figure(names[i])] = line.figures[i];
+    all.insert(all.end(), line.own.begin(), line.own.end());
     line.figures = std::move(all);
   }
   return lines;

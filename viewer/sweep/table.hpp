@@ -1,8 +1,8 @@
 // What came out of a sweep, a row a job: results.csv and a table for the terminal.
 #pragma once
 
-#include "viewer/controller/stats_table.hpp"
 #include "viewer/sweep/job.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 namespace impinge {
 
@@ -38,7 +38,7 @@ const std::vector<std::string>& sweep_spread_columns();
 bool is_sweep_column(const std::string& name);
 
 /// The whole frames of a run's stats.csv; empty where there is none. Figures stand in the order of figure_names(true):
-/// those of a judge are no numbers where nobody judged.
+/// those of a judge are no numbers where nobody judged. Behind them the scene's own columns.
 std::vector<StatsLine> sweep_stats(const std::filesystem::path& run);
 
 /// What a job's folder says: outcome, figures, times as medians over the repeats and their spreads (largest less

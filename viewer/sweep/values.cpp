@@ -111,6 +111,9 @@ SweepAxis read_sweep_axis(const char* option, const SweepSetting& setting, const
     refuse(place, session.rows().unknown_message(axis.path), "a parameter or body.NAME.KEY is wanted",
            "change the path");
 
+  if (axis.path == "record.columns")
+    refuse(place, "record.columns, which says what all jobs are measured by", "the same in all jobs is wanted",
+           "give it by --set");
   const std::string spec = trimmed(text.substr(equals + 1));
   if (spec.empty()) refuse(place, "no values", "a,b,c or lo:hi:n or log(lo,hi,n) is wanted", "name some");
   const bool logarithmic = spec.rfind("log(", 0) == 0 && spec.back() == ')';

@@ -18,6 +18,7 @@
 
 #include "engine/core/archive.hpp"
 #include "engine/io/child_process.hpp"
+#include "engine/io/companion_error.hpp"
 #include "engine/io/meshes/mesh_readers.hpp"
 #include "engine/io/meshes/polygon.hpp"
 
@@ -67,11 +68,16 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
     // the file itself is one
     if (std::ssize(opened_) > kMostIncludes) return refuse(fmt::format("names more than {} files", kMostIncludes));
     Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
-    if (stream != nullptr) opened_.emplace_back(file);
+    if (stream != nullptr)
+      opened_.emplace_back(file);
+    else if (missing_.empty())
+      missing_ = file;
     return stream;
   }
   /// The first refusal, worded to follow the file's name; "" where there was none.
   const std::string& problem() const { return problem_; }
+  /// The first that could not be opened, "" where there was none. Importers may get on without it.
+  const std::string& missing() const { return missing_; }
   /// In the order in which they were opened, the mesh file among them; some more than once.
   const std::vector<std::string>& opened() const { return opened_; }
 
@@ -83,7 +89,7 @@ class GuardedFiles : public Assimp::DefaultIOSystem {
 
   const FileGuard& guard_;
   std::vector<std::string> opened_;
-  std::string problem_;
+  std::string problem_, missing_;
 };
 
 /// Metres of a unit of the file. assimp converts Collada's <unit> by itself and hands FBX's over: centimetres, times a
@@ -101,7 +107,8 @@ std::optional<double> unit_of(const aiScene& scene) {
   return 0.01 * factor;
 }
 
-// what the child sends: 'M' and the mesh, 'E' and why not, or 'R' and what it asked for that it must not have
+// what the child sends: 'M' and the mesh, 'E' and why not, 'N' and a file that it needs and that can't be opened, or 'R'
+// and what it asked for that it must not have
 std::string import_in_child(const std::string& path, const FileGuard& guard) {
   auto* files = new GuardedFiles(guard);  // the importer deletes it
   Assimp::Importer importer;
@@ -112,7 +119,9 @@ std::string import_in_child(const std::string& path, const FileGuard& guard) {
     const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent);
     if (scene != nullptr) scene = importer.ApplyPostProcessing(aiProcess_ValidateDataStructure);
     if (!files->problem().empty()) return "R" + files->problem();
-    if (scene == nullptr || scene->mRootNode == nullptr) return std::string("E") + importer.GetErrorString();
+    const bool failed = scene == nullptr || scene->mRootNode == nullptr;
+    if (failed && !files->missing().empty()) return "N" + files->missing();
+    if (failed) return std::string("E") + importer.GetErrorString();
     TriangleMesh mesh;
     append_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh, 0);
     const std::optional<double> unit = ending(path) == ".3mf" ? metres_of_3mf(path) : unit_of(*scene);
@@ -198,9 +207,14 @@ TriangleMesh read_with_assimp(const std::filesystem::path& path, const FileGuard
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || bytes.empty())
     throw InputError(name + ": the importer failed on it; a sound file is wanted; convert it to PLY");
   if (bytes[0] == 'R')
-    throw InputError(
-        fmt::format("{}: {}; files inside it are read, {} at most; copy them there, or convert the mesh to PLY", name,
-                    bytes.substr(1), kMostIncludes));
+    throw CompanionError(
+        name, fmt::format("{}; files inside it are read, {} at most; copy them there, or convert the mesh to PLY",
+                          bytes.substr(1), kMostIncludes));
+  if (bytes[0] == 'N')
+    throw CompanionError(
+        name, fmt::format("names '{}', which can't be opened; a mesh with all files that it names is wanted; "
+                          "put it there, or convert the mesh to PLY",
+                          bytes.substr(1)));
   if (bytes[0] == 'E')
     throw InputError(
         fmt::format("{}: can't be read ({}); a sound file is wanted; convert it to PLY", name, bytes.substr(1)));

@@ -12,6 +12,7 @@
 #include "engine/geometry/mend/mend.hpp"
 #include "engine/geometry/mend/remesh.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
+#include "engine/io/companion_error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
 #include "engine/io/meshes/mesh_memory.hpp"
@@ -31,6 +32,16 @@ constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30;
 [[noreturn]] void refuse_mesh(const TomlNode& node, const std::string& problem) {
   throw InputError(fmt::format("{}: surface {} {}; mend = true drops and mends what can be", node.place,
                                toml_string(node.string), problem));
+}
+
+/// What `read` makes. Where it needs a file that can't be had, the message begins where the scene names the one that does.
+template <class Read>
+auto read_with_companions(const TomlNode& node, const Read& read) {
+  try {
+    return read();
+  } catch (const CompanionError& error) {
+    throw InputError(fmt::format("{}: file {}: {}", node.place, toml_string(node.string), error.reason));
+  }
 }
 
 /// The file and those that it names, each once.
@@ -89,7 +100,7 @@ TriangleMesh SurfaceFiles::read_file_of(const fs::path& path, const TomlNode& no
   const std::uint64_t hash = hash_bytes(read_file(path, kLargestFile));
   check_interrupt();
   MeshOrigin origin;
-  TriangleMesh mesh = read_mesh(path, guard_, &origin);
+  TriangleMesh mesh = read_with_companions(node, [&] { return read_mesh(path, guard_, &origin); });
   check_interrupt();
   if (keys.is_unit_given && !origin.unit.empty())
     refuse(node.place, fmt::format("surface {} says its own unit ({})", toml_string(node.string), origin.unit),
@@ -133,7 +144,7 @@ std::shared_ptr<const TetFile> SurfaceFiles::load_volume(const TomlNode& node, c
   if (!error)
     check_memory(node.place, fmt::format("{} = {} ({})", what, toml_string(node.string), describe_bytes(bytes)),
                  3.0 * bytes, "use a coarser mesh");
-  volume = std::make_shared<TetFile>(read_tet_file(path, guard_));
+  volume = read_with_companions(node, [&] { return std::make_shared<TetFile>(read_tet_file(path, guard_)); });
   SurfaceFile file;
   file.name = node.string;
   file.hash = hash_bytes(read_file(path, kLargestFile));
@@ -157,7 +168,7 @@ std::vector<Vec3> SurfaceFiles::load_points(const TomlNode& node, const std::str
     file.name = node.string;
     file.hash = hash_bytes(read_file(path, kLargestFile));
     MeshOrigin origin;
-    const TriangleMesh mesh = read_mesh(path, guard_, &origin);
+    const TriangleMesh mesh = read_with_companions(node, [&] { return read_mesh(path, guard_, &origin); });
     file.paths = with_others(path, origin.others);
     for (const Vec3& x : mesh.vertices)
       if (!x.allFinite())

@@ -17,7 +17,7 @@ std::string found(const TomlNode& node) {
 
 /// `--set simulation.gravity=0,0,-9.8`: a list that came as a text.
 bool lacks_brackets(const TomlNode& node) {
-  return node.kind == TomlNode::text && node.string.find(',') != std::string::npos &&
+  return node.kind == TomlNode::text && find_comma(node.string) != std::string::npos &&
          node.string.find_first_of("[]") == std::string::npos;
 }
 std::string in_brackets(const TomlNode& node) { return fmt::format("put it in brackets: [{}]", node.string); }

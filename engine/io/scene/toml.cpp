@@ -23,6 +23,15 @@ const char* toml_kind_name(const TomlNode& node) {
   return kNames[node.kind];
 }
 
+std::size_t find_comma(std::string_view text, std::size_t begin) {
+  int depth = 0;
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    if (text[i] == ',' && depth <= 0) return i;
+  }
+  return std::string_view::npos;
+}
+
 TomlNode parse_toml_value(const std::string& text, const std::string& place) {
   const auto place_all = [&](auto& self, TomlNode& node) -> void {
     node.place = place;
@@ -51,10 +60,13 @@ TomlNode parse_toml_value(const std::string& text, const std::string& place) {
     list.kind = TomlNode::array;
     list.place = place;
     for (std::size_t begin = 1; begin < n - 1;) {
-      const std::size_t end = std::min(text.find(',', begin), n - 1);
+      const std::size_t end = std::min(find_comma(text, begin), n - 1);
       const std::size_t first = text.find_first_not_of(' ', begin), last = text.find_last_not_of(' ', end - 1);
-      if (first >= end || text.substr(first, last - first + 1).find(' ') != std::string::npos) return bare;
-      list.items.push_back(parse_toml_value(text.substr(first, last - first + 1), place));
+      if (first >= end) return bare;
+      const std::string item = text.substr(first, last - first + 1);
+      // two words are no text, but for one that says NAME = EXPR
+      if (item.find(' ') != std::string::npos && item.find('=') == std::string::npos) return bare;
+      list.items.push_back(parse_toml_value(item, place));
       begin = end + 1;
     }
     return list;

@@ -40,6 +40,9 @@ const char* toml_kind_name(const TomlNode& node);
 /// The tree of `text`; `name` is the file's name in messages. Throws InputError `name:line:column: ...`.
 TomlNode parse_toml(const std::string& name, const std::string& text);
 
+/// Where the next comma stands that is in no parentheses; npos for none.
+std::size_t find_comma(std::string_view text, std::size_t begin = 0);
+
 /// One value as it stands right of an equals sign; text that is no TOML value is taken as a bare string. Throws
 /// InputError where it is no UTF-8.
 TomlNode parse_toml_value(const std::string& text, const std::string& place);

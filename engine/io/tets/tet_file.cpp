@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
+#include "engine/io/companion_error.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "engine/io/tets/tet_draft.hpp"
@@ -18,15 +19,16 @@ TetFile read_tet_file(const std::filesystem::path& path, const FileGuard& guard)
                                 ele = std::filesystem::path(path).replace_extension(".ele");
     for (const auto& part : {node, ele})
       if (const auto target = guard.refused(part))
-        throw InputError(fmt::format(
-            "{}: '{}' leads out of the scene's folder ({}); files inside it are read; put both into one folder",
-            path.string(), part.string(), target->string()));
+        throw CompanionError(
+            path, fmt::format("'{}' leads out of the scene's folder ({}); files inside it are read; put both into one "
+                              "folder",
+                              part.string(), target->string()));
     for (const auto& part : {node, ele})
       if (!is_there(part))
-        throw InputError(
-            fmt::format("{}: '{}' is not there; a TetGen mesh is a .node and an .ele file of the same name; put both "
-                        "into one folder",
-                        path.string(), part.string()));
+        throw CompanionError(
+            path, fmt::format("'{}' is not there; a TetGen mesh is a .node and an .ele file of the same name; "
+                              "put both into one folder",
+                              part.string()));
     const std::string node_bytes = read_file(node, kLargestTetFile), ele_bytes = read_file(ele, kLargestTetFile);
     return parse_tetgen(node.string(), node_bytes, ele.string(), ele_bytes);
   }

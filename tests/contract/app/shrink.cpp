@@ -242,6 +242,63 @@ position = [2.5, 0, 0]
   CHECK(again.bodies == small.bodies);
 }
 
+TEST_CASE("a state to which lines added bodies loses those that are not needed, and keeps what the others do") {
+  const TempFolder folder;
+  // without gravity: a copy of the hammer sets a soft block going, another one flies beside it; both are added by lines
+  const std::string scene = R"(
+[simulation]
+gravity = [0, 0, 0]
+[[body]]
+name = "hammer"
+kind = "dynamic"
+shape = { box = { size = [0.5, 1, 1] } }
+material = { density = 4000 }
+position = [-9, 0, 0]
+velocity = [4, 0, 0]
+[[body]]
+name = "block"
+kind = "deformable"
+shape = { box = { size = [1, 1, 1] } }
+volume = { lattice = { cells = 2 } }
+material = { young = 1e6, poisson = 0.3, density = 1000, damping = [0, 0.01] }
+[[body]]
+name = "wall"
+kind = "static"
+shape = { box = { size = [0.5, 4, 4] } }
+position = [2.5, 0, 0]
+)" + bystanders(1);
+  const std::string script =
+      "add aside like hammer at -0.9 9 0 velocity 4 0 0\nadd second like hammer at -0.9 0 0 velocity 4 0 0\nadd late "
+      "like bystander_0 at 0 0 30\n";
+  make_bundle(folder, scene, 60, script);
+  const auto lines_of = [](const Small& small) {
+    std::string lines;
+    for (const TomlNode& line : small.scene.find("run")->value.find("script")->value.items) lines += line.string + "\n";
+    return lines;
+  };
+  const Small small = shrink(folder, "contacts(block,wall) > 0");
+  INFO(small.outcome.out);
+  CHECK(small.outcome.out.find("note: it begins with a state") != std::string::npos);
+  CHECK(small.bodies == std::vector<std::string>{"block", "wall"});
+  CHECK(lines_of(small).empty());
+  CHECK(small.frame <= 3);
+  // of 2 t at 4 m/s, which stick to 1 t or bounce off it
+  const std::string bytes = slurp(folder / "small.tar");
+  folder.write("small.csv", std::string(parse_bundle("small.tar", bytes).parts.at("stats.csv")));
+  const double speed = numbers(csv_rows(folder / "small.csv"), "momentum_x").front() / 1000.0;
+  CHECK(speed > 8.0 / 3.0 - 0.01);
+  CHECK(speed < 16.0 / 3.0 + 0.01);
+  // one that the condition speaks of stays, with what it is a copy of, and goes on as fast as it went
+  const Small kept = shrink(folder, "contacts(block,wall) > 0 && position_x(aside) > 2", "kept.tar");
+  INFO(kept.outcome.out);
+  CHECK(kept.bodies == std::vector<std::string>{"hammer", "block", "wall"});
+  CHECK(lines_of(kept).find("add aside like hammer") != std::string::npos);
+  CHECK(lines_of(kept).find("second") == std::string::npos);
+  CHECK(lines_of(kept).find("late") == std::string::npos);
+  folder.write("speed.script", "seek 0\nfind velocity_x(aside) > 3.999 && velocity_x(aside) < 4.001\n");
+  CHECK(end_of(debug(folder, "kept.tar", "speed.script")).first == 0);
+}
+
 TEST_CASE("what a scene moves goes on as it was in the state of fewer bodies") {
   const TempFolder folder;
   // a hammer shoves a soft block along a lift that rises a second later

@@ -145,6 +145,22 @@ TEST_CASE("test --only runs the tests that it names, and knows no others") {
   check_refused(suite.folder, {"test", "suite", "--only", "fall,reast"},
                 "command line: --only names 'reast'; tests of suite: fall, late, rest", "did you mean 'rest'?");
   check_refused(suite.folder, {"test", "suite", "--only", "fall,"}, "command line: --only is 'fall,'", "without gaps");
+
+  // names may hold commas
+  for (const char* ending : {".toml", ".script"}) {
+    fs::rename(suite.folder / ("suite/late" + std::string(ending)), suite.folder / ("suite/a,b" + std::string(ending)));
+    fs::copy_file(suite.folder / ("suite/fall" + std::string(ending)),
+                  suite.folder / ("suite/b" + std::string(ending)));
+  }
+  const Outcome comma = suite.run({"--only", "a\\,b"});
+  CHECK(comma.code == 1);
+  CHECK(holds(comma.out, "FAILED  a,b: "));
+  CHECK(holds(comma.out, "1 test of 4: 0 ok, 1 failed"));
+  const Outcome both = suite.run({"--only", "fall,a\\,b", "--only", "b"});
+  CHECK(holds(both.out, "FAILED  a,b: "));
+  CHECK(holds(both.out, "3 tests of 4: 2 ok, 1 failed"));
+  check_refused(suite.folder, {"test", "suite", "--only", "a,b"},
+                "command line: --only names 'a'; tests of suite: a\\,b", "--only");
 }
 
 TEST_CASE("test --jobs: what is told and written is the same, in the same order, however many run at once") {

@@ -142,7 +142,7 @@ TEST_CASE("volume files that don't fit are refused at the right place") {
   check_refused_at(kShapeAndVolume, "volume = \"cube.off\"", "cube.off", ".veg, .node/.ele and .msh are read");
   check_refused_at(kShapeAndVolume, "volume = \"bad.veg\"", "bad.veg:36:9", "vertex 140");
   check_refused_at(kShapeAndVolume, "volume = \"inverted.msh\"", "inverted.msh:45:1", "inverted");
-  check_refused_at(kShapeAndVolume, "volume = \"lonely.node\"", "lonely.node", "'lonely.ele' is not there");
+  check_refused_at(kShapeAndVolume, "volume = \"lonely.node\"", "s.toml:10:10", "'lonely.ele' is not there");
   check_refused_at(kShapeAndVolume, "surface = \"far.off\"\nvolume = \"cube.veg\"", "s.toml:11:10",
                    "outside of the volume");
 }

@@ -93,6 +93,37 @@ TEST_CASE("a mesh that is not there is told where the scene, or an override, nam
   check_refused(folder, kRun, "s.toml:4:10: ", "there is no such file");
 }
 
+TEST_CASE("a file that needs another beside it, which is not there, is told where the scene names it") {
+  const TempFolder folder;
+  const std::string soft =
+      "[[body]]\nname = \"a\"\nkind = \"deformable\"\nvolume = \"m.node\"\nmaterial = { young = 1e5, poisson = 0.4, "
+      "density = 1000 }\n";
+  const std::string nodes = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n", tets = "1 4 0\n1 1 2 3 4\n";
+  folder.write("m.node", nodes);
+  folder.write("s.toml", soft);
+  check_refused(folder, kRun, "s.toml:4:10: file \"m.node\": 'm.ele' is not there; a TetGen mesh is", "put both into");
+  // with the other one it is a body
+  folder.write("m.ele", tets);
+  CHECK(impinge_run(folder.path(), {"check", "s.toml"}).code == 0);
+  std::filesystem::remove(folder / "m.node");
+  folder.write("s.toml", replaced(soft, "m.node", "m.ele"));
+  check_refused(folder, kRun, "s.toml:4:10: file \"m.ele\": 'm.node' is not there", "put both into");
+
+  // a triangle of positions in a buffer that is a file of its own
+  folder.write("t.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"uri":"t.bin","byteLength":36}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]})");
+  const std::string sheet = "[[body]]\nname = \"a\"\nkind = \"static\"\nsurface = \"t.gltf\"\n";
+  folder.write("s.toml", sheet);
+  check_refused(folder, kRun, "s.toml:4:11: file \"t.gltf\": names '", "t.bin', which can't be opened; ");
+  check_refused(folder, run_with({"--set", "body.a.surface=\"t.gltf\""}),
+                "--set body.a.surface=\"t.gltf\": file \"t.gltf\": names '", "t.bin', which can't be opened; ");
+  const float corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder.write("t.bin", std::string(reinterpret_cast<const char*>(corners), sizeof corners));
+  CHECK(impinge_run(folder.path(), kRun).code == 0);
+}
+
 TEST_CASE("commands on files and folders that are not there say so") {
   const TempFolder folder;
   folder.write("s.toml", kBall);

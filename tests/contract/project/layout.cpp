@@ -75,6 +75,7 @@ const std::map<std::string, int>& floors() {
                                                  {"viewer/notes", 25},
                                                  {"viewer/present", 25},
                                                  {"viewer/export", 25},
+                                                 {"viewer/tables", 25},
                                                  {"viewer/web", 26},
                                                  {"viewer/vnc", 26},
                                                  {"viewer/controller", 26},

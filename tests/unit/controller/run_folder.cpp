@@ -16,7 +16,7 @@ TEST_CASE("a run's folder that another process has just begun is its, whatever s
       const std::filesystem::path two = folder / "two";
       std::filesystem::remove_all(two);
       std::filesystem::create_directory(two);
-      const auto take = [&] { RunFolder(two, RunRecord{}, "frames = 3\n", how, 0); };
+      const auto take = [&] { RunFolder(two, RunRecord{}, "frames = 3\n", how, 0, false); };
       {
         const FolderLock theirs = FolderLock::take(two);
         folder.write(std::string("two/") + begun, "half");

@@ -119,3 +119,51 @@ TEST_CASE("fit shows every corner of any box, and not from farther than needed")
   camera.fit(Aabb{});
   CHECK(camera.eye == eye);
 }
+
+TEST_CASE("take_in goes back and across until all points are in the picture, no farther, and not at all if they are") {
+  test::Random random(71);
+  for (int trial = 0; trial < 200; ++trial) {
+    Camera camera;
+    camera.look_at(3.0 * random.direction(), 0.5 * random.direction());
+    camera.fov_deg = random.in(20.0, 70.0);
+    const int width = 640, height = 360;
+    const double aspect = static_cast<double>(width) / height;
+    std::vector<Vec3> points(1 + static_cast<std::size_t>(trial % 5));
+    for (Vec3& x : points) x = std::pow(10.0, random.in(-1.0, 2.0)) * random.direction();
+    Camera wide = camera;
+    wide.take_in(points, aspect);
+    CAPTURE(trial);
+    // the same direction, moved by as much as the target
+    CHECK(((wide.eye - wide.target) - (camera.eye - camera.target)).norm() < 1e-9 * (1.0 + wide.eye.norm()));
+    const double back = camera.view_rotation().row(2).dot(wide.eye - camera.eye);
+    CHECK(back >= 0.0);
+    const auto holds = [&](const Camera& c, const Vec3& x) {
+      const auto at = c.project(x, width, height);
+      return at && at->x() >= 0.0 && at->x() <= width && at->y() >= 0.0 && at->y() <= height;
+    };
+    for (const Vec3& x : points) CHECK(holds(wide, x));
+    // what was seen round the target still is
+    for (const double u : {0.03, 0.97})
+      for (const double v : {0.03, 0.97})
+        CHECK(holds(wide, camera.unproject(u * width, v * height, camera.distance(), width, height)));
+    // again: nothing to do
+    Camera again = wide;
+    again.take_in(points, aspect);
+    CHECK((again.eye - wide.eye).norm() < 1e-9 * (1.0 + wide.eye.norm()));
+    // a tenth of the way less and something is out, or too near to the eye
+    if (back > 1e-6) {
+      Camera less = wide;
+      const Vec3 shift = 0.1 * back * camera.view_rotation().row(2).transpose();
+      less.eye -= shift, less.target -= shift;
+      Camera more = less;
+      more.take_in(points, aspect);
+      CHECK((more.eye - less.eye).norm() > 1e-9);
+    }
+  }
+  Camera camera;
+  const Camera before = camera;
+  camera.take_in(std::vector<Vec3>{camera.target}, 1.5);
+  CHECK(camera.eye == before.eye);
+  camera.take_in({}, 1.5);
+  CHECK(camera.eye == before.eye);
+}

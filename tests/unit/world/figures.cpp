@@ -4,9 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 using namespace impinge;
 
@@ -165,6 +166,33 @@ TEST_CASE("a table of no version is refused, and a row of another shape") {
   refused(header + "\n", true, "here.csv:1:1: another header");
   refused(header + "\n" + row + "\n1,2\n", false, "here.csv:3:1: '' in column substeps; a number is wanted");
   refused(header + "\n" + row + ",7\n", false, "here.csv:2:1: '7' after column");
+}
+
+TEST_CASE("a scene's own columns stand last, are read back exactly, and no others are taken for them") {
+  const StatsShape shape(false, std::vector<std::string>{"x", "push"});
+  const StatsColumns columns(shape);
+  CHECK(columns.header() == StatsColumns(false).header() + ",x,push");
+  const std::vector<double> own = {0.1, -std::numeric_limits<double>::quiet_NaN()};
+  const std::string line = columns.row(distinct(), own);
+  CHECK(line == StatsColumns(false).row(distinct()) + ",0.1,nan");
+  const StatsLine read = columns.parse(line);
+  CHECK(read.figures == figure_values(distinct(), false));
+  REQUIRE(read.own.size() == 2);
+  CHECK((read.own[0] == 0.1 && std::isnan(read.own[1])));
+  CHECK_THROWS_WITH(columns.parse(line + ",7"), Catch::Contains("'7' after column push"));
+  CHECK_THROWS_WITH(columns.parse(StatsColumns(false).row(distinct()) + ",0.1,y"),
+                    Catch::Contains("'y' in column push"));
+  CHECK_THROWS_AS(columns.row(distinct()), InternalError);
+
+  const std::string header = columns.header();
+  CHECK(StatsColumns(header, shape).own() == *shape.own);
+  CHECK(StatsColumns(header, StatsShape(false, std::nullopt)).own() == *shape.own);  // whatever there is
+  for (const std::string& other : {StatsColumns(false).header(), header + ",y",
+                                   StatsColumns(false).header() + ",push,x", StatsColumns(false).header() + ",x,x"})
+    CHECK_THROWS_AS(StatsColumns(other, shape), InputError);
+  CHECK_THROWS_AS(StatsColumns(header, false), InputError);
+  // none between the figures
+  CHECK_THROWS_AS(StatsColumns("frame,x" + header.substr(5), StatsShape(false, std::nullopt)), InputError);
 }
 
 TEST_CASE("a snapshot keeps every figure but times and judgements") {

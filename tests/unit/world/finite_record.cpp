@@ -8,7 +8,7 @@
 #include "engine/world/finite_record.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/pictures/hand_made_record.hpp"
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 using namespace impinge;
 using namespace impinge::test;

@@ -23,14 +23,19 @@ double number_in(const ParameterValue& value) {
   return real == nullptr ? 0.0 : *real;
 }
 
-/// What a slider goes over: the row's range if one can find one's way in it, else what is near the first value.
+/// What a slider goes over: the row's range if one can find one's way in it, else what is near the first value, a thousand
+/// times less and more where it goes by decades.
 Range slider_range(const Parameter& row, double now) {
   Range r = row.range;
   const double first = number_in(row.initial);
   if (r.logarithmic) {
     const double middle = std::abs(first) > 0.0 ? std::abs(first) : row.word.empty() ? 1.0 : 0.01;
-    return {std::max(r.low, std::min(1e-4 * middle, now > 0.0 ? now : middle)),
-            std::min(r.high, std::max(1e4 * middle, now)), true};
+    double down = std::log10(middle / std::max(r.low, 1e-3 * middle)),
+           upward = std::log10(std::min(r.high, 1e3 * middle) / middle);
+    // what it was at first stands in the middle, unless the row's range ends near it
+    if (std::min(down, upward) >= 2.0) down = upward = std::min(down, upward);
+    const double low = middle * std::pow(10.0, -down), high = middle * std::pow(10.0, upward);
+    return {std::max(r.low, std::min(low, now > 0.0 ? now : middle)), std::min(r.high, std::max(high, now)), true};
   }
   // not by the present value: the scale would move under the pointer
   double reach = first != 0.0 ? 4.0 * std::abs(first) : 1.0;

@@ -1,12 +1,14 @@
 #include "viewer/panels/debug/ui.hpp"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/parameter.hpp"
 #include "viewer/draw/palette.hpp"
-#include "viewer/gl/text_font.hpp"
+#include "viewer/image/text_font.hpp"
 
 namespace impinge {
 namespace {
@@ -104,10 +106,15 @@ const std::vector<std::string>& button_names() {
   return names;
 }
 
+std::string UiPointer::line() const {
+  return fmt::format("ui move {} {}{}", shortest(x), shortest(y), has_clicked ? " clicked" : "");
+}
+
 Ui::Ui(int scale) : scale_(scale) {
   context_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
+  io.UserData = this;
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
@@ -145,10 +152,14 @@ void Ui::begin(int width, int height) {
     queue_.pop_front();
     switch (event.kind) {
       case UiEvent::move:
+        if (event.x != mouse_x_ || event.y != mouse_y_) has_clicked_ = false;
         mouse_x_ = event.x, mouse_y_ = event.y, moved = true;
         break;
       case UiEvent::press:
-        down_[event.code] = went_down_[event.code] = true;
+        down_[event.code] = went_down_[event.code] = has_clicked_ = true;
+        break;
+      case UiEvent::clicked:
+        has_clicked_ = true;
         break;
       case UiEvent::release:
         down_[event.code] = false, went_up_[event.code] = true;

@@ -25,11 +25,19 @@ const std::vector<std::string>& key_names();
 const std::vector<std::string>& button_names();
 
 struct UiEvent {
-  enum Kind { move, press, release, wheel, key_down, key_up, type };
+  enum Kind { move, press, release, wheel, key_down, key_up, type, clicked };  ///< clicked: as after a press there
   Kind kind = move;
   float x = 0.0f, y = 0.0f;  ///< move; wheel: y
   int code = 0;              ///< of button_names() or key_names()
   std::string text = {};
+};
+
+/// All that a picture shows of the pointer.
+struct UiPointer {
+  double x = -1.0, y = -1.0;  ///< pixels of the window
+  bool has_clicked = false;   ///< since it moved: what it points at is known, and no tooltip says it
+  bool is_there() const { return x >= 0.0 && y >= 0.0; }
+  std::string line() const;  ///< of a script, that brings it there
 };
 
 /// Pixels of the window.
@@ -78,6 +86,7 @@ class Ui {
   // in a frame
   float mouse_x() const { return mouse_x_; }
   float mouse_y() const { return mouse_y_; }
+  UiPointer pointer() const { return {mouse_x_, mouse_y_, has_clicked_}; }
   bool went_down(int button) const { return went_down_[button]; }
   bool went_up(int button) const { return went_up_[button]; }
   float wheel() const { return wheel_; }
@@ -107,6 +116,7 @@ class Ui {
   std::string wanted_;
   UiTyping typing_;
   float mouse_x_ = -1.0f, mouse_y_ = -1.0f, wheel_ = 0.0f;
+  bool has_clicked_ = false;
   bool down_[3] = {}, went_down_[3] = {}, went_up_[3] = {};
   std::vector<int> keys_now_;
 };

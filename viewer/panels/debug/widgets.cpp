@@ -43,6 +43,7 @@ std::string brief(double v, int digits) {
 
 void tooltip(const std::string& text) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (static_cast<const Ui*>(ImGui::GetIO().UserData)->pointer().has_clicked) return;
   // below what it explains, or above where there is no room below
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), window = ImGui::GetIO().DisplaySize;
   const float gap = 0.3f * ImGui::GetFontSize(), wrap = ImGui::GetFontSize() * 28.0f;

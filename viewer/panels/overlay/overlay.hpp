@@ -6,7 +6,7 @@
 
 #include "viewer/draw/palette.hpp"
 #include "viewer/gl/imgui_backend.hpp"
-#include "viewer/gl/text_font.hpp"
+#include "viewer/image/text_font.hpp"
 
 struct ImDrawList;
 struct ImFont;

@@ -1,4 +1,4 @@
-#include "viewer/controller/contacts_table.hpp"
+#include "viewer/tables/contacts_table.hpp"
 
 #include <fmt/format.h>
 

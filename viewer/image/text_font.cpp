@@ -1,4 +1,4 @@
-#include "viewer/gl/text_font.hpp"
+#include "viewer/image/text_font.hpp"
 
 #include <imgui.h>
 #include <imgui_freetype.h>

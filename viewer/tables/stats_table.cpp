@@ -1,9 +1,10 @@
-#include "viewer/controller/stats_table.hpp"
+#include "viewer/tables/stats_table.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "engine/core/error.hpp"
@@ -22,6 +23,14 @@ std::string_view take_cell(std::string_view& line) {
   return cell;
 }
 
+double number_in(std::string_view word, std::string_view column) {
+  double number = 0.0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || stop != word.data() + word.size())
+    throw InputError(fmt::format("'{}' in column {}; a number is wanted; run the scene again", word, column));
+  return number;
+}
+
 double number_of(std::string_view word, std::string_view column) {
   for (const SolveEnd end : kSolveEnds)
     if (name_of(end) == word) return static_cast<double>(end);
@@ -37,17 +46,26 @@ double number_of(std::string_view word, std::string_view column) {
 
 }  // namespace
 
-StatsColumns::StatsColumns(bool judged) : judged_(judged) {
+StatsColumns::StatsColumns(const StatsShape& shape)
+    : own_(shape.own.value_or(std::vector<std::string>())), judged_(shape.judged) {
   for (const Figure& figure : figures())
-    if (judged || figure.kind != FigureKind::judged) add(figure);
+    if (judged_ || figure.kind != FigureKind::judged) add(figure);
 }
 
-StatsColumns::StatsColumns(std::string_view header, bool judged) : judged_(judged) {
+StatsColumns::StatsColumns(std::string_view header, const StatsShape& shape) : judged_(shape.judged) {
+  const bool judged = judged_;
   while (!header.empty()) {
-    const Figure* figure = find_figure(take_cell(header));
-    if (figure == nullptr || has(*figure) || (figure->kind == FigureKind::judged && !judged)) refuse_header();
-    add(*figure);
+    const std::string_view name = take_cell(header);
+    const Figure* figure = find_figure(name);
+    const bool is_odd = figure == nullptr ? name.empty() || std::find(own_.begin(), own_.end(), name) != own_.end()
+                                          : has(*figure) || (figure->kind == FigureKind::judged && !judged);
+    if (is_odd || (figure != nullptr && !own_.empty())) refuse_header();
+    if (figure != nullptr)
+      add(*figure);
+    else
+      own_.emplace_back(name);
   }
+  if (shape.own && own_ != *shape.own) refuse_header();
   // those up to the hash are as old as the file's form
   const std::span<const Figure> oldest = figures().first(1 + (find_figure("state_hash") - figures().data()));
   const bool is_ours =
@@ -69,14 +87,17 @@ bool StatsColumns::has(const Figure& figure) const {
 std::string StatsColumns::header() const {
   std::string line;
   for (const Column& column : columns_) line += (line.empty() ? "" : ",") + std::string(column.figure->name);
+  for (const std::string& name : own_) line += "," + name;
   return line;
 }
 
-std::string StatsColumns::row(const FrameStats& stats) const {
-  return row(figure_values(stats, judged_), stats.state_hash);
+std::string StatsColumns::row(const FrameStats& stats, std::span<const double> own) const {
+  return row(figure_values(stats, judged_), stats.state_hash, own);
 }
 
-std::string StatsColumns::row(std::span<const double> figures, std::uint64_t state_hash) const {
+std::string StatsColumns::row(std::span<const double> figures, std::uint64_t state_hash,
+                              std::span<const double> own) const {
+  IMPINGE_ASSERT(own.size() == own_.size());
   std::string line;
   for (const auto& [figure, place] : columns_) {
     if (!line.empty()) line += ',';
@@ -89,6 +110,8 @@ std::string StatsColumns::row(std::span<const double> figures, std::uint64_t sta
     else
       line += shortest(figures[place]);
   }
+  // what is no number has no sign either
+  for (const double value : own) line += "," + (std::isnan(value) ? std::string("nan") : shortest(value));
   return line;
 }
 
@@ -111,21 +134,20 @@ StatsLine StatsColumns::parse(std::string_view line) const {
       row.figures[place] = number_of(word, figure->name);
       continue;
     }
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), row.figures[place]);
-    if (error != std::errc() || stop != word.data() + word.size())
-      throw InputError(fmt::format("'{}' in column {}; a number is wanted; run the scene again", word, figure->name));
+    row.figures[place] = number_in(word, figure->name);
   }
+  for (const std::string& name : own_) row.own.push_back(number_in(take_cell(line), name));
   if (!line.empty())
     throw InputError(
         fmt::format("'{}' after column {}; a cell for each column of the header is wanted; run the scene again", line,
-                    columns_.back().figure->name));
+                    own_.empty() ? columns_.back().figure->name : own_.back()));
   return row;
 }
 
-StatsReader::StatsReader(std::string_view text, bool judged, const std::string& file)
-    : rest_(text), file_(file), columns_(judged) {
+StatsReader::StatsReader(std::string_view text, const StatsShape& shape, const std::string& file)
+    : rest_(text), file_(file), columns_(shape) {
   try {
-    columns_ = StatsColumns(first_line(text), judged);
+    columns_ = StatsColumns(first_line(text), shape);
     if (first_line(text).size() == text.size()) refuse_header();  // cut off within it
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}:1:1: {}", file_, error.what()));
@@ -146,11 +168,11 @@ bool StatsReader::next(StatsLine& row) {
   return true;
 }
 
-std::vector<StatsLine> whole_rows(std::string_view text, bool judged) {
+std::vector<StatsLine> whole_rows(std::string_view text, const StatsShape& shape) {
   std::vector<StatsLine> rows;
   try {
     const std::string file = "stats.csv";
-    StatsReader reader(text, judged, file);
+    StatsReader reader(text, shape, file);
     for (StatsLine row; reader.next(row); rows.push_back(row))
       if (row.figures[0] != static_cast<double>(rows.size()) || row.state_hash.size() != 16 ||
           row.state_hash.find_first_not_of("0123456789abcdef") != std::string::npos)
