@@ -10,6 +10,8 @@ namespace impinge {
 namespace {
 
 constexpr int kHalvings = 7;
+constexpr double kLittle = 0.01,
+                 kAlike = 0.01;  // of ‖F‖²: what a step that is not held back leaves; and what may differ
 constexpr std::size_t kMostContacts = 6000;  // W written out takes 2.6 GB then
 
 }  // namespace
@@ -96,6 +98,20 @@ bool NewtonSearch::find_direction(double alpha) {
   system_->factorize(a_, b_, kept_);
   system_->solve(f, direction_);
   return direction_.allFinite();
+}
+
+bool NewtonSearch::is_held_back(double alpha, double now, double before) const {
+  if (!(now > kLittle * before)) return false;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n_; ++i) {
+    const Vec3 f = width_ > 0.0 ? smoothed_alart_curnier_value(problem_, i, u_[i], lambda_[i], rho_[i], width_)
+                                : alart_curnier_value(problem_, i, u_[i], lambda_[i], rho_[i]);
+    // (A W + B) d = -F with α D in B: of linear equations -α A D d is left; those of open contacts have no A
+    const Vec3 other = kept_[i] ? Vec3(f + alpha * scale_[i] * (a_[i] * direction(i))) : f;
+    if (rho_[i].x() > 0.0) sum += other.x() * other.x() / (rho_[i].x() * rho_[i].x());
+    if (rho_[i].y() > 0.0) sum += other.tail<2>().squaredNorm() / (rho_[i].y() * rho_[i].y());
+  }
+  return sum <= kAlike * now;
 }
 
 double NewtonSearch::search(double& now) {

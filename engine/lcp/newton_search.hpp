@@ -36,6 +36,9 @@ class NewtonSearch {
   /// Goes to the longest of the lengths 1, 1/2, 1/4, ... of which F has shrunk against the worst of the last few, and
   /// returns it; 0 if there is none (λ is as before). `now`: the merit of λ, in and out.
   double search(double& now);
+  /// Whether what is left of F after a whole step is what `alpha` asked to be left, and much: the equations are linear so far,
+  /// and α is what keeps λ from their answer. `now`: the merit of λ, `before`: where the step began.
+  bool is_held_back(double alpha, double now, double before) const;
   Vec3 direction(std::size_t i) const { return direction_.segment<3>(3 * static_cast<Eigen::Index>(i)); }
 
   const ConeProblem& problem_;

@@ -4,6 +4,10 @@
 // last steps are Newton's own: quadratic. [AcaryBremondHuber18] found Newton methods to be the accurate ones, and rank
 // the difficulty.
 //
+// Links that carry far more than their mobility lets them (a load of 1e5 times on a light rod) have a W whose least eigenvalue
+// is far below any α that follows the residual, which stays where it is as long as α does. What is left after a whole step
+// tells: where that is what α asked for and nothing else, α falls by 100 at once.
+//
 // A step is halved until F has shrunk against the worst of the last few; if that fails α rises, and where even a large
 // α does not help, a few Gauss-Seidel sweeps move on. F has kinks beside its zero (a contact whose λ and u are both
 // nearly 0) along which short steps creep without end. Where they do and nothing better was met for long, a whole step
@@ -23,6 +27,8 @@ namespace {
 // steps.
 constexpr int kFirstSweeps = 3, kRescueSweeps = 5;
 constexpr double kFirstFactor = 10.0;  // α over the relative residual
+constexpr double kLeastFactor = 1e-3;  // that whole steps lead to
+constexpr double kRelease = 0.01;      // what becomes of α where nothing else is in the way
 constexpr double kAfterLeap = 1.0;     // the same, of a whole step
 constexpr int kLong = 40;              // steps without 10 % gained after which it may leap
 constexpr int kLongPerContact = 60;    // and one more for so many contacts, which settle in turn
@@ -92,10 +98,13 @@ class Search : NewtonSearch {
   /// One regularised Newton step with its line search; false if no length served (λ is as before).
   bool step() {
     double now = merit(lambda_);
+    const double before = now;
     if (!direct()) return false;
     const double length = search(now);
-    if (length > 0.4)
-      factor_ = std::max(0.5 * factor_, 1e-3);
+    if (length == 1.0 && is_held_back(alpha_, now, before))
+      factor_ = kRelease * alpha_ / residual_;
+    else if (length > 0.4)
+      factor_ = std::max(0.5 * factor_, std::min(factor_, kLeastFactor));
     else if (length > 0.0 && length < 0.2)
       factor_ *= 2.0;
     return length > 0.0;

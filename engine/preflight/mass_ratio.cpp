@@ -18,8 +18,8 @@ struct Limit {
   double ratio;
 };
 
-constexpr Limit kLimits[] = {{"constraint_anticipation", 3e5},
-                             {"iterative_constraint_anticipation", 3e5},
+constexpr Limit kLimits[] = {{"constraint_anticipation", 1e7},
+                             {"iterative_constraint_anticipation", 1e7},
                              {"sequential_impulse", 100.0},
                              {"simultaneous_impulse", 100.0},
                              {"quick", 100.0},

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
 constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
+constexpr double kSoon = 0.1;         // of the time until the next impact: a cut so short before it brings nothing
 constexpr double kWorth = 0.1;        // of an impact's energy: what returns less may as well be braked
 constexpr double kRounding = 1e-9;    // of the work that impulses do
 constexpr double kWon = 1e-6;         // of the same: what friction and rebounds win together
@@ -164,13 +165,13 @@ bool has_rebounds(const Bodies& bodies, const ContactSettings& settings) {
 
 std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep& step, const ContactSettings& settings,
                                             double gravity) {
-  std::map<std::pair<BodyIndex, BodyIndex>, std::vector<const SolvedContact*>> pairs;
+  std::map<std::pair<BodyIndex, BodyIndex>, std::vector<const SolvedContact*>> pairs, idle;  // idle: without an impulse
   for (const GroupResult& result : step.results)
     for (const SolvedContact& c : result.solved) {
       const Body &a = bodies[c.collision.body_a], &b = bodies[c.collision.body_b];
       const bool is_rigid = a.kind() != BodyKind::deformable && b.kind() != BodyKind::deformable;
-      if (is_rigid && c.lambda.x() > 0.0 && is_worth_a_cut(pair_restitution(a, b, settings)))
-        pairs[{c.collision.body_a, c.collision.body_b}].push_back(&c);
+      if (is_rigid && is_worth_a_cut(pair_restitution(a, b, settings)))
+        (c.lambda.x() > 0.0 ? pairs : idle)[{c.collision.body_a, c.collision.body_b}].push_back(&c);
     }
   if (pairs.size() < 2) return std::nullopt;  // one impact brakes nobody but its own two
   const Motion motion(bodies, step);
@@ -185,13 +186,29 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
     if (time >= least) first = std::min(first, time);
   };
   std::set<BodyIndex> struck;
-  for (const auto& [pair, contacts] : pairs)
+  for (const auto& [pair, contacts] : pairs) {
+    // they meet where the first of their gaps closes, whichever carries the blow: others close later or never
+    double first = step.time_step;
+    bool touches = false;
+    const auto take_blow = [&](const SolvedContact& c) {
+      const double threshold = threshold_of(c.collision), approach = -motion.free(c.collision);
+      if (!(approach > threshold) || !motion.rebounds(c.collision, threshold)) return;
+      touches |= (1.0 - kBefore) * c.collision.gap < least * approach;
+      take_closing(c.collision, approach, first);
+    };
+    bool rebounds = false;
     for (const SolvedContact* c : contacts) {
       if (!motion.rebounds(c->collision, threshold_of(c->collision))) continue;
-      for (const BodyIndex b : {pair.first, pair.second})
-        if (bodies[b].has_freedom()) struck.insert(b);
-      take_closing(c->collision, -motion.free(c->collision), first_blow);
+      rebounds = true;
+      take_blow(*c);
     }
+    if (!rebounds) continue;
+    for (const BodyIndex b : {pair.first, pair.second})
+      if (bodies[b].has_freedom()) struck.insert(b);
+    if (const auto others = idle.find(pair); others != idle.end())
+      for (const SolvedContact* c : others->second) take_blow(*c);
+    if (!touches) first_blow = std::min(first_blow, first);
+  }
   // what a body that was struck comes upon; and not what its weight alone would press on
   for (const auto& [pair, contacts] : pairs) {
     if (!struck.contains(pair.first) && !struck.contains(pair.second)) continue;
@@ -203,8 +220,9 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
     }
   }
   if (first_braked == step.time_step) return std::nullopt;
-  // what rebounds has to arrive before it can strike anybody
-  return (first_blow < step.time_step ? first_blow : first_braked) / step.time_step;
+  // what rebounds has to arrive before it can strike anybody; what does so soon is as good as there
+  const bool is_there = first_blow == step.time_step || first_blow < kSoon * first_braked;
+  return (is_there ? first_braked : first_blow) / step.time_step;
 }
 
 }  // namespace impinge

@@ -54,7 +54,105 @@ Swing swing(World& world, int links, double length) {
   return result;
 }
 
+/// A link of 1 kg on a point of the world, a load on it: a ball by its middle. What is carried is far more than either end of
+/// the link lets move, and W has eigenvalues as far apart.
+void add_hung(World& world, const SharedShape& link, double load, const Vec3& to) {
+  const double tilt = std::atan2(to.x(), -to.y());
+  BodyDescription of_link = dynamic_body("link", link, 0.5 * to);
+  of_link.rotation.z() = tilt * 180.0 / M_PI;
+  of_link.mass = 1.0;
+  BodyDescription ball = dynamic_body("load", Sphere{0.05}, to);
+  ball.mass = load;
+  world.add_body(of_link);
+  world.add_body(ball);
+  AttachmentDescription above{"above", "link", "", Vec3::Zero()};
+  AttachmentDescription below{"below", "link", "load", to};
+  below.collide = false;
+  world.add_attachment(above);
+  world.add_attachment(below);
+}
+
+constexpr double kLoads[] = {1e3, 1e4, 1e5, 1e6};  // kg
+
 }  // namespace
+
+TEST_CASE("what hangs straight on a link that weighs a millionth of it stays, and pulls with its weight") {
+  for (const bool is_rod : {false, true})
+    for (const double load : kLoads) {
+      CAPTURE(is_rod, load);
+      World world;
+      world.parameters.simulation.sleeping = false;
+      add_hung(world, is_rod ? SharedShape(Box{Vec3(0.025, 0.5, 0.025)}) : SharedShape(Sphere{0.05}), load,
+               Vec3(0.0, -1.0, 0.0));
+      world.start();
+      for (int frame = 0; frame < 30; ++frame) {
+        world.step();
+        REQUIRE(world.record().stats.unconverged == 0);
+      }
+      CHECK(std::abs(world.bodies()[1].pose.position.y() + 1.0) < 1e-8);
+      CHECK(world.bodies()[0].pose.position.head<2>().isApprox(Vec2(0.0, -0.5), 1e-8));
+      const double h = world.parameters.simulation.time_step();
+      CHECK(world.record().attachments[0].impulse.y() == Approx((load + 1.0) * kGravity * h).epsilon(1e-6));
+      CHECK(std::abs(world.record().attachments[1].impulse.y()) == Approx(load * kGravity * h).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("what hangs aslant on a light link swings as its pendulum does") {
+  for (const bool is_rod : {false, true})
+    for (const double load : kLoads) {
+      CAPTURE(is_rod, load);
+      World world;
+      world.parameters.simulation.sleeping = false;
+      world.parameters.simulation.substeps = 8;
+      const Vec3 to(0.2, -1.0, 0.0);
+      add_hung(world, is_rod ? SharedShape(Box{Vec3(0.025, 0.5 * to.norm(), 0.025)}) : SharedShape(Sphere{0.05}), load,
+               to);
+      world.start();
+      const int frames = 12;
+      for (int frame = 0; frame < frames; ++frame) {
+        world.step();
+        REQUIRE(world.record().stats.unconverged == 0);
+      }
+      // θ'' = -g/L sin θ; the link is less than a thousandth of it
+      double angle = std::atan2(to.x(), -to.y()), speed = 0.0;
+      const int steps = 20000;
+      const double h = frames * world.parameters.simulation.frame_time / steps;
+      for (int i = 0; i < steps; ++i) {
+        speed -= h * kGravity / to.norm() * std::sin(angle);
+        angle += h * speed;
+      }
+      const Vec3 there = to.norm() * Vec3(std::sin(angle), -std::cos(angle), 0.0);
+      CHECK((world.bodies()[1].pose.position - there).norm() < 0.03 * (to - there).norm());
+    }
+}
+
+TEST_CASE("what hangs on a light link leans on a wall with its share of the weight") {
+  for (const double friction : {0.0, 0.5})
+    for (const double load : kLoads) {
+      CAPTURE(friction, load);
+      World world;
+      world.parameters.simulation.sleeping = false;
+      world.parameters.simulation.gravity = Vec3(1.0, -kGravity, 0.0);
+      world.parameters.contact.friction = friction;
+      add_hung(world, Sphere{0.05}, load, Vec3(0.0, -1.0, 0.0));
+      world.add_body(fixed_plane("wall", -Vec3::UnitX(), -0.05));
+      world.start();
+      for (int frame = 0; frame < 30; ++frame) {
+        world.step();
+        REQUIRE(world.record().stats.unconverged == 0);
+      }
+      CHECK((world.bodies()[1].pose.position - Vec3(0.0, -1.0, 0.0)).norm() < 1e-8);
+      const double h = world.parameters.simulation.time_step();
+      double pushed = 0.0;
+      for (const ContactRecord& c : world.record().contacts) pushed += c.lambda.x();
+      // with friction the point above may take a part of it
+      const Vec3 above = world.record().attachments[0].impulse;
+      CHECK(pushed - above.x() == Approx((load + 1.0) * h).epsilon(1e-6));
+      if (friction > 0.0) continue;
+      CHECK(pushed == Approx((load + 1.0) * h).epsilon(1e-6));
+      CHECK(above.y() == Approx((load + 1.0) * kGravity * h).epsilon(1e-6));
+    }
+}
 
 TEST_CASE("chains that are let go level hold together, at every size and with a heavy end") {
   for (const double length : {1.0, 0.01})

@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <iostream>
 
+#include "tests/support/geometry/meshes.hpp"
+#include "tests/support/geometry/sample_shapes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/random.hpp"
 
@@ -278,4 +280,68 @@ TEST_CASE("a stack of mesh boxes stands on a mesh floor") {
   for (int i = 0; i < 5; ++i) CHECK((world.bodies()[i + 1].pose.position - Vec3(0.01 * i, i + 0.5, 0)).norm() < 1e-4);
   CHECK(deepest < 1e-5);
   CHECK(fastest(world) < 1e-6);
+}
+
+TEST_CASE("five balls of triangles on strings: the blow goes through to the last, and back to none") {
+  constexpr double kRadius = 0.05, kString = 0.5, kAngle = M_PI / 6.0;
+  for (const double gap : {1e-4, 1e-3}) {
+    CAPTURE(gap);
+    World world;
+    world.parameters.simulation.sleeping = false;
+    world.parameters.contact.friction = 0.0;
+    world.parameters.contact.restitution = 1.0;
+    const SharedShape ball(surface(icosphere(3, kRadius)));
+    for (int i = 0; i < 5; ++i) {
+      const double x = i * (2.0 * kRadius + gap), angle = i == 0 ? kAngle : 0.0;
+      BodyDescription d = dynamic_body("ball" + std::to_string(i), ball,
+                                       Vec3(x - kString * std::sin(angle), -kString * std::cos(angle), 0.0));
+      d.rotation.z() = -angle * 180.0 / M_PI;
+      world.add_body(d);
+      for (const double z : {-0.1, 0.1})
+        world.add_attachment({fmt::format("string{}{}", i, z), d.name, "", Vec3(x, 0.0, z)});
+    }
+    world.start();
+    for (int frame = 0; frame < 26; ++frame) world.step();
+    const double most = 2.0 * kGravity * kString * (1.0 - std::cos(kAngle));  // v² at the bottom
+    const double risen = kString + world.bodies()[4].pose.position.y();
+    const double speed_sq = rigid(world, 4).velocity.squaredNorm() + 2.0 * kGravity * risen;
+    CHECK(speed_sq == Approx(most).epsilon(0.05));
+    for (int i = 0; i < 4; ++i) CHECK(rigid(world, i).velocity.norm() < 0.06 * std::sqrt(most));
+  }
+}
+
+TEST_CASE("a finely cut hull over a floor of triangles touches with its lowest corner, however it flies and is sunk") {
+  Random random(7);
+  for (const int cut : {1, 2, 4})
+    for (const double height : {3e-4, -1e-6, -3e-4, -8e-3, -0.03})
+      for (const double spin : {0.0, 30.0}) {
+        CAPTURE(cut, height, spin);
+        World world;
+        world.parameters.simulation.gravity = Vec3::Zero();
+        world.parameters.simulation.substeps = 1;
+        BodyDescription floor;
+        floor.name = "floor";
+        floor.kind = BodyKind::fixed;
+        floor.shape = SharedShape(surface(box(Vec3(2.0, 0.1, 2.0), {20, 1, 20})));
+        floor.position = Vec3(0.013, -0.1, 0.017);
+        world.add_body(floor);
+        const std::vector<Vec3> corners = icosphere(cut, 0.1).vertices;
+        BodyDescription hull = dynamic_body("hull", made_hull(corners), Vec3::Zero());
+        hull.rotation = 180.0 * random.vector();
+        hull.angular_velocity = spin * random.vector();
+        hull.velocity = Vec3(2.0, 0.0, -1.0);
+        World lying;  // tells the attitude
+        lying.add_body(hull);
+        lying.start();
+        double lowest = 1e300;
+        for (const Vec3& x : corners) lowest = std::min(lowest, lying.bodies()[0].pose.apply(x).y());
+        hull.position.y() = height - lowest;
+        world.add_body(hull);
+        world.start();
+        world.step();
+        double deepest = 1e300;
+        for (const ContactRecord& c : world.record().contacts)
+          if (std::abs(c.normal.y()) > 0.99) deepest = std::min(deepest, c.gap0);
+        CHECK(deepest == Approx(height).margin(1e-9));
+      }
 }

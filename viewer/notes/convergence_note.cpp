@@ -43,7 +43,7 @@ std::string ConvergenceNote::impacts_text() const {
   if (merged_ == 0) return "";
   return fmt::format(
       "note:     in {} more impacts followed from one another than contact.successive_impacts tells "
-      "apart, the first in frame {}: the rest were solved as one, which may lose energy\n",
+      "apart, the first in frame {}: the rest were solved as one, which may lose energy or give it to others\n",
       count(merged_, "sub-step"), first_merged_);
 }
 

@@ -7,6 +7,7 @@
 #include "engine/detection/pairs/ball_against_mesh.hpp"
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/detection/pairs/triangles_near.hpp"
+#include "engine/detection/triangles/tree_pairs.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 
 namespace impinge {
@@ -71,6 +72,122 @@ std::vector<int> triangles_round_frame(const ContactSink& sink, const Polyhedron
   return in_frame(std::move(touched.triangles), SurfaceView(mesh, 1), solid.frame, around);
 }
 
+/// How far apart, at most, what the sink keeps may be beyond the activation distance: as far as it comes nearer in the time
+/// step. Its own reach is a bound over the whole of both; here only where they may meet counts, where a ball that rolls
+/// on a floor stands nearly still.
+double closing_reach(const ContactSink& sink) {
+  constexpr int kRounds = 3;  // a shorter reach leaves less room to meet in
+  const Collider &a = sink.first(), &b = sink.second();
+  const ContactQuery& query = sink.query();
+  double reach = sink.reach();
+  if (!query.proximity || query.either_may_stop || !(query.time_step > 0.0)) return reach;
+  if (!a.vertex_velocities.empty() || !b.vertex_velocities.empty()) return reach;
+  const double turn = std::min(a.angular_velocity.norm(), b.angular_velocity.norm());
+  for (int round = 0; round < kRounds; ++round) {
+    const Aabb of_a = a.bounds.inflated(reach), of_b = b.bounds.inflated(reach);
+    const Aabb where{of_a.min.cwiseMax(of_b.min), of_a.max.cwiseMin(of_b.max)};
+    if (where.is_empty()) return reach;
+    // the relative velocity is a linear function of the place: largest at a corner
+    double fastest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 x((corner & 1) != 0 ? where.max.x() : where.min.x(), (corner & 2) != 0 ? where.max.y() : where.min.y(),
+                   (corner & 4) != 0 ? where.max.z() : where.min.z());
+      fastest = std::max(fastest, (a.velocity_at(x) - b.velocity_at(x)).norm());
+    }
+    // the two points aren't at one place
+    const double closes = query.time_step * (fastest + turn * reach) * (1.0 + 1e-6);
+    reach = std::min(reach, std::max(query.activation, closes));
+  }
+  return reach;
+}
+
+/// Pairs of the polyhedron's triangles and those of the mesh that are within the margin of the pair, ascending.
+std::vector<TrianglePair> close_pairs(const Collider& own, const Collider& mesh, const std::vector<int>& near,
+                                      const BodyPair& pair) {
+  const SurfaceView view(mesh, 1);
+  const double reach = tree_margin(own, mesh, pair.margin);
+  std::vector<TrianglePair> pairs;
+  for (const int t : near) {
+    const TriangleCorners c = view.corners(t);
+    const Aabb box = search_box(c, pair.margin);
+    for (const int k : triangles_near(own, bounds_of(c[0], c[1], c[2]).inflated(reach))) {
+      const TriangleCorners corners = corners_of(own, k);
+      if (!overlap(search_box(corners, pair.margin), box)) continue;
+      const PairState state = test_triangles(corners, c, pair.margin);
+      if (state != PairState::apart)
+        pairs.push_back({pair.a, pair.b, TriangleIndex(k), TriangleIndex(t), state == PairState::intersecting});
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// What a way out is looked for with, where surfaces cross: as far as features tell an overlap (proximity_points.cpp), and
+/// a corner farther.
+constexpr double kTold = 0.05;           // of the smaller body's size
+constexpr std::size_t kWorthALook = 64;  // triangles of the polyhedron: with fewer the widest margin costs little
+constexpr double kRunsDeeper = 0.4;      // a sine: edges that run more steeply against a way out may close it
+constexpr double kTouching = 1e-4;       // of the mean edge
+
+/// The polyhedron's corners, and those of the mesh, that may be in the other one, as far as pairs of triangles within the
+/// margin tell.
+class OverlapLook {
+ public:
+  OverlapLook(const PolyhedronView& solid, const Collider& own, const Collider& mesh)
+      : solid_(solid), own_(own, 0), mesh_(mesh, 1), pose_(own.pose), touch_(kTouching * own.mean_edge) {
+    for (const MeshTopology::Edge& e : solid.surface->topology.edges)
+      longest_ = std::max(longest_, (own_.vertex(e.v0) - own_.vertex(e.v1)).norm());
+  }
+
+  double longest_edge() const { return longest_; }
+
+  /// Whether a wider margin would show no more of the overlap: no corner of the mesh is in the solid, and each of the
+  /// solid's that is in the mesh is seen, with its way out. (On the way along edges from one that is not seen to one that is
+  /// outside each is deeper than the next by an edge at most.) `near`: triangles of the mesh within the widest margin.
+  bool is_all(const std::vector<TrianglePair>& pairs, const std::vector<int>& near, double margin) {
+    for (const int t : near)
+      for (const int v : mesh_.triangle(t))
+        if (solid_.touching.frame.distance(pose_.apply_inverse(mesh_.vertex(v))) < 0.0) return false;
+    std::vector<std::pair<int, int>> met;  // a corner and a triangle of the mesh
+    for (const TrianglePair& pair : pairs)
+      for (const int v : own_.triangle(pair.triangle_a)) met.emplace_back(v, pair.triangle_b);
+    std::sort(met.begin(), met.end());
+    met.erase(std::unique(met.begin(), met.end()), met.end());
+    bool is_any_outside = false;
+    double deepest = 0.0;
+    for (std::size_t i = 0; i < met.size();) {
+      const int v = met[i].first;
+      double least_sq = 1e300, depth = 0.0;
+      Vec3 out = Vec3::Zero();
+      for (; i < met.size() && met[i].first == v; ++i) {
+        const PointTriangle p = closest_on_triangle(own_.vertex(v), mesh_.corners(met[i].second));
+        if (p.squared_distance >= least_sq) continue;
+        least_sq = p.squared_distance;
+        const Vec3 normal = mesh_.normal(mesh_.feature(met[i].second, p.feature)), way = p.point - own_.vertex(v);
+        depth = way.dot(normal) > 0.0 ? std::sqrt(least_sq) : 0.0;
+        out = depth > touch_ ? Vec3(way / depth) : normal;
+      }
+      is_any_outside |= depth == 0.0;
+      deepest = std::max(deepest, depth);
+      if ((depth > 0.0 || least_sq <= touch_ * touch_) && runs_deeper(v, out)) return false;
+    }
+    return is_any_outside && deepest + longest_ <= margin;
+  }
+
+ private:
+  bool runs_deeper(int v, const Vec3& out) {
+    own_.star({Feature::vertex, v}, star_);
+    return std::any_of(star_.begin(), star_.end(), [&](const Vec3& e) { return e.dot(out) < -kRunsDeeper; });
+  }
+
+  const PolyhedronView& solid_;
+  const SurfaceView own_, mesh_;
+  const Pose pose_;
+  const double touch_;
+  double longest_ = 0.0;
+  std::vector<Vec3> star_;
+};
+
 /// Whether any triangle reaches into the frame, however far from the solid.
 bool has_neighbours(const Collider& mesh, const OrientedBox& frame, double margin) {
   const Surrounding around = surrounding(frame, margin);
@@ -97,16 +214,16 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const Collider& mesh = sink.second();
   const ContactQuery& query = sink.query();
   // as for two meshes, fast bodies widen the search by one edge length at most
-  const double margin =
-      query.activation + std::min(sink.reach(), std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge));
-  const SurfaceView view(mesh, 1);
+  const double most = std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge);
+  const double wide = query.activation + std::min(sink.reach(), most);
+  BodyPair pair{BodyIndex(0), BodyIndex(1), query.activation + std::min(closing_reach(sink), most)};
   const auto reach_against = [&](const Vec3& n) {
     const SolidFrame& own = solid.touching.frame;
     return own.height(own.pose.rotation.transpose() * -n) + n.dot(solid.frame.center - own.pose.position);
   };
-  const std::vector<int> near = triangles_round_frame(sink, solid, margin);
+  const std::vector<int> near = triangles_round_frame(sink, solid, pair.margin);
   if (near.empty()) {
-    if (may_be_inside(mesh, sink.first()) || !has_neighbours(mesh, solid.frame, margin))
+    if (may_be_inside(mesh, sink.first()) || !has_neighbours(mesh, solid.frame, wide))
       add_enclosed(sink, solid.frame.center, reach_against);
     return;
   }
@@ -118,27 +235,26 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   own.vertices = corners;
   own.mean_edge = mean_edge_length(solid.surface->mesh);
   const Collider local[2] = {own, mesh};
-  const BodyPair pair{BodyIndex(0), BodyIndex(1), margin};
-  const int count = static_cast<int>(solid.surface->mesh.triangles.size());
-  std::vector<Aabb> boxes;
-  boxes.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) boxes.push_back(search_box(corners_of(own, k), margin));
-  std::vector<TrianglePair> triangles;
-  for (int t : near) {
-    const TriangleCorners c = view.corners(t);
-    const Aabb box = search_box(c, margin);
-    for (int k = 0; k < count; ++k) {
-      if (!overlap(boxes[k], box)) continue;
-      const PairState state = test_triangles(corners_of(own, k), c, margin);
-      if (state != PairState::apart)
-        triangles.push_back({pair.a, pair.b, TriangleIndex(k), TriangleIndex(t), state == PairState::intersecting});
+  std::vector<TrianglePair> triangles = close_pairs(own, mesh, near, pair);
+  // the margin is also how deep a way out is looked for
+  if (pair.margin < wide && any_crosses(triangles)) {
+    const std::vector<int> all_near = triangles_round_frame(sink, solid, wide);
+    bool is_all = false;
+    if (solid.surface->mesh.triangles.size() > kWorthALook) {
+      OverlapLook look(solid, own, mesh);
+      const double seen = query.activation + std::max(kTold * std::min(own.size, mesh.size), 2.0 * look.longest_edge());
+      if (seen < wide) {
+        pair.margin = std::max(pair.margin, seen);
+        triangles = close_pairs(own, mesh, all_near, pair);
+        is_all = look.is_all(triangles, all_near, pair.margin);
+      }
     }
+    if (!is_all) pair.margin = wide, triangles = close_pairs(own, mesh, all_near, pair);
   }
   // on its way out it comes near the surface from inside
   if (may_be_inside(sink.second(), sink.first()) && !any_crosses(triangles) &&
       add_enclosed(sink, solid.frame.center, reach_against))
     return;
-  std::sort(triangles.begin(), triangles.end());
   std::vector<Collision> found;
   // asked for intersections only, the sink keeps what overlaps
   proximity_contacts(local, pair, triangles, query.activation, query.proximity ? query.time_step : 0.0, found);

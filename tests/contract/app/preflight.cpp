@@ -121,7 +121,7 @@ TEST_CASE("preflight: ratios, thresholds, speeds and densities") {
            ball("bullet", 0.5, {0, 3, 0}, fmt::format("mass = 1\nvelocity = [0, {}, 0]", -speed));
   };
   const std::vector<Trap> traps = {
-      {"heavy on light", "mass-ratio", pair(1e7), {"'heavy'", "'light'"}, "weighs ", 1e7},
+      {"heavy on light", "mass-ratio", pair(1e8), {"'heavy'", "'light'"}, "weighs ", 1e8},
       {"heavy on light, quickly",
        "mass-ratio",
        pair(1000),
