@@ -10,8 +10,8 @@ namespace impinge {
 namespace {
 
 constexpr int kHalvings = 7;
-constexpr double kLittle = 0.01,
-                 kAlike = 0.01;  // of ‖F‖²: what a step that is not held back leaves; and what may differ
+constexpr double kLittle = 0.6;              // of ‖F‖²: what a step leaves that is not held back
+constexpr double kAlike = 0.01;              // of the same: what may differ from what α asked for
 constexpr std::size_t kMostContacts = 6000;  // W written out takes 2.6 GB then
 
 }  // namespace
