@@ -1,5 +1,6 @@
 #include "engine/step/turns/end_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/bodies/rigid_motion.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 constexpr double kFarthestTurn = 0.5;  // radians; what turns farther leaves its contact's plane
 constexpr double kFarthestRoll = 0.5;  // of the arm: a place that moves farther is another one
+constexpr double kSmooth = 0.998;      // cosine of a bend of 3.6 degrees
 constexpr double kMostTurns = 1e3;     // radians; of what spins about the place where it touches
 
 BodyEnd end_of(const RigidBody& body, const Vec3& delta_velocity, const Vec3& delta_spin, double time_step) {
@@ -39,6 +41,15 @@ BodyEnd end_of(const Body& body, double time_step) {
   const Twist twist = body.twist();
   return {moved(body.pose, time_step * twist.linear, time_step * twist.angular), time_step * twist.angular.norm(),
           twist.angular, twist.angular};
+}
+
+/// Whether one body looks at the other with one face, or with faces of a smooth hollow. What hangs in the other, as a pin in
+/// its hole, or leans on two sides does not roll: its rows hold each other.
+bool is_one_face(std::span<const RowEnd> pair) {
+  return std::all_of(pair.begin(), pair.end(), [&](const RowEnd& row) {
+    return row.of->normal_owner == pair.front().of->normal_owner &&
+           row.of->normal.dot(pair.front().of->normal) > kSmooth;
+  });
 }
 
 /// In the body's frame, where it touches at the end what it touches at `place`; `from`, `to`: the way it faces there now
@@ -107,10 +118,13 @@ EndRows rows_at_end(const Bodies& bodies, const AssembledGroup& group, const Con
     const Vec3 on_a = place(a, row.a, c->body_a, point_a), on_b = place(b, row.b, c->body_b, point_b);
     if (a.turn <= kFarthestTurn && b.turn <= kFarthestTurn) ends.gaps[i] = normal.dot(on_a - on_b);
     rows[i] = {c, a, b, normal, on_a, on_b};
-    roll(bodies, rows[i], row, i, ends);
   }
+  if (trust == Trust::none) return ends;
+  for_each_pair(rows, [&](std::size_t first, std::size_t last) {
+    if (!is_one_face(std::span(rows).subspan(first, last - first))) return;
+    for (std::size_t i = first; i < last; ++i) roll(bodies, rows[i], group.system.contacts[i], i, ends);
+  });
   if (trust == Trust::facets) roll_over_facets(bodies, group, settings, time_step, rows, ends);
-  if (trust == Trust::none) ends.is_on_face.assign(count, 0);
   return ends;
 }
 

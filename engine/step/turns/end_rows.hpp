@@ -18,8 +18,8 @@ struct EndRows {
 
 /// What rows count on: that bodies turn as they do at the Δv at hand.
 enum class Trust {
-  none,   ///< turning is told where it brings bodies together
-  lifts,  ///< and where it takes them apart
+  none,   ///< turning is told where it brings the points that touch nearer to each other
+  lifts,  ///< and where it takes them apart, and what rolls
   facets  ///< and some rows answer for others of fine facets
 };
 

@@ -14,7 +14,6 @@ constexpr double kTouching = 0.02;         // of the activation distance: a corn
 constexpr double kSweep = 2.0;             // of the turn: what comes down in it or in the next one
 constexpr double kFinest = 0.25;           // radians between corners of what may be round
 constexpr double kSameFace = 1.0 - 1e-10;  // cosine
-constexpr double kSmooth = 0.998;          // the same, of the faces of a hollow: a bend of 3.6 degrees
 
 /// The rows of one pair.
 class FineFacets {
@@ -67,8 +66,8 @@ class FineFacets {
     if (now.of->normal_owner != then.of->normal_owner) return false;
     const double activation = settings_.activation_distance.at(group_.system.contacts[c].scale.length);
     if (!(now.of->gap < kTouching * activation && now.of->gap < then.of->gap)) return false;
-    if (const double cosine = now.of->normal.dot(then.of->normal); !(cosine > kSameFace))
-      return cosine > kSmooth && is_ball(now.body()) && distance(c, e) < kSweep * kSweep * way(now).squaredNorm();
+    if (!(now.of->normal.dot(then.of->normal) > kSameFace))
+      return is_ball(now.body()) && distance(c, e) < kSweep * kSweep * way(now).squaredNorm();
     const Vec3 from = across(now), to = across(then);
     return std::atan2(from.cross(to).norm(), from.dot(to)) < std::min(kSweep * turn_, kFinest);
   }
@@ -94,17 +93,10 @@ class FineFacets {
 
 void roll_over_facets(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings,
                       double time_step, std::span<const RowEnd> rows, EndRows& ends) {
-  for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
-    last = first + 1;
-    if (rows[first].of == nullptr) continue;
-    const auto is_same = [&](const RowEnd& row) {
-      return row.of != nullptr && row.of->body_a == rows[first].of->body_a && row.of->body_b == rows[first].of->body_b;
-    };
-    while (last < rows.size() && is_same(rows[last])) ++last;
+  for_each_pair(rows, [&](std::size_t first, std::size_t last) {
     const Vec3 turn = time_step * (rows[first].a.spin - rows[first].b.spin);
-    if (last - first > 1 && turn.norm() > 0.0)
-      FineFacets(bodies, group, settings, rows, turn, ends).roll(first, last);
-  }
+    if (last - first > 1 && turn.norm() > 0.0) FineFacets(bodies, group, settings, rows, turn, ends).roll(first, last);
+  });
 }
 
 }  // namespace impinge

@@ -1,6 +1,8 @@
 // One contact of rigid bodies where the sub-step ends.
 #pragma once
 
+#include <span>
+
 #include "engine/bodies/bodies.hpp"
 #include "engine/detection/collision.hpp"
 
@@ -33,5 +35,19 @@ struct RowEnd {
   /// the first.
   Vec3 half_way(const Bodies& bodies, const Vec3& then) const;
 };
+
+/// Calls `visit(first, last)` for the rows of each pair, which follow each other; of a group's list, where others are empty.
+template <class Visit>
+void for_each_pair(std::span<const RowEnd> rows, Visit&& visit) {
+  for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
+    last = first + 1;
+    if (rows[first].of == nullptr) continue;
+    const auto is_same = [&](const RowEnd& row) {
+      return row.of != nullptr && row.of->body_a == rows[first].of->body_a && row.of->body_b == rows[first].of->body_b;
+    };
+    while (last < rows.size() && is_same(rows[last])) ++last;
+    visit(first, last);
+  }
+}
 
 }  // namespace impinge

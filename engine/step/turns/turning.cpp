@@ -32,7 +32,9 @@ double most_lost(const GroupSystem& system, const EndRows& ends, const ContactSe
                    turning = std::min(ends.gaps[i] - straight, 0.0);
       lost = std::max({lost, turning - row.turning, time_step * (ends.rolling[i] - row.rolling).norm()});
     }
-    if (lost > kTurningTolerance * settings.activation_distance.at(row.scale.length)) most = std::max(most, lost);
+    // what counted on a turn that did not come would be lifted out of it, and win what that takes
+    const double little = (row.turning > 0.0 ? kNotable : 1.0) * kTurningTolerance;
+    if (lost > little * settings.activation_distance.at(row.scale.length)) most = std::max(most, lost);
   }
   return most;
 }
