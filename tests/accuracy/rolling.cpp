@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/rotation.hpp"
+#include "engine/geometry/surface/thickened_surface.hpp"
 #include "engine/shapes/surface_of_revolution.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/geometry/sample_shapes.hpp"
@@ -129,6 +130,41 @@ TEST_CASE("wheels and balls of triangles finer than a sub-step's turn roll as ro
       }
       CHECK(total_energy(roller) - lying > c.least * (begun - lying));
     }
+}
+
+TEST_CASE("a ball that rolls to and fro in a half-pipe of fine facets keeps its energy") {
+  constexpr double kPipe = 0.5, kBall = 0.05, kFrom = 40.0, kFacet = 0.25, kEdge = 60.0;  // metres, degrees
+  TriangleMesh pipe;
+  const int facets = static_cast<int>(2.0 * kEdge / kFacet);
+  for (int i = 0; i <= facets; ++i) {
+    const double at = (i * kFacet - kEdge) * M_PI / 180.0;
+    for (const double z : {-0.3, 0.3}) pipe.vertices.emplace_back(kPipe * std::sin(at), -kPipe * std::cos(at), z);
+    if (i == 0) continue;
+    const int a = 2 * (i - 1), b = 2 * i;
+    pipe.triangles.push_back({a, a + 1, b}), pipe.triangles.push_back({a + 1, b + 1, b});
+  }
+  for (const auto& [substeps, least] : {std::pair(4, 0.97), std::pair(16, 0.99)}) {
+    CAPTURE(substeps);
+    World world;
+    world.parameters.simulation.sleeping = false;
+    world.parameters.simulation.substeps = substeps;
+    BodyDescription below =
+        dynamic_body("pipe", SharedShape(surface(thickened(pipe, {SurfaceSides::front, 0.02}))), Vec3::Zero());
+    below.kind = BodyKind::fixed, below.friction = 0.5;
+    world.add_body(below);
+    const double from = kFrom * M_PI / 180.0, swing = kPipe - kBall;
+    BodyDescription ball = dynamic_body("ball", Sphere(kBall), swing * Vec3(std::sin(from), -std::cos(from), 0.0));
+    ball.friction = 0.5, ball.mass = 1.0;
+    world.add_body(ball);
+    world.start();
+    const double whole = kGravity * swing * (1.0 - std::cos(from)), begun = total_energy(rigid(world, 1));
+    for (int i = 0; i < 60; ++i) {
+      world.step();
+      REQUIRE(world.record().stats.substep_penetration < 5e-5);
+      REQUIRE(total_energy(rigid(world, 1)) < begun + 0.01 * whole);
+    }
+    CHECK(begun - total_energy(rigid(world, 1)) < (1.0 - least) * whole);
+  }
 }
 
 TEST_CASE("a top that stands on its tip keeps its energy, as a cone, a mesh and a hull") {
