@@ -37,7 +37,8 @@ void ContactSettings::declare(const Rows& rows) {
            "degrees; what that misses comes back by second_looks.");
   rows.add("turning_solves", turning_solves, {0, 100}, "",
            "How often rigid bodies are solved again where they come nearer to each other by turning than their "
-           "velocities say: links, hooks, pins in holes. 0: never.");
+           "velocities say: links, hooks, pins in holes; and whether rows are told what rolls or stands on its tip. "
+           "0: never.");
   rows.add("second_looks", second_looks, {0, 100}, "",
            "How often contacts are sought again in a sub-step with the velocities that the response gave "
            "them: what was dropped and is wanted after all, what it drives together that fell side by side, and where "
