@@ -10,15 +10,15 @@
 
 namespace impinge {
 
-namespace {
-
-constexpr double kUnbounded = 1e15;  // the widest range: beyond it a number is a slip, not a quantity
-
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
+
+namespace {
+
+constexpr double kUnbounded = 1e15;  // the widest range: beyond it a number is a slip, not a quantity
 
 std::string unquoted(std::string_view text) {
   text = trimmed(text);

@@ -76,6 +76,9 @@ ParameterValue parse_value(const Parameter& row, std::string_view text);
 /// Throws InputError if the value has another type or lies out of range; integers are taken for reals.
 ParameterValue checked_value(const Parameter& row, ParameterValue value);
 
+/// Without the blanks and line ends around it.
+std::string_view trimmed(std::string_view text);
+
 /// Shortest text that parse_value reads back exactly; vectors as `[x, y, z]`.
 std::string format_value(const ParameterValue& value);
 

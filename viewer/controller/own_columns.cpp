@@ -14,12 +14,6 @@ namespace {
 
 const std::string kPath = "record.columns";
 
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
-}
-
 bool is_column_name(std::string_view name) {
   return !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
          std::all_of(name.begin(), name.end(),
@@ -47,7 +41,7 @@ OwnColumns::OwnColumns(const std::vector<std::string>& texts, const ExpressionWo
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
       refuse("no NAME = EXPR", "a name, = and an expression are wanted", "write \"x = position_x(BODY)\"");
-    const std::string name(without_blanks(std::string_view(text).substr(0, equals)));
+    const std::string name(trimmed(std::string_view(text).substr(0, equals)));
     if (!is_column_name(name))
       refuse(fmt::format("'{}' as a name", name), "letters, digits and _ are wanted, and no digit first", "rename it");
     if (find_figure(name) != nullptr || std::find(names_.begin(), names_.end(), name) != names_.end())
@@ -80,8 +74,7 @@ void bind_own_columns(ParameterSet& rows, std::vector<std::string>& texts) {
   row.doc =
       "Further columns of stats.csv, each \"NAME = EXPR\" over figures of bodies and the other columns, as in "
       "[\"x = position_x(crate)\", \"push = force(crate,floor)\"]; see impinge list body_figures. A sweep's columns "
-      "take "
-      "them too.";
+      "take them too.";
   row.initial = texts;
   row.live = false;
   row.get = [&texts] { return ParameterValue(texts); };

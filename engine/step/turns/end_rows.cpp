@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/bodies/rigid_motion.hpp"
 #include "engine/geometry/convex/convex_set.hpp"
@@ -84,15 +85,26 @@ void roll(const Bodies& bodies, const RowEnd& at, const ContactRows& row, std::s
 
 }  // namespace
 
+bool is_notable(double turn, const Body& body, const ContactSettings& settings) {
+  return turn * turn * body.radius > kNotable * kTurningTolerance * settings.activation(body.size);
+}
+
 EndRows rows_at_end(const Bodies& bodies, const AssembledGroup& group, const ContactList& contacts,
                     const ContactSettings& settings, double time_step, Trust trust) {
   std::vector<BodyEnd> rigid;
   for (std::size_t i = 0; i < group.rigid.size(); ++i)
     rigid.push_back(end_of(*bodies[group.rigid[i]].as<RigidBody>(), group.system.delta_velocity[i],
                            group.system.delta_angular_velocity[i], time_step));
-  const auto end = [&](int block, BodyIndex b) {
-    return block >= 0 ? rigid[static_cast<std::size_t>(block)] : end_of(bodies[b], time_step);
+  std::map<BodyIndex, BodyEnd> others;
+  const auto end = [&](int block, BodyIndex b) -> const BodyEnd& {
+    if (block >= 0) return rigid[static_cast<std::size_t>(block)];
+    const auto [at, is_new] = others.try_emplace(b);
+    if (is_new) at->second = end_of(bodies[b], time_step);
+    return at->second;
   };
+  bool rolls = false;
+  for (std::size_t i = 0; i < rigid.size() && !rolls; ++i)
+    rolls = trust != Trust::none && is_notable(rigid[i].turn, bodies[group.rigid[i]], settings);
   const auto place = [&](const BodyEnd& of, const ContactSide& side, BodyIndex b, const MaterialPoint& point) {
     if (side.deformable < 0) return of.pose.apply(point.local);
     return Vec3(bodies[b].position_of(point) + time_step * group.system.displacement_velocity(side));
@@ -100,7 +112,7 @@ EndRows rows_at_end(const Bodies& bodies, const AssembledGroup& group, const Con
   const std::size_t count = group.contacts.size();
   EndRows ends{std::vector<double>(count, INFINITY), std::vector<Vec3>(count, Vec3::Zero()),
                std::vector<char>(count, 0), std::vector<char>(count, 0), std::vector<char>(count, 0)};
-  std::vector<RowEnd> rows(count);
+  std::vector<RowEnd> rows(rolls ? count : 0);
   for (std::size_t i = 0; i < count; ++i) {
     const Collision* c = contacts.collision(group.contacts[i]);
     if (c == nullptr || c->meeting) continue;
@@ -110,16 +122,16 @@ EndRows rows_at_end(const Bodies& bodies, const AssembledGroup& group, const Con
     };
     if (row.a.rigid < 0 && row.b.rigid < 0) continue;
     if (!is_known(row.a, c->body_a) || !is_known(row.b, c->body_b)) continue;
-    const BodyEnd a = end(row.a.rigid, c->body_a), b = end(row.b.rigid, c->body_b);
+    const BodyEnd &a = end(row.a.rigid, c->body_a), &b = end(row.b.rigid, c->body_b);
     Vec3 normal = c->normal;
     for (const auto& [owner, to] : {std::pair(c->body_a, &a), std::pair(c->body_b, &b)})
       if (c->normal_owner == owner) normal = to->pose.rotation * (bodies[owner].pose.rotation.transpose() * c->normal);
     const auto& [point_a, point_b] = group.points[i];
     const Vec3 on_a = place(a, row.a, c->body_a, point_a), on_b = place(b, row.b, c->body_b, point_b);
     if (a.turn <= kFarthestTurn && b.turn <= kFarthestTurn) ends.gaps[i] = normal.dot(on_a - on_b);
-    rows[i] = {c, a, b, normal, on_a, on_b};
+    if (rolls) rows[i] = {c, &a, &b, normal, on_a, on_b};
   }
-  if (trust == Trust::none) return ends;
+  if (!rolls) return ends;
   for_each_pair(rows, [&](std::size_t first, std::size_t last) {
     if (!is_one_face(std::span(rows).subspan(first, last - first))) return;
     for (std::size_t i = first; i < last; ++i) roll(bodies, rows[i], group.system.contacts[i], i, ends);

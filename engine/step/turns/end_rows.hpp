@@ -5,6 +5,13 @@
 
 namespace impinge {
 
+/// Of the activation distance: what turning takes that is worth another solve; and of that: what rows are told, which costs
+/// none.
+inline constexpr double kTurningTolerance = 1e-3, kNotable = 1e-2;
+
+/// Whether contacts of a body could notice that it turns by so many radians.
+bool is_notable(double turn, const Body& body, const ContactSettings& settings);
+
 struct EndRows {
   /// Metres; prescribed bodies end where their velocity takes them, nodes go straight. Infinite of attachments, of what
   /// nothing rigid takes part in, and where a body turns so far that one straight step can't mean it. Of what is round,

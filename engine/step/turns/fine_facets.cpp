@@ -94,7 +94,7 @@ class FineFacets {
 void roll_over_facets(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings,
                       double time_step, std::span<const RowEnd> rows, EndRows& ends) {
   for_each_pair(rows, [&](std::size_t first, std::size_t last) {
-    const Vec3 turn = time_step * (rows[first].a.spin - rows[first].b.spin);
+    const Vec3 turn = time_step * (rows[first].a->spin - rows[first].b->spin);
     if (last - first > 1 && turn.norm() > 0.0) FineFacets(bodies, group, settings, rows, turn, ends).roll(first, last);
   });
 }

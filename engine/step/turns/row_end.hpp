@@ -17,15 +17,15 @@ struct BodyEnd {
 
 struct RowEnd {
   const Collision* of = nullptr;
-  BodyEnd a, b;
+  const BodyEnd *a = nullptr, *b = nullptr;
   Vec3 normal = Vec3::Zero(), point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< of the material that touches now
 
   /// Of a contact whose normal is that of a face: whether the face is B's, so that A is what rolls on it.
   bool rolls_a() const { return of->normal_owner == of->body_b; }
   BodyIndex body() const { return rolls_a() ? of->body_a : of->body_b; }
   BodyIndex face() const { return rolls_a() ? of->body_b : of->body_a; }
-  const BodyEnd& end() const { return rolls_a() ? a : b; }
-  const BodyEnd& face_end() const { return rolls_a() ? b : a; }
+  const BodyEnd& end() const { return rolls_a() ? *a : *b; }
+  const BodyEnd& face_end() const { return rolls_a() ? *b : *a; }
   double sign() const { return rolls_a() ? 1.0 : -1.0; }
   const Vec3& now() const { return rolls_a() ? of->point_a : of->point_b; }
   const Vec3& then() const { return rolls_a() ? point_a : point_b; }

@@ -9,16 +9,13 @@
 namespace impinge {
 namespace {
 
-constexpr double kTurningTolerance = 1e-3;  // of the activation distance
-constexpr double kMostLeft = 0.05;          // of the same: what positions may take back of it
-constexpr double kNotable = 1e-2;           // of that: rows are told what costs them no other solve
+constexpr double kMostLeft = 0.05;  // of the activation distance: what positions may take back of it
 
 }  // namespace
 
 bool is_turning(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings, double time_step) {
   return std::any_of(group.rigid.begin(), group.rigid.end(), [&](BodyIndex b) {
-    const double turn = time_step * bodies[b].twist().angular.norm();
-    return turn * turn * bodies[b].radius > kNotable * kTurningTolerance * settings.activation(bodies[b].size);
+    return is_notable(time_step * bodies[b].twist().angular.norm(), bodies[b], settings);
   });
 }
 

@@ -78,6 +78,33 @@ Small shrink(const TempFolder& folder, const std::string& when, const std::strin
   return small;
 }
 
+/// Without gravity: a hammer that flies towards a soft block, before a wall.
+std::string hammer_scene(const std::string& hammer_x) {
+  return R"(
+[simulation]
+gravity = [0, 0, 0]
+[[body]]
+name = "hammer"
+kind = "dynamic"
+shape = { box = { size = [0.5, 1, 1] } }
+material = { density = 4000 }
+position = [)" +
+         hammer_x + R"(, 0, 0]
+velocity = [4, 0, 0]
+[[body]]
+name = "block"
+kind = "deformable"
+shape = { box = { size = [1, 1, 1] } }
+volume = { lattice = { cells = 2 } }
+material = { young = 1e6, poisson = 0.3, density = 1000, damping = [0, 0.01] }
+[[body]]
+name = "wall"
+kind = "static"
+shape = { box = { size = [0.5, 4, 4] } }
+position = [2.5, 0, 0]
+)";
+}
+
 }  // namespace
 
 TEST_CASE("of a fault with bystanders the two bodies that overlap are left, and one frame") {
@@ -202,28 +229,7 @@ TEST_CASE("bodies that deform begin later with a state, and go on as they did, b
 TEST_CASE("a body that is needed only before the state with which it begins goes too") {
   const TempFolder folder;
   // without gravity: a hammer sets a soft block going, which arrives at a wall much later
-  const std::string scene = R"(
-[simulation]
-gravity = [0, 0, 0]
-[[body]]
-name = "hammer"
-kind = "dynamic"
-shape = { box = { size = [0.5, 1, 1] } }
-material = { density = 4000 }
-position = [-0.9, 0, 0]
-velocity = [4, 0, 0]
-[[body]]
-name = "block"
-kind = "deformable"
-shape = { box = { size = [1, 1, 1] } }
-volume = { lattice = { cells = 2 } }
-material = { young = 1e6, poisson = 0.3, density = 1000, damping = [0, 0.01] }
-[[body]]
-name = "wall"
-kind = "static"
-shape = { box = { size = [0.5, 4, 4] } }
-position = [2.5, 0, 0]
-)" + bystanders(2);
+  const std::string scene = hammer_scene("-0.9") + bystanders(2);
   make_bundle(folder, scene, 60);
   const Small small = shrink(folder, "contacts(block,wall) > 0");
   INFO(small.outcome.out);
@@ -245,28 +251,7 @@ position = [2.5, 0, 0]
 TEST_CASE("a state to which lines added bodies loses those that are not needed, and keeps what the others do") {
   const TempFolder folder;
   // without gravity: a copy of the hammer sets a soft block going, another one flies beside it; both are added by lines
-  const std::string scene = R"(
-[simulation]
-gravity = [0, 0, 0]
-[[body]]
-name = "hammer"
-kind = "dynamic"
-shape = { box = { size = [0.5, 1, 1] } }
-material = { density = 4000 }
-position = [-9, 0, 0]
-velocity = [4, 0, 0]
-[[body]]
-name = "block"
-kind = "deformable"
-shape = { box = { size = [1, 1, 1] } }
-volume = { lattice = { cells = 2 } }
-material = { young = 1e6, poisson = 0.3, density = 1000, damping = [0, 0.01] }
-[[body]]
-name = "wall"
-kind = "static"
-shape = { box = { size = [0.5, 4, 4] } }
-position = [2.5, 0, 0]
-)" + bystanders(1);
+  const std::string scene = hammer_scene("-9") + bystanders(1);
   const std::string script =
       "add aside like hammer at -0.9 9 0 velocity 4 0 0\nadd second like hammer at -0.9 0 0 velocity 4 0 0\nadd late "
       "like bystander_0 at 0 0 30\n";
