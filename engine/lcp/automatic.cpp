@@ -21,10 +21,11 @@
 // finds what a wall carries. From there on Newton, then rounded equations have the steps that bring digits, which they do at
 // once in what stands, and what comes to rest needs: with 1e-3 it trembles. What they leave is handed on as it is, not
 // converged: in a heap that tumbles the rest takes minutes a frame and moves nothing that can be seen, and they are left after
-// kFewest steps.
+// kFewest steps. Where no more than kFewDigits are asked for, alternating directions begin with kSome contacts already.
 //
 // With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders: after
-// kNewtonSteps of them rounded equations are tried from where it began, then Newton again from the better of the two, and
+// kNewtonSteps of them (of more than kSome in motion once they bring no digits: on 53 frozen steps of a heap two thirds of
+// the time) rounded equations are tried from where it began, then Newton again from the better of the two, and
 // from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
 // equations, and from there to Newton again. With kMany contacts that takes seconds, and what is within kNearEnough once both
 // have had their turn is handed on: in a wall that a ball goes through nothing brings more digits, or hundreds of steps
@@ -63,6 +64,8 @@ constexpr double kSweepsOfBodies = 20.0;     // and where all bodies are rigid
 constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
 constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
 constexpr std::size_t kMany = 500;    // with which its steps are dear
+constexpr std::size_t kSome = 300;    // with which a few digits come sooner by alternating directions
+constexpr double kFewDigits = 5e-4;   // a tolerance that asks for no more
 constexpr int kFewSteps = 20;         // of it there, and again as long as they leave less than kGain
 constexpr int kFewest = 8;            // the same of what is in motion, from an answer within kEnough
 constexpr double kGain = 0.3;
@@ -176,13 +179,17 @@ class Automatic : public LcpSolver {
     return false;
   }
 
-  /// So many steps of Newton's, then rounded equations from where it began; λ is the better one's. Whether nothing is
-  /// left to do.
+  /// So many steps of Newton's (of many contacts in motion, where it mostly wanders, as many as bring digits), then rounded
+  /// equations from where it began; λ is the better one's. Whether nothing is left to do.
   static bool newton_or_rounded(int most, const ConeProblem& problem, const LcpSettings& settings, LcpResult& result,
                                 std::vector<Vec3>& lambda) {
     std::vector<Vec3> rounded = lambda;
-    result = go_on(kNewton, problem, settings, result.iterations, lambda, most);
-    if (has_ended(result, settings)) return true;
+    if (settings.is_in_motion && lambda.size() >= kSome && most < kAny) {
+      if (bring_digits(kNewton, kFewSteps, problem, settings, result, lambda)) return true;
+    } else {
+      result = go_on(kNewton, problem, settings, result.iterations, lambda, most);
+      if (has_ended(result, settings)) return true;
+    }
     result = go_on(kRounded, problem, settings, result.iterations, rounded);
     if (result.reason == StopReason::converged ||
         judge(problem, rounded).map.relative < judge(problem, lambda).map.relative)
@@ -194,7 +201,12 @@ class Automatic : public LcpSolver {
   static LcpResult solve_bodies(const ConeProblem& problem, const LcpSettings& settings, bool is_cold, int sweeps,
                                 std::vector<Vec3>& lambda) {
     LcpResult result{sweeps, StopReason::stagnated};
-    if (lambda.size() < kLarge) return by_what_there_is(problem, settings, result, lambda);
+    if (lambda.size() < kLarge) {
+      const bool is_rough = lambda.size() >= kSome && settings.tolerance >= kFewDigits;
+      if (is_rough && settings.measure == Measure::natural_map && come_near(problem, settings, result, lambda))
+        return result;
+      return by_what_there_is(problem, settings, result, lambda);
+    }
     const bool is_rough = settings.tolerance >= kEnough;
     if (settings.measure != Measure::natural_map) {
       if (!bring_digits(kNewton, kFewSteps, problem, settings, result, lambda))
