@@ -58,10 +58,10 @@ TEST_CASE("what is pressed into a thin bowl goes on with finite figures: no piec
   folder.write("s.toml", kScene);
   for (const char* method : {"quick", "constraint_anticipation"})
     for (const int gravity : {-500, -1000}) {
-      const Outcome ran = impinge_run(folder.path(), {"run", "s.toml", "--frames", "6", "--no-images", "--judge", "--out",
-                                                      fmt::format("{}{}", method, gravity), "--set",
-                                                      fmt::format("response.method={}", method), "--set",
-                                                      fmt::format("simulation.gravity=[0,{},0]", gravity)});
+      const Outcome ran = impinge_run(
+          folder.path(), {"run", "s.toml", "--frames", "6", "--no-images", "--judge", "--out",
+                          fmt::format("{}{}", method, gravity), "--set", fmt::format("response.method={}", method),
+                          "--set", fmt::format("simulation.gravity=[0,{},0]", gravity)});
       CAPTURE(method, gravity, ran.out, ran.err);
       CHECK(ran.code == 0);
       if (std::string(method) != "quick") CHECK(ran.out.find("nothing passed") != std::string::npos);
