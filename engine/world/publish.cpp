@@ -7,6 +7,7 @@
 #include "engine/contact/pair_scale.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/wall.hpp"
 #include "engine/step/end_pose.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
@@ -164,6 +165,20 @@ void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters&
   show_overlaps(bodies, parameters.contact, colliders, of_asked, record, asked);
 }
 
+/// The contact that is deepest as a share of the thinner one's thickness; of shallow ones nobody asks.
+Crossing sunk_deepest(const Bodies& bodies, std::span<const ContactRecord> contacts) {
+  constexpr double kShallow = 0.01;  // of a size
+  Crossing deepest;
+  for (const ContactRecord& c : contacts) {
+    const Body &a = bodies[c.body_a], &b = bodies[c.body_b];
+    if (c.body_a == c.body_b || -c.gap <= kShallow * pair_size(a, b)) continue;
+    const double thickness = std::min(wall_of(*a.shape), wall_of(*b.shape));
+    if (std::isfinite(thickness) && -c.gap > deepest.share() * thickness)
+      deepest = {a.name, b.name, -c.gap, thickness, 0};
+  }
+  return deepest;
+}
+
 /// Nothing of one that is deleted.
 BodyShare share_of(Body& body, const Vec3& gravity) {
   if (body.deleted) return {};
@@ -268,6 +283,7 @@ void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats,
   stats.groups = static_cast<std::int64_t>(record.groups.size());
   stats.max_penetration = 0.0;
   for (const ContactRecord& c : record.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
+  stats.crossing = sunk_deepest(bodies_, record.contacts);  // a judge puts what he finds in its place
   stats.substep_penetration = std::max(stats.substep_penetration, stats.max_penetration);
   record.stats = stats;
 }
