@@ -95,6 +95,14 @@ void DeformableBody::solve_again() {
   step_.linear_status = thrifty.factorize(step_.a);
   if (step_.linear_status == SolveStatus::ok) step_.linear_status = thrifty.solve(step_.b, step_.v_star).status;
   check_solved();
+  if (!pull && free_nodes() == nodes()) {
+    // as in integrators/kept_momentum.hpp, of whatever scheme made A
+    const VecX rest = step_.b - step_.a * step_.v_star;
+    Vec3 missing = Vec3::Zero();
+    for (int i = 0; i < nodes(); ++i) missing += rest.segment<3>(3 * i);
+    missing /= (1.0 + step_.tau * damping.alpha) * mass;
+    for (int i = 0; i < nodes(); ++i) step_.v_star.segment<3>(3 * i) += missing;
+  }
   find_displacement_velocity();
 }
 

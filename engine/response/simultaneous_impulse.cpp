@@ -30,7 +30,9 @@ class SimultaneousImpulse : public Response {
 
   ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
     DelassusByContact w(group);
-    const double scale = velocity_scale(make_cone_problem(group));
+    const double tolerance = context.lcp.tolerance * velocity_scale(make_cone_problem(group));
+    std::vector<double> bound;
+    for (const ContactRows& rows : group.contacts) bound.push_back(rows.bound);
     ResponseResult result;
     bool converged = false;
     std::vector<Vec3> change(group.contacts.size());
@@ -48,7 +50,7 @@ class SimultaneousImpulse : public Response {
         if (!change[i].isZero(0.0)) w.change(i, change[i]);
       ++result.iterations;
       w.show(context.observe);
-      converged = largest <= context.lcp.tolerance * scale;
+      converged = largest <= tolerance && w.natural_residual(bound) <= tolerance;  // not a small change alone
     }
     if (!converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
     if (!w.finish()) result.ended = StopReason::stagnated;

@@ -7,6 +7,7 @@
 #include "engine/contact/pair_scale.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/wall.hpp"
 #include "engine/step/end_pose.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/step/sub_step.hpp"
@@ -71,7 +72,7 @@ ContactsOfPairs contacts_of_pairs(const StepRecord& record) {
 }
 
 /// A surface that bends slides over a round shape by more than its contacts' tangents tell, and so does any other in a
-/// motion that is long.
+/// motion that is long. And where detection lost a contact, none tells of the overlap that comes of it.
 void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Parameters& parameters,
                              StepRecord& record) {
   const auto bends = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
@@ -84,8 +85,13 @@ void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Pa
     return parameters.contact.activation(pair_size(bodies[pair.a], bodies[pair.b]));
   };
   std::vector<BodyPair> pairs;
+  ContactsOfPairs contacts = contacts_of_pairs(record);
+  const auto is_lost = [&](const BodyPair& pair) {
+    const Body &a = bodies[pair.a], &b = bodies[pair.b];
+    return !(a.asleep && b.asleep) && !contacts.contains({pair.a, pair.b}) && overlap(a.bounds(), b.bounds());
+  };
   for (const BodyPair& pair : step.pairs)
-    if ((bends(pair.a) || bends(pair.b)) && is_of_shapes(pair)) pairs.push_back({pair.a, pair.b});
+    if (is_of_shapes(pair) && (bends(pair.a) || bends(pair.b) || is_lost(pair))) pairs.push_back({pair.a, pair.b});
   for (const ContactRecord& c : record.contacts) {
     const BodyPair pair{c.body_a, c.body_b};
     if (is_of_shapes(pair) && has_slid(c, activation(pair))) pairs.push_back(pair);
@@ -93,7 +99,6 @@ void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Pa
   if (pairs.empty()) return;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  ContactsOfPairs contacts = contacts_of_pairs(record);
   const std::vector<std::optional<Collision>> deepest = deepest_now(bodies, detecting(parameters), pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     show_overlap(pairs[i], {deepest[i].has_value(), deepest[i], {}}, contacts[{pairs[i].a, pairs[i].b}], bodies,
@@ -158,6 +163,20 @@ void show_overlaps_at_end(const Bodies& bodies, SubStep& step, const Parameters&
   std::vector<TrianglePair> of_asked;
   parameters.narrow_phase.method->find(colliders, asked, of_asked);
   show_overlaps(bodies, parameters.contact, colliders, of_asked, record, asked);
+}
+
+/// The contact that is deepest as a share of the thinner one's thickness; of shallow ones nobody asks.
+Crossing sunk_deepest(const Bodies& bodies, std::span<const ContactRecord> contacts) {
+  constexpr double kShallow = 0.01;  // of a size
+  Crossing deepest;
+  for (const ContactRecord& c : contacts) {
+    const Body &a = bodies[c.body_a], &b = bodies[c.body_b];
+    if (c.body_a == c.body_b || -c.gap <= kShallow * pair_size(a, b)) continue;
+    const double thickness = std::min(wall_of(*a.shape), wall_of(*b.shape));
+    if (std::isfinite(thickness) && -c.gap > deepest.share() * thickness)
+      deepest = {a.name, b.name, -c.gap, thickness, 0};
+  }
+  return deepest;
 }
 
 /// Nothing of one that is deleted.
@@ -264,6 +283,7 @@ void World::describe(std::span<const SolvedContact> contacts, FrameStats& stats,
   stats.groups = static_cast<std::int64_t>(record.groups.size());
   stats.max_penetration = 0.0;
   for (const ContactRecord& c : record.contacts) stats.max_penetration = std::max(stats.max_penetration, -c.gap);
+  stats.crossing = sunk_deepest(bodies_, record.contacts);  // a judge puts what he finds in its place
   stats.substep_penetration = std::max(stats.substep_penetration, stats.max_penetration);
   record.stats = stats;
 }

@@ -25,6 +25,7 @@ constexpr int kPatience = 4;          // motions after which pieces are cut shor
 constexpr double kGrowth = 2.0;       // of the next piece over one that had rows and took more motions than that
 constexpr double kAfterCut = 16.0;    // of the next piece over one that was cut on a long way
 constexpr double kLongWay = 4.0;      // of a safe approach
+constexpr double kNoShare = 1e-9;     // of a motion: no time passes in less, and no velocity follows from that
 constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
 constexpr double kFar = 20.0;         // of a safe approach: from there on the end tells nothing of what is on the way
 constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
@@ -55,7 +56,7 @@ PassagesOf passages_within(std::function<double(const Body&, const Body&)> activ
 }
 
 /// The share of a motion after which the points of the earliest meeting are kStandOff apart; none: they are no
-/// farther from one another to begin with.
+/// farther from one another to begin with, or the motion is so long that its first moment is all that is known to be safe.
 std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& activation) {
   double safe = 1.0;
   for (const UnsafeMotion::Pair& pair : motion.pairs) {
@@ -66,6 +67,7 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
       safe = std::min(safe, p.time * (1.0 - stand_off / way));
     }
   }
+  if (!(safe > kNoShare)) return std::nullopt;
   return safe;
 }
 

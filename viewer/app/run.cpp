@@ -141,9 +141,10 @@ void RunCommand::declare(Options& options) {
       "megabytes for the states of the frames (default: 256): from these a run is resumed, and opened in the debugger "
       "without being simulated again; where they don't fit every second one is given up, and so on");
   judge_option(options, options_);
-  options.flag("--strict", strict_,
-               "exit code 1 if a body may have passed another, or overlaps one by more than 10 % of a thickness, by "
-               "vertices or edges, where --judge looks");
+  options.flag(
+      "--strict", strict_,
+      "exit code 1 if a body may have passed another, or overlaps one by more than half a thickness by its own "
+      "contacts, or where --judge looks by more than 10 %, by vertices or edges");
   options.whole("--freeze", options_.freeze, 0, 100'000'000,
                 "a frame whose last sub-step is written to frozen/NNNNNN.step before its response, for impinge step");
   threads_option(options);

@@ -9,6 +9,7 @@ namespace impinge {
 namespace {
 
 constexpr double kDeep = 0.1;  // of a thickness: an overlap that is worth a word
+constexpr double kSunk = 0.5;  // of a thickness: from there on contacts no longer know the way out
 constexpr std::size_t kNamed = 4;
 
 constexpr double kMostSubsteps = 1000;  // that the parameter takes
@@ -65,6 +66,8 @@ void WatchdogNote::add_earlier(int frame, double unsafe_motions) {
 
 bool WatchdogNote::is_deep() const { return judged_ && deepest_.share() > kDeep; }
 
+bool WatchdogNote::is_sunk() const { return !judged_ && deepest_.share() > kSunk; }
+
 /// Those that passed first, then by time; what stood still is named as the other one.
 std::vector<const WatchdogNote::Seen*> WatchdogNote::worth_naming() const {
   std::vector<const Seen*> list;
@@ -75,6 +78,12 @@ std::vector<const WatchdogNote::Seen*> WatchdogNote::worth_naming() const {
            std::tuple(!r->what.has_passed, r->frame, r->what.substep);
   });
   return list;
+}
+
+std::string WatchdogNote::how_deep() const {
+  return fmt::format("'{}' and '{}' {} {:.3g} m, {:.0f} % of {:.3g} m, {}", deepest_.a, deepest_.b, kDeepMark,
+                     deepest_.depth, 100.0 * deepest_.share(), deepest_.thickness,
+                     place_of(deepest_frame_, deepest_.substep));
 }
 
 std::string WatchdogNote::text() const {
@@ -96,11 +105,13 @@ std::string WatchdogNote::text() const {
   if (named.size() > kNamed)
     lines += fmt::format("note:     so did {} more, in {} frame{} in all; unsafe_motions in stats.csv counts them\n",
                          named.size() - kNamed, frames_, frames_ == 1 ? "" : "s");
+  if (is_sunk() && frames_ > 0) lines += fmt::format("note:     {} by their contacts\n", how_deep());
   return lines;
 }
 
 std::string WatchdogNote::closing_line() const {
   if (!judged_ && !has_barked()) return "";
+  if (!judged_ && frames_ == 0) return fmt::format("watch:    {} by their contacts; --judge measures it\n", how_deep());
   std::vector<const Seen*> named = worth_naming();
   const bool has_passed = !named.empty() && named.front()->what.has_passed;
   if (has_passed) std::erase_if(named, [](const Seen* seen) { return !seen->what.has_passed; });
@@ -118,9 +129,7 @@ std::string WatchdogNote::closing_line() const {
   if (!judged_) return fmt::format("watch:    {}{}\n", passes, has_passed || was_held ? "" : "; --judge tells whether");
   if (!is_deep())
     return fmt::format("judge:    {}, nothing overlaps by more than {:.0f} % of a thickness\n", passes, 100.0 * kDeep);
-  return fmt::format("judge:    {}{}'{}' and '{}' {} {:.3g} m, {:.0f} % of {:.3g} m, {}\n", has_passed ? passes : "",
-                     has_passed ? "; " : "", deepest_.a, deepest_.b, kDeepMark, deepest_.depth,
-                     100.0 * deepest_.share(), deepest_.thickness, place_of(deepest_frame_, deepest_.substep));
+  return fmt::format("judge:    {}{}{}\n", has_passed ? passes : "", has_passed ? "; " : "", how_deep());
 }
 
 }  // namespace impinge

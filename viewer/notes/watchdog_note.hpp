@@ -20,7 +20,7 @@ class WatchdogNote {
   /// Frames of an earlier process, of which only the number of unsafe motions is known.
   void add_earlier(int frame, double unsafe_motions);
 
-  bool has_barked() const { return frames_ > 0 || is_deep(); }
+  bool has_barked() const { return frames_ > 0 || is_deep() || is_sunk(); }
   /// Lines with their ends: each body with frame, sub-step, displacement and remedy; "" if every motion was safe.
   std::string text() const;
   /// The last line of a run, with its end; "" if there is nothing to say and nobody judged.
@@ -32,12 +32,14 @@ class WatchdogNote {
     int frame = 0, substeps = 0;
   };
   bool is_deep() const;
+  bool is_sunk() const;
+  std::string how_deep() const;
   std::vector<const Seen*> worth_naming() const;
 
   bool judged_ = false;
   std::map<std::string, Seen> bodies_;  // the first of each, or the first that passed
   int frames_ = 0, first_frame_ = 0;    // with unsafe motions
-  Crossing deepest_;                    // by its share
+  Crossing deepest_;                    // by its share; of a run that nobody judges as contacts tell it
   int deepest_frame_ = 0;
 };
 

@@ -70,7 +70,7 @@ class VertexPass {
     std::stable_sort(nearest_.begin(), nearest_.end(),
                      [](const Nearest& l, const Nearest& r) { return l.distance < r.distance; });
     const Nearest& closest = nearest_.front();
-    if (closest.distance <= query_.touch && add_touching(v)) {
+    if (closest.distance <= query_.touch && (add_touching(v) || add_hollow(v))) {
       // decided by the features that touch
     } else if ((x - closest.point).dot(other_.normal(closest.feature)) < 0.0) {
       add_inside(v);
@@ -106,6 +106,30 @@ class VertexPass {
     return true;
   }
 
+  // a vertex in a fold that is hollow, where rounding chooses the face that is nearest, and the mean normal of an edge would
+  // hold it off neither: one contact a side; false if it is in none
+  bool add_hollow(int v) {
+    const Vec3& x = own_.vertex(v);
+    touched_.clear(), normals_.clear();
+    for (const int t : triangles_) {
+      const Vec3 n = other_.face_normal(t);
+      if (n.isZero(0.0) || closest_on_triangle(x, other_.corners(t)).squared_distance > query_.touch * query_.touch)
+        continue;
+      touched_.push_back(t), normals_.push_back(n);
+    }
+    const auto is_same_side = [&](const Vec3& n) { return n.dot(normals_[0]) > kSameSide; };
+    if (std::all_of(normals_.begin(), normals_.end(), is_same_side)) return false;
+    for (const Vec3& n : normals_)
+      for (const int t : touched_)
+        for (const Vec3& corner : other_.corners(t))
+          if (n.dot(corner - x) < -2.0 * query_.touch) return false;
+    for (std::size_t i = 0; i < touched_.size(); ++i)
+      if (!falls_steeply(normals_[i], kSteep) && !goes_on_below(v, normals_[i]))
+        keep(v, {Feature::face, touched_[i]}, touched_[i], closest_on_triangle(x, other_.corners(touched_[i])).point,
+             normals_[i], true);
+    return !kept_.empty();
+  }
+
   // the corner or edge of the triangle that lies within touching distance of the point, if there is one
   SurfaceFeature snapped(const Nearest& n) const {
     const Triangle& corners = other_.triangle(n.triangle);
@@ -129,6 +153,7 @@ class VertexPass {
 
   // whether no nearby point of the other surface is closer, and the vertex is in front of it
   bool is_minimum(const Vec3& x, const Nearest& n) {
+    if (lies_on_joint(n)) return true;
     const Vec3 r = x - n.point;
     if (n.feature.kind != Feature::face) {
       other_.star(n.feature, star_);
@@ -137,6 +162,10 @@ class VertexPass {
     }
     return r.dot(other_.normal(n.feature)) >= 0.0;
   }
+
+  // on an edge or a corner that is no ridge (add_touching), as the diagonal of a face: the way there is rounding, and says
+  // neither what is nearer nor which side the vertex is on
+  bool lies_on_joint(const Nearest& n) const { return n.distance <= query_.touch && n.feature.kind != Feature::face; }
 
   void add_outside(int v, const Nearest& n) {
     const Vec3 normal =
@@ -272,6 +301,7 @@ class VertexPass {
   const SurfaceView &own_, &other_;
   const bool own_is_a_;
   std::vector<int> triangles_;  // of the other body, round the vertex at hand
+  std::vector<int> touched_;    // those of them that it touches
   std::vector<Nearest> nearest_;
   std::vector<Vec3> own_star_, star_, normals_;
   std::vector<Collision> kept_;  // contacts of the vertex at hand

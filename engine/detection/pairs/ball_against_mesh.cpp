@@ -80,7 +80,7 @@ class BallTest {
     if (r.dot(mesh_.normal(n.feature)) < 0.0) return false;
     if (n.feature.kind == Feature::face) return true;
     mesh_.star(n.feature, star_);
-    const double slack = 1e-9 * r.norm();
+    const double slack = std::max(touch_, 1e-9 * r.norm());
     return std::all_of(star_.begin(), star_.end(), [&](const Vec3& e) { return r.dot(e) <= slack; });
   }
 

@@ -6,6 +6,7 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/contacts/proximity_parts.hpp"
 #include "engine/detection/pairs/primitive.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 #include "engine/geometry/box_tree.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr int kDoublings = 200;      // of how far is looked: more than lengths of numbers have
 constexpr double kFirstLook = 1e-3;  // of the smaller body's size
+constexpr double kRounding = 1e-12;  // of both bodies' size
 
 bool is_mesh(const Collider& c) { return c.shape->mesh() != nullptr; }
 
@@ -104,9 +106,17 @@ NearestFeatures nearest_of(const Collider& a, const Collider& b, std::span<const
     best.triangle_a = pair.triangle_a, best.triangle_b = pair.triangle_b;
   }
   best.distance = std::sqrt(least);
-  if (best.distance > 0.0) best.normal = (best.point_a - best.point_b) / best.distance;
   std::tie(best.kind_a, best.index_a) = feature_at(a, best.triangle_a, best.point_a);
   std::tie(best.kind_b, best.index_b) = feature_at(b, best.triangle_b, best.point_b);
+  // nearer than what places are known to, the line between the points is rounding, and what touches there tells
+  const double known = kRounding * (a.bounds.extent().norm() + b.bounds.extent().norm());
+  const Vec3 apart = separating_direction(SurfaceView(a, 0), {best.kind_a, best.index_a}, SurfaceView(b, 1),
+                                          {best.kind_b, best.index_b})
+                         .first;
+  if (best.distance > known || (best.distance > 0.0 && apart.isZero(0.0)))
+    best.normal = (best.point_a - best.point_b) / best.distance;
+  else if (!apart.isZero(0.0))
+    best.normal = apart;
   return best;
 }
 

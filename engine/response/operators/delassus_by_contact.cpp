@@ -7,7 +7,9 @@
 
 #include "engine/contact/mobility.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/lcp/residual.hpp"
 
 namespace impinge {
 DelassusByContact::DelassusByContact(GroupSystem& group)
@@ -98,6 +100,18 @@ void DelassusByContact::add_coupled(int s) {
 
 Vec3 DelassusByContact::velocity(std::size_t i) const {
   return group_.contact_velocity(i, true) + coupled_velocity_[i];
+}
+
+double DelassusByContact::natural_residual(std::span<const double> bound, std::span<const char> skips) const {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < group_.contacts.size(); ++i) {
+    if ((!skips.empty() && skips[i] != 0) || !(diagonal_[i](0, 0) > 0.0)) continue;
+    const ContactRows& rows = group_.contacts[i];
+    Vec3 u = velocity(i);
+    u.x() -= bound[i];
+    worst = larger(worst, natural_map(rows.kind, diagonal_[i], u, group_.lambda[i], rows.friction));
+  }
+  return worst;
 }
 
 void DelassusByContact::add_impulse(std::size_t i, const Vec3& delta) {

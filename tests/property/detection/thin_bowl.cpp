@@ -1,0 +1,69 @@
+// Bodies pressed into a thin open bowl by much more than their weight, where the first moment of a motion leads through.
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include "tests/support/program/program.hpp"
+
+using namespace impinge;
+using namespace impinge::test;
+
+namespace {
+
+/// y = 2 r² up to r = 0.3 m in rings of 24, open.
+std::string bowl() {
+  constexpr int kAround = 24, kRings = 6;
+  std::string text = "v 0 0 0\n";
+  for (int ring = 1; ring <= kRings; ++ring)
+    for (int k = 0; k < kAround; ++k) {
+      const double r = 0.05 * ring, angle = 2.0 * M_PI * k / kAround;
+      text += fmt::format("v {:.9f} {:.9f} {:.9f}\n", r * std::cos(angle), 2.0 * r * r, r * std::sin(angle));
+    }
+  const auto at = [](int ring, int k) { return ring == 0 ? 1 : 2 + kAround * (ring - 1) + k % kAround; };
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int k = 0; k < kAround; ++k) {
+      text += fmt::format("f {} {} {}\n", at(ring, k), at(ring + 1, k + 1), at(ring + 1, k));
+      if (ring > 0) text += fmt::format("f {} {} {}\n", at(ring, k), at(ring, k + 1), at(ring + 1, k + 1));
+    }
+  return text;
+}
+
+constexpr const char* kScene = R"([simulation]
+gravity = [0, -1000, 0]
+[[body]]
+name = "bowl"
+kind = "static"
+surface = "bowl.obj"
+sides = "both"
+[[body]]
+name = "soft"
+kind = "deformable"
+shape = { sphere = { radius = 0.05 } }
+volume = { cage = { cells = 4 } }
+material = { model = "neo_hookean", young = 3058103.975535168, poisson = 0.4, density = 1000, damping = [0, 0.004] }
+position = [0.09, 0.09, 0.01]
+[[body]]
+name = "rigid"
+kind = "dynamic"
+shape = { box = { size = [0.06, 0.06, 0.06] } }
+material = { density = 1000 }
+position = [-0.07, 0.09, 0.02]
+)";
+
+}  // namespace
+
+TEST_CASE("what is pressed into a thin bowl goes on with finite figures: no piece of a motion takes no time") {
+  const TempFolder folder;
+  folder.write("bowl.obj", bowl());
+  folder.write("s.toml", kScene);
+  for (const char* method : {"quick", "constraint_anticipation"})
+    for (const int gravity : {-500, -1000}) {
+      const Outcome ran = impinge_run(
+          folder.path(), {"run", "s.toml", "--frames", "6", "--no-images", "--judge", "--out",
+                          fmt::format("{}{}", method, gravity), "--set", fmt::format("response.method={}", method),
+                          "--set", fmt::format("simulation.gravity=[0,{},0]", gravity)});
+      CAPTURE(method, gravity, ran.out, ran.err);
+      CHECK(ran.code == 0);
+      if (std::string(method) != "quick") CHECK(ran.out.find("nothing passed") != std::string::npos);
+    }
+}
