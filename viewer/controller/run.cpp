@@ -135,7 +135,7 @@ void check_freeze(const RunOptions& options, const RunFolder& folder) {
 void tell_of_overlap(const RunWatcher& watcher, int frame, std::span<const Command> commands,
                      const StepRecord& record) {
   const std::string note = overlap_note(commands, record);
-  if (!note.empty() && watcher.message) watcher.message(fmt::format("note: frame {}: {}", frame, note));
+  if (!note.empty() && watcher.note) watcher.note(fmt::format("note: frame {}: {}", frame, note));
 }
 
 /// What the script expects of frames, and what ends the run.
@@ -208,9 +208,11 @@ EarlierFrame earlier_frame(int frame, std::span<const double> figures, const Ses
           any_gives_energy(session.script().commands_at(frame))};
 }
 
-/// Frames of before an interruption: their figures are kept, and what asks for more of them gets them made again.
+/// Goes on where an earlier process was interrupted: the figures of its frames are kept, and what asks for more of them
+/// gets them made again.
 void take_up(const RunFolder& folder, const RunWatcher& watcher, Session& session, Conditions& conditions,
              Exports& exports) {
+  const std::string notes = restore_snapshot(folder.snapshot(folder.resume_frame()), session);
   std::optional<RecordedRun> earlier;
   for (int frame = 0; frame <= folder.resume_frame(); ++frame) {
     check_interrupt();
@@ -224,6 +226,7 @@ void take_up(const RunFolder& folder, const RunWatcher& watcher, Session& sessio
     if (!exports.is_empty()) exports.add(earlier->record());
     conditions.check(frame, figures, is_made ? earlier->session() : session);
   }
+  if (watcher.restore) watcher.restore(notes);
 }
 
 }  // namespace
@@ -261,7 +264,6 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   check_freeze(options, folder);
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
-    restore_snapshot(folder.snapshot(result.resumed_from), session);
     take_up(folder, watcher, session, conditions, exports);
   }
   const auto make_frame = [&] {
@@ -288,7 +290,8 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
     if (options.images && conditions.expectations().needs_picture(frame)) view.finish();
     conditions.check(frame, figures, session);
     result.stopped_by_break = stop = conditions.stop(frame, figures, session);
-    if (!stop) folder.add_snapshot(session);  // a run that is resumed makes this frame again, and stops again
+    if (!stop)  // a run that is resumed makes this frame again, and stops again
+      folder.add_snapshot(session, watcher.save ? watcher.save() : "");
   };
   try {
     while (!stop && result.last_frame < last_frame) {
