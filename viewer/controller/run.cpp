@@ -18,6 +18,7 @@
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/export/exports.hpp"
+#include "viewer/image/label.hpp"
 
 namespace impinge {
 
@@ -98,6 +99,25 @@ std::vector<Command> timed_advance(Session& session, FrozenStep* frozen, double&
 void tell_of_former_paths(const RunWatcher& watcher, const Session& session) {
   const std::string note = session.note_of_former_paths();
   if (!note.empty() && watcher.message) watcher.message("note: " + note);
+}
+
+/// Of captions of the scene and of its script.
+void tell_of_letters(const RunWatcher& watcher, const Session& session) {
+  std::string texts = session.view().settings().caption;
+  const Script& script = session.script();
+  for (int frame = 0; frame <= script.last_frame(); ++frame)
+    for (const Command& command : script.commands_at(frame))
+      if (const auto* set = std::get_if<SetCommand>(&command); set != nullptr && set->path == "view.caption.text")
+        texts += std::get<std::string>(set->value);
+  const std::string missing = missing_letters(texts);
+  if (!missing.empty() && watcher.message)
+    watcher.message(
+        fmt::format("note: view.caption.text has '{}', for which there are no letters: pictures show '?'", missing));
+}
+
+void tell_of_scene(const RunOptions& options, const RunWatcher& watcher, const Session& session) {
+  tell_of_former_paths(watcher, session);
+  if (options.images) tell_of_letters(watcher, session);
 }
 
 /// What the command line asks and the scene cannot give.
@@ -250,7 +270,7 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), start_of(options),
                    options.snapshot_megabytes << 20, session.stats_shape());
 
-  tell_of_former_paths(watcher, session);
+  tell_of_scene(options, watcher, session);
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = result.is_judged = session.is_judged();
