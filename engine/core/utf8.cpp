@@ -34,6 +34,10 @@ std::size_t sequence_length(std::string_view text) {
 
 }  // namespace
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
+}
+
 std::size_t find_invalid_utf8(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
@@ -80,7 +84,7 @@ void check_utf8(const std::string& name, std::string_view text) {
   const std::string_view before = text.substr(0, bad);
   const std::size_t begin = before.rfind('\n') + 1;  // npos + 1 is 0
   std::string_view line = before.substr(begin);
-  if (begin == 0 && line.substr(0, 3) == kByteOrderMark) line.remove_prefix(3);
+  if (begin == 0) line = without_byte_order_mark(line);
   throw InputError(fmt::format(
       "{}:{}:{}: byte 0x{:02X} is not UTF-8; text in UTF-8 is wanted; save it as UTF-8 (it may be Latin-1 or UTF-16)",
       name, 1 + std::count(before.begin(), before.end(), '\n'), count_characters(line) + 1,

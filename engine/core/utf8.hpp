@@ -6,6 +6,9 @@
 
 namespace impinge {
 
+/// The text behind the mark of byte order that some editors put at its start and nobody sees.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// The first byte that does not belong to a well-formed sequence (RFC 3629: no overlong forms, no surrogates, nothing
 /// beyond U+10FFFF), or npos.
 std::size_t find_invalid_utf8(std::string_view text);

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/utf8.hpp"
 
 namespace impinge {
 
@@ -30,7 +31,7 @@ std::string quoted(std::string_view word) {
 }
 
 TextLines::TextLines(std::string name, std::string_view text, char comment, char continuation)
-    : name_(std::move(name)), text_(text), comment_(comment), continuation_(continuation) {}
+    : name_(std::move(name)), text_(without_byte_order_mark(text)), comment_(comment), continuation_(continuation) {}
 
 void TextLines::split(std::string_view line) {
   std::size_t i = 0;

@@ -23,6 +23,7 @@ const Registry<Warning>& warnings() {
     IMPINGE_LIST(all, own_weight_warning);
     IMPINGE_LIST(all, triangle_sizes_warning);
     IMPINGE_LIST(all, thin_tetrahedra_warning);
+    IMPINGE_LIST(all, other_skin_warning);
     IMPINGE_LIST(all, default_density_warning);
     IMPINGE_LIST(all, slow_frame_warning);
     IMPINGE_LIST(all, much_memory_warning);

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/core/shell_word.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/folder_lock.hpp"
 #include "engine/io/paths.hpp"
@@ -43,7 +44,8 @@ std::string command_for(const fs::path& run) {
   const fs::path file = run / "run.toml";
   const RunRecord r =
       read_run_record(parse_toml(file.string(), read_file(file, std::uint64_t{1} << 30)).find("run")->value);
-  std::string line = fmt::format("impinge run {} --out {} --force --frames {}", file.string(), run.string(), r.frames);
+  std::string line = fmt::format("impinge run {} --out {} --force --frames {}", shell_word(file.string()),
+                                 shell_word(run.string()), r.frames);
   line += r.images ? fmt::format(" --size {}x{}", r.width, r.height) : " --no-images";
   for (const auto& [is_asked, word] :
        {std::pair(r.ids, " --ids"), {r.contacts, " --contacts"}, {r.export_ply, " --export ply"}})
@@ -120,7 +122,8 @@ class CleanCommand : public SubCommand {
     else
       fmt::print("nothing is removed unless an option says what; --all frees {}\n", describe_bytes(can_go));
     if (is_file(folder_ / "sweep.toml"))
-      fmt::print("again:   impinge sweep {} --out {}\n", (folder_ / "sweep.toml").string(), folder_.string());
+      fmt::print("again:   impinge sweep {} --out {}\n", shell_word((folder_ / "sweep.toml").string()),
+                 shell_word(folder_.string()));
     else if (runs.size() == 1)
       fmt::print("again:   {}\n", command_for(runs.front()));
   }

@@ -9,6 +9,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/interrupt.hpp"
+#include "engine/core/shell_word.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
@@ -104,13 +105,13 @@ AgainstSource against_of(const Given& options, const Source& source, const Debug
 
 /// What a recording is to be played with.
 std::string command_of(const Given& options) {
-  std::string text = fmt::format("# impinge debug {}", options.scene.string());
-  for (const std::string& set : options.overrides) text += fmt::format(" --set '{}'", set);
+  std::string text = fmt::format("# impinge debug {}", shell_word(options.scene.string()));
+  for (const std::string& set : options.overrides) text += " --set " + shell_word(set);
   text += fmt::format(" --size {}x{}", options.width, options.height);
-  if (!options.against.empty()) text += fmt::format(" --against '{}'", options.against);
+  if (!options.against.empty()) text += " --against " + shell_word(options.against);
   if (options.scale > 0) text += fmt::format(" --scale {}", options.scale);
   if (options.memory != Given().memory) text += fmt::format(" --memory {}", options.memory);
-  return text + fmt::format(" --script {}\n", options.record.string());
+  return text + fmt::format(" --script {}\n", shell_word(options.record.string()));
 }
 
 /// A recording may take the place of an older one, and of nothing else.

@@ -18,11 +18,8 @@
 #include "viewer/export/exports.hpp"
 #include "viewer/image/contact_sheet.hpp"
 #include "viewer/image/png.hpp"
-#include "viewer/notes/balance_note.hpp"
-#include "viewer/notes/convergence_note.hpp"
 #include "viewer/notes/crushed_note.hpp"
-#include "viewer/notes/swell_note.hpp"
-#include "viewer/notes/watchdog_note.hpp"
+#include "viewer/notes/run_notes.hpp"
 #include "viewer/present/png_sequence.hpp"
 #include "viewer/present/video.hpp"
 
@@ -64,6 +61,11 @@ bool write_video(const std::filesystem::path& out, const std::filesystem::path& 
   const bool made = make_video(out / "frames", video, frames_per_second);
   if (!made) fmt::print(stderr, "note: ffmpeg is no longer there, so there is no video\n");
   return made;
+}
+
+void take_earlier(RunNotes& notes, const EarlierFrame& earlier) {
+  notes.watchdog.add_earlier(earlier.frame, earlier.unsafe_motions);
+  notes.balance.add_earlier({earlier.frame, earlier.kinetic, earlier.elastic, earlier.potential}, earlier.is_driven);
 }
 
 /// The first of FOLDER, FOLDER-2, FOLDER-3, ... that nobody has: made, so that no other process takes it, and removed
@@ -175,26 +177,29 @@ int RunCommand::run() {
         "--resume makes it of them\n",
         video_.string());
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
-  ConvergenceNote convergence;
-  WatchdogNote watchdog;
-  BalanceNote balance;
-  SwellNote swell;
+  RunNotes notes;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
-    convergence.add(stats);
-    watchdog.add(stats);
+    notes.convergence.add(stats);
+    notes.watchdog.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
   watcher.world = [&](const World& world, bool is_driven) {
-    balance.add(world, is_driven);
-    swell.add(world);
+    notes.balance.add(world, is_driven);
+    notes.swell.add(world);
   };
-  watcher.earlier_frame = [&](const EarlierFrame& earlier) {
-    watchdog.add_earlier(earlier.frame, earlier.unsafe_motions);
-    balance.add_earlier({earlier.frame, earlier.kinetic, earlier.elastic, earlier.potential}, earlier.is_driven);
-  };
+  watcher.earlier_frame = [&](const EarlierFrame& earlier) { take_earlier(notes, earlier); };
+  watcher.save = [&] { return notes.saved(); };
   watcher.message = [&](const std::string& line) {
     progress.clear();
     fmt::print(stderr, "{}\n", line);
+  };
+  watcher.note = [&](const std::string& line) {
+    notes.told.push_back(line);
+    watcher.message(line);
+  };
+  watcher.restore = [&](std::string_view saved) {
+    notes.restore(saved);
+    for (const std::string& line : notes.told) watcher.message(line);
   };
   std::string sheet;
   if (options_.images)
@@ -208,16 +213,15 @@ int RunCommand::run() {
     fmt::print(stderr, "interrupted {} {}; the same command with --resume goes on\n",
                result.last_frame < 0 ? "before frame" : "after frame", std::max(0, result.last_frame));
   const bool filmed = !sheet.empty() && films && write_video(options_.out, video_, result.frames_per_second);
-  watchdog.set_judged(result.is_judged);
-  const bool is_too_bad = strict_ && watchdog.has_barked();
+  notes.watchdog.set_judged(result.is_judged);
+  const bool is_too_bad = strict_ && notes.watchdog.has_barked();
   const int code = result.exit_code() == 0 && is_too_bad ? 1 : result.exit_code();
   if (quiet_) {
-    if (is_too_bad) fmt::print(stderr, "{}", watchdog.closing_line());
+    if (is_too_bad) fmt::print(stderr, "{}", notes.watchdog.closing_line());
     return code;
   }
 
-  fmt::print("{}{}{}{}{}", convergence.text(), watchdog.text(), balance.text(), swell.text(),
-             crushed_note(result.crushed));
+  fmt::print("{}{}", notes.text(), crushed_note(result.crushed));
   if (result.resumed_from >= 0) fmt::print("resumed:  after frame {}\n", result.resumed_from);
   if (options_.images && result.last_frame >= 0)
     fmt::print("pictures: {}/frames/000000.png ... {:06}.png\n", options_.out.string(), result.last_frame);
@@ -230,7 +234,7 @@ int RunCommand::run() {
   if (!sheet.empty()) fmt::print("at once:  {}\n", sheet);
   if (filmed) fmt::print("video:    {}\n", video_.string());
   if (result.failures > 0) fmt::print("failed:   {} expectation{}\n", result.failures, result.failures == 1 ? "" : "s");
-  fmt::print("{}", watchdog.closing_line());
+  fmt::print("{}", notes.watchdog.closing_line());
   return code;
 }
 

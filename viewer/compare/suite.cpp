@@ -14,6 +14,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/core/parameter.hpp"
+#include "engine/core/shell_word.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
@@ -284,8 +285,9 @@ class Suite {
     check_pictures(outcome, pictures, options, result.last_frame);
     if (outcome.kind != TestOutcome::ok)
       outcome.messages.push_back(fmt::format("again: impinge run {} --script {} --frames {} --size {}x{} --out {}",
-                                             scene.string(), script.string(), *options.frames, size.width, size.height,
-                                             (out_ / outcome.name / "again").string()));
+                                             shell_word(scene.string()), shell_word(script.string()), *options.frames,
+                                             size.width, size.height,
+                                             shell_word((out_ / outcome.name / "again").string())));
   }
 
   void check_pictures(TestOutcome& outcome, const std::vector<Script::ImageExpectation>& pictures,
@@ -313,8 +315,8 @@ class Suite {
         c.name = picture.file.filename().string();
         c.b = made;
         c.verdict = PictureComparison::missing_in_a;
-        c.headline =
-            fmt::format("there is no {}; impinge test {} --update writes it", picture.file.string(), folder_.string());
+        c.headline = fmt::format("there is no {}; impinge test {} --update writes it", picture.file.string(),
+                                 shell_word(folder_.string()));
       }
       if (c.verdict == PictureComparison::same) {
         if (!options_.update) continue;

@@ -18,6 +18,7 @@
 #include "viewer/controller/run_folder.hpp"
 #include "viewer/controller/snapshot_file.hpp"
 #include "viewer/export/exports.hpp"
+#include "viewer/image/label.hpp"
 
 namespace impinge {
 
@@ -100,6 +101,25 @@ void tell_of_former_paths(const RunWatcher& watcher, const Session& session) {
   if (!note.empty() && watcher.message) watcher.message("note: " + note);
 }
 
+/// Of captions of the scene and of its script.
+void tell_of_letters(const RunWatcher& watcher, const Session& session) {
+  std::string texts = session.view().settings().caption;
+  const Script& script = session.script();
+  for (int frame = 0; frame <= script.last_frame(); ++frame)
+    for (const Command& command : script.commands_at(frame))
+      if (const auto* set = std::get_if<SetCommand>(&command); set != nullptr && set->path == "view.caption.text")
+        texts += std::get<std::string>(set->value);
+  const std::string missing = missing_letters(texts);
+  if (!missing.empty() && watcher.message)
+    watcher.message(
+        fmt::format("note: view.caption.text has '{}', for which there are no letters: pictures show '?'", missing));
+}
+
+void tell_of_scene(const RunOptions& options, const RunWatcher& watcher, const Session& session) {
+  tell_of_former_paths(watcher, session);
+  if (options.images) tell_of_letters(watcher, session);
+}
+
 /// What the command line asks and the scene cannot give.
 void check_options(const RunOptions& options, const Session& session, int last_frame) {
   if (!options.images && !session.script().images().empty())
@@ -135,7 +155,7 @@ void check_freeze(const RunOptions& options, const RunFolder& folder) {
 void tell_of_overlap(const RunWatcher& watcher, int frame, std::span<const Command> commands,
                      const StepRecord& record) {
   const std::string note = overlap_note(commands, record);
-  if (!note.empty() && watcher.message) watcher.message(fmt::format("note: frame {}: {}", frame, note));
+  if (!note.empty() && watcher.note) watcher.note(fmt::format("note: frame {}: {}", frame, note));
 }
 
 /// What the script expects of frames, and what ends the run.
@@ -208,9 +228,11 @@ EarlierFrame earlier_frame(int frame, std::span<const double> figures, const Ses
           any_gives_energy(session.script().commands_at(frame))};
 }
 
-/// Frames of before an interruption: their figures are kept, and what asks for more of them gets them made again.
+/// Goes on where an earlier process was interrupted: the figures of its frames are kept, and what asks for more of them
+/// gets them made again.
 void take_up(const RunFolder& folder, const RunWatcher& watcher, Session& session, Conditions& conditions,
              Exports& exports) {
+  const std::string notes = restore_snapshot(folder.snapshot(folder.resume_frame()), session);
   std::optional<RecordedRun> earlier;
   for (int frame = 0; frame <= folder.resume_frame(); ++frame) {
     check_interrupt();
@@ -224,6 +246,7 @@ void take_up(const RunFolder& folder, const RunWatcher& watcher, Session& sessio
     if (!exports.is_empty()) exports.add(earlier->record());
     conditions.check(frame, figures, is_made ? earlier->session() : session);
   }
+  if (watcher.restore) watcher.restore(notes);
 }
 
 }  // namespace
@@ -247,7 +270,7 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   RunFolder folder(options.out, record, format_run(session.scene(), session.rows(), record), start_of(options),
                    options.snapshot_megabytes << 20, session.stats_shape());
 
-  tell_of_former_paths(watcher, session);
+  tell_of_scene(options, watcher, session);
   RunResult result;
   result.frames_per_second = 1.0 / session.world().parameters.simulation.frame_time;
   const bool judged = result.is_judged = session.is_judged();
@@ -261,7 +284,6 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
   check_freeze(options, folder);
   if (folder.resume_frame() >= 0) {
     result.resumed_from = result.last_frame = folder.resume_frame();
-    restore_snapshot(folder.snapshot(result.resumed_from), session);
     take_up(folder, watcher, session, conditions, exports);
   }
   const auto make_frame = [&] {
@@ -288,7 +310,8 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
     if (options.images && conditions.expectations().needs_picture(frame)) view.finish();
     conditions.check(frame, figures, session);
     result.stopped_by_break = stop = conditions.stop(frame, figures, session);
-    if (!stop) folder.add_snapshot(session);  // a run that is resumed makes this frame again, and stops again
+    if (!stop)  // a run that is resumed makes this frame again, and stops again
+      folder.add_snapshot(session, watcher.save ? watcher.save() : "");
   };
   try {
     while (!stop && result.last_frame < last_frame) {

@@ -43,7 +43,13 @@ struct RunWatcher {
   std::function<void(const World& world, bool is_driven)> world;
   /// Of a run that goes on: frames that are there already.
   std::function<void(const EarlierFrame& earlier)> earlier_frame;
+  /// What is known after a frame, in bytes that are kept with its state; and the same back, once earlier_frame was
+  /// called for all of them.
+  std::function<std::string()> save;
+  std::function<void(std::string_view saved)> restore;
   std::function<void(const std::string& line)> message;  ///< a failed expectation, a break, a note
+  /// Of what is said of a frame as it is made, and not again when the run goes on.
+  std::function<void(const std::string& line)> note;
   /// All frames are made: what belongs to a whole run beside them, before the folder says that it is done.
   std::function<void(const RunResult& result)> whole;
 };

@@ -234,9 +234,9 @@ void RunFolder::add_frame(const StepRecord& record, std::span<const Command> com
   stats_.append(columns_.row(stats, own) + "\n");
 }
 
-void RunFolder::add_snapshot(const Session& session) {
+void RunFolder::add_snapshot(const Session& session, std::string_view notes) {
   const int frame = session.frame(), before = snapshots_.empty() ? 0 : snapshots_.rbegin()->first;
-  snapshot_bytes_ += snapshots_[frame] = write_snapshot(snapshot(frame), session);
+  snapshot_bytes_ += snapshots_[frame] = write_snapshot(snapshot(frame), session, notes);
   if (before % spacing_ != 0) forget_snapshot(before);
   while (snapshots_.size() > 2 && snapshot_bytes_ > most_snapshot_bytes_) {
     spacing_ *= 2;

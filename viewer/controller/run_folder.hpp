@@ -43,8 +43,8 @@ class RunFolder {
   void add_frame(const StepRecord& record, std::span<const Command> commands, const FrameStats& stats,
                  std::span<const double> own);
   /// Of every frame, until they fill their room: then every second one is given up, and so on. The last one always
-  /// stays.
-  void add_snapshot(const Session& session);
+  /// stays. `notes`: what whoever watches the run knows so far.
+  void add_snapshot(const Session& session, std::string_view notes);
   void add_frozen_step(const FrozenStep& step);
   /// Says that all of it is there. `step_cpu_ms`: what the steps took of the processor; negative: not known.
   void finish(double step_cpu_ms);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "engine/core/error.hpp"
 #include "engine/core/utf8.hpp"
@@ -44,6 +45,18 @@ std::string unquoted(std::string_view word) {
   return std::string(word);
 }
 
+/// The bodies that it changes or goes along with; how they are drawn is nobody's loss.
+std::vector<std::string> acted_on(const Command& command) {
+  if (const auto* act = std::get_if<Act>(&command)) return {act->body};
+  if (const auto* bodies = std::get_if<BodiesCommand>(&command))
+    return bodies->verb == BodiesCommand::follow || bodies->verb == BodiesCommand::frame ? bodies->names
+                                                                                         : std::vector<std::string>();
+  constexpr std::string_view kBody = "body.";
+  const auto* set = std::get_if<SetCommand>(&command);
+  if (set == nullptr || !set->path.starts_with(kBody)) return {};
+  return {set->path.substr(kBody.size(), set->path.find('.', kBody.size()) - kBody.size())};
+}
+
 }  // namespace
 
 std::string_view without_comment(std::string_view line) {
@@ -61,12 +74,13 @@ std::string_view without_comment(std::string_view line) {
 }
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
-  const std::string text = read_file(path, 16u << 20);
-  check_utf8(path.string(), text);
+  const std::string file = read_file(path, 16u << 20);
+  check_utf8(path.string(), file);
+  const std::string_view text = without_byte_order_mark(file);
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string line = text.substr(begin, end - begin);
+    std::string line(text.substr(begin, end - begin));
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.size() > 8192)
       throw InputError(fmt::format("{}:{}:1: a line of {} bytes; at most 8192 are taken; shorten it", path.string(),
@@ -118,7 +132,10 @@ void Script::read_line(const PlacedText& line, const std::filesystem::path& fold
                    "write at 40 set contact.friction 0.5");
     const int frame = read_frame(words[1]);
     for (Command& command : parse_command(std::span(words).subspan(2), rows, frame == 0))
-      timed_.push_back({frame, frame, std::move(command), false, {}, {}});
+      timed_.push_back({frame, frame, std::move(command), false, {}, {}, line.line, words.back().place()});
+    if (words.size() > 3)
+      for (auto made = timed_.rbegin(); made != timed_.rend() && made->line == line.line; ++made)
+        made->place = words[3].place();
   } else if (first.text == "from") {
     read_ramp(words, rows);
   } else if (first.text == "expect") {
@@ -168,7 +185,8 @@ void Script::read_ramp(std::span<const PlacedText> words, const ParameterSet& ro
     }
   };
   for (const Parameter* each_row : found)
-    timed_.push_back({first, last, SetCommand{each_row->path, {}, rest[0].place()}, true, value(0), value(each)});
+    timed_.push_back({first, last, SetCommand{each_row->path, {}, rest[0].place()}, true, value(0), value(each),
+                      words[5].line, words[5].place()});
 }
 
 void Script::read_expect(const PlacedText& line, std::span<const PlacedText> words, const std::filesystem::path& folder,
@@ -206,6 +224,34 @@ void Script::read_expect(const PlacedText& line, std::span<const PlacedText> wor
     inner[1].refuse(fmt::format("there is no file {}", image.file.string()),
                     "a PNG file relative to the script is wanted", "make the baseline, or check the path");
   images_.push_back(std::move(image));
+}
+
+void Script::check_bodies_are_there() const {
+  using When = std::pair<int, std::size_t>;  // frame, and place among the lines
+  std::map<std::string, When> deleted, added;
+  for (std::size_t i = 0; i < timed_.size(); ++i) {
+    const auto* act = std::get_if<Act>(&timed_[i].command);
+    const When when(timed_[i].first, i);
+    if (act != nullptr && act->verb == Act::add) added.emplace(act->body, when);
+    if (act != nullptr && act->verb == Act::remove)
+      if (const auto [it, is_new] = deleted.emplace(act->body, when); !is_new) it->second = std::min(it->second, when);
+  }
+  for (std::size_t i = 0; i < timed_.size(); ++i) {
+    const Timed& timed = timed_[i];
+    for (const std::string& name : acted_on(timed.command)) {
+      const auto gone = deleted.find(name), comes = added.find(name);
+      const auto refuse_it = [&](const std::string& why, const char* remedy) {
+        throw InputError(fmt::format("{}: '{}' in frame {}, which {}; a body that is there is wanted; {}", timed.place,
+                                     name, timed.last, why, remedy));
+      };
+      if (gone != deleted.end() && When(timed.last, i) > gone->second)
+        refuse_it(fmt::format("line {} deletes in frame {}", timed_[gone->second.second].line, gone->second.first),
+                  "remove the line, or delete the body later");
+      if (comes != added.end() && std::holds_alternative<Act>(timed.command) && When(timed.first, i) < comes->second)
+        refuse_it(fmt::format("line {} adds in frame {}", timed_[comes->second.second].line, comes->second.first),
+                  "remove the line, or add the body earlier");
+    }
+  }
 }
 
 std::vector<Command> Script::commands_at(int frame) const {

@@ -47,6 +47,9 @@ class Script {
 
   /// What takes effect with the frame, in the order of the lines; ramps as `set`.
   std::vector<Command> commands_at(int frame) const;
+  /// Refuses lines that act on a body which another one has deleted by then, or adds only later: nothing in a script
+  /// depends on how a run goes, so these do nothing for certain.
+  void check_bodies_are_there() const;
   int last_frame() const { return last_frame_; }  ///< the largest frame named, -1 for none
 
   /// Former paths of parameters that its lines name.
@@ -62,6 +65,8 @@ class Script {
     Command command;  // of `at`; the ramp's end otherwise
     bool ramp = false;
     ParameterValue from, to;
+    int line = 0;
+    std::string place = {};  // of what it is about
   };
   void read_line(const PlacedText& line, const std::filesystem::path& folder, const ParameterSet& rows,
                  const ExpressionWords& conditions);

@@ -102,6 +102,8 @@ Session::Session(const fs::path& scene_file, const std::vector<std::string>& ove
   pictures_may_be_missing_ = options.pictures_may_be_missing;
   added_.read(script_name_, script_lines_, scene_, world_, rows_);
   read_script();
+  // what a debugger has recorded, or a run written down, is done again as it was
+  if (!script_file.empty() && !options.script_lines) script_.check_bodies_are_there();
   read_columns();
   start();
   try {

@@ -134,6 +134,18 @@ DebugLine parse_input(const PlacedText& line, LineWords words) {
   return i;
 }
 
+/// Of a script that somebody else wrote: it names files below --out and no others.
+std::string below_out(const PlacedText& word) {
+  const std::filesystem::path path = std::filesystem::path(word.text).lexically_normal();
+  if (path.is_absolute())
+    word.refuse(fmt::format("'{}', which is not below --out", word.text), "a path from --out on is wanted",
+                "leave out the first /, and choose the folder by --out");
+  if (path.begin() != path.end() && *path.begin() == "..")
+    word.refuse(fmt::format("'{}', which leads out of --out", word.text), "a path below --out is wanted",
+                "leave out the .., and choose the folder by --out");
+  return std::string(word.text);
+}
+
 }  // namespace
 
 DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
@@ -168,14 +180,14 @@ DebugLine parse_debug_line(const PlacedText& line, const DebugNames& names) {
     std::vector<std::string> formats;
     for (const Entry<Exporter>& e : exporters()) formats.emplace_back(e.name);
     find(words[1], "format", formats);
-    return ExportLine{std::string(words[1].text), words.size() > 2 ? std::string(words[2].text) : "export"};
+    return ExportLine{std::string(words[1].text), words.size() > 2 ? below_out(words[2]) : "export"};
   }
   const std::string ending = verb == "shot" ? ".png" : verb == "plots" ? ".csv" : verb == "bundle" ? ".tar" : ".step";
   want(words, 2, 2, (verb + " FILE").c_str());
   if (!words[1].text.ends_with(ending))
     words[1].refuse(fmt::format("'{}'", words[1].text), fmt::format("a file name that ends in {} is wanted", ending),
                     "add " + ending);
-  const std::string file(words[1].text);
+  const std::string file = below_out(words[1]);
   if (verb == "freeze") return FreezeLine{file};
   return FileLine{verb == "shot" ? FileLine::shot : verb == "plots" ? FileLine::plots : FileLine::bundle, file};
 }

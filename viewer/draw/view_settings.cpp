@@ -125,10 +125,12 @@ void ViewSettings::bind(ParameterSet& set) {
   for (LayerSwitch& layer : layers) layer.settings.declare(rows.below(layer.name));
 
   rows.add("point_size", point_size, {1.0, 100.0}, "px",
-           "Diameter of a contact point, in pixels of a picture 720 high.");
+           "Diameter of a contact point, in pixels of a picture whose shorter side has 720.");
   rows.add("arrow_length", arrow_length, {1.0, 1000.0}, "px",
-           "Length of a normal and of the largest force or velocity, in pixels of a picture 720 high.");
-  rows.add("line_width", line_width, {0.5, 20.0}, "px", "Width of lines, in pixels of a picture 720 high.");
+           "Length of a normal and of the unit of forces, up to five of which are drawn, in pixels of a picture whose "
+           "shorter side has 720.");
+  rows.add("line_width", line_width, {0.5, 20.0}, "px",
+           "Width of lines, in pixels of a picture whose shorter side has 720.");
   rows.add("antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");
   rows.add("backdrop", backdrop,
            {{BackdropStyle::dark, "dark"},

@@ -63,6 +63,21 @@ int text_width(std::string_view text, int scale) {
   return for_glyphs(letters_of(scale).font(), text, [](const ImFontGlyph&, int) {});
 }
 
+std::string missing_letters(std::string_view text) {
+  const ImFont& font = letters_of(1).font();
+  std::string missing;
+  for (const char *at = text.data(), *end = at + text.size(); at < end;) {
+    unsigned int character = 0;
+    const int length = std::max(1, ImTextCharFromUtf8(&character, at, end));
+    const std::string own(at, at + length);
+    at += length;
+    const bool is_there = character < ' ' || (character <= IM_UNICODE_CODEPOINT_MAX && character != 0xFFFD &&
+                                              font.FindGlyphNoFallback(static_cast<ImWchar>(character)) != nullptr);
+    if (!is_there && missing.find(own) == std::string::npos) missing += own;
+  }
+  return missing;
+}
+
 void draw_text(Image& image, int x, int y, std::string_view text, Rgb colour, int scale) {
   const Letters& letters = letters_of(scale);
   for_glyphs(letters.font(), text, [&](const ImFontGlyph& glyph, int from) {

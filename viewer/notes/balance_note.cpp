@@ -9,6 +9,7 @@
 #include "engine/bodies/scripted_body.hpp"
 #include "engine/preflight/shorter_substeps.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/notes/note_archive.hpp"
 
 namespace impinge {
 namespace {
@@ -94,6 +95,15 @@ void BalanceNote::take_attachments(const World& world) {
     if (seen.first < 0) seen.first = record.stats.frame, seen.gap = gap;
     if (gap > seen.most) seen.most = gap, seen.worst = record.stats.frame;
   }
+}
+
+void BalanceNote::keep(NoteArchive& archive) {
+  auto known = static_cast<std::uint64_t>(energies_.size());
+  archive.keep(known);
+  if (known < energies_.size()) energies_.resize(known);
+  archive.keep(has_begun_, is_driven_, least_, remedy_, attachment_remedy_);
+  archive.map(attachments_,
+              [&](Apart& a) { archive.keep(a.name, a.smaller, a.size, a.was_held, a.first, a.worst, a.gap, a.most); });
 }
 
 std::string BalanceNote::energy_text() const {

@@ -10,6 +10,7 @@
 
 namespace impinge {
 
+class NoteArchive;
 class World;
 
 /// How its two kinds of lines are known in a run's output.
@@ -24,6 +25,8 @@ class BalanceNote {
   void add(const World& world, bool is_driven);
   /// Lines with their ends; "" if nothing rose and all held.
   std::string text() const;
+  /// All but the energies: of these only how many, and add_earlier() has given them.
+  void keep(NoteArchive& archive);
 
  private:
   struct Apart {

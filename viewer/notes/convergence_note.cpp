@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "viewer/notes/note_archive.hpp"
+
 namespace impinge {
 namespace {
 
@@ -37,6 +39,11 @@ void ConvergenceNote::add(const FrameStats& stats) {
   solves_ += stats.unconverged;
   ++frames_;
   if (stats.residual > worst_) worst_ = stats.residual, worst_frame_ = stats.frame;
+}
+
+void ConvergenceNote::keep(NoteArchive& archive) {
+  archive.list(causes_, [&](UnsolvedGroups& cause) { archive.keep(cause.reason, cause.limit, cause.solves); });
+  archive.keep(solves_, frames_, worst_frame_, worst_, is_worth_a_word_, merged_, first_merged_);
 }
 
 std::string ConvergenceNote::impacts_text() const {

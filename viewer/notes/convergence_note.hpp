@@ -6,11 +6,14 @@
 
 namespace impinge {
 
+class NoteArchive;
+
 class ConvergenceNote {
  public:
   void add(const FrameStats& stats);
   /// A line for each with its end, "" if every solve had an answer, or as good as one, and every impact its turn.
   std::string text() const;
+  void keep(NoteArchive& archive);
 
  private:
   std::string impacts_text() const;

@@ -6,6 +6,7 @@
 #include "engine/bodies/scale.hpp"
 #include "engine/integrators/turning_swell.hpp"
 #include "engine/world/world.hpp"
+#include "viewer/notes/note_archive.hpp"
 
 namespace impinge {
 namespace {
@@ -27,6 +28,10 @@ void SwellNote::add(const World& world) {
     if (swell->energy > worst.energy)
       worst = {world.record().stats.frame, swell->strain, swell->turn, swell->energy, kinetic};
   }
+}
+
+void SwellNote::keep(NoteArchive& archive) {
+  archive.map(bodies_, [&](Swollen& s) { archive.keep(s.frame, s.strain, s.turn, s.energy, s.kinetic); });
 }
 
 std::string SwellNote::text() const {

@@ -6,6 +6,7 @@
 
 namespace impinge {
 
+class NoteArchive;
 class World;
 
 class SwellNote {
@@ -14,6 +15,7 @@ class SwellNote {
   void add(const World& world);
   /// A line a body, with its end; "" if none was swollen by an energy worth a word.
   std::string text() const;
+  void keep(NoteArchive& archive);
 
  private:
   struct Swollen {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/notes/note_archive.hpp"
+
 namespace impinge {
 namespace {
 
@@ -14,8 +16,12 @@ constexpr std::size_t kNamed = 4;
 
 constexpr double kMostSubsteps = 1000;  // that the parameter takes
 
+/// It passed on a way on which contacts are mostly seen: its length tells nothing of what would help.
+bool is_within_safe(const UnsafeBody& body) { return body.approach <= body.safe; }
+
 /// What makes sub-steps so short that the two approach by no more than is safe in each.
 std::string enough_substeps(const UnsafeBody& body, int substeps) {
+  if (is_within_safe(body)) return "take more simulation.substeps";
   const double wanted = std::ceil(substeps * body.approach / body.safe);
   if (wanted <= kMostSubsteps) return fmt::format("simulation.substeps = {:.0f}", wanted);
   return fmt::format("divide simulation.frame_time by {:.0f}", std::ceil(body.approach / body.safe));
@@ -64,6 +70,16 @@ void WatchdogNote::add_earlier(int frame, double unsafe_motions) {
   if (frames_++ == 0) first_frame_ = frame;
 }
 
+void WatchdogNote::keep(NoteArchive& archive) {
+  archive.map(bodies_, [&](Seen& seen) {
+    UnsafeBody& what = seen.what;
+    archive.keep(what.name, what.other, what.cause, what.substep, what.displacement, what.approach, what.safe,
+                 what.has_passed, seen.frame, seen.substeps);
+  });
+  archive.keep(frames_, first_frame_);
+  archive.keep(deepest_.a, deepest_.b, deepest_.depth, deepest_.thickness, deepest_.substep, deepest_frame_);
+}
+
 bool WatchdogNote::is_deep() const { return judged_ && deepest_.share() > kDeep; }
 
 bool WatchdogNote::is_sunk() const { return !judged_ && deepest_.share() > kSunk; }
@@ -100,7 +116,8 @@ std::string WatchdogNote::text() const {
     else
       lines += fmt::format("note:     '{}' moved {} beside {} {} and may have passed it", body.name, way,
                            other_of(body), where);
-    lines += fmt::format(", {:.3g} m are safe; {}\n", body.safe, remedy(body, named[i]->substeps));
+    if (!is_within_safe(body)) lines += fmt::format(", {:.3g} m are safe", body.safe);
+    lines += fmt::format("; {}\n", remedy(body, named[i]->substeps));
   }
   if (named.size() > kNamed)
     lines += fmt::format("note:     so did {} more, in {} frame{} in all; unsafe_motions in stats.csv counts them\n",
@@ -123,8 +140,8 @@ std::string WatchdogNote::closing_line() const {
     passes = fmt::format("'{}' {} {} {}{}", first.what.name, did, other_of(first.what),
                          place_of(first.frame, first.what.substep), and_more(named.size() - 1));
   } else if (named.empty() && frames_ > 0) {
-    passes = fmt::format("bodies may have passed others in {} frame{} before the run was resumed, the first {}",
-                         frames_, frames_ == 1 ? "" : "s", first_frame_);
+    passes = fmt::format("{} in {} frame{} before the run was resumed, the first {}", kUnseenMark, frames_,
+                         frames_ == 1 ? "" : "s", first_frame_);
   }
   if (!judged_) return fmt::format("watch:    {}{}\n", passes, has_passed || was_held ? "" : "; --judge tells whether");
   if (!is_deep())

@@ -9,8 +9,11 @@
 
 namespace impinge {
 
+class NoteArchive;
+
 /// How the closing line of a judged run says that something is wrong.
-inline constexpr std::string_view kPassedMark = "passed through", kDeepMark = "overlap by";
+inline constexpr std::string_view kPassedMark = "passed through", kDeepMark = "overlap by",
+                                  kUnseenMark = "bodies may have passed others";
 
 class WatchdogNote {
  public:
@@ -25,6 +28,7 @@ class WatchdogNote {
   std::string text() const;
   /// The last line of a run, with its end; "" if there is nothing to say and nobody judged.
   std::string closing_line() const;
+  void keep(NoteArchive& archive);
 
  private:
   struct Seen {

@@ -7,6 +7,7 @@ const Registry<ViewWarning>& view_warnings() {
   static const Registry<ViewWarning> list = [] {
     Registry<ViewWarning> all;
     IMPINGE_LIST(all, out_of_view_warning);
+    IMPINGE_LIST(all, missing_letters_warning);
     return all;
   }();
   return list;

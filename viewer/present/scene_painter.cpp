@@ -17,17 +17,20 @@ Backdrop backdrop_of(const ViewSettings& settings) {
   return {hex(0x5a6472), hex(0x23272e)};
 }
 
-/// Sizes in pixels are meant for pictures 720 high; small pictures keep marks that can be seen.
-float pixel_scale(int height) { return std::max(0.5f, static_cast<float>(height) / 720.0f); }
+/// Sizes in pixels are meant for pictures 720 high; small pictures keep marks that can be seen. By the shorter side, so
+/// that pictures that stand upright are not drowned in them.
+float pixel_scale(int width, int height) {
+  return std::max(0.5f, static_cast<float>(std::min(width, height)) / 720.0f);
+}
 
-/// By the shorter side, so that panels fit pictures that stand upright.
+/// By the shorter side likewise.
 int text_scale(const ViewSettings& settings, int width, int height) {
   const int side = std::min(width, height);
   return settings.panel_scale > 0 ? settings.panel_scale : std::max(1, static_cast<int>(std::lround(side / 800.0)));
 }
 
-RenderStyle style_of(const ViewSettings& settings, int height) {
-  return {backdrop_of(settings), settings.antialiasing, pixel_scale(height), settings.clip, settings.backs};
+RenderStyle style_of(const ViewSettings& settings, int width, int height) {
+  return {backdrop_of(settings), settings.antialiasing, pixel_scale(width, height), settings.clip, settings.backs};
 }
 
 Camera camera_of(const StepRecord& record, const ViewSettings& settings, int width, int height) {
@@ -96,7 +99,7 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
   if (more) more(list_), list_.end_layer("selection");
   surfaces_.forget_unused();
 
-  renderer_.draw(list_, camera, style_of(settings, height()), target_);
+  renderer_.draw(list_, camera, style_of(settings, width(), height()), target_);
 
   const int scale = text_scale(settings, width(), height());
   if (!overlay_ || overlay_->scale() != scale) overlay_ = std::make_unique<Overlay>(scale);
@@ -123,7 +126,8 @@ void ScenePainter::read_ids(const StepRecord& record, const ViewSettings& settin
   if (const BodySet locked(record, settings.locked); pickable && !locked.is_empty())
     coded.leave_out([&](PickId pick) { return locked.has(pick); });
   ids.objects = code_colors(coded, record);
-  renderer_.draw_ids(coded, camera_of(record, settings, width(), height()), style_of(settings, height()), *ids_);
+  renderer_.draw_ids(coded, camera_of(record, settings, width(), height()), style_of(settings, width(), height()),
+                     *ids_);
   ids_->read(ids);
   add_panel(ids, figures_, "figures");
   add_panel(ids, legend_, "legend");

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/core/parameter.hpp"
+#include "engine/core/shell_word.hpp"
 #include "engine/io/meshes/mesh_unit.hpp"
 #include "viewer/report/json_values.hpp"
 #include "viewer/report/parts.hpp"
@@ -38,10 +39,24 @@ std::string as_a_body(const MeshReport& report) {
     return report.facts.degenerate > 0 && !report.mended ? "any kind, as it is; mend = true takes out what has no area"
                                                          : "any kind, as it is";
   const std::string mends =
-      report.mended ? "" : fmt::format("; mend = true, or impinge mesh {} --mend --out NEW.ply", report.file);
+      report.mended ? ""
+                    : fmt::format("; mend = true, or impinge mesh {} --mend --out NEW.ply", shell_word(report.file));
   return fmt::format("{}: it {}{}",
                      report.facts.is_closed ? "needs mending" : "static or scripted as it is, else mended",
                      *report.facts.problem, mends);
+}
+
+std::string solid_text(const MeshFacts& f) {
+  if (!f.is_closed) {
+    const char* what = f.border_edges > 0                                      ? "open"
+                       : f.nonmanifold_edges > 0 || f.nonmanifold_vertices > 0 ? "not manifold"
+                                                                               : "not oriented";
+    return fmt::format("none, it is {}; area {:.6g} m²", what, f.area);
+  }
+  if (f.volume < 0.0)
+    return fmt::format("inside out, round {:.6g} m³ that it has for outside; area {:.6g} m²", -f.volume, f.area);
+  return fmt::format("volume {:.6g} m³, mass {:.6g} kg at {} kg/m³, area {:.6g} m²", f.volume, kWater * f.volume,
+                     kWater, f.area);
 }
 
 double percent(double before, double after) { return 100.0 * (after - before) / before + 0.0; }
@@ -79,10 +94,10 @@ std::string facts_json(const MeshFacts& f) {
       "\"edge_max\": {}, \"problem\": {}}}",
       f.box.is_empty() ? "null" : json_vector(f.box.min), f.box.is_empty() ? "null" : json_vector(f.box.max),
       f.vertices, f.triangles, f.coinciding, f.unused, json_number(f.area), f.is_closed, json_number(volume),
-      json_number(kWater * volume), f.components, optional_number(f.genus), f.border_edges, f.holes,
-      f.nonmanifold_edges, f.nonmanifold_vertices, f.misoriented_edges, f.degenerate, f.duplicates, f.crossings,
-      f.more_crossings, optional_number(f.thinnest), f.thin, json_number(f.shortest_edge), json_number(f.median_edge),
-      json_number(f.longest_edge), f.problem ? json_text(*f.problem) : "null");
+      json_number(volume > 0.0 ? kWater * volume : NAN), f.components, optional_number(f.genus), f.border_edges,
+      f.holes, f.nonmanifold_edges, f.nonmanifold_vertices, f.misoriented_edges, f.degenerate, f.duplicates,
+      f.crossings, f.more_crossings, optional_number(f.thinnest), f.thin, json_number(f.shortest_edge),
+      json_number(f.median_edge), json_number(f.longest_edge), f.problem ? json_text(*f.problem) : "null");
 }
 
 std::string report_json(const MeshReport& r) {
@@ -94,10 +109,10 @@ std::string report_json(const MeshReport& r) {
     for (const std::string& step : r.mended->steps()) steps += (steps.empty() ? "" : ", ") + json_text(step);
     out += fmt::format(
         ", \"mend\": {{\"steps\": [{}], \"volume_before\": {}, \"enclosed_before\": {}, \"volume_after\": {}, "
-        "\"largest_move\": {}, \"problem\": {}, \"surface\": {}}}",
+        "\"largest_move\": {}, \"warning\": {}, \"problem\": {}, \"surface\": {}}}",
         steps, json_number(r.mended->volume_before), optional_number(r.enclosed), json_number(r.mended->volume_after),
-        json_number(r.mended->largest_move), r.problem_left ? json_text(*r.problem_left) : "null",
-        r.after ? facts_json(*r.after) : "null");
+        json_number(r.mended->largest_move), r.mended->skin_fault.empty() ? "null" : json_text(r.mended->skin_fault),
+        r.problem_left ? json_text(*r.problem_left) : "null", r.after ? facts_json(*r.after) : "null");
   }
   if (r.decimated)
     out += fmt::format(
@@ -117,6 +132,7 @@ std::string mended_rows(const MeshReport& r) {
   out += row("volume:", change_text(r));
   out += row("moved:", r.mended->largest_move > 0.0 ? fmt::format("a vertex {:.3g} m at most", r.mended->largest_move)
                                                     : "no vertex");
+  if (!r.mended->skin_fault.empty()) out += row("warning:", r.mended->skin_fault);
   if (r.problem_left) out += row("left:", "it " + *r.problem_left);
   if (r.after && r.after->crossings > 0)
     out += row("left:", fmt::format("{}{} that cross or touch: overlaps count twice; --remesh 100 makes one skin",
@@ -162,10 +178,7 @@ std::string mesh_page(const MeshReport& r) {
   out += row("from, to:", fmt::format("({:.4g}, {:.4g}, {:.4g}), ({:.4g}, {:.4g}, {:.4g}) m", f.box.min.x(),
                                       f.box.min.y(), f.box.min.z(), f.box.max.x(), f.box.max.y(), f.box.max.z()));
   if (const std::string question = question_of(r); !question.empty()) out += row("", question);
-  out += row("solid:", f.is_closed ? fmt::format("volume {:.6g} m³, mass {:.6g} kg at {} kg/m³, area {:.6g} m²",
-                                                 f.volume, kWater * f.volume, kWater, f.area)
-                                   : fmt::format("none, it is {}; area {:.6g} m²",
-                                                 f.border_edges > 0 ? "open" : "not manifold", f.area));
+  out += row("solid:", solid_text(f));
   out += row("surface:",
              fmt::format("{} vertices{}{}, {} triangles, {}{}", r.file_vertices,
                          f.coinciding > 0 ? fmt::format(" ({} twice there)", f.coinciding) : "",

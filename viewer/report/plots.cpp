@@ -65,6 +65,7 @@ Plot work_precision_plot(const ReportTable& table, const ReportChoice& choice, c
   plot.y_label = heading(table.columns[static_cast<std::size_t>(choice.y)]);
   plot.marks_all = true;
   plot.best_label = "ringed: nothing is both faster and more exact";
+  plot.doubtful_label = "crossed out: in doubt, and no part of the front";
   std::vector<int> keys;
   for (const int c : varied_columns(table)) {
     const ReportColumn& column = table.columns[static_cast<std::size_t>(c)];
@@ -80,6 +81,7 @@ Plot work_precision_plot(const ReportTable& table, const ReportChoice& choice, c
     if (series == plot.series.end()) series = plot.series.insert(plot.series.end(), {name, {}});
     series->points.push_back(point);
     if (best[i]) plot.best.push_back(point);
+    if (!table.cell(i, "doubts").empty()) plot.doubtful.push_back(point);
   }
   return plot;
 }
@@ -101,6 +103,7 @@ bool heat_table_of(const ReportTable& table, const ReportChoice& choice, const s
   heat.rows = down, heat.columns = across;
   heat.values.assign(down.size() * across.size(), std::numeric_limits<double>::quiet_NaN());
   heat.notes.assign(heat.values.size(), "not run");
+  heat.doubtful.assign(heat.values.size(), false);
   for (std::size_t k = 2; k < axes.size(); ++k) {
     const auto c = static_cast<std::size_t>(axes[k]);
     heat.title += fmt::format("{}{} = {}", k == 2 ? ", at " : ", ", table.columns[c].name, table.rows.front()[c]);
@@ -118,6 +121,7 @@ bool heat_table_of(const ReportTable& table, const ReportChoice& choice, const s
     const std::size_t cell = at(down, axes[0]) * across.size() + at(across, axes[1]);
     heat.values[cell] = table.number(i, choice.measure);
     heat.notes[cell] = table.cell(i, "status") == "done" ? "" : table.cell(i, "status");
+    heat.doubtful[cell] = !table.cell(i, "doubts").empty();
   }
   return true;
 }

@@ -75,7 +75,7 @@ std::string plots_html(const ReportChoice& choice, bool has_heat) {
   if (has_heat)
     html +=
         "<section>\n<h2>Two parameters</h2>\n<p class=\"note\">A cell is a job; a click opens it. Dark is little, "
-        "bright is much; the number says how much.</p>\n<div id=\"heat\"></div>\n</section>\n";
+        "bright is much; the number says how much. A red cross: in doubt.</p>\n<div id=\"heat\"></div>\n</section>\n";
   return html + "</div>\n";
 }
 

@@ -18,7 +18,7 @@ constexpr std::uint64_t kMostOfOutput = std::uint64_t{1} << 30;
 bool is_doubt(const std::string& line) {
   // a judge has a last line whatever it found
   if (line.starts_with("watch:")) return true;
-  const std::initializer_list<std::string_view> judged = {kPassedMark, kDeepMark},
+  const std::initializer_list<std::string_view> judged = {kPassedMark, kDeepMark, kUnseenMark},
                                                 noted = {kEnergyMark, kApartMark, kCrushedMark};
   const auto& marks = line.starts_with("judge:") ? judged : noted;
   return (line.starts_with("judge:") || line.starts_with("note:")) &&

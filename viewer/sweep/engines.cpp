@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "engine/core/error.hpp"
+#include "engine/core/shell_word.hpp"
 #include "engine/io/child_process.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
@@ -27,17 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostTasks = 1000;  // Slurm's own limit is 1001 unless its administrator raised it
-
-// for sh: plain where that is safe, in single quotes otherwise
-std::string shell_word(const std::string& text) {
-  if (!text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("/._-+:,@%", c) != nullptr;
-      }))
-    return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string own_program() { return fs::read_symlink("/proc/self/exe").string(); }
 

@@ -11,6 +11,7 @@
 #include "engine/geometry/mend/fill_holes.hpp"
 #include "engine/geometry/mend/remesh.hpp"
 #include "engine/geometry/mend/sheets.hpp"
+#include "engine/geometry/mend/skin_check.hpp"
 #include "engine/geometry/mend/split_borders.hpp"
 #include "engine/geometry/mend/winding_tree.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"
@@ -83,7 +84,10 @@ class Mender {
     add_sheets();
     if (report_.sheets > 0 && settings_.orient) face_outwards();  // sheets lie in others' thickness
     if (settings_.remesh > 0 && (!mesh_.triangles.empty() || !walls_.triangles.empty())) {
+      const bool was_solid = walls_.triangles.empty() && report_.sheets == 0;  // else it is another solid in any case
+      const TriangleMesh before = was_solid ? mesh_ : TriangleMesh();
       mesh_ = remesh(mesh_, walls_, settings_.remesh, &report_.largest_move);
+      if (was_solid && !mesh_.triangles.empty()) report_.skin_fault = skin_fault(before, mesh_, settings_.remesh);
       report_.remeshed = true;
     }
     MendedMesh result{std::move(mesh_), report_, std::nullopt};

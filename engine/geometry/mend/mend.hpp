@@ -34,6 +34,7 @@ struct MendReport {
   bool remeshed = false;
   double volume_before = 0.0, volume_after = 0.0;  ///< m³; before: what the triangles span, closed or not
   double largest_move = 0.0;                       ///< metres, of a vertex of the surface
+  std::string skin_fault;                          ///< what the new skin has lost or won (skin_check.hpp), "": nothing
 
   bool is_changed() const;
   /// "filled 3 holes with 12 triangles", one step each, in the order in which they were done.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/error.hpp"
+#include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/meshes/mesh_readers.hpp"
 
@@ -33,6 +34,7 @@ std::string ending(const std::string& name) {
 
 TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
   const std::string end = ending(name);
+  if (end != ".stl") bytes = without_byte_order_mark(bytes);  // whose binary form begins with any 80 bytes
   TriangleMesh mesh;
   if (end == ".ply")
     mesh = read_ply(name, bytes);

@@ -7,6 +7,7 @@
 #include "engine/core/archive.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/memory.hpp"
+#include "engine/core/shell_word.hpp"
 #include "engine/geometry/mass_properties.hpp"
 #include "engine/geometry/mend/decimate.hpp"
 #include "engine/geometry/mend/mend.hpp"
@@ -50,6 +51,18 @@ std::vector<fs::path> with_others(const fs::path& path, const std::vector<fs::pa
   for (const fs::path& other : others)
     if (std::find(all.begin(), all.end(), other) == all.end()) all.push_back(other);
   return all;
+}
+
+/// Why a surface is no solid as it stands.
+std::string open_text(const MeshTopology& topology) {
+  if (topology.border_edges == 0 && topology.nonmanifold_edges == 0)
+    return fmt::format("the surface is not oriented: neighbouring triangles face opposite ways across {} edge{}",
+                       topology.misoriented_edges, topology.misoriented_edges == 1 ? "" : "s");
+  if (topology.border_edges == 0)
+    return fmt::format("the surface is no solid's, and cut where sheets meet ({} edge{} of three triangles or more)",
+                       topology.nonmanifold_edges, topology.nonmanifold_edges == 1 ? "" : "s");
+  return fmt::format("the surface is open ({} border edges{})", topology.border_edges,
+                     topology.nonmanifold_edges > 0 ? ", and cut where sheets meet" : "");
 }
 
 }  // namespace
@@ -198,9 +211,10 @@ MeshPointer SurfaceFiles::prepared(const TomlNode& table, const std::string& wha
       throw InputError(
           fmt::format("{}: surface {} {}; even mended: mend = {{ remesh = 100 }} makes a new skin of so many "
                       "cells, `impinge mesh {} --mend --picture FILE` shows where it is",
-                      node.place, toml_string(node.string), *mended.problem, path.string()));
-    std::vector<std::string>& notes = file_named(node.string).notes;
-    for (const std::string& step : mended.report.steps()) notes.push_back("mended: " + step);
+                      node.place, toml_string(node.string), *mended.problem, shell_word(path.string())));
+    SurfaceFile& file = file_named(node.string);
+    for (const std::string& step : mended.report.steps()) file.notes.push_back("mended: " + step);
+    if (!mended.report.skin_fault.empty()) file.skin_fault = mended.report.skin_fault;
     mesh = std::move(mended.mesh);
   } else {
     if (const auto problem = check_indices(mesh)) refuse_mesh(node, *problem);
@@ -244,7 +258,7 @@ void SurfaceFiles::check_solid(const TomlNode& node, const std::string& key, con
   throw InputError(
       fmt::format("{}: surface {} {}; mend = true mends it as far as can be, or impinge mesh {} --mend "
                   "--out NEW.ply{}",
-                  node.place, toml_string(node.string), *problem, (folder_ / node.string).string(),
+                  node.place, toml_string(node.string), *problem, shell_word((folder_ / node.string).string()),
                   surface.topology.is_closed() ? "" : "; a static or scripted body takes it as it is"));
 }
 
@@ -302,10 +316,9 @@ MeshPointer SurfaceFiles::load_thin(const TomlNode& table, const std::string& wh
            "a thin solid is wanted", "set another thickness");
   for (SurfaceFile& file : files_)
     if (file.name == node.string && surface->full == nullptr)
-      file.notes.push_back(fmt::format(
-          "the surface is open ({} border edges{}): a solid {:.3g} m thick, {}", surface->topology.border_edges,
-          surface->topology.nonmanifold_edges > 0 ? ", and cut where sheets meet" : "", how.thickness_of(scaled),
-          how.sides == SurfaceSides::both ? "met from both sides" : "behind its front"));
+      file.notes.push_back(fmt::format("{}: a solid {:.3g} m thick, {}", open_text(surface->topology),
+                                       how.thickness_of(scaled),
+                                       how.sides == SurfaceSides::both ? "met from both sides" : "behind its front"));
   return result = std::move(solid);
 }
 

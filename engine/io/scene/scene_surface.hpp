@@ -26,6 +26,7 @@ struct SurfaceFile {
   std::vector<std::string> notes;  ///< of a volume mesh's reader, one sentence each
   /// Where it lies, and then those that were read because it names or needs them.
   std::vector<std::filesystem::path> paths = {};
+  std::string skin_fault = {};  ///< of a new skin (MendReport), "": none
 };
 
 class SurfaceFiles {

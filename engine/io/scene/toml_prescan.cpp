@@ -33,9 +33,7 @@ std::string_view prescanned_toml(const std::string& name, std::string_view text)
                                    line, kMostTomlLine));
     begin = end + 1;
   }
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, 3) == kByteOrderMark) text.remove_prefix(3);
-  return text;
+  return without_byte_order_mark(text);
 }
 
 }  // namespace impinge

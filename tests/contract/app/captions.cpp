@@ -7,6 +7,7 @@
 
 #include "tests/support/program/debug_session.hpp"
 #include "viewer/draw/body_color.hpp"
+#include "viewer/image/label.hpp"
 #include "viewer/image/png.hpp"
 
 using namespace impinge;
@@ -101,4 +102,91 @@ TEST_CASE("lines of the script stand below the pictures for as long as is asked,
   run("resumed", on, "22");
   for (const int frame : {5, 9, 13, 21}) CHECK((pixels(folder, "resumed", frame) == pixels(folder, "captions", frame)));
   CHECK(hash_in(folder / "captions/stats.csv", 22) == hash_in(folder / "plain/stats.csv", 22));
+}
+
+TEST_CASE("a caption of several lines has a row for each, all of them in its box") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  const auto rows = [&](const std::string& out, const std::string& text) {
+    run_pictures(folder, out, {"--frames", "0", "--set", "view.caption.text=\"" + text + "\""});
+    const std::vector<std::uint8_t> with = pixels(folder, out, 0), without = pixels(folder, "plain", 0);
+    std::pair<int, int> range(360, -1);  // rows that the caption changes
+    for (int y = 0; y < 360; ++y)
+      if (!std::equal(&with[3 * 640 * y], &with[3 * 640 * y] + 3 * 640, &without[3 * 640 * y]))
+        range = {std::min(range.first, y), y};
+    return range;
+  };
+  run_pictures(folder, "plain", {"--frames", "0"});
+  constexpr int kRow = 13, kBelow = 5;  // pixels of a small picture: from a row to the next, and below the box
+  const auto one = rows("one", "mgy"), three = rows("three", R"(mgy\nmgy\nmgy)"), gap = rows("gap", R"(mgy\n\nmgy\n)");
+  CHECK(one.second == 359 - kBelow);
+  CHECK(three.second == one.second);
+  CHECK(three.first == one.first - 2 * kRow);
+  CHECK(gap == three);
+}
+
+TEST_CASE("characters of a caption that there are no letters for are told of, once each") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  CHECK(missing_letters("plain ÄÖü Ωж ≤ €\n").empty());
+  CHECK(missing_letters("世 and 界, 世 again").size() == 6);  // of three bytes each
+  CHECK(missing_letters("\xF0\x9F\x98\x80") == "\xF0\x9F\x98\x80");
+  const auto told = [&](std::vector<std::string> words) {
+    const Outcome outcome = impinge_run(folder.path(), words);
+    REQUIRE(outcome.code == 0);
+    return outcome.out + outcome.err;
+  };
+  const std::string note = "view.caption.text has '世', for which there are no letters: pictures show '?'";
+  CHECK(told({"check", "s.toml", "--set", "view.caption.text=\"ball 世\""}).find("warning: missing-letters: " + note) !=
+        std::string::npos);
+  folder.write("a.script", "at 2 set view.caption.text \"世\"\n");
+  const std::vector<std::string> run = {"run", "s.toml", "--script", "a.script", "--frames", "1", "--size", "64x64"};
+  const auto with = [&](std::initializer_list<std::string> more) {
+    std::vector<std::string> words = run;
+    words.insert(words.end(), more);
+    return words;
+  };
+  CHECK(told(with({"--out", "a"})).find("note: " + note) != std::string::npos);
+  CHECK(told(with({"--out", "b", "--no-images"})).find("letters") == std::string::npos);
+}
+
+TEST_CASE("marks are as large in a picture that stands upright as in the square on its shorter side") {
+  const TempFolder folder;
+  folder.write("s.toml", R"([simulation]
+gravity = [0, 0, 0]
+[contact]
+max_push_out = 1e-9
+[[body]]
+name = "floor"
+kind = "static"
+shape = { box = { size = [4, 0.2, 4] } }
+[[body]]
+name = "crate"
+kind = "dynamic"
+shape = { box = { size = [1, 1, 1] } }
+position = [0, 0.599, 0]
+[view]
+camera = { eye = [0, 2.5, 6], target = [0, 0.3, 0] }
+)");
+  const auto marked = [&](const std::string& size) {
+    std::vector<std::uint8_t> with[2];
+    for (const int has_marks : {0, 1}) {
+      const std::string out = size + (has_marks != 0 ? "marks" : "");
+      REQUIRE(impinge_run(
+                  folder.path(),
+                  {"run", "s.toml", "--frames", "0", "--size", size, "--out", out, "--set", "view.panel.legend=false",
+                   "--set", has_marks != 0 ? "view.layers=[\"meshes\",\"contacts\"]" : "view.layers=[\"meshes\"]"})
+                  .code == 0);
+      with[has_marks] = pixels(folder, out, 0);
+    }
+    int count = 0;
+    for (std::size_t i = 0; i < with[0].size(); i += 3) count += !std::equal(&with[0][i], &with[0][i] + 3, &with[1][i]);
+    return count;
+  };
+  const int square = marked("360x360"), upright = marked("360x720"), wide = marked("720x360");
+  CAPTURE(square, upright, wide);
+  CHECK(square > 20);
+  CHECK(upright < 1.5 * square);
+  CHECK(upright > square / 1.5);
+  CHECK(wide < 1.5 * square);
 }

@@ -191,3 +191,66 @@ TEST_CASE("mesh refuses what it can't do") {
   folder.write("flat.off", "OFF\n3 4 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n3 0 2 1\n3 1 2 0\n3 1 2 0\n");
   check_refused(folder, {"mesh", "flat.off", "--mend", "--out", "x.ply"}, "flat.off: ", "nothing is written");
 }
+
+namespace {
+
+/// A cube of 1 m whose walls are `wall` thick: its cavity's surface faces inwards.
+TriangleMesh hollow_cube(double wall) {
+  TriangleMesh mesh = box(Vec3::Constant(0.5), {6, 6, 6});
+  const TriangleMesh inner = box(Vec3::Constant(0.5 - wall), {6, 6, 6});
+  const int count = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), inner.vertices.begin(), inner.vertices.end());
+  for (const Triangle& t : inner.triangles) mesh.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a new skin that tears thin walls is warned of, with cells that don't") {
+  const TempFolder folder;
+  folder.write("hollow.off", off_text(hollow_cube(0.06)));
+  const Outcome torn = impinge_run(folder.path(), {"mesh", "hollow.off", "--mend", "--remesh", "8"});
+  INFO(torn.out);
+  CHECK(torn.code == 0);
+  CHECK(says(torn, "warning:     the skin of 8 cells is another solid: it has "));
+  CHECK(says(torn, " % of the volume; "));
+  CHECK(says(torn, "its thinnest wall of 0.06 m wants cells half as wide: remesh 34\n"));  // 1 / 0.03 = 33.3
+  CHECK(says(impinge_run(folder.path(), {"mesh", "hollow.off", "--mend", "--remesh", "8", "--json"}),
+             "\"warning\": \"the skin of 8 cells is another solid"));
+  const Outcome whole = impinge_run(folder.path(), {"mesh", "hollow.off", "--mend", "--remesh", "34"});
+  CHECK_FALSE(says(whole, "warning:"));
+  CHECK_FALSE(says(impinge_run(folder.path(), {"mesh", "hollow.off", "--mend"}), "warning:"));
+  // the same of a scene's surface
+  const auto check = [&](const std::string& cells) {
+    folder.write("s.toml", "[[body]]\nname = \"it\"\nkind = \"dynamic\"\nsurface = \"hollow.off\"\nmend = { remesh = " +
+                               cells + " }\nmaterial = { density = 1000 }\n");
+    return impinge_run(folder.path(), {"check", "s.toml"});
+  };
+  const Outcome warned = check("8");
+  INFO(warned.out);
+  CHECK(says(warned, "warning: other-skin: hollow.off: the skin of 8 cells is another solid: "));
+  CHECK(says(warned, ": its thinnest wall of 0.06 m wants cells half as wide: remesh 34\n"));
+  CHECK_FALSE(says(check("34"), "other-skin"));
+}
+
+TEST_CASE("what a closed surface is that is no solid is said of what is wrong with it") {
+  const TempFolder folder;
+  TriangleMesh cube = box(Vec3::Constant(0.5));
+  TriangleMesh inverted = cube, mixed = cube;
+  for (Triangle& t : inverted.triangles) std::swap(t[1], t[2]);
+  std::swap(mixed.triangles[0][1], mixed.triangles[0][2]);
+  folder.write("inverted.off", off_text(inverted));
+  folder.write("mixed.off", off_text(mixed));
+  const Outcome page = impinge_run(folder.path(), {"mesh", "inverted.off"});
+  CHECK(says(page, "solid:       inside out, round 1 m³ that it has for outside; area 6 m²"));
+  CHECK_FALSE(says(page, "kg"));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "inverted.off", "--json"}), "\"volume\": -1, \"mass\": null"));
+  CHECK(says(impinge_run(folder.path(), {"mesh", "mixed.off"}), "solid:       none, it is not oriented; area 6 m²"));
+  folder.write("s.toml", "[[body]]\nname = \"it\"\nkind = \"static\"\nsurface = \"mixed.off\"\n");
+  const Outcome info = impinge_run(folder.path(), {"info", "s.toml"});
+  INFO(info.out);
+  CHECK(says(info,
+             "mixed.off: the surface is not oriented: neighbouring triangles face opposite ways across 3 edges: a "
+             "solid "));
+  CHECK_FALSE(says(info, "0 border edges"));
+}

@@ -13,6 +13,7 @@
 #include "tests/support/program/refusal.hpp"
 #include "tests/support/program/sweep_results.hpp"
 #include "viewer/image/png.hpp"
+#include "viewer/present/plot_picture.hpp"
 #include "viewer/report/parts.hpp"
 
 using namespace impinge;
@@ -165,6 +166,31 @@ TEST_CASE("a formula is the truth for every job: a line a method, along the time
   CHECK(work_precision_plot(table, choice, "s").series.size() == 3);
   // what is in doubt neither is best nor beats another
   CHECK(table.best(choice.x, choice.y) == std::vector<bool>{true, false, false, true});
+  // and both pictures say which it is
+  const Plot plot = work_precision_plot(table, choice, "s");
+  CHECK(plot.doubtful == std::vector<Vec2>{Vec2(5, 1e-4)});
+  CHECK(plot.best.size() == 2);
+  HeatTable heat;
+  REQUIRE(heat_table_of(table, choice, "s", heat));
+  CHECK(heat.rows == std::vector<std::string>{"penalty", "quick"});
+  CHECK(heat.doubtful == std::vector<bool>{false, false, true, false});
+  const auto red = [](const Image& image) {
+    int count = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        const std::uint8_t* p = image.pixel(x, y);
+        count += p[0] > 150 && p[1] < 60 && p[2] < 70;
+      }
+    return count;
+  };
+  Plot sure = plot;
+  sure.doubtful.clear();
+  HeatTable certain = heat;
+  certain.doubtful.assign(4, false);
+  CHECK(red(paint_plots({sure}, 640, 360).front()) == 0);
+  CHECK(red(paint_heat_table(certain, 640, 360)) == 0);
+  CHECK(red(paint_plots({plot}, 640, 360).front()) > 20);
+  CHECK(red(paint_heat_table(heat, 640, 360)) > 20);
 }
 
 TEST_CASE("an ablation runs the scene with each economy off, and the sweep's report shows it") {

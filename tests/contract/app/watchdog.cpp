@@ -12,6 +12,7 @@
 #include "tests/support/program/sweep_results.hpp"
 #include "tests/support/program/temp_folder.hpp"
 #include "viewer/notes/watchdog_note.hpp"
+#include "viewer/sweep/doubts.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -206,7 +207,40 @@ TEST_CASE("a run that is resumed is as strict about the frames before") {
   const Outcome outcome = impinge_run(folder.path(), with(words, {"--frames", "6", "--resume", "--strict"}));
   INFO(outcome.out);
   CHECK(outcome.code == 1);
-  CHECK(says(last_line(outcome.out), "in 1 frame before the run was resumed, the first 2"));
+  // and says of them what a run says that was never interrupted
+  const Outcome whole = impinge_run(folder.path(), {"run", "s.toml", "--no-images", "--out", "w", "--set",
+                                                    "narrow_phase.continuous=off", "--frames", "6"});
+  CHECK(last_line(outcome.out) == last_line(whole.out));
+  CHECK(says(last_line(whole.out), "'bullet' may have passed 'plate' in frame 2, sub-step 1"));
+}
+
+TEST_CASE("the watch over frames of which only a number is left says so, and is a doubt") {
+  WatchdogNote note;
+  note.set_judged(true);
+  note.add_earlier(1, 0.0);
+  note.add_earlier(2, 3.0);
+  CHECK(note.has_barked());
+  CHECK(note.closing_line() ==
+        "judge:    bodies may have passed others in 1 frame before the run was resumed, the first 2, nothing overlaps "
+        "by more than 10 % of a thickness\n");
+  const TempFolder folder;
+  folder.write("output.txt", note.closing_line());
+  CHECK(says(sweep_doubts(folder / "output.txt"), "may have passed others in 1 frame"));
+  folder.write("output.txt", WatchdogNote().closing_line());
+  CHECK(sweep_doubts(folder / "output.txt").empty());
+}
+
+TEST_CASE("of a body that passed on a way that is safe no number of sub-steps is promised") {
+  FrameStats stats;
+  stats.frame = 22;
+  stats.substeps = 1;
+  stats.unsafe_motions = 1;
+  stats.unsafe = {{"a", "b", UnsafeBody::soft_contact, 1, 0.0151, 0.0151, 0.04, false}};
+  WatchdogNote note;
+  note.add(stats);
+  CHECK(note.text() ==
+        "note:     'a' moved 0.0151 m beside 'b' in frame 22, sub-step 1 and may have passed it; choose a "
+        "response.method that lets nothing overlap, or take more simulation.substeps\n");
 }
 
 TEST_CASE("a frame judged by its sub-steps is the worst of as many frames of one sub-step") {

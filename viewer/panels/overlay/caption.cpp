@@ -13,13 +13,28 @@ constexpr float kWidest = 0.56f;       // of the picture
 constexpr Color kCaptionInk = hex(0xf2f4f7), kCaptionLine = hex(0xb9d7f0);
 
 /// Cut at words, and within one that is wider alone.
-std::vector<std::string> wrapped(const Pen& pen, const std::string& text, float width) {
+std::vector<std::string> wrapped_line(const Pen& pen, const std::string& text, float width) {
   std::vector<std::string> lines;
   for (const char *at = text.c_str(), *end = at + text.size(); at < end;) {
     const char* stop = pen.font.CalcWordWrapPositionA(pen.text_size / pen.font.FontSize, at, end, width);
     stop = std::max(stop, at + 1);
     lines.emplace_back(at, stop);
     for (at = stop; at < end && *at == ' ';) ++at;
+  }
+  return lines;
+}
+
+/// And where the text itself ends a line; an empty one stays.
+std::vector<std::string> wrapped(const Pen& pen, const std::string& text, float width) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    if (line.ends_with('\r')) line.pop_back();
+    begin = end + 1;
+    const std::vector<std::string> parts = wrapped_line(pen, line, width);
+    lines.insert(lines.end(), parts.begin(), parts.end());
+    if (parts.empty()) lines.emplace_back();
   }
   return lines;
 }

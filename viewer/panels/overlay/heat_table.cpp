@@ -14,7 +14,7 @@ namespace impinge {
 namespace {
 
 constexpr Color kTableInk = hex(0x20242a), kTablePaper = hex(0xffffff), kNoValue = hex(0xe9ecef), kLine = hex(0xb9c0c8),
-                kWhite = hex(0xffffff);
+                kWhite = hex(0xffffff), kInDoubt = hex(0xc1121f);
 constexpr double kWide = 20.0;  // from this ratio on, colours go by the logarithm
 
 Color ink_on(Color c) {
@@ -58,6 +58,38 @@ void draw_bar(const Pen& pen, const HeatTable& table, const ColorScale& scale, f
       fmt::format("{}   {}{}", high, table.value_label, scale.form == ScaleForm::logarithmic ? ", logarithmic" : ""));
 }
 
+struct TableCell {
+  float x, y, width, height;
+};
+
+/// On any colour: a white one is below it.
+void draw_cross(const Pen& pen, float x, float y) {
+  const float r = 5.0f * pen.unit;
+  for (const auto& [color, width] : {std::pair(kWhite, 5.0f), std::pair(kInDoubt, 2.0f)}) {
+    pen.list.AddLine({x - r, y - r}, {x + r, y + r}, packed(color), width * pen.unit);
+    pen.list.AddLine({x - r, y + r}, {x + r, y - r}, packed(color), width * pen.unit);
+  }
+}
+
+void draw_cell(const Pen& pen, const HeatTable& table, std::size_t cell, const std::optional<ColorScale>& scale,
+               const TableCell& box) {
+  const auto& [x, y, width, height] = box;
+  const float u = pen.unit;
+  const bool has_value = std::isfinite(table.values[cell]);
+  const Color color = has_value ? color_of(*scale, table.values[cell]) : kNoValue;
+  pen.list.AddRectFilled({x + u, y + u}, {x + width - u, y + height - u}, packed(color));
+  if (!has_value) pen.list.AddRect({x + u, y + u}, {x + width - u, y + height - u}, packed(kLine), 0.0f, 0, u);
+  const std::string note = table.notes[cell].empty() ? "" : " " + table.notes[cell];
+  const std::string text = shortened(pen,
+                                     has_value      ? fmt::format("{:.3g}{}", table.values[cell], note)
+                                     : note.empty() ? "no figure"
+                                                    : table.notes[cell],
+                                     width - 4.0f * u);
+  pen.text(x + 0.5f * (width - pen.text_width(text)), y + 0.5f * (height - pen.text_size),
+           has_value ? ink_on(color) : kTableInk, text);
+  if (cell < table.doubtful.size() && table.doubtful[cell]) draw_cross(pen, x + width - 12.0f * u, y + 12.0f * u);
+}
+
 }  // namespace
 
 void draw_heat_table(const Pen& pen, const HeatTable& table) {
@@ -68,8 +100,9 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
   float heads = pen.text_width(table.row_label);
   for (const std::string& row : table.rows) heads = std::max(heads, pen.text_width(row));
   heads = std::min(heads, 0.34f * pen.picture_width);
+  const bool has_doubts = std::find(table.doubtful.begin(), table.doubtful.end(), true) != table.doubtful.end();
   const float left = margin + heads + 12.0f * u, top = margin + 4.2f * line, right = pen.picture_width - margin,
-              bottom = pen.picture_height - margin - 2.0f * line;
+              bottom = pen.picture_height - margin - (has_doubts ? 3.2f : 2.0f) * line;
   const float width = std::min((right - left) / static_cast<float>(table.columns.size()), 300.0f * u),
               height = std::min((bottom - top) / static_cast<float>(table.rows.size()), 120.0f * u);
   pen.text(left, margin + 1.9f * line, kTableInk, table.column_label);
@@ -84,26 +117,17 @@ void draw_heat_table(const Pen& pen, const HeatTable& table) {
     const float y = top + static_cast<float>(r) * height;
     pen.text(margin, y + 0.5f * (height - pen.text_size), kTableInk, shortened(pen, table.rows[r], heads));
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      const float x = left + static_cast<float>(c) * width;
       const std::size_t cell = r * table.columns.size() + c;
-      const bool has_value = std::isfinite(table.values[cell]);
-      const Color color = has_value ? color_of(*scale, table.values[cell]) : kNoValue;
-      pen.list.AddRectFilled({x + u, y + u}, {x + width - u, y + height - u}, packed(color));
-      if (!has_value) pen.list.AddRect({x + u, y + u}, {x + width - u, y + height - u}, packed(kLine), 0.0f, 0, u);
-      const std::string text = shortened(
-          pen,
-          has_value
-              ? fmt::format("{:.3g}{}", table.values[cell], table.notes[cell].empty() ? "" : " " + table.notes[cell])
-          : table.notes[cell].empty() ? "no figure"
-                                      : table.notes[cell],
-          width - 4.0f * u);
-      pen.text(x + 0.5f * (width - pen.text_width(text)), y + 0.5f * (height - pen.text_size),
-               has_value ? ink_on(color) : kTableInk, text);
+      draw_cell(pen, table, cell, scale, {left + static_cast<float>(c) * width, y, width, height});
     }
   }
   if (scale)
     draw_bar(pen, table, *scale, left + 60.0f * u, top + static_cast<float>(table.rows.size()) * height + 0.8f * line,
              240.0f * u);
+  if (!has_doubts) return;
+  const float below = top + static_cast<float>(table.rows.size()) * height + (scale ? 2.0f : 0.8f) * line;
+  draw_cross(pen, left + 60.0f * u, below + 0.5f * pen.text_size);
+  pen.text(left + 74.0f * u, below, kTableInk, "crossed: in doubt");
 }
 
 }  // namespace impinge

@@ -14,6 +14,7 @@ struct HeatTable {
   std::vector<double> values;                               ///< row by row; NaN: none
   /// as many; what a cell without a value says, or adds to it
   std::vector<std::string> notes;
+  std::vector<bool> doubtful{};  ///< as many, or none: crossed in a corner
 };
 
 /// Fills the whole picture: dark on white. The colours go by the logarithm where all values are positive and spread

@@ -13,10 +13,11 @@
 namespace impinge {
 namespace {
 
-constexpr Color kPlotInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPlotPaper = hex(0xffffff), kFront = hex(0x8a939c);
+constexpr Color kPlotInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPlotPaper = hex(0xffffff), kFront = hex(0x8a939c),
+                kDoubt = hex(0xc1121f);
 constexpr std::array<Color, 7> kColors = {hex(0x0072b2), hex(0xd55e00), hex(0x009e73), hex(0xcc79a7),
                                           hex(0x56b4e9), hex(0xe69f00), hex(0x000000)};
-constexpr int kMarks = 4;                          // circle, square, triangle, cross
+constexpr int kMarks = 4;                          // circle, square, triangle, diamond
 constexpr double kLowest = 1e-18, kHighest = 1e6;  // y beyond these is drawn at the edge
 constexpr double kZeroShift = 0.3;                 // decades left of 1 where a count of 0 stands
 constexpr std::size_t kLegendLetters = 24;         // of a line of its note
@@ -48,6 +49,8 @@ class Painter {
     draw_front();
     for (std::size_t i = 0; i < plot_.series.size(); ++i) draw_series(i);
     draw_rings();
+    for (const Vec2& p : plot_.doubtful)
+      if (is_drawn(p)) draw_cross(place(p));
     pen_.list.PopClipRect();
     draw_legend(x_.to + margin, y_.to);
   }
@@ -137,9 +140,17 @@ class Painter {
                                     fill);
         break;
       default:
-        pen_.list.AddLine({x - r, y - r}, {x + r, y + r}, fill, 2.5f * u_);
-        pen_.list.AddLine({x - r, y + r}, {x + r, y - r}, fill, 2.5f * u_);
+        draw_diamond(x, y, 1.45f * r + u_, paper);
+        draw_diamond(x, y, 1.4f * r, fill);
     }
+  }
+  void draw_diamond(float x, float y, float r, ImU32 color) const {
+    pen_.list.AddQuadFilled({x, y - r}, {x + r, y}, {x, y + r}, {x - r, y}, color);
+  }
+  void draw_cross(ImVec2 at) const {
+    const float r = 7.0f * u_;
+    pen_.list.AddLine({at.x - r, at.y - r}, {at.x + r, at.y + r}, packed(kDoubt), 1.6f * u_);
+    pen_.list.AddLine({at.x - r, at.y + r}, {at.x + r, at.y - r}, packed(kDoubt), 1.6f * u_);
   }
 
   void draw_series(std::size_t i) const {
@@ -209,8 +220,10 @@ class Painter {
     float width = 0.0f;
     for (const PlotSeries& s : plot_.series)
       for (const std::string& line : lines_of(s.name)) width = std::max(width, pen_.text_width(line));
-    if (!plot_.best.empty())
-      for (const std::string& line : wrapped(plot_.best_label)) width = std::max(width, pen_.text_width(line));
+    for (const auto& [points, label] :
+         {std::pair(&plot_.best, &plot_.best_label), std::pair(&plot_.doubtful, &plot_.doubtful_label)})
+      if (!points->empty())
+        for (const std::string& line : wrapped(*label)) width = std::max(width, pen_.text_width(line));
     return width + 40.0f * u_;
   }
   void draw_legend(float x, float y) const {
@@ -226,10 +239,20 @@ class Painter {
       }
       y += 5.0f * u_;
     }
-    if (plot_.best.empty() || plot_.best_label.empty()) return;
-    y += 6.0f * u_;
-    pen_.list.AddCircle({x + 14.0f * u_, y + 0.5f * pen_.text_size}, 9.5f * u_, packed(kPlotInk), 32, 1.4f * u_);
-    for (const std::string& line : wrapped(plot_.best_label)) {
+    const ImVec2 sign{x + 14.0f * u_, 0.5f * pen_.text_size};
+    if (!plot_.best.empty() && !plot_.best_label.empty()) {
+      y += 6.0f * u_;
+      pen_.list.AddCircle({sign.x, y + sign.y}, 9.5f * u_, packed(kPlotInk), 32, 1.4f * u_);
+      draw_lines(plot_.best_label, x, y);
+    }
+    if (!plot_.doubtful.empty() && !plot_.doubtful_label.empty()) {
+      y += 6.0f * u_;
+      draw_cross({sign.x, y + sign.y});
+      draw_lines(plot_.doubtful_label, x, y);
+    }
+  }
+  void draw_lines(const std::string& text, float x, float& y) const {
+    for (const std::string& line : wrapped(text)) {
       pen_.text(x + 36.0f * u_, y, kPlotInk, line);
       y += pen_.text_size + 2.0f * u_;
     }

@@ -19,10 +19,12 @@ struct Plot {
   std::vector<PlotSeries> series;
   /// x counts from 0, which a logarithmic axis doesn't have: 0 stands apart at its left end.
   bool x_counts = false;
-  bool x_linear = false;     ///< x from 0 on, in equal steps
-  bool marks_all = false;    ///< a mark at every point, however close
-  std::vector<Vec2> best{};  ///< ringed, and joined by a dashed front
-  std::string best_label{};  ///< what that means, below the legend
+  bool x_linear = false;         ///< x from 0 on, in equal steps
+  bool marks_all = false;        ///< a mark at every point, however close
+  std::vector<Vec2> best{};      ///< ringed, and joined by a dashed front
+  std::string best_label{};      ///< what that means, below the legend
+  std::vector<Vec2> doubtful{};  ///< crossed out: no mark of a series is a cross
+  std::string doubtful_label{};  ///< likewise
 };
 
 /// Fills the whole picture: dark on white, a colour and a kind of mark a series, colours after Okabe & Ito.

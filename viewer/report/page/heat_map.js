@@ -33,10 +33,10 @@ function makeHeatMap(place) {
     const cell = (a, b) => {
       const i = shown.find(k => rows[k].cells[state.row] === a && rows[k].cells[state.column] === b);
       if (i === undefined) return element('td', {class: 'none'}, 'not run');
-      const v = number(i, state.measure), link = t => element('a', {href: '#job-' + rows[i].hash, title: jobName(i) + (rows[i].reason ? '\n' + rows[i].reason : '')}, t);
+      const v = number(i, state.measure), link = t => element('a', {href: '#job-' + rows[i].hash, title: jobName(i) + (rows[i].reason ? '\n' + rows[i].reason : '') + (rows[i].doubts ? '\nin doubt: ' + rows[i].doubts : '')}, t);
       if (!isFinite(v)) return element('td', {class: 'none'}, link(rows[i].status === 'done' ? 'no figure' : rows[i].status));
       const c = heatColor(share(v));
-      return element('td', {class: 'cell', style: `background:${paint(c)};color:${inkOn(c)}`, 'data-job': rows[i].hash}, link(format(v) + (rows[i].status === 'done' ? '' : ' (' + rows[i].status + ')')));
+      return element('td', {class: 'cell', style: `background:${paint(c)};color:${inkOn(c)}`, 'data-job': rows[i].hash}, link(format(v) + (rows[i].status === 'done' ? '' : ' (' + rows[i].status + ')')), rows[i].doubts ? element('b', {class: 'crossed', title: 'in doubt'}, '×') : '');
     };
     const table = element('table', {class: 'heat'},
         element('thead', {}, element('tr', {}, element('td'), element('th', {colspan: across.length, class: 'over'}, columns[state.column].name)),

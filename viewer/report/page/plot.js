@@ -4,7 +4,7 @@ const Marks = [
   (x, y) => shape('circle', {cx: x, cy: y, r: 5}),
   (x, y) => shape('rect', {x: x - 4.6, y: y - 4.6, width: 9.2, height: 9.2}),
   (x, y) => shape('path', {d: `M${x} ${y - 6.2}l6 10.4h-12z`}),
-  (x, y) => shape('path', {d: `M${x - 6} ${y - 4}l2-2l4 4l4-4l2 2l-4 4l4 4l-2 2l-4-4l-4 4l-2-2l4-4z`}),
+  (x, y) => shape('path', {d: `M${x} ${y - 6.4}l6.4 6.4l-6.4 6.4l-6.4-6.4z`}),  // no cross: that is doubt
 ];
 const markOf = (i, x, y) => fill(Marks[i % Marks.length](x, y), {fill: Colors[i % Colors.length], stroke: '#fff', 'stroke-width': 1}, []);
 

@@ -1,0 +1,31 @@
+#include "viewer/notes/run_notes.hpp"
+
+#include "viewer/notes/note_archive.hpp"
+
+namespace impinge {
+
+std::string RunNotes::text() const { return convergence.text() + watchdog.text() + balance.text() + swell.text(); }
+
+void RunNotes::keep(NoteArchive& archive) {
+  convergence.keep(archive);
+  watchdog.keep(archive);
+  balance.keep(archive);
+  swell.keep(archive);
+  archive.list(told, [&](std::string& line) { archive.keep(line); });
+}
+
+std::string RunNotes::saved() const {
+  ByteWriter out;
+  NoteArchive archive(out);
+  RunNotes(*this).keep(archive);  // one list of members for both ways, which writing doesn't change
+  return out.take();
+}
+
+void RunNotes::restore(std::string_view saved) {
+  if (saved.empty()) return;
+  ByteReader in(saved);
+  NoteArchive archive(in);
+  keep(archive);
+}
+
+}  // namespace impinge
