@@ -8,7 +8,7 @@ namespace impinge {
 
 Vec3 project_to_cone(const Vec3& z, double mu) {
   if (mu == 0.0) return {std::max(z.x(), 0.0), 0.0, 0.0};
-  const double t = tangential_length(z.y(), z.z());
+  const double t = std::hypot(z.y(), z.z());
   if (t <= mu * z.x()) return z;
   if (mu * t <= -z.x()) return Vec3::Zero();
   const double n = (z.x() + mu * t) / (1.0 + mu * mu);
@@ -28,7 +28,7 @@ Vec3 project_to_pyramid(const Vec3& z, double mu) {
 }
 
 double cone_violation(const Vec3& lambda, double mu, FrictionLaw law) {
-  const double t = law == FrictionLaw::cone ? tangential_length(lambda.y(), lambda.z())
+  const double t = law == FrictionLaw::cone ? std::hypot(lambda.y(), lambda.z())
                                             : std::max(std::abs(lambda.y()), std::abs(lambda.z()));
   return std::max({0.0, -lambda.x(), t - mu * lambda.x()});
 }
@@ -51,7 +51,7 @@ Vec3 solve_one_contact(const Mat3& w, const Vec3& b, double mu) {
     t0 = -inv * (d * c0 - s01 * c1);
     t1 = -inv * (a * c1 - s10 * c0);
     n = -(b.x() + w(0, 1) * t0 + w(0, 2) * t1) * inv_nn;
-    return tangential_length(t0, t1) - mu * n;
+    return std::hypot(t0, t1) - mu * n;
   };
   double f = evaluate(0.0);
   if (f <= 0.0) return {n, t0, t1};
@@ -64,7 +64,7 @@ Vec3 solve_one_contact(const Mat3& w, const Vec3& b, double mu) {
   }
   high = k;
   for (int i = 0; i < 100; ++i) {
-    const double t = tangential_length(t0, t1);
+    const double t = std::hypot(t0, t1);
     if (std::abs(f) <= 4e-16 * (t + mu * std::abs(n)) || high - low <= 1e-16 * high) break;
     (f > 0.0 ? low : high) = k;
     // Newton on |λ_t| - mu λ_n: dλ_t/dk = -(S + k I)⁻¹ λ_t
@@ -77,7 +77,7 @@ Vec3 solve_one_contact(const Mat3& w, const Vec3& b, double mu) {
     f = evaluate(k);
   }
   // put the answer on the cone exactly, at the normal impulse found
-  const double t = tangential_length(t0, t1);
+  const double t = std::hypot(t0, t1);
   n = std::max(n, 0.0);
   const double scale = t > 0.0 ? mu * n / t : 0.0;
   return {n, t0 * scale, t1 * scale};

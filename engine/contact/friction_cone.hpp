@@ -12,10 +12,6 @@ namespace impinge {
 
 enum class FrictionLaw { cone, pyramid };
 
-/// |(a, b)|: each sweep asks for some of each contact, and std::hypot, which cares for numbers whose squares are none,
-/// was a fifth of its time.
-inline double tangential_length(double a, double b) { return std::sqrt(a * a + b * b); }
-
 /// Nearest point of K_mu to z = (n, t1, t2). mu = 0: the ray t = 0, n >= 0.
 Vec3 project_to_cone(const Vec3& z, double mu);
 
@@ -30,7 +26,7 @@ inline Vec3 project(const Vec3& z, double mu, FrictionLaw law) {
 Vec3 project_to_dual_cone(const Vec3& z, double mu);
 
 /// u_hat = u + mu |u_T| n: with it Coulomb's law is the complementarity K_mu ∋ λ ⊥ u_hat ∈ K_mu* [DeSaxce98].
-inline Vec3 de_saxce(const Vec3& u, double mu) { return {u.x() + mu * tangential_length(u.y(), u.z()), u.y(), u.z()}; }
+inline Vec3 de_saxce(const Vec3& u, double mu) { return {u.x() + mu * std::hypot(u.y(), u.z()), u.y(), u.z()}; }
 
 /// The same for either law: the shift is mu times what a unit normal impulse dissipates, |u_T| or |u_1| + |u_2|.
 inline Vec3 de_saxce(const Vec3& u, double mu, FrictionLaw law) {
