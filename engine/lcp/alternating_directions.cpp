@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
@@ -43,7 +43,6 @@ class Alternation {
         settings_(settings),
         lambda_(lambda),
         n_(lambda.size()),
-        strong_(bodies),
         weight_(n_),
         y_(n_),
         z_(n_),
@@ -52,12 +51,12 @@ class Alternation {
 
   LcpResult run() {
     if (measure(lambda_)) return finish(0, StopReason::converged);
-    bool is_strong = best_residual_ > kNear;
-    weigh(is_strong);
+    is_strong_ = best_residual_ > kNear;
+    weigh();
     start();
     double before = best_residual_;
     for (int i = 1; i <= settings_.max_iterations; ++i) {
-      if (i > 1 && i % kTurn == 1) turn(is_strong = !is_strong);
+      if (i > 1 && i % kTurn == 1) turn();
       step();
       if (i % kLook == 0 || i == settings_.max_iterations) {
         std::vector<Vec3> now(n_);
@@ -90,26 +89,31 @@ class Alternation {
     return {iterations, reason};
   }
 
+  double kappa() const { return is_strong_ ? kStrong : kWeak; }
+
   /// P, and the factorization with it, which is made once.
-  void weigh(bool is_strong) {
+  void weigh() {
     for (std::size_t i = 0; i < n_; ++i) {
       const double scale = diagonal_scale(problem_, i);
       const double factor = problem_.kind_of(i) == RowKind::contact ? 1.0 : kOfEquations;
-      weight_[i] = scale > 0.0 ? factor * (is_strong ? kStrong : kWeak) / scale : 0.0;
+      weight_[i] = scale > 0.0 ? factor * kappa() / scale : 0.0;
     }
-    matrix_ = is_strong ? &strong_ : &weak_;
-    if (std::exchange(is_made_[is_strong], true)) return;
+    const std::optional<BodyMatrix>& other = matrices_[!is_strong_];
+    std::optional<BodyMatrix>& mine = matrices_[is_strong_];
+    if (mine) return;
+    mine.emplace(other ? *other : BodyMatrix(bodies_));  // which has the same pattern
     std::vector<Mat3> g(n_);
     for (std::size_t i = 0; i < n_; ++i) g[i] = weight_[i] * Mat3::Identity();
-    matrix_->factorize(g);
+    mine->factorize(g);
   }
 
   /// The other P, with the same λ and velocities.
-  void turn(bool is_strong) {
-    const std::vector<double> before = weight_;
-    weigh(is_strong);
+  void turn() {
+    const double before = kappa();
+    is_strong_ = !is_strong_;
+    weigh();
     for_strips([&](std::size_t i, VecX& sum) {
-      y_[i] += z_[i] - (before[i] / weight_[i]) * z_[i];
+      y_[i] += (1.0 - before / kappa()) * z_[i];
       project(i, sum);
     });
   }
@@ -124,7 +128,7 @@ class Alternation {
 
   /// All bodies together, then each contact by itself.
   void step() {
-    matrix_->solve(wanted_);
+    matrices_[is_strong_]->solve(wanted_);
     for_strips([&](std::size_t i, VecX& sum) {
       const Vec3 u = problem_.q[i] + bodies_.relative(i, wanted_);
       y_[i] = kRelaxation * problem_.dual(i, u) + (1.0 - kRelaxation) * (y_[i] + z_[i]) - z_[i];
@@ -157,11 +161,10 @@ class Alternation {
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
   const std::size_t n_;
-  BodyMatrix strong_, weak_ = strong_;
-  BodyMatrix* matrix_ = nullptr;
-  std::array<bool, 2> is_made_ = {false, false};
-  std::vector<double> weight_;  // P, kg
-  std::vector<Vec3> y_, z_;     // m/s: what is projected, and what of it is in the cone, turned round
+  bool is_strong_ = false;
+  std::array<std::optional<BodyMatrix>, 2> matrices_;  // of the weak κ, of the strong one; made when it has its turn
+  std::vector<double> weight_;                         // P, kg
+  std::vector<Vec3> y_, z_;  // m/s: what is projected, and what of it is in the cone, turned round
   std::vector<Vec3> u_, best_;
   std::vector<VecX> sums_;
   VecX wanted_;  // Jᵀ of what contacts want, kg m/s; solved: the velocities

@@ -24,8 +24,8 @@
 // kFewest steps. Where no more than kFewDigits are asked for, alternating directions begin with kSome contacts already.
 //
 // With fewer contacts Newton needs fewer steps than rounded equations as a rule, and many more where it wanders: after
-// kNewtonSteps of them (of more than kSome in motion once they bring no digits: on 53 frozen steps of a heap two thirds of
-// the time) rounded equations are tried from where it began, then Newton again from the better of the two, and
+// kNewtonSteps of them (of kSome contacts and more in motion as soon as they bring no digits: 29 of 53 frozen steps of a heap
+// had 150 in vain) rounded equations are tried from where it began, then Newton again from the better of the two, and
 // from nothing; what it leaves then goes to conjugate sweeps, and what they leave far from an answer to rounded
 // equations, and from there to Newton again. With kMany contacts that takes seconds, and what is within kNearEnough once both
 // have had their turn is handed on: in a wall that a ball goes through nothing brings more digits, or hundreds of steps
@@ -131,8 +131,8 @@ class Automatic : public LcpSolver {
         return {sweep, StopReason::converged};
       if (sweep == settings.max_iterations) break;
       lambda = start;
-      LcpResult result{sweep, StopReason::stagnated};
-      newton_or_rounded(kAny, problem, settings, result, lambda);
+      LcpResult result = go_on(kNewton, problem, settings, sweep, lambda);
+      if (!has_ended(result, settings)) or_rounded(start, problem, settings, result, lambda);
       return result;
     }
     return {settings.max_iterations, StopReason::iteration_cap};
@@ -179,17 +179,9 @@ class Automatic : public LcpSolver {
     return false;
   }
 
-  /// So many steps of Newton's (of many contacts in motion, where it mostly wanders, as many as bring digits), then rounded
-  /// equations from where it began; λ is the better one's. Whether nothing is left to do.
-  static bool newton_or_rounded(int most, const ConeProblem& problem, const LcpSettings& settings, LcpResult& result,
-                                std::vector<Vec3>& lambda) {
-    std::vector<Vec3> rounded = lambda;
-    if (settings.is_in_motion && lambda.size() >= kSome && most < kAny) {
-      if (bring_digits(kNewton, kFewSteps, problem, settings, result, lambda)) return true;
-    } else {
-      result = go_on(kNewton, problem, settings, result.iterations, lambda, most);
-      if (has_ended(result, settings)) return true;
-    }
+  /// Rounded equations from a λ that another method began with; the better one's is left. Whether nothing is left to do.
+  static bool or_rounded(std::vector<Vec3> rounded, const ConeProblem& problem, const LcpSettings& settings,
+                         LcpResult& result, std::vector<Vec3>& lambda) {
     result = go_on(kRounded, problem, settings, result.iterations, rounded);
     if (result.reason == StopReason::converged ||
         judge(problem, rounded).map.relative < judge(problem, lambda).map.relative)
@@ -279,7 +271,11 @@ class Automatic : public LcpSolver {
     } else {
       const bool is_dear = lambda.size() >= kMany;
       const auto will_do = [&] { return is_dear && residual(lambda) <= kNearEnough; };
-      if (newton_or_rounded(kNewtonSteps, problem, settings, result, lambda) || will_do() ||
+      const std::vector<Vec3> start = lambda;
+      const bool ended = settings.is_in_motion && lambda.size() >= kSome
+                             ? bring_digits(kNewton, kFewSteps, problem, settings, result, lambda)
+                             : go(kNewton, lambda, kNewtonSteps);
+      if (ended || or_rounded(start, problem, settings, result, lambda) || will_do() ||
           go(kNewton, lambda, is_dear ? kNewtonSteps : kAny) || will_do())
         return result;
     }

@@ -10,12 +10,9 @@ class OtherSkin : public Warning {
  public:
   std::vector<Finding> look(const SceneAtStart& start) const override {
     std::vector<Finding> found;
-    for (const SurfaceFile& file : start.scene.surfaces) {
-      if (file.skin_fault.empty()) continue;
-      const std::size_t end = file.skin_fault.rfind("; ");
-      found.push_back({fmt::format("{}: {}", file.name, file.skin_fault.substr(0, end)),
-                       end == std::string::npos ? "" : file.skin_fault.substr(end + 2)});
-    }
+    for (const SurfaceFile& file : start.scene.surfaces)
+      if (file.skin_fault)
+        found.push_back({fmt::format("{}: {}", file.name, file.skin_fault->what), file.skin_fault->remedy});
     return found;
   }
 };

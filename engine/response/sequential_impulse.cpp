@@ -43,8 +43,6 @@ class SequentialImpulse : public Response {
     std::vector<double> impact(m, 0.0), bound(m);
     for (std::size_t i = 0; i < m; ++i) bound[i] = group.contacts[i].bound;
     if (impacts) collide(group, w, context, result, impact, bound);
-    std::vector<char> struck(m);  // what an impact gave is no answer to the bound
-    for (std::size_t i = 0; i < m; ++i) struck[i] = impact[i] != 0.0 ? 1 : 0;
     w.show(context.observe);
     while (!converged && result.iterations < settings_.iterations) {
       check_interrupt();
@@ -62,8 +60,9 @@ class SequentialImpulse : public Response {
       }
       ++result.iterations;
       w.show(context.observe);
-      // a small change is not a small residual, where contacts press on each other through what bends
-      converged = largest <= tolerance && w.natural_residual(bound, struck) <= tolerance;
+      // a small change is not a small residual, where contacts press on each other through what bends; what an impact gave
+      // is no answer to the bound
+      converged = largest <= tolerance && w.natural_residual(bound, impact) <= tolerance;
     }
     if (!converged) result.ended = StopReason::iteration_cap, result.limit = limit_;
     if (!w.finish()) result.ended = StopReason::stagnated;

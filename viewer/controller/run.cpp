@@ -104,11 +104,10 @@ void tell_of_former_paths(const RunWatcher& watcher, const Session& session) {
 /// Of captions of the scene and of its script.
 void tell_of_letters(const RunWatcher& watcher, const Session& session) {
   std::string texts = session.view().settings().caption;
-  const Script& script = session.script();
-  for (int frame = 0; frame <= script.last_frame(); ++frame)
-    for (const Command& command : script.commands_at(frame))
-      if (const auto* set = std::get_if<SetCommand>(&command); set != nullptr && set->path == "view.caption.text")
-        texts += std::get<std::string>(set->value);
+  for (const Command* command : session.script().commands())
+    if (const auto* set = std::get_if<SetCommand>(command); set != nullptr && set->path == "view.caption.text")
+      if (const auto* text = std::get_if<std::string>(&set->value)) texts += *text;
+  if (texts.empty()) return;  // and no letters are made
   const std::string missing = missing_letters(texts);
   if (!missing.empty() && watcher.message)
     watcher.message(

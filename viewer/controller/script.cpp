@@ -254,6 +254,12 @@ void Script::check_bodies_are_there() const {
   }
 }
 
+std::vector<const Command*> Script::commands() const {
+  std::vector<const Command*> all;
+  for (const Timed& timed : timed_) all.push_back(&timed.command);
+  return all;
+}
+
 std::vector<Command> Script::commands_at(int frame) const {
   std::vector<Command> commands;
   for (const Timed& timed : timed_) {

@@ -47,6 +47,8 @@ class Script {
 
   /// What takes effect with the frame, in the order of the lines; ramps as `set`.
   std::vector<Command> commands_at(int frame) const;
+  /// What each of its lines does, in their order; of a ramp the parameter without a value.
+  std::vector<const Command*> commands() const;
   /// Refuses lines that act on a body which another one has deleted by then, or adds only later: nothing in a script
   /// depends on how a run goes, so these do nothing for certain.
   void check_bodies_are_there() const;

@@ -14,10 +14,10 @@ void RunNotes::keep(NoteArchive& archive) {
   archive.list(told, [&](std::string& line) { archive.keep(line); });
 }
 
-std::string RunNotes::saved() const {
+std::string RunNotes::saved() {
   ByteWriter out;
   NoteArchive archive(out);
-  RunNotes(*this).keep(archive);  // one list of members for both ways, which writing doesn't change
+  keep(archive);
   return out.take();
 }
 

@@ -18,8 +18,9 @@ struct RunNotes {
 
   /// Their lines with their ends, "" if there is nothing to say.
   std::string text() const;
-  /// What they know so far. Energies of frames are not among it: these are in the run's table.
-  std::string saved() const;
+  /// What they know so far, which stays as it is: one list of members serves both ways. Energies of frames are not among
+  /// it, these are in the run's table.
+  std::string saved();
   /// After add_earlier() of every frame so far; nothing of an older version.
   void restore(std::string_view saved);
 

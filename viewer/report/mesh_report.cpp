@@ -59,6 +59,8 @@ std::string solid_text(const MeshFacts& f) {
                      kWater, f.area);
 }
 
+std::string skin_text(const SkinFault& fault) { return fault.what + "; " + fault.remedy; }
+
 double percent(double before, double after) { return 100.0 * (after - before) / before + 0.0; }
 
 /// Signed volumes count twice what two parts have in common: where that is gone, the change is told of what is left.
@@ -111,7 +113,8 @@ std::string report_json(const MeshReport& r) {
         ", \"mend\": {{\"steps\": [{}], \"volume_before\": {}, \"enclosed_before\": {}, \"volume_after\": {}, "
         "\"largest_move\": {}, \"warning\": {}, \"problem\": {}, \"surface\": {}}}",
         steps, json_number(r.mended->volume_before), optional_number(r.enclosed), json_number(r.mended->volume_after),
-        json_number(r.mended->largest_move), r.mended->skin_fault.empty() ? "null" : json_text(r.mended->skin_fault),
+        json_number(r.mended->largest_move),
+        r.mended->skin_fault ? json_text(skin_text(*r.mended->skin_fault)) : "null",
         r.problem_left ? json_text(*r.problem_left) : "null", r.after ? facts_json(*r.after) : "null");
   }
   if (r.decimated)
@@ -132,7 +135,7 @@ std::string mended_rows(const MeshReport& r) {
   out += row("volume:", change_text(r));
   out += row("moved:", r.mended->largest_move > 0.0 ? fmt::format("a vertex {:.3g} m at most", r.mended->largest_move)
                                                     : "no vertex");
-  if (!r.mended->skin_fault.empty()) out += row("warning:", r.mended->skin_fault);
+  if (r.mended->skin_fault) out += row("warning:", skin_text(*r.mended->skin_fault));
   if (r.problem_left) out += row("left:", "it " + *r.problem_left);
   if (r.after && r.after->crossings > 0)
     out += row("left:", fmt::format("{}{} that cross or touch: overlaps count twice; --remesh 100 makes one skin",

@@ -110,13 +110,13 @@ NearestFeatures nearest_of(const Collider& a, const Collider& b, std::span<const
   std::tie(best.kind_b, best.index_b) = feature_at(b, best.triangle_b, best.point_b);
   // nearer than what places are known to, the line between the points is rounding, and what touches there tells
   const double known = kRounding * (a.bounds.extent().norm() + b.bounds.extent().norm());
-  const Vec3 apart = separating_direction(SurfaceView(a, 0), {best.kind_a, best.index_a}, SurfaceView(b, 1),
-                                          {best.kind_b, best.index_b})
-                         .first;
-  if (best.distance > known || (best.distance > 0.0 && apart.isZero(0.0)))
-    best.normal = (best.point_a - best.point_b) / best.distance;
-  else if (!apart.isZero(0.0))
-    best.normal = apart;
+  Vec3 normal = Vec3::Zero();
+  if (best.distance <= known)
+    normal = separating_direction(SurfaceView(a, 0), {best.kind_a, best.index_a}, SurfaceView(b, 1),
+                                  {best.kind_b, best.index_b})
+                 .first;
+  if (normal.isZero(0.0) && best.distance > 0.0) normal = (best.point_a - best.point_b) / best.distance;
+  if (!normal.isZero(0.0)) best.normal = normal;
   return best;
 }
 

@@ -11,7 +11,6 @@
 #include "engine/geometry/mend/fill_holes.hpp"
 #include "engine/geometry/mend/remesh.hpp"
 #include "engine/geometry/mend/sheets.hpp"
-#include "engine/geometry/mend/skin_check.hpp"
 #include "engine/geometry/mend/split_borders.hpp"
 #include "engine/geometry/mend/winding_tree.hpp"
 #include "engine/geometry/surface/mesh_checks.hpp"

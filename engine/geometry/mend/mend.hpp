@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/geometry/mend/skin_check.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {
@@ -34,7 +35,7 @@ struct MendReport {
   bool remeshed = false;
   double volume_before = 0.0, volume_after = 0.0;  ///< m³; before: what the triangles span, closed or not
   double largest_move = 0.0;                       ///< metres, of a vertex of the surface
-  std::string skin_fault;                          ///< what the new skin has lost or won (skin_check.hpp), "": nothing
+  std::optional<SkinFault> skin_fault;             ///< of the new skin
 
   bool is_changed() const;
   /// "filled 3 holes with 12 triangles", one step each, in the order in which they were done.

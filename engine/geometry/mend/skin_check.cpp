@@ -48,16 +48,16 @@ std::string enough_cells(const MeshFacts& facts) {
 
 }  // namespace
 
-std::string skin_fault(const TriangleMesh& surface, const TriangleMesh& skin, int cells) {
+std::optional<SkinFault> skin_fault(const TriangleMesh& surface, const TriangleMesh& skin, int cells) {
   const Form before = form_of(surface), after = form_of(skin);
   double volume = signed_volume(surface);
   const double now = signed_volume(skin);
   const auto much = [&] { return !(std::abs(now - volume) <= kMuchVolume * std::abs(volume)); };
-  if (before == after && !much()) return "";
+  if (before == after && !much()) return std::nullopt;
   const MeshFacts facts = measure(surface);
   const bool crosses = facts.crossings > 0;
   if (crosses) volume = enclosed_volume(surface).value_or(volume);
-  if (crosses && !much()) return "";
+  if (crosses && !much()) return std::nullopt;
   std::vector<std::string> changes;
   if (!crosses && after.parts != before.parts)
     changes.push_back(fmt::format("{} part{} instead of {}", after.parts, after.parts == 1 ? "" : "s", before.parts));
@@ -66,7 +66,7 @@ std::string skin_fault(const TriangleMesh& surface, const TriangleMesh& skin, in
   if (much()) changes.push_back(fmt::format("{:+.3g} % of the volume", 100.0 * (now - volume) / volume));
   std::string text = fmt::format("the skin of {} cells is another solid: it has ", cells);
   for (const std::string& change : changes) text += (&change == changes.data() ? "" : ", ") + change;
-  return text + "; " + enough_cells(facts);
+  return SkinFault{text, enough_cells(facts)};
 }
 
 }  // namespace impinge

@@ -214,7 +214,7 @@ MeshPointer SurfaceFiles::prepared(const TomlNode& table, const std::string& wha
                       node.place, toml_string(node.string), *mended.problem, shell_word(path.string())));
     SurfaceFile& file = file_named(node.string);
     for (const std::string& step : mended.report.steps()) file.notes.push_back("mended: " + step);
-    if (!mended.report.skin_fault.empty()) file.skin_fault = mended.report.skin_fault;
+    if (mended.report.skin_fault) file.skin_fault = mended.report.skin_fault;
     mesh = std::move(mended.mesh);
   } else {
     if (const auto problem = check_indices(mesh)) refuse_mesh(node, *problem);

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "engine/geometry/mend/skin_check.hpp"
 #include "engine/geometry/surface/thickened_surface.hpp"
 #include "engine/io/file_guard.hpp"
 #include "engine/io/scene/surface_keys.hpp"
@@ -26,7 +28,7 @@ struct SurfaceFile {
   std::vector<std::string> notes;  ///< of a volume mesh's reader, one sentence each
   /// Where it lies, and then those that were read because it names or needs them.
   std::vector<std::filesystem::path> paths = {};
-  std::string skin_fault = {};  ///< of a new skin (MendReport), "": none
+  std::optional<SkinFault> skin_fault = {};  ///< of a new skin (MendReport)
 };
 
 class SurfaceFiles {

@@ -102,10 +102,10 @@ Vec3 DelassusByContact::velocity(std::size_t i) const {
   return group_.contact_velocity(i, true) + coupled_velocity_[i];
 }
 
-double DelassusByContact::natural_residual(std::span<const double> bound, std::span<const char> skips) const {
+double DelassusByContact::natural_residual(std::span<const double> bound, std::span<const double> impact) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < group_.contacts.size(); ++i) {
-    if ((!skips.empty() && skips[i] != 0) || !(diagonal_[i](0, 0) > 0.0)) continue;
+    if ((!impact.empty() && impact[i] != 0.0) || !(diagonal_[i](0, 0) > 0.0)) continue;
     const ContactRows& rows = group_.contacts[i];
     Vec3 u = velocity(i);
     u.x() -= bound[i];

@@ -24,9 +24,9 @@ class DelassusByContact {
   Vec3 velocity(std::size_t i) const;
   /// λ_i += delta, and what follows from it.
   void change(std::size_t i, const Vec3& delta);
-  /// The largest natural map of the rows with these bounds, m/s: what the judge will find. `skips`: rows that a law of
-  /// their own holds.
-  double natural_residual(std::span<const double> bound, std::span<const char> skips = {}) const;
+  /// The largest natural map of the rows with these bounds, m/s: what the judge will find. Not of rows that an impact
+  /// gave an impulse of its own to, N s.
+  double natural_residual(std::span<const double> bound, std::span<const double> impact = {}) const;
   /// Δv = A⁻¹ J^T λ of all bodies, afresh from group.lambda. False if a system couldn't be solved.
   bool finish();
   /// finish(), a look at the group, and on. Nothing without an observer.

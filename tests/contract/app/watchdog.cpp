@@ -41,6 +41,16 @@ std::string overlap(double depth) {
       0.2 - depth);
 }
 
+/// A frame with one body that moved farther than is safe.
+FrameStats unsafe_frame(int frame, int substeps, const UnsafeBody& body) {
+  FrameStats stats;
+  stats.frame = frame;
+  stats.substeps = substeps;
+  stats.unsafe_motions = 1;
+  stats.unsafe = {body};
+  return stats;
+}
+
 Outcome run(const std::string& scene, std::vector<std::string> more) {
   TempFolder folder;
   folder.write("s.toml", scene);
@@ -99,15 +109,10 @@ TEST_CASE("a body that moved farther than is safe is named with frame, sub-step,
 }
 
 TEST_CASE("the sub-steps that the note asks for are as many as make the motion safe") {
-  FrameStats stats;
-  stats.frame = 7;
-  stats.substeps = 4;
-  stats.unsafe_motions = 1;
-  stats.unsafe = {{"a", "b", UnsafeBody::soft_contact, 3, 0.3, 0.5, 0.011, false}};
   WatchdogNote note;
   CHECK(note.text().empty());
   CHECK(note.closing_line().empty());
-  note.add(stats);
+  note.add(unsafe_frame(7, 4, {"a", "b", UnsafeBody::soft_contact, 3, 0.3, 0.5, 0.011, false}));
   CHECK(note.text() ==
         "note:     'a' moved 0.3 m beside 'b' in frame 7, sub-step 3 and may have passed it, 0.011 m are safe; choose "
         "a response.method that lets nothing overlap, or simulation.substeps = 182\n");  // 4 * 0.5 / 0.011 = 181.8
@@ -116,13 +121,8 @@ TEST_CASE("the sub-steps that the note asks for are as many as make the motion s
 }
 
 TEST_CASE("a body that was held back is said to have stood still, not to have passed") {
-  FrameStats stats;
-  stats.frame = 7;
-  stats.substeps = 4;
-  stats.unsafe_motions = 1;
-  stats.unsafe = {{"a", "b", UnsafeBody::held_back, 3, 0.3, 0.5, 0.011, false}};
   WatchdogNote note;
-  note.add(stats);
+  note.add(unsafe_frame(7, 4, {"a", "b", UnsafeBody::held_back, 3, 0.3, 0.5, 0.011, false}));
   CHECK(note.text() ==
         "note:     'a' stood still before 'b' in frame 7, sub-step 3, where it would have moved 0.3 m and through, "
         "0.011 m are safe; the sub-step was cut as often as it may be: take more simulation.substeps\n");
@@ -231,13 +231,8 @@ TEST_CASE("the watch over frames of which only a number is left says so, and is 
 }
 
 TEST_CASE("of a body that passed on a way that is safe no number of sub-steps is promised") {
-  FrameStats stats;
-  stats.frame = 22;
-  stats.substeps = 1;
-  stats.unsafe_motions = 1;
-  stats.unsafe = {{"a", "b", UnsafeBody::soft_contact, 1, 0.0151, 0.0151, 0.04, false}};
   WatchdogNote note;
-  note.add(stats);
+  note.add(unsafe_frame(22, 1, {"a", "b", UnsafeBody::soft_contact, 1, 0.0151, 0.0151, 0.04, false}));
   CHECK(note.text() ==
         "note:     'a' moved 0.0151 m beside 'b' in frame 22, sub-step 1 and may have passed it; choose a "
         "response.method that lets nothing overlap, or take more simulation.substeps\n");

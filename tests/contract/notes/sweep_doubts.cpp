@@ -13,23 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A tilted box that falls on a floor by explicit springs: too soft it sinks through, too stiff it is thrown off.
-constexpr const char* kSprings = R"([response]
+/// By explicit springs: too soft it sinks through, too stiff it is thrown off.
+const std::string kSprings = std::string(R"([response]
 method = "penalty"
 [response.penalty]
 form = "explicit"
-[[body]]
-name = "floor"
-kind = "static"
-shape = { plane = { normal = [0, 1, 0], offset = 0 } }
-[[body]]
-name = "b"
-kind = "dynamic"
-shape = { box = { size = [0.2, 0.2, 0.2] } }
-material = { density = 100 }
-position = [0, 0.11, 0]
-rotation = [3, 0, 1]
-)";
+)") + kTiltedBox;
 
 /// Whether the run of one job alone has something to say that begins so.
 bool alone_says(const SweepFiles& files, const std::string& stiffness, const std::string& what) {

@@ -25,6 +25,20 @@ rotation = [0, 30, 10]
 velocity = [1, 0, 0]
 )";
 
+/// A tilted box that falls on a floor.
+inline constexpr const char* kTiltedBox = R"([[body]]
+name = "floor"
+kind = "static"
+shape = { plane = { normal = [0, 1, 0], offset = 0 } }
+[[body]]
+name = "b"
+kind = "dynamic"
+shape = { box = { size = [0.2, 0.2, 0.2] } }
+material = { density = 100 }
+position = [0, 0.11, 0]
+rotation = [3, 0, 1]
+)";
+
 /// The cells of a line; one in quotes may hold commas.
 inline std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> list(1);

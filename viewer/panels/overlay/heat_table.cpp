@@ -14,7 +14,7 @@ namespace impinge {
 namespace {
 
 constexpr Color kTableInk = hex(0x20242a), kTablePaper = hex(0xffffff), kNoValue = hex(0xe9ecef), kLine = hex(0xb9c0c8),
-                kWhite = hex(0xffffff), kInDoubt = hex(0xc1121f);
+                kWhite = hex(0xffffff);
 constexpr double kWide = 20.0;  // from this ratio on, colours go by the logarithm
 
 Color ink_on(Color c) {
@@ -64,11 +64,8 @@ struct TableCell {
 
 /// On any colour: a white one is below it.
 void draw_cross(const Pen& pen, float x, float y) {
-  const float r = 5.0f * pen.unit;
-  for (const auto& [color, width] : {std::pair(kWhite, 5.0f), std::pair(kInDoubt, 2.0f)}) {
-    pen.list.AddLine({x - r, y - r}, {x + r, y + r}, packed(color), width * pen.unit);
-    pen.list.AddLine({x - r, y + r}, {x + r, y - r}, packed(color), width * pen.unit);
-  }
+  pen.cross(x, y, 5.0f * pen.unit, 5.0f * pen.unit, kWhite);
+  pen.cross(x, y, 5.0f * pen.unit, 2.0f * pen.unit);
 }
 
 void draw_cell(const Pen& pen, const HeatTable& table, std::size_t cell, const std::optional<ColorScale>& scale,

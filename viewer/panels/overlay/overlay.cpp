@@ -29,6 +29,11 @@ void Pen::sheet(float x, float y, float width, float height) const {
                0, unit);
 }
 
+void Pen::cross(float x, float y, float radius, float line_width, Color color) const {
+  list.AddLine({x - radius, y - radius}, {x + radius, y + radius}, packed(color), line_width);
+  list.AddLine({x - radius, y + radius}, {x + radius, y - radius}, packed(color), line_width);
+}
+
 Overlay::Overlay(int scale) : scale_(scale) {
   const std::lock_guard lock(imgui_mutex());
   context_ = ImGui::CreateContext();

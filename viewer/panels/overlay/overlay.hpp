@@ -33,6 +33,8 @@ struct Pen {
   void text(float x, float y, Color color, const std::string& text) const;
   /// A dark translucent sheet with round corners.
   void sheet(float x, float y, float width, float height) const;
+  /// A diagonal cross: in red what is in doubt.
+  void cross(float x, float y, float radius, float line_width, Color color = hex(0xc1121f)) const;
 };
 
 class Overlay {

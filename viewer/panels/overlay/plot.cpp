@@ -13,8 +13,7 @@
 namespace impinge {
 namespace {
 
-constexpr Color kPlotInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPlotPaper = hex(0xffffff), kFront = hex(0x8a939c),
-                kDoubt = hex(0xc1121f);
+constexpr Color kPlotInk = hex(0x20242a), kGrid = hex(0xdfe3e8), kPlotPaper = hex(0xffffff), kFront = hex(0x8a939c);
 constexpr std::array<Color, 7> kColors = {hex(0x0072b2), hex(0xd55e00), hex(0x009e73), hex(0xcc79a7),
                                           hex(0x56b4e9), hex(0xe69f00), hex(0x000000)};
 constexpr int kMarks = 4;                          // circle, square, triangle, diamond
@@ -147,11 +146,7 @@ class Painter {
   void draw_diamond(float x, float y, float r, ImU32 color) const {
     pen_.list.AddQuadFilled({x, y - r}, {x + r, y}, {x, y + r}, {x - r, y}, color);
   }
-  void draw_cross(ImVec2 at) const {
-    const float r = 7.0f * u_;
-    pen_.list.AddLine({at.x - r, at.y - r}, {at.x + r, at.y + r}, packed(kDoubt), 1.6f * u_);
-    pen_.list.AddLine({at.x - r, at.y + r}, {at.x + r, at.y - r}, packed(kDoubt), 1.6f * u_);
-  }
+  void draw_cross(ImVec2 at) const { pen_.cross(at.x, at.y, 7.0f * u_, 1.6f * u_); }
 
   void draw_series(std::size_t i) const {
     const PlotSeries& s = plot_.series[i];
