@@ -19,6 +19,7 @@ const Registry<LcpSolver>& lcp_solvers() {
     IMPINGE_LIST(all, accelerated_projected_gradient_solver);
     IMPINGE_LIST(all, semismooth_newton_solver);
     IMPINGE_LIST(all, smoothing_newton_solver);
+    IMPINGE_LIST(all, dual_active_set_solver);
     IMPINGE_LIST(all, pivoting_solver);
     return all;
   }();
