@@ -14,6 +14,7 @@ namespace {
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr int kPairsPerTask = 192;
 constexpr int kRowsPerTask = 64;
+constexpr int kMostStrikes = 200;  // sweeps over a pair's contacts that bounce
 // turns below the root of this add to gaps in the second order, which is rounding to what they are known to
 constexpr double kNoTurn = 1e-10;
 
@@ -192,63 +193,84 @@ void PackedContacts::add_joint(const GroupSystem& group, std::size_t row, double
 }
 
 int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most) {
-  struct Impact {
-    const Pair* pair;
-    std::size_t contact;
-    double restitution;
-  };
-  std::vector<Impact> impacts;
   double fastest = 0.0;
+  std::vector<const Pair*> bounce;
   for (const Pair& pair : pairs_)
-    for (int i = 0; i < pair.count; ++i) {
-      const std::size_t place = pair.first + i;
-      const ContactRows& row = group.contacts[rows_[place]];
-      if (row.restitution == 0.0 || contacts_[place].inverse_n == 0.0) continue;
+    for (int i = pair.first; i < pair.first + pair.count; ++i) {
+      const ContactRows& row = group.contacts[rows_[i]];
+      if (row.restitution == 0.0 || contacts_[i].inverse_n == 0.0) continue;
       fastest = std::max(fastest, -row.velocity_before);
-      impacts.push_back({&pair, place, row.restitution});
+      if (bounce.empty() || bounce.back() != &pair) bounce.push_back(&pair);
     }
-  if (impacts.empty()) return 0;
+  if (bounce.empty()) return 0;
   // the order of the scene, not of the colours: a shot runs through a row of balls
-  std::sort(impacts.begin(), impacts.end(),
-            [&](const Impact& l, const Impact& r) { return rows_[l.contact] < rows_[r.contact]; });
+  std::sort(bounce.begin(), bounce.end(),
+            [&](const Pair* l, const Pair* r) { return rows_[l->first] < rows_[r->first]; });
   const double slow = 1e-9 * fastest;  // what is left of rounding
   const Triple change = triple(velocity_change);
   int rounds = 0;
   for (bool more = true; more && rounds < most; ++rounds) {
     check_interrupt();
     more = false;
-    for (const Impact& at : impacts) {
-      Contact& c = contacts_[at.contact];
-      Sides sides(bodies_, at.pair->a, at.pair->b);
-      Triple u = sides.velocity(c.arm_a, c.arm_b);
-      if (at.pair->is_driven) u = sum(u, surface_[at.contact]);
-      const double closing = dot(c.normal, u);
-      // what closes by forces alone rests, and doesn't bounce
-      const double forced = (at.pair->a >= 0 ? 1 : 0) - (at.pair->b >= 0 ? 1 : 0);
-      const double moved = time_step * (closing + forced * dot(c.normal, change));
-      if (!(closing < -std::max(slow, c.bounces_from)) || c.gap + moved >= 0.0) continue;
-      const double given = -(1.0 + at.restitution) * closing * c.inverse_n, before = sum_n_[at.contact];
-      Triple impulse;
-      add(impulse, given, c.normal);
-      sides.push(c.arm_a, c.arm_b, impulse);
-      sum_n_[at.contact] = before + given;
-      if (c.friction > 0.0) {
-        u = sides.velocity(c.arm_a, c.arm_b);
-        if (at.pair->is_driven) u = sum(u, surface_[at.contact]);
-        add(u, -dot(c.normal, u), c.normal);
-        Triple tangent = sum_t_[at.contact];
-        add(tangent, -c.inverse_t, u);
-        const double limit = c.friction * sum_n_[at.contact], size = std::sqrt(dot(tangent, tangent));
-        Triple clamped;
-        add(clamped, size > limit ? limit / size : 1.0, tangent);
-        sides.push(c.arm_a, c.arm_b, difference(clamped, sum_t_[at.contact]));
-        sum_t_[at.contact] = clamped;
+    for (const Pair* pair : bounce) {
+      const Sides sides(bodies_, pair->a, pair->b);
+      const double forced = (pair->a >= 0 ? 1 : 0) - (pair->b >= 0 ? 1 : 0);
+      std::vector<Strike> strikes;
+      for (int i = pair->first; i < pair->first + pair->count; ++i) {
+        const Contact& c = contacts_[i];
+        const double restitution = group.contacts[rows_[i]].restitution;
+        if (restitution == 0.0 || c.inverse_n == 0.0) continue;
+        const double closing = dot(c.normal, slip(*pair, i, sides));
+        // what closes by forces alone rests, and doesn't bounce
+        const double moved = time_step * (closing + forced * dot(c.normal, change));
+        if (!(closing < -std::max(slow, c.bounces_from)) || c.gap + moved >= 0.0) continue;
+        strikes.push_back({i, -restitution * closing, 0.0});
       }
-      c.impulse = 0.0, c.tangent = Triple();  // that of a resting state says nothing about an impact
+      if (strikes.empty()) continue;
+      strike(*pair, strikes, slow);
       more = true;
     }
   }
   return rounds;
+}
+
+/// The contacts of a pair that close get together what returns -e of each one's approach: one after the other those of a
+/// face would turn it away from what the last ones had to return.
+void PackedContacts::strike(const Pair& pair, std::vector<Strike>& strikes, double slow) {
+  Sides sides(bodies_, pair.a, pair.b);
+  for (int sweep = 0; sweep < kMostStrikes; ++sweep) {
+    double largest = 0.0;
+    for (Strike& at : strikes) {
+      Contact& c = contacts_[at.contact];
+      const double missing = at.wanted - dot(c.normal, slip(pair, at.contact, sides));
+      const double more = std::max(-at.given, missing * c.inverse_n);
+      at.given += more;
+      Triple impulse;
+      add(impulse, more, c.normal);
+      sides.push(c.arm_a, c.arm_b, impulse);
+      sum_n_[at.contact] += more;
+      largest = std::max(largest, std::abs(more) / c.inverse_n);
+      c.impulse = 0.0, c.tangent = Triple();  // that of a resting state says nothing about an impact
+      if (c.friction == 0.0) continue;
+      Triple u = slip(pair, at.contact, sides);
+      add(u, -dot(c.normal, u), c.normal);
+      Triple tangent = sum_t_[at.contact];
+      add(tangent, -c.inverse_t, u);
+      const double limit = c.friction * sum_n_[at.contact], size = std::sqrt(dot(tangent, tangent));
+      Triple clamped;
+      add(clamped, size > limit ? limit / size : 1.0, tangent);
+      const Triple across = difference(clamped, sum_t_[at.contact]);
+      sides.push(c.arm_a, c.arm_b, across);
+      sum_t_[at.contact] = clamped;
+      largest = std::max(largest, std::sqrt(dot(across, across)) / c.inverse_t);
+    }
+    if (largest <= slow || strikes.size() == 1) return;
+  }
+}
+
+PackedContacts::Triple PackedContacts::slip(const Pair& pair, int contact, const Sides& sides) const {
+  const Triple u = sides.velocity(contacts_[contact].arm_a, contacts_[contact].arm_b);
+  return pair.is_driven ? sum(u, surface_[contact]) : u;
 }
 
 void PackedContacts::accelerate(const Vec3& change) {

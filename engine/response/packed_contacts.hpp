@@ -32,8 +32,8 @@ class PackedContacts {
   PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share, const Threshold& max_push_out,
                  const Threshold& restitution_threshold);
 
-  /// Bounces: each contact that closes in the sub-step faster than its threshold gets what returns e of it, until none
-  /// does, `most` rounds at most. Returns the rounds.
+  /// Bounces: the contacts of a pair that close in the sub-step faster than their threshold get what returns e of it, until
+  /// none does, `most` rounds at most. Returns the rounds.
   int collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most);
   /// All velocities change by this.
   void accelerate(const Vec3& change);
@@ -77,6 +77,11 @@ class PackedContacts {
     int a, b, first, count;
     bool is_driven;  // a prescribed motion is in it
   };
+  /// A contact that bounces: how fast it is to part, m/s, and what it was given for that, N·s.
+  struct Strike {
+    int contact;
+    double wanted, given;
+  };
   /// Attachments and sliding points: hard.
   struct Joint {
     int a, b, row;  // in the group
@@ -90,6 +95,9 @@ class PackedContacts {
   void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out,
             const Threshold& restitution_threshold);
   void add_joint(const GroupSystem& group, std::size_t row, double share);
+  void strike(const Pair& pair, std::vector<Strike>& strikes, double slow);
+  /// Of A's point from B's.
+  Triple slip(const Pair& pair, int contact, const Sides& sides) const;
   void relax(const Pair& pair, const SweepLaw& law);
   double gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const;
   void relax(Joint& joint);

@@ -98,25 +98,27 @@ class SequentialImpulse : public Response {
       fastest = std::max(fastest, -group.contacts[i].velocity_before);
     }
     const double slow = 1e-9 * fastest;  // what is left of rounding
+    const auto closes = [&](std::size_t i) {
+      const ContactRows& rows = group.contacts[i];
+      if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(w.diagonal(i)(0, 0) > 0.0)) return false;
+      const double normal = w.velocity(i).x();
+      const double least = std::max(slow, context.restitution_threshold.at(rows.scale.speed));
+      return normal + approach[i] < -least && rows.gap + context.time_step * normal < 0.0;
+    };
     for (bool more = true; more && result.iterations < settings_.iterations; ++result.iterations) {
       check_interrupt();
       more = false;
-      for (std::size_t i = 0; i < m; ++i) {
-        const ContactRows& rows = group.contacts[i];
-        if (rows.kind != RowKind::contact || rows.restitution == 0.0 || !(w.diagonal(i)(0, 0) > 0.0)) continue;
-        const Vec3 u = w.velocity(i);
-        const double closing = u.x() + approach[i];
-        const double least = std::max(slow, context.restitution_threshold.at(rows.scale.speed));
-        if (!(closing < -least) || rows.gap + context.time_step * u.x() >= 0.0) continue;
-        Vec3 next = group.lambda[i];
-        next.x() -= (1.0 + rows.restitution) * closing / w.diagonal(i)(0, 0);
-        if (rows.friction > 0.0)
-          relax_friction(w.diagonal(i), u + w.diagonal(i).col(0) * (next.x() - group.lambda[i].x()), rows.friction,
-                         next);
-        w.change(i, next - group.lambda[i]);
-        impact[i] = next.x();
-        // the bounce is done: from here on the contact may only not close
-        bound[i] = std::min(bound[i], closed_bound(rows, context.time_step));
+      for (std::size_t first = 0, last = 0; first < m; first = last) {
+        std::vector<std::size_t> closing;
+        for (; last < m && are_of_one_pair(group.contacts[first], group.contacts[last]); ++last)
+          if (closes(last)) closing.push_back(last);
+        if (closing.empty()) continue;
+        strike(group, w, closing, approach, slow);
+        for (const std::size_t i : closing) {
+          impact[i] = group.lambda[i].x();
+          // the bounce is done: from here on the contact may only not close
+          bound[i] = std::min(bound[i], closed_bound(group.contacts[i], context.time_step));
+        }
         more = true;
       }
     }
@@ -125,6 +127,41 @@ class SequentialImpulse : public Response {
       if (is_impact(group.contacts[i]) && impact[i] == 0.0)
         bound[i] = std::min(bound[i], closed_bound(group.contacts[i], context.time_step));
   }
+
+  static bool are_of_one_pair(const ContactRows& l, const ContactRows& r) {
+    return l.a.rigid == r.a.rigid && l.b.rigid == r.b.rigid && l.a.deformable == r.a.deformable &&
+           l.b.deformable == r.b.deformable;
+  }
+
+  /// The contacts of a pair that close get together what returns -e of each one's approach: one after the other those of a
+  /// face would turn it away from what the last ones had to return.
+  static void strike(GroupSystem& group, DelassusByContact& w, const std::vector<std::size_t>& closing,
+                     const std::vector<double>& approach, double slow) {
+    std::vector<double> wanted, given(closing.size(), 0.0);  // m/s; N·s
+    for (const std::size_t i : closing)
+      wanted.push_back(-group.contacts[i].restitution * (w.velocity(i).x() + approach[i]));
+    for (int sweep = 0; sweep < kMostStrikes; ++sweep) {
+      double largest = 0.0;
+      for (std::size_t k = 0; k < closing.size(); ++k) {
+        const std::size_t i = closing[k];
+        const Vec3 u = w.velocity(i);
+        const double missing = wanted[k] - (u.x() + approach[i]);
+        const double more = std::max(-given[k], missing / w.diagonal(i)(0, 0));
+        given[k] += more;
+        Vec3 next = group.lambda[i];
+        next.x() += more;
+        if (group.contacts[i].friction > 0.0)
+          relax_friction(w.diagonal(i), u + w.diagonal(i).col(0) * more, group.contacts[i].friction, next);
+        const Vec3 change = next - group.lambda[i];
+        if (change.isZero(0.0)) continue;
+        w.change(i, change);
+        largest = std::max(largest, (w.diagonal(i) * change).norm());
+      }
+      if (largest <= slow || closing.size() == 1) return;
+    }
+  }
+
+  static constexpr int kMostStrikes = 200;  // sweeps over a pair's contacts
 
   struct Settings {
     int iterations = 200;

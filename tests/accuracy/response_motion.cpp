@@ -301,3 +301,89 @@ TEST_CASE("two deformable cubes that collide without friction and gravity: kinet
       CHECK(rise < 1e-12);
   }
 }
+
+TEST_CASE("what lands flat leaves flat, with e times its speed, also by methods that go from contact to contact") {
+  const std::vector<std::pair<const char*, SharedShape>> shapes = {
+      {"box", Box{Vec3(0.1, 0.1, 0.1)}}, {"slab", Box{Vec3(0.5, 0.1, 0.2)}}, {"cylinder", Cylinder{0.1, 0.2}}};
+  for (const char* name : {"sequential_impulse", "simultaneous_impulse", "constraint_anticipation", "quick"})
+    for (const auto& [what, shape] : shapes)
+      for (const double friction : {0.0, 0.3})
+        for (const double restitution : {0.4, 1.0}) {
+          CAPTURE(name, what, friction, restitution);
+          World world;
+          use(world, name);
+          world.parameters.simulation.gravity.setZero();
+          world.parameters.contact.friction = friction;
+          world.parameters.contact.restitution = restitution;
+          world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+          BodyDescription body = dynamic_body("body", shape, Vec3(0, 0.2, 0));
+          body.velocity = Vec3(0, -2, 0);
+          world.add_body(body);
+          world.start();
+          run(world, 10);
+          CHECK((rigid(world, 1).velocity - Vec3(0, 2.0 * restitution, 0)).norm() < 1e-5);
+          CHECK(rigid(world, 1).angular_velocity().norm() < 1e-4);
+        }
+}
+
+TEST_CASE("impulses that are shown are those of the whole sub-step, also where it is cut into pieces") {
+  // what turns fast about a pin has sub-steps cut, also of what rests far from it
+  for (const char* name : {"constraint_anticipation", "sequential_impulse", "quick"})
+    for (const int substeps : {1, 4}) {
+      CAPTURE(name, substeps);
+      World world;
+      use(world, name);
+      world.parameters.simulation.sleeping = false;
+      world.parameters.simulation.substeps = substeps;
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+      BodyDescription box = dynamic_body("box", Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0, 0.5, 0));
+      box.mass = 1.0;
+      world.add_body(box);
+      const double speed = 50.0;
+      BodyDescription bar = dynamic_body("bar", Box{Vec3(0.5, 0.025, 0.025)}, Vec3(3.5, 3, 0));
+      bar.mass = 1.0;
+      bar.velocity = Vec3(0, 0.5 * speed, 0), bar.angular_velocity = Vec3(0, 0, speed);
+      world.add_body(bar);
+      world.add_attachment({"pin", "bar", "", Vec3(3, 3, 0)});
+      world.start();
+      const double h = world.parameters.simulation.frame_time / substeps;
+      double least = INFINITY, most = 0.0, weakest = INFINITY;
+      for (int frame = 0; frame < 30; ++frame) {
+        world.step();
+        double impulse = 0.0;
+        for (const ContactRecord& c : world.record().contacts) impulse += c.lambda.x();
+        if (frame >= 10) least = std::min(least, impulse / h), most = std::max(most, impulse / h);
+        weakest = std::min(weakest, world.record().attachments.at(0).impulse.norm() / h);
+      }
+      CHECK(least == Approx(kGravity).epsilon(1e-3));
+      CHECK(most == Approx(kGravity).epsilon(1e-3));
+      // m ω² r, whose direction turns meanwhile
+      const double half = 0.5 * speed * h;
+      CHECK(weakest > 0.9 * 0.5 * speed * speed * std::sin(half) / half);
+    }
+}
+
+TEST_CASE("a bounce within a sub-step is shown with all of its impulse, though its bodies have parted by the end") {
+  for (const double height : {0.11, 0.15, 0.2, 0.25}) {
+    CAPTURE(height);
+    World world;
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.simulation.substeps = 1;
+    world.parameters.contact.restitution = 1.0;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    world.add_body(fixed_plane("ceiling", -Vec3::UnitY(), -0.5));
+    BodyDescription ball = dynamic_body("ball", Sphere{0.1}, Vec3(0, height, 0));
+    ball.mass = 2.0;
+    ball.velocity = Vec3(0, -30, 0);
+    world.add_body(ball);
+    world.start();
+    // 0.3 m to and fro: 30 m/s * 1 s / 0.3 m = 100 impacts of 2 m v
+    double sum = 0.0;
+    for (int frame = 0; frame < 60; ++frame) {
+      world.step();
+      for (const ContactRecord& c : world.record().contacts) sum += c.lambda.x();
+    }
+    REQUIRE(world.bodies()[2].as<RigidBody>()->velocity.norm() == Approx(30.0).epsilon(1e-6));
+    CHECK(sum == Approx(100 * 2.0 * 2.0 * 30.0).epsilon(0.011));
+  }
+}
