@@ -1,5 +1,9 @@
 #include "engine/step/remember.hpp"
 
+#include <set>
+
+#include "engine/contact/contact_frame.hpp"
+
 namespace impinge {
 
 namespace {
@@ -11,6 +15,28 @@ std::vector<ContactCache::Item> starts_of(std::span<const GroupResult> results) 
     for (std::size_t i = 0; i < r.impulses.size(); ++i)
       items.push_back(r.starts.empty() ? r.impulses[i] : ContactCache::Item{r.impulses[i].key, r.starts[i]});
   return items;
+}
+
+ContactKey key_of(const Collision& c) { return {c.body_a, c.body_b, c.feature}; }
+
+/// Adds an impulse, N·s, on A, world axes.
+void add_to(SolvedContact& contact, const Vec3& impulse) {
+  contact.lambda += contact_axes(contact.collision.normal) * impulse;
+}
+
+/// Of the same two bodies as another, the one whose points are nearest to that one's; null: none.
+SolvedContact* nearest_of_pair(const Bodies& bodies, const SolvedContact& to, std::vector<GroupResult>& results) {
+  const auto place = [&](const SolvedContact& c) { return bodies[c.collision.body_a].position_of(c.point_a); };
+  const Vec3 here = place(to);
+  SolvedContact* nearest = nullptr;
+  double least = INFINITY;
+  for (GroupResult& result : results)
+    for (SolvedContact& c : result.solved) {
+      if (c.collision.body_a != to.collision.body_a || c.collision.body_b != to.collision.body_b) continue;
+      const double far = (place(c) - here).squaredNorm();
+      if (far < least) least = far, nearest = &c;
+    }
+  return nearest;
 }
 
 }  // namespace
@@ -26,6 +52,36 @@ ContactCache impulses_of(std::span<const GroupResult> results) {
   ContactCache cache;
   cache.assign(starts_of(results));
   return cache;
+}
+
+void EarlierPieces::take(std::span<const GroupResult> results) {
+  for (const GroupResult& result : results) {
+    for (const auto& [key, impulse] : result.impulses) parts_[key].impulse += impulse;
+    for (const SolvedContact& c : result.solved) parts_[key_of(c.collision)].contact = c;
+  }
+}
+
+void EarlierPieces::give(const Bodies& bodies, SubStep& step) const {
+  std::set<ContactKey> here;
+  for (GroupResult& result : step.results) {
+    std::set<ContactKey> solved;
+    for (auto& [key, impulse] : result.impulses)
+      if (const auto part = parts_.find(key); part != parts_.end() && here.insert(key).second)
+        impulse += part->second.impulse;
+    for (SolvedContact& c : result.solved)
+      if (const auto part = parts_.find(key_of(c.collision)); part != parts_.end() && solved.insert(part->first).second)
+        add_to(c, part->second.impulse);
+  }
+  for (const auto& [key, part] : parts_) {
+    if (!part.contact || part.impulse.isZero(0.0) || here.contains(key)) continue;
+    if (SolvedContact* nearest = nearest_of_pair(bodies, *part.contact, step.results)) {
+      add_to(*nearest, part.impulse);
+      continue;
+    }
+    SolvedContact& parted = step.parted.emplace_back(*part.contact);
+    parted.lambda = contact_axes(parted.collision.normal) * part.impulse;
+    parted.group = step.group_of(key.body_a).is_none() ? step.group_of(key.body_b) : step.group_of(key.body_a);
+  }
 }
 
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results) {

@@ -1,6 +1,8 @@
 // What of a sub-step's answer the next ones need.
 #pragma once
 
+#include <map>
+
 #include "engine/step/sleeping.hpp"
 #include "engine/step/sub_step.hpp"
 
@@ -11,6 +13,22 @@ void remember_impulses(const Bodies& bodies, std::span<const GroupResult> result
 
 /// What the results' contacts carry, to start another solve from.
 ContactCache impulses_of(std::span<const GroupResult> results);
+
+/// What contacts and attachments gave in the pieces of a sub-step before its last, so that what is shown is of all of it.
+class EarlierPieces {
+ public:
+  void take(std::span<const GroupResult> results);
+  /// To the results of the last piece: to the same contact, else to the nearest of its pair. Of a pair that has none any
+  /// more those that carried come into step.parted.
+  void give(const Bodies& bodies, SubStep& step) const;
+
+ private:
+  struct Part {
+    Vec3 impulse = Vec3::Zero();           // on A, world axes, N·s
+    std::optional<SolvedContact> contact;  // where it acted last; none: an attachment's
+  };
+  std::map<ContactKey, Part> parts_;
+};
 
 /// (body, scripted body) of all contacts that were solved.
 std::vector<BodyEnds> find_supports(const Bodies& bodies, std::span<const GroupResult> results);

@@ -41,6 +41,9 @@ struct SubStep {
   // 9, 10: by group
   std::vector<GroupResult> results;
 
+  // 10: contacts of pairs that had some in its earlier pieces only
+  std::vector<SolvedContact> parted;
+
   // 10: pairs whose end second looks saw, sorted
   std::vector<BodyPair> seen_at_end;
 

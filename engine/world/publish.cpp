@@ -195,7 +195,7 @@ BodyShare share_of(Body& body, const Vec3& gravity) {
 
 void World::publish_found() {
   SubStep& s = *sub_step_;
-  s.results.clear();
+  s.results.clear(), s.parted.clear();
   s.groups = find_groups(bodies_, s.contacts(attachments_));
   std::vector<SolvedContact> contacts;
   for (const Collision& c : s.collisions) {
@@ -221,6 +221,7 @@ std::vector<SolvedContact> World::solved_contacts() const {
   std::vector<SolvedContact> contacts;
   for (const GroupResult& result : sub_step_->results)
     contacts.insert(contacts.end(), result.solved.begin(), result.solved.end());
+  contacts.insert(contacts.end(), sub_step_->parted.begin(), sub_step_->parted.end());
   return contacts;
 }
 

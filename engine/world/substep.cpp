@@ -321,6 +321,8 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   double rest = 1.0, next = 1.0;  // of the sub-step: what is left, and what the next piece tries
   Asking asking;
   std::set<BodyIndex> stay;  // for the rest of it
+  EarlierPieces earlier;
+  sub_step_->parted.clear();
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
     {
@@ -378,6 +380,10 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     rest = share == rest ? 0.0 : rest - share;
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);
+    if (rest > 0.0)
+      earlier.take(sub_step_->results);
+    else if (piece > 1)
+      earlier.give(bodies_, *sub_step_);
   }
   stats_.merged_impacts += cuts.wants_more ? 1 : 0;
   tell_finished(substep);
