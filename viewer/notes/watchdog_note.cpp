@@ -10,8 +10,9 @@
 namespace impinge {
 namespace {
 
-constexpr double kDeep = 0.1;  // of a thickness: an overlap that is worth a word
-constexpr double kSunk = 0.5;  // of a thickness: from there on contacts no longer know the way out
+constexpr double kDeep = 0.1;    // of a thickness: an overlap that is worth a word
+constexpr double kSunk = 0.5;    // of a thickness: from there on contacts no longer know the way out
+constexpr double kStood = 0.01;  // of how far two approached: what moved less stood still beside the other
 constexpr std::size_t kNamed = 4;
 
 constexpr double kMostSubsteps = 1000;  // that the parameter takes
@@ -88,7 +89,7 @@ bool WatchdogNote::is_sunk() const { return !judged_ && deepest_.share() > kSunk
 std::vector<const WatchdogNote::Seen*> WatchdogNote::worth_naming() const {
   std::vector<const Seen*> list;
   for (const auto& [name, seen] : bodies_)
-    if (seen.what.displacement > 0.0) list.push_back(&seen);
+    if (seen.what.displacement > kStood * seen.what.approach) list.push_back(&seen);
   std::stable_sort(list.begin(), list.end(), [](const Seen* l, const Seen* r) {
     return std::tuple(!l->what.has_passed, l->frame, l->what.substep) <
            std::tuple(!r->what.has_passed, r->frame, r->what.substep);

@@ -342,3 +342,12 @@ TEST_CASE("of bars that cross edge on edge the judge's column is the overlap, th
   CHECK(std::stod(row.at("judged_depth_m")) == Approx(kDepth * std::sqrt(0.5)).epsilon(0.02));
   CHECK(std::stod(row.at("judged_penetration_m")) == 0.0);  // as it is agreed on: of vertices
 }
+
+TEST_CASE("what stood still to rounding is not told to have moved, the other one of the pair is") {
+  WatchdogNote note;
+  note.add(unsafe_frame(107, 4, {"still", "fast", UnsafeBody::soft_contact, 3, 5.57e-9, 0.00713, 0.04, false}));
+  CHECK(note.text().empty());
+  note.add(unsafe_frame(107, 4, {"fast", "still", UnsafeBody::soft_contact, 3, 0.00713, 0.00713, 0.04, false}));
+  CHECK(note.text().find("'fast' moved 0.00713 m beside 'still'") != std::string::npos);
+  CHECK(note.text().find("'still' moved") == std::string::npos);
+}
