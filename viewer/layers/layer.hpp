@@ -25,10 +25,10 @@ struct LayerContext {
 
 /// What one of a layer's marks means.
 struct LegendRow {
-  enum Mark { area, point, ring, target, line, bar, arrow };
+  enum Mark { area, point, disc, ring, target, line, bar, arrow };
   Mark mark = area;
   Color color;
-  const char* text = "";
+  const char* text = "";  ///< {}: what the size of the mark stands for (draw_list.hpp: MarkScale)
   /// Whether the scene has such a thing: then it is explained in all frames. Null: where the layer drew something of
   /// the row's colour in this one.
   bool (*present)(const StepRecord& record) = nullptr;
