@@ -75,6 +75,7 @@ struct DrawSurface {
   SurfaceHeat heat = nullptr;           ///< replaces the colour; null: none
   bool clipped = true;                  ///< cut by the view's clip plane
   float faintness = 1.0f;               ///< of a see-through one: below 1 its colour counts more
+  bool asleep = false;                  ///< its colour says that the body sleeps
 
   const Eigen::AlignedBox3f& bounds() const { return moved ? moved->bounds : surface->bounds; }
   Pose placement() const { return moved ? Pose{Mat3::Identity(), moved->origin} : pose; }

@@ -2,6 +2,8 @@
 // in all.cpp.
 #pragma once
 
+#include <optional>
+
 #include "engine/world/step_record.hpp"
 #include "viewer/draw/draw_list.hpp"
 #include "viewer/draw/surface_cache.hpp"
@@ -33,6 +35,9 @@ struct LegendRow {
   /// the row's colour in this one.
   bool (*present)(const StepRecord& record) = nullptr;
   bool (*used)(const ViewSettings& settings) = nullptr;  ///< whether it is drawn so as things are set; null: it is
+  /// Of marks whose colour is not always the same: that of the first one in the picture, none where there is none. Null:
+  /// `color`.
+  std::optional<Color> (*found)(const DrawList& list) = nullptr;
 };
 
 struct Layer {

@@ -51,6 +51,7 @@ void set_quantity(ShownRow& row, const MarkScale& scale, float pixel_scale, floa
 /// None: there is nothing to be explained.
 std::optional<Color> color_of(const LegendRow& row, const Layer& layer, const StepRecord& record,
                               const DrawList& list) {
+  if (row.found != nullptr) return row.found(list);
   const bool is_there = row.present == nullptr ? list.has_color(layer.name, row.color) : row.present(record);
   return is_there ? std::optional(row.color) : std::nullopt;
 }
