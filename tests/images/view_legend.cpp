@@ -153,6 +153,17 @@ TEST_CASE("a colour bar folds where it would cover a tenth of the picture, and s
   }
 }
 
+TEST_CASE("up to 480 pixels of height a colour bar is shorter, and still has its numbers") {
+  const ViewSettings settings = settings_with({"meshes", "stress"});
+  const PanelArea small = panels_of(soft_record(), settings, 640, 480).bars.front(),
+                  large = panels_of(soft_record(), settings, 640, 481).bars.front();
+  CHECK_FALSE(small.is_folded);
+  CHECK(small.width < 0.75f * large.width);
+  CHECK(small.width * small.height < 0.035f * 640.0f * 480.0f);
+  CHECK(small.x + small.width > 630.0f);  // in the corner
+  CHECK(small.y + small.height > 470.0f);
+}
+
 TEST_CASE("the legend's arrow of a force is as long as one of that force in the picture") {
   // 20 N to the right, across the line of sight; below the legend
   HandMadeRecord scene;
