@@ -11,6 +11,7 @@
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
+#include "viewer/controller/act_command.hpp"
 
 namespace impinge {
 
@@ -43,18 +44,6 @@ std::string unquoted(std::string_view word) {
   if (word.size() >= 2 && (word.front() == '"' || word.front() == '\'') && word.back() == word.front())
     word = word.substr(1, word.size() - 2);
   return std::string(word);
-}
-
-/// The bodies that it changes or goes along with; how they are drawn is nobody's loss.
-std::vector<std::string> acted_on(const Command& command) {
-  if (const auto* act = std::get_if<Act>(&command)) return {act->body};
-  if (const auto* bodies = std::get_if<BodiesCommand>(&command))
-    return bodies->verb == BodiesCommand::follow || bodies->verb == BodiesCommand::frame ? bodies->names
-                                                                                         : std::vector<std::string>();
-  constexpr std::string_view kBody = "body.";
-  const auto* set = std::get_if<SetCommand>(&command);
-  if (set == nullptr || !set->path.starts_with(kBody)) return {};
-  return {set->path.substr(kBody.size(), set->path.find('.', kBody.size()) - kBody.size())};
 }
 
 }  // namespace

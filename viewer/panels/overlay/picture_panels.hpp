@@ -18,7 +18,8 @@ struct PanelArea {
 PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
 
 /// What the marks in `list` mean, and those of what the scene has at any time, at the top right; left out where it would
-/// meet `other`. `pixel_scale` is that of the marks, of which some are as large in it as in the picture. What is picked, at `picked`, it leaves in sight: by another corner, or folded.
+/// meet `other`. `pixel_scale` is that of the marks, of which some are as large in it as in the picture. What is picked,
+/// at `picked`, it leaves in sight: by another corner, or folded.
 PanelArea draw_legend(const Pen& pen, const StepRecord& record, const DrawList& list, const ViewSettings& settings,
                       float pixel_scale, const PanelArea& other, const PanelArea& picked = {});
 
