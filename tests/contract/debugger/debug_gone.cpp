@@ -1,4 +1,5 @@
-// What nothing can come of is said: acts on bodies that aren't there, impulses far off their bodies.
+// What nothing can come of is said: acts on bodies that aren't there, impulses far off their bodies. And what was answered
+// before something went wrong is not lost.
 #include <fmt/format.h>
 
 #include "tests/support/program/debug_session.hpp"
@@ -107,4 +108,20 @@ position = [-0.9, 0.9, 0]
       CHECK(by_hand.out.find(c.note) != std::string::npos);
     }
   }
+}
+
+TEST_CASE("what was answered is printed where a later line fails") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "step 40\nwhy ball crate\n");
+  const std::string answered = debug(folder, "s.toml", "a.script", {"--answers"}).out;
+  const std::string answers = answered.substr(answered.find('\n') + 1);
+  REQUIRE(answers.find("ball") != std::string::npos);
+  folder.write("a.script", "step 40\nwhy ball crate\nselect contact 99999\nwhy ball floor\n");
+  const Outcome failed = debug(folder, "s.toml", "a.script", {"--answers"});
+  CHECK(failed.code == 2);
+  CHECK(failed.out == answers);
+  CHECK(failed.err.find("a.script:3:16: contact 99999") != std::string::npos);
+  CHECK(debug(folder, "s.toml", "a.script").out.empty());
+  CHECK(debug(folder, "s.toml", "a.script", {"--answers", "--quiet"}).out.empty());
 }
