@@ -139,6 +139,21 @@ TEST_CASE("rotation is as long as the legend's radians a second say") {
   }
 }
 
+TEST_CASE("a body that hardly moves has no arrow of a velocity") {
+  HandMadeRecord scene;
+  const double speeds[] = {0.0, 1e-9, 1e-3, 0.5};  // seen from 4 m, where half a pixel is a millimetre and a half
+  for (const double speed : speeds) {
+    const int body = scene.add("body" + std::to_string(speed), BodyKind::dynamic, Sphere{0.1}, Vec3::Zero());
+    scene.record().bodies[static_cast<std::size_t>(body)].velocity = {speed, 0, 0};
+  }
+  ViewSettings settings = make_view_settings();
+  settings.camera.look_at({0, 0, 4}, {0, 0, 0});
+  const DrawList list = drawn(scene.record(), settings, "velocities");
+  REQUIRE(list.arrows.size() == 1);
+  CHECK(list.arrows[0].pick == body_pick(3));
+  CHECK((list.arrows[0].direction - Vec3(0.05, 0, 0)).norm() < 1e-12);  // of six frames of a sixtieth of a second
+}
+
 TEST_CASE("the legend has marks of a size that fits, of an amount as round") {
   HandMadeRecord scene;
   load(scene, {20.0, 20.0, 20.0, 500.0});
