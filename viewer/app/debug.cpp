@@ -173,18 +173,23 @@ std::unique_ptr<DebugWindow> make_window(const Given& options, int scale) {
   }
 }
 
+/// What was answered, and what went wrong on the way.
+void say_answers(const std::vector<ConsoleLine>& console, const Given& options) {
+  for (const ConsoleLine& line : console)
+    if (line.kind == ConsoleLine::message && options.answers && !options.quiet) fmt::print("{}\n", line.text);
+  for (const ConsoleLine& line : console)
+    if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+}
+
 /// Where it stands, what B came to, what was answered, and what went wrong on the way.
-void say_end(Debugger& debugger, bool is_quiet, bool with_answers) {
-  if (!is_quiet) {
-    const DebugModel& model = debugger.model();
+void say_end(Debugger& debugger, const Given& options) {
+  const DebugModel& model = debugger.model();
+  if (!options.quiet) {
     fmt::print("frame {}, state {}{}\n", model.frame, hex64(debugger.state_hash()),
                model.stages != nullptr ? "; in the middle of it: " + model.stages->words(model.place) : "");
     if (model.against != nullptr) fmt::print("{}\n", model.against->words());
-    for (const ConsoleLine& line : model.console)
-      if (line.kind == ConsoleLine::message && with_answers) fmt::print("{}\n", line.text);
   }
-  for (const ConsoleLine& line : debugger.model().console)
-    if (line.kind == ConsoleLine::problem) fmt::print(stderr, "{}\n", line.text);
+  say_answers(model.console, options);
 }
 
 int debug(const Given& options) {
@@ -254,11 +259,13 @@ int debug(const Given& options) {
       show_on_screens(loop, *window, screens, interrupted(), save_recording);
   } catch (const Interrupted&) {  // while a frame was drawn or brought back
   } catch (...) {
-    if (!debugger.recording(loop.pointer()).empty()) save_recording();  // what was done before is kept
+    // what was done and answered before is kept
+    if (!debugger.recording(loop.pointer()).empty()) save_recording();
+    say_answers(debugger.model().console, options);
     throw;
   }
   save_recording();
-  say_end(debugger, options.quiet, options.answers);
+  say_end(debugger, options);
   if (interrupted()) return 130;
   return debugger.failures() > 0 ? 1 : 0;
 }

@@ -140,6 +140,7 @@ Listed listed(const Parameter& row) {
   if (!row.unit.empty()) facts += ", " + row.unit;
   if (!range.empty()) facts += ", " + range;
   if (!initial.empty()) facts += ", default " + initial;
+  if (!row.live) facts += row.set ? ", set at frame 0 only" : ", fixed with the scene";
   item.rows = {{row.path, facts}, {row.doc}};
   item.json = {{"path", json_text(row.path)}, {"kind", json_text(kind)}, {"unit", json_text(row.unit)}};
   if (is_number(row)) {
@@ -158,7 +159,7 @@ Listing list_parameters() {
   const AllRows rows;
   Listing list;
   list.layout = Listing::paragraphs;
-  list.heading = {"path", "kind, unit, range, default; below it the meaning"};
+  list.heading = {"path", "kind, unit, range, default, when it can be set if not at any time; below it the meaning"};
   for (const Parameter& row : rows.all())
     if (!rows.is_twin(row)) list.items.push_back(listed(row));
   return list;

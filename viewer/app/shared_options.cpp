@@ -18,7 +18,7 @@ void scene_options(Options& options, std::filesystem::path& scene, std::vector<s
 }
 
 void script_option(Options& options, std::filesystem::path& script, const std::string& doc) {
-  options.path("--script", script, doc);
+  options.path("--script", script, doc + "; - for standard input");
 }
 
 void frames_option(Options& options, std::optional<int>& last, const std::string& doc) {

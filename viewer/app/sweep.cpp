@@ -131,6 +131,11 @@ int sweep(SweepOptions sweep_options, const RunOptions& given, bool quiet) {
         fmt::format("command line: no --vary, and no [sweep] vary in {}; at least one PATH=SPEC is wanted; add --vary "
                     "contact.friction=0.1,0.5",
                     given.scene.string()));
+  if (options.script == "-")
+    throw InputError(
+        "command line: --script - with sweep, whose jobs are processes of their own and read the script each; a file "
+        "is "
+        "wanted; name one");
   const fs::path out = options.out;
   options.export_ply = options.contacts = !sweep_options.reference.empty();
   options.resume = false;

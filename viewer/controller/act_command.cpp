@@ -6,14 +6,15 @@
 
 #include "engine/bodies/body_keys.hpp"
 #include "engine/core/error.hpp"
+#include "engine/core/units.hpp"
 #include "engine/io/scene/scene_body.hpp"
-#include "viewer/controller/command.hpp"
 
 namespace impinge {
 
 namespace {
 
 constexpr double kFarthest = 1e9, kMostImpulse = 1e12, kLeastStiffness = 1e-6, kMostStiffness = 1e12, kMostTurn = 36000;
+constexpr double kFarOff = 0.5;  // of the diagonal of a body's box: a push farther away than that may be a mistake
 
 struct ActRow {
   Act::Verb verb;
@@ -184,6 +185,38 @@ void check_new_name(const PlacedText& name, const ParameterSet& rows) {
   if (std::find(taken.begin(), taken.end(), name.text) != taken.end())
     name.refuse(fmt::format("a second body named '{}'", name.text), "names must differ, also from deleted ones",
                 "choose another");
+}
+
+std::string far_push_note(std::span<const Command> commands, const StepRecord& record) {
+  std::string note;
+  for (const Command& command : commands) {
+    const auto* act = std::get_if<Act>(&command);
+    if (act == nullptr || act->verb != Act::push || !act->point) continue;
+    for (const BodyRecord& body : record.bodies) {
+      if (body.name != act->body || body.deleted || body.bounds.is_empty()) continue;
+      const Vec3 nearest = act->point->cwiseMax(body.bounds.min).cwiseMin(body.bounds.max);
+      const double away = (*act->point - nearest).norm();
+      // between the push and the end of the frame it has moved
+      const double size = body.bounds.extent().norm(), moved = body.velocity.norm() * record.frame_time;
+      if (!(away > kFarOff * size + moved)) continue;
+      note += fmt::format("{}'{}' was pushed at {}, {} away from it: {}", note.empty() ? "" : "; ", body.name,
+                          text_of(*act->point), length_text(away),
+                          body.deformable != nullptr ? "its nearest point had the impulse"
+                                                     : "it is turned as by a lever of that length");
+    }
+  }
+  return note;
+}
+
+std::vector<std::string> acted_on(const Command& command) {
+  if (const auto* act = std::get_if<Act>(&command)) return {act->body};
+  if (const auto* bodies = std::get_if<BodiesCommand>(&command))
+    return bodies->verb == BodiesCommand::follow || bodies->verb == BodiesCommand::frame ? bodies->names
+                                                                                         : std::vector<std::string>();
+  constexpr std::string_view kBody = "body.";
+  const auto* set = std::get_if<SetCommand>(&command);
+  if (set == nullptr || !set->path.starts_with(kBody)) return {};
+  return {set->path.substr(kBody.size(), set->path.find('.', kBody.size()) - kBody.size())};
 }
 
 std::string format_act(const Act& act) {

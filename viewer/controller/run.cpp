@@ -12,6 +12,7 @@
 #include "engine/io/paths.hpp"
 #include "engine/step/watcher_list.hpp"
 #include "engine/world/frame_judge.hpp"
+#include "viewer/controller/act_command.hpp"
 #include "viewer/controller/breakpoints.hpp"
 #include "viewer/controller/expectations.hpp"
 #include "viewer/controller/recorded_run.hpp"
@@ -151,10 +152,9 @@ void check_freeze(const RunOptions& options, const RunFolder& folder) {
                     *options.freeze, folder.resume_frame()));
 }
 
-void tell_of_overlap(const RunWatcher& watcher, int frame, std::span<const Command> commands,
-                     const StepRecord& record) {
-  const std::string note = overlap_note(commands, record);
-  if (!note.empty() && watcher.note) watcher.note(fmt::format("note: frame {}: {}", frame, note));
+void tell_of_acts(const RunWatcher& watcher, int frame, std::span<const Command> commands, const StepRecord& record) {
+  for (const std::string& note : {overlap_note(commands, record), far_push_note(commands, record)})
+    if (!note.empty() && watcher.note) watcher.note(fmt::format("note: frame {}: {}", frame, note));
 }
 
 /// What the script expects of frames, and what ends the run.
@@ -293,7 +293,7 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
     if (judged) overlap.judge(session.world().bodies(), stats);
     check_figures(stats, judged);
     const int frame = session.frame();
-    tell_of_overlap(watcher, frame, commands, session.record());
+    tell_of_acts(watcher, frame, commands, session.record());
     stats.times.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
     if (freezes) {
       folder.add_frozen_step(frozen);

@@ -1,22 +1,30 @@
 #include "viewer/controller/script.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <system_error>
 
 #include "engine/core/error.hpp"
+#include "engine/core/interrupt.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
+#include "viewer/controller/act_command.hpp"
 
 namespace impinge {
 
 namespace {
 
 constexpr int kMostFrames = 100'000'000;
+constexpr std::uint64_t kMostBytes = 16u << 20;
 
 // the value at fraction t of a ramp; exact at both ends
 ParameterValue mix(const ParameterValue& from, const ParameterValue& to, double t) {
@@ -45,16 +53,31 @@ std::string unquoted(std::string_view word) {
   return std::string(word);
 }
 
-/// The bodies that it changes or goes along with; how they are drawn is nobody's loss.
-std::vector<std::string> acted_on(const Command& command) {
-  if (const auto* act = std::get_if<Act>(&command)) return {act->body};
-  if (const auto* bodies = std::get_if<BodiesCommand>(&command))
-    return bodies->verb == BodiesCommand::follow || bodies->verb == BodiesCommand::frame ? bodies->names
-                                                                                         : std::vector<std::string>();
-  constexpr std::string_view kBody = "body.";
-  const auto* set = std::get_if<SetCommand>(&command);
-  if (set == nullptr || !set->path.starts_with(kBody)) return {};
-  return {set->path.substr(kBody.size(), set->path.find('.', kBody.size()) - kBody.size())};
+/// All of it, however often it is asked for.
+const std::string& standard_input() {
+  static const std::string text = [] {
+    constexpr int kPatience = 50;  // milliseconds between two looks at whether somebody wants an end
+    std::string all;
+    std::array<char, 65536> piece;
+    const auto give_up = [] {
+      throw InputError(fmt::format("-: standard input can't be read ({}); a script is wanted; name a file",
+                                   std::generic_category().message(errno)));
+    };
+    for (;;) {
+      check_interrupt();
+      pollfd input{STDIN_FILENO, POLLIN, 0};
+      const int ready = poll(&input, 1, kPatience);
+      if (ready < 0 && errno != EINTR) give_up();
+      if (ready <= 0) continue;
+      const ssize_t count = read(STDIN_FILENO, piece.data(), piece.size());
+      if (count < 0 && errno != EINTR && errno != EAGAIN) give_up();
+      if (count == 0) return all;
+      if (count > 0) all.append(piece.data(), static_cast<std::size_t>(count));
+      if (all.size() > kMostBytes)
+        throw InputError(fmt::format("-: more than {} bytes; a script is wanted; shorten it", kMostBytes));
+    }
+  }();
+  return text;
 }
 
 }  // namespace
@@ -74,7 +97,7 @@ std::string_view without_comment(std::string_view line) {
 }
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
-  const std::string file = read_file(path, 16u << 20);
+  const std::string file = path == "-" ? standard_input() : read_file(path, kMostBytes);
   check_utf8(path.string(), file);
   const std::string_view text = without_byte_order_mark(file);
   std::vector<std::string> lines;

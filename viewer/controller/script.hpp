@@ -90,7 +90,7 @@ class Script {
 /// The line up to a # that is in no quotes.
 std::string_view without_comment(std::string_view line);
 
-/// The lines of a script file. Throws InputError.
+/// The lines of a script file, of "-" those of standard input. Throws InputError.
 std::vector<std::string> read_lines(const std::filesystem::path& path);
 
 }  // namespace impinge

@@ -145,7 +145,7 @@ void Debugger::note_frame() {
     expectations_.check(
         session_.frame(), [this](const Expression& condition) { return values_here(condition); },
         [] { return fs::path(); });
-    tell_of_overlap(session_.frame());
+    tell_of_acts(session_.frame());
   }
   if (!ring_.has(session_.frame())) {
     ByteWriter state;
@@ -240,6 +240,7 @@ std::optional<DebugLine> Debugger::execute(const PlacedText& line) {
       std::holds_alternative<QuitLine>(parsed))
     return parsed;
   check_added(line, parsed);
+  check_there(line, parsed);
   known_before_ = static_cast<int>(hashes_.size());
   puts_before_ = puts_;
   stopped_ = was_ended_ = false;

@@ -101,8 +101,10 @@ class Debugger {
   void why(const WhyLine& line);
   void list_added();
   void check_added(const PlacedText& line, const DebugLine& parsed) const;
+  void check_there(const PlacedText& line, const DebugLine& parsed) const;
+  std::string absence_of(const std::string& body, bool is_act) const;
   std::vector<Command> commands_at(int frame) const;
-  void tell_of_overlap(int frame);
+  void tell_of_acts(int frame);
   bool do_by_hand(int frame);
   void show_by_hand();
   bool advance();

@@ -127,6 +127,46 @@ void Debugger::check_added(const PlacedText& line, const DebugLine& parsed) cons
   }
 }
 
+/// Why nothing that is done now could come to the body, where that is so: "which was deleted in frame 12"; else "". Values
+/// may be given to one that is yet to come.
+std::string Debugger::absence_of(const std::string& body, bool is_act) const {
+  const int next = within_ ? frame() : session_.frame() + 1;
+  const auto is_of = [&](const Command& command, Act::Verb verb) {
+    const auto* act = std::get_if<Act>(&command);
+    return act != nullptr && act->verb == verb && act->body == body;
+  };
+  const auto any = [&](const std::vector<Command>& commands, Act::Verb verb) {
+    return std::any_of(commands.begin(), commands.end(), [&](const Command& c) { return is_of(c, verb); });
+  };
+  const auto pending = by_hand_.find(next);
+  if (pending != by_hand_.end() && any(pending->second, Act::remove)) return "which is deleted by then";
+  const auto it =
+      std::find_if(shown().bodies.begin(), shown().bodies.end(), [&](const BodyRecord& b) { return b.name == body; });
+  if (it != shown().bodies.end()) {
+    if (!it->deleted) return "";
+    for (int k = 0; k <= frame(); ++k)
+      if (any(commands_at(k), Act::remove)) return fmt::format("which was deleted in frame {}", k);
+    return "which is deleted";
+  }
+  if (!is_act || (pending != by_hand_.end() && any(pending->second, Act::add))) return "";
+  return "which is added in a later frame only";
+}
+
+/// Nothing would come of what is done to a body that isn't there. A hand may let go of it.
+void Debugger::check_there(const PlacedText& line, const DebugLine& parsed) const {
+  const auto* commands = std::get_if<std::vector<Command>>(&parsed);
+  if (commands == nullptr) return;
+  for (const Command& command : *commands) {
+    const auto* act = std::get_if<Act>(&command);
+    if (is_look(command) || (act != nullptr && (act->verb == Act::add || act->verb == Act::release))) continue;
+    for (const std::string& body : acted_on(command))
+      if (const std::string why = absence_of(body, act != nullptr); !why.empty())
+        split_words(line)[1].refuse(fmt::format("'{}', {}", body, why), "a body that is there is wanted",
+                                    why.find("deleted") == std::string::npos ? "go on to that frame first"
+                                                                             : "undo that, or go back to before it");
+  }
+}
+
 /// Of a frame, those by hand first.
 std::vector<Command> Debugger::commands_at(int frame) const {
   std::vector<Command> commands = session_.script().commands_at(frame);
@@ -135,18 +175,16 @@ std::vector<Command> Debugger::commands_at(int frame) const {
   return commands;
 }
 
-/// A body may be added where others are.
-void Debugger::tell_of_overlap(int frame) {
-  if (const std::string note = overlap_note(commands_at(frame), session_.record()); !note.empty())
-    say(ConsoleLine::message, note);
+/// A body may be added where others are, and pushed where it isn't.
+void Debugger::tell_of_acts(int frame) {
+  const std::vector<Command> commands = commands_at(frame);
+  for (const std::string& note :
+       {overlap_note(commands, session_.record()), far_push_note(commands, session_.record())})
+    if (!note.empty()) say(ConsoleLine::message, note);
 }
 
 void Debugger::do_command(const Command& command) {
   if (is_look(command)) return session_.change(command);
-  if (const auto* act = std::get_if<Act>(&command); act != nullptr && act->verb != Act::add)
-    for (const BodyRecord& body : shown().bodies)
-      if (body.name == act->body && body.deleted)
-        return say(ConsoleLine::message, fmt::format("'{}' is deleted: nothing comes of it", body.name));
   Edit edit;
   bool is_in_past = false, is_last_of_drag = false;
   if (changes_model(command)) {

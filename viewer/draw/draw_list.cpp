@@ -13,6 +13,7 @@ void DrawList::clear() {
   planes.clear();
   labels.clear();
   color_bars.clear();
+  scales.clear();
   layers.clear();
 }
 
@@ -38,6 +39,19 @@ bool DrawList::has_color(std::string_view layer, Color color) const {
          has(surfaces, &DrawnLayer::surfaces) || has(triangles, &DrawnLayer::triangles)))
       return true;
     before = drawn;
+  }
+  return false;
+}
+
+bool DrawList::has_cut_arrow(std::string_view layer, Color color) const {
+  std::size_t first = 0;
+  for (const DrawnLayer& drawn : layers) {
+    if (drawn.name == layer &&
+        std::any_of(arrows.begin() + static_cast<std::ptrdiff_t>(first),
+                    arrows.begin() + static_cast<std::ptrdiff_t>(drawn.arrows),
+                    [&](const DrawArrow& arrow) { return arrow.is_cut && with_alpha(arrow.color, color.a) == color; }))
+      return true;
+    first = drawn.arrows;
   }
   return false;
 }

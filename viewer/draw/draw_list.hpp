@@ -47,6 +47,17 @@ struct DrawArrow {
   Depth depth = Depth::on_top;
   PickId pick = 0;
   bool has_head = true;  ///< else a bar from its tail
+  bool is_cut = false;   ///< it stands for more than its length says
+};
+
+/// What a size in the picture means: an arrow's length, or a disc's diameter, that stands for `value`.
+struct MarkScale {
+  std::string_view layer;
+  Color color;  ///< of its marks, and of the layer's row in the legend
+  double value = 0.0;
+  std::string unit;  ///< SI
+  float size_px = 0.0f;
+  double most = 0.0;  ///< what arrows stand for at least that are cut
 };
 
 /// A quantity at each position of a surface, as a share of the colour bar's range.
@@ -64,6 +75,7 @@ struct DrawSurface {
   SurfaceHeat heat = nullptr;           ///< replaces the colour; null: none
   bool clipped = true;                  ///< cut by the view's clip plane
   float faintness = 1.0f;               ///< of a see-through one: below 1 its colour counts more
+  bool asleep = false;                  ///< its colour says that the body sleeps
 
   const Eigen::AlignedBox3f& bounds() const { return moved ? moved->bounds : surface->bounds; }
   Pose placement() const { return moved ? Pose{Mat3::Identity(), moved->origin} : pose; }
@@ -108,6 +120,7 @@ struct DrawList {
   std::vector<DrawPlane> planes;
   std::vector<DrawLabel> labels;
   std::vector<ColorBar> color_bars;  ///< of heated surfaces the first
+  std::vector<MarkScale> scales;     ///< of marks whose sizes are to be read
   std::vector<DrawnLayer> layers;    ///< in the order of drawing; may be empty
 
   void clear();
@@ -115,6 +128,8 @@ struct DrawList {
   void end_layer(std::string_view name);
   /// Whether the layer drew something in that colour, of any opacity.
   bool has_color(std::string_view layer, Color color) const;
+  /// Whether an arrow of it, in that colour, stands for more than its length says.
+  bool has_cut_arrow(std::string_view layer, Color color) const;
   /// Takes away what belongs to such things.
   void leave_out(const std::function<bool(PickId)>& is_out);
   /// The twelve edges of a box given in the frame of `pose`.

@@ -63,6 +63,15 @@ NumberText number_text(double value, std::string_view unit, int figures) {
           prefix->name + (is_mass ? "g" : std::string(unit))};
 }
 
+std::string round_text(double value, std::string_view unit) {
+  NumberText text = number_text(value, unit, 4);
+  if (text.digits.find('.') != std::string::npos && text.digits.find('e') == std::string::npos) {
+    text.digits.erase(text.digits.find_last_not_of('0') + 1);
+    if (text.digits.ends_with('.')) text.digits.pop_back();
+  }
+  return text.whole();
+}
+
 std::string vector_text(const Vec3& value, std::string_view unit) {
   const double largest = value.cwiseAbs().maxCoeff();
   std::optional<Prefix> prefix;

@@ -18,6 +18,9 @@ struct NumberText {
 /// stays in kilograms; a number without a unit, or too small or large for any prefix, has an exponent where it needs one.
 NumberText number_text(double value, std::string_view unit, int figures = 3);
 
+/// Without zeros that say nothing, "20 N", "4.905 N", with up to four figures.
+std::string round_text(double value, std::string_view unit);
+
 /// A vector in the prefix of its largest component, with as many decimals in each: "-299.0  0.0  641.3 mm".
 std::string vector_text(const Vec3& value, std::string_view unit);
 

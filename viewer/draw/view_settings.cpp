@@ -127,8 +127,11 @@ void ViewSettings::bind(ParameterSet& set) {
   rows.add("point_size", point_size, {1.0, 100.0}, "px",
            "Diameter of a contact point, in pixels of a picture whose shorter side has 720.");
   rows.add("arrow_length", arrow_length, {1.0, 1000.0}, "px",
-           "Length of a normal and of the unit of forces, up to five of which are drawn, in pixels of a picture whose "
-           "shorter side has 720.");
+           "Length of a normal and of the unit of forces and of spins that the legend shows, in pixels of a picture "
+           "whose shorter side has 720.");
+  rows.add("arrow_most", arrow_most, {1.0, 100.0}, "",
+           "The longest arrow of a force or a spin, in lengths of view.arrow_length; what is more is drawn that long, "
+           "with two heads.");
   rows.add("line_width", line_width, {0.5, 20.0}, "px",
            "Width of lines, in pixels of a picture whose shorter side has 720.");
   rows.add("antialiasing", antialiasing, "Smooth edges of surfaces; marks are smooth in any case.");

@@ -37,7 +37,8 @@ struct ViewSettings {
   std::vector<LayerSwitch> layers;  ///< in the order they are drawn; layers/layer.hpp fills them in
 
   double point_size = 9.0;     ///< diameter of a contact, pixels of a picture 720 high
-  double arrow_length = 36.0;  ///< of a normal, and of the largest force or velocity, same pixels
+  double arrow_length = 36.0;  ///< of a normal, and of the unit of forces and spins, same pixels
+  double arrow_most = 3.0;     ///< times that: no arrow of a force or spin is longer
   double line_width = 1.4;     ///< same pixels
   bool show_figures = true, show_legend = true, show_timings = false;
   LegendForm legend_form = LegendForm::automatic;

@@ -25,8 +25,10 @@ struct ContactMarkSettings {
   void declare(const Rows& rows) {
     rows.add("carrying", carrying, "Only contacts that carry something.");
     rows.add("of_selected", of_selected, "Only contacts of the bodies selected in the debugger, if any are.");
-    rows.add("size", size, {{Size::same, "same"}, {Size::force, "force"}},
-             "Discs of one size, or with areas like their normal forces: view.point_size is the mean one's.");
+    rows.add(
+        "size", size, {{Size::same, "same"}, {Size::force, "force"}},
+        "Discs of one size, or with areas like their normal forces: view.point_size is the mean one's; from 0.35 to 3 "
+        "times that.");
     rows.add(
         "color", color,
         {{ContactColor::state, "state"},
@@ -97,6 +99,16 @@ std::vector<double> room_on_bodies(const StepRecord& record, const std::vector<s
   return room;
 }
 
+/// What a disc stands for, in a round force.
+void add_disc_scale(const LayerContext& context, double mean_impulse, DrawList& list) {
+  const double step = context.record.frame_time / std::max(1, context.record.stats.substeps),
+               mean = mean_impulse / step;
+  if (!std::isfinite(mean)) return;
+  const double value = rounded_up(mean);
+  list.scales.push_back({context.layer, role::kInk, value, "N",
+                         static_cast<float>(std::sqrt(value / mean) * context.settings.point_size)});
+}
+
 void draw_contacts(const LayerContext& context, DrawList& list) {
   const StepRecord& record = context.record;
   const ContactMarkSettings& own = context.own<ContactMarkSettings>();
@@ -129,6 +141,16 @@ void draw_contacts(const LayerContext& context, DrawList& list) {
                            own.size == Size::same && std::isfinite(free) ? size_of(c) * free : 0.0});
   }
   if (!by_state && !order.empty()) list.color_bars.push_back(bar);
+  if (own.size == Size::force && mean > 0.0) add_disc_scale(context, mean, list);
+}
+
+bool carries_something(const StepRecord& record) {
+  return std::any_of(record.contacts.begin(), record.contacts.end(),
+                     [](const ContactRecord& c) { return c.lambda.x() > 0.0; });
+}
+
+bool shows_forces(const ViewSettings& settings) {
+  return settings.of_layer<ContactMarkSettings>("contacts").size == Size::force;
 }
 
 bool shows_states(const ViewSettings& settings) {
@@ -144,7 +166,8 @@ Layer contacts_layer() {
           draw_contacts,
           {{LegendRow::point, role::kOpen, "contact, open", nullptr, shows_states},
            {LegendRow::point, role::kStick, "contact, sticks", nullptr, shows_states},
-           {LegendRow::point, role::kSlip, "contact, may slip", nullptr, shows_states}},
+           {LegendRow::point, role::kSlip, "contact, may slip", nullptr, shows_states},
+           {LegendRow::disc, role::kInk, "normal force of {}", carries_something, shows_forces}},
           ContactMarkSettings{}};
 }
 

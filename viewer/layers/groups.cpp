@@ -22,7 +22,7 @@ void draw_groups(const LayerContext& context, DrawList& list) {
           item.color = colors[member];
           break;
         }
-    if (body.asleep) item.color = asleep_color(item.color);
+    if (item.asleep) item.color = asleep_color(item.color);
   }
 }
 

@@ -39,7 +39,9 @@ void grey_out(const LayerContext& context, DrawSurface& item) {
   if (item.pick == 0 || item.pick > context.record.bodies.size()) return;
   const BodyRecord& body = context.record.bodies[item.pick - 1];
   item.heat = nullptr;
-  if (is_moved_by_contact(body) && !given_color(context.settings.colors, body.name)) item.color = role::kNoValue;
+  if (!is_moved_by_contact(body) || given_color(context.settings.colors, body.name)) return;
+  item.color = role::kNoValue;
+  item.asleep = false;
 }
 
 std::vector<double> heat_of_elements(const DeformableBody& body, HeatQuantity quantity) {

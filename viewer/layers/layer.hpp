@@ -2,6 +2,8 @@
 // in all.cpp.
 #pragma once
 
+#include <optional>
+
 #include "engine/world/step_record.hpp"
 #include "viewer/draw/draw_list.hpp"
 #include "viewer/draw/surface_cache.hpp"
@@ -25,14 +27,17 @@ struct LayerContext {
 
 /// What one of a layer's marks means.
 struct LegendRow {
-  enum Mark { area, point, ring, target, line, bar, arrow };
+  enum Mark { area, point, disc, ring, target, line, bar, arrow };
   Mark mark = area;
   Color color;
-  const char* text = "";
+  const char* text = "";  ///< {}: what the size of the mark stands for (draw_list.hpp: MarkScale)
   /// Whether the scene has such a thing: then it is explained in all frames. Null: where the layer drew something of
   /// the row's colour in this one.
   bool (*present)(const StepRecord& record) = nullptr;
   bool (*used)(const ViewSettings& settings) = nullptr;  ///< whether it is drawn so as things are set; null: it is
+  /// Of marks whose colour is not always the same: that of the first one in the picture, none where there is none. Null:
+  /// `color`.
+  std::optional<Color> (*found)(const DrawList& list) = nullptr;
 };
 
 struct Layer {

@@ -1,5 +1,6 @@
 // The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls in the way: see-through.
 #include <algorithm>
+#include <optional>
 
 #include "engine/shapes/primitives.hpp"
 #include "viewer/draw/body_color.hpp"
@@ -25,6 +26,7 @@ void draw_meshes(const LayerContext& context, DrawList& list) {
     DrawSurface item{context.surfaces.surface_of(*body.shape), body.pose, colors[i], false, false, body_pick(i)};
     item.moved = context.surfaces.moved_of(body);
     item.striped = body.kind == BodyKind::scripted;
+    item.asleep = body.asleep;
     if (body.asleep) item.color = asleep_color(item.color);
     item.see_through = is_wall_in_the_way(body, context.camera);
     list.surfaces.push_back(std::move(item));
@@ -38,14 +40,23 @@ void draw_meshes(const LayerContext& context, DrawList& list) {
   }
 }
 
+std::optional<Color> color_of_sleepers(const DrawList& list) {
+  for (const DrawSurface& item : list.surfaces)
+    if (item.asleep && item.heat == nullptr) return item.color;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Layer meshes_layer() {
-  return {"meshes",
-          "The bodies' surfaces: bodies at rest pale, static grey, scripted banded, walls in the way see-through.",
-          true,
-          draw_meshes,
-          {{LegendRow::area, role::kScripted, "scripted body"}, {LegendRow::area, role::kStatic, "static body"}}};
+  return {
+      "meshes",
+      "The bodies' surfaces: bodies asleep nearly grey, static grey, scripted banded, walls in the way see-through.",
+      true,
+      draw_meshes,
+      {{LegendRow::area, role::kScripted, "scripted body"},
+       {LegendRow::area, role::kStatic, "static body"},
+       {LegendRow::area, {}, "body asleep (at rest)", nullptr, nullptr, color_of_sleepers}}};
 }
 
 }  // namespace impinge

@@ -1,12 +1,14 @@
 // Where the moving bodies' centres of mass (points of deformable surfaces) would be some frames later, and the axes
 // about which they turn.
 #include "viewer/layers/body_style.hpp"
-#include "viewer/layers/layer.hpp"
+#include "viewer/layers/quantity_arrow.hpp"
 
 namespace impinge {
 namespace {
 
 constexpr double kFrames = 6.0;
+constexpr double kShortest = 0.5;  // pixels: the head of an arrow has a least size, which a body at rest must not have
+constexpr int kPictureHeight = 720;         // that view.arrow_length and others mean
 constexpr std::size_t kMostVertices = 160;  // of a deformable body
 
 /// At some of the surface's vertices: what the nodes that carry them have.
@@ -26,6 +28,8 @@ void draw_deformable(const LayerContext& context, DrawList& list, std::size_t in
 void draw_velocities(const LayerContext& context, DrawList& list) {
   const double time = kFrames * context.record.frame_time;
   const float width = 1.7f * static_cast<float>(context.settings.line_width);
+  const std::size_t before = list.arrows.size();
+  bool turns = false;
   for (std::size_t i = 0; i < context.record.bodies.size(); ++i) {
     const BodyRecord& body = context.record.bodies[i];
     if (body.kind == BodyKind::fixed) continue;
@@ -34,14 +38,18 @@ void draw_velocities(const LayerContext& context, DrawList& list) {
       continue;
     }
     const Vec3 way = body.velocity * time;
-    if (way.squaredNorm() > 0.0)
+    if (way.norm() > kShortest * context.camera.pixel_size_at(body.pose.position, kPictureHeight))
       list.arrows.push_back({body.pose.position, way, role::kVelocity, 0.0f, width, Depth::on_top, body_pick(i)});
     const double angle = body.angular_velocity.norm() * time;
-    if (angle > 0.02)  // one radian is as long as a normal
-      list.arrows.push_back({body.pose.position, body.angular_velocity.normalized(), role::kSpin,
-                             static_cast<float>(context.settings.arrow_length * std::min(angle, 4.0)), 0.8f * width,
-                             Depth::on_top, body_pick(i)});
+    if (!(angle > 0.02)) continue;
+    add_quantity_arrow(context.settings,
+                       {body.pose.position, body.angular_velocity.normalized(), role::kSpin, 0.0f, 0.8f * width,
+                        Depth::on_top, body_pick(i)},
+                       angle, list);  // one radian is as long as a normal
+    turns = true;
   }
+  if (list.arrows.size() > before) list.scales.push_back({context.layer, role::kVelocity, time, "s"});
+  if (turns) add_arrow_scale(context, role::kSpin, 1.0 / time, "rad/s", list);
 }
 
 }  // namespace
@@ -52,7 +60,7 @@ Layer velocities_layer() {
       "Velocity (the way of the next six frames) and axis of rotation (a normal's length: one radian in six frames).",
       false,
       draw_velocities,
-      {{LegendRow::arrow, role::kVelocity, "velocity, 6 frames"}, {LegendRow::arrow, role::kSpin, "axis of rotation"}}};
+      {{LegendRow::arrow, role::kVelocity, "velocity: way of {}"}, {LegendRow::arrow, role::kSpin, "rotation: {}"}}};
 }
 
 }  // namespace impinge

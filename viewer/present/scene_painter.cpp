@@ -106,7 +106,7 @@ const Framebuffer& ScenePainter::paint(const StepRecord& record, const ViewSetti
   overlay_->draw(width(), height(), [&](const Pen& pen) {
     figures_ = draw_figures(pen, record, settings);
     const PanelArea picked = area_of(settings.picked, camera, width(), height());
-    legend_ = draw_legend(pen, record, list_, settings, figures_, picked);
+    legend_ = draw_legend(pen, record, list_, settings, pixel_scale(width(), height()), figures_, picked);
     std::vector<PanelArea> taken = {figures_, legend_};
     caption_ = draw_caption(pen, settings, taken);
     taken.push_back(caption_);

@@ -93,6 +93,26 @@ TEST_CASE("list: a filter leaves what holds the word, in any case of letters") {
                 "command line: nothing in the list of parameters holds", "did you mean 'contact.friction'?");
 }
 
+TEST_CASE("list: parameters that can't change while running say so, in words and in JSON") {
+  const TempFolder folder;
+  const Outcome text = impinge_run(folder.path(), {"list", "parameters"});
+  const auto facts_of = [&](const std::string& path) {
+    const std::size_t at = text.out.find("\n" + path + " ");
+    CAPTURE(path);
+    REQUIRE(at != std::string::npos);
+    return text.out.substr(at + 1, text.out.find('\n', at + 1) - at - 1);
+  };
+  const auto json = impinge_run(folder.path(), {"list", "parameters", "--json"}).out;
+  for (const char* path : {"body.NAME.mass", "body.DEFORMABLE.self_collision", "body.DEFORMABLE.material.element"}) {
+    CHECK(facts_of(path).ends_with(", fixed with the scene"));
+    const std::string item = json.substr(json.find(std::string("\"") + path + "\""));
+    CHECK(item.substr(0, item.find('}')).find("\"live\": false") != std::string::npos);
+  }
+  CHECK(facts_of("record.columns").ends_with(", set at frame 0 only"));
+  for (const char* path : {"body.NAME.velocity", "body.NAME.friction", "contact.friction", "response.method"})
+    CHECK(facts_of(path).find("fixed") == std::string::npos);
+}
+
 TEST_CASE("list: JSON has numbers as numbers and choices as lists") {
   const TempFolder folder;
   folder.write("list.json", impinge_run(folder.path(), {"list", "parameters", "--json"}).out);

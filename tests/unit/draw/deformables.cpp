@@ -212,33 +212,6 @@ TEST_CASE("a clip plane keeps the part of a segment that lies on its side") {
   CHECK(cut > 50);
 }
 
-TEST_CASE("contact forces are drawn as long as their share of the weight") {
-  HandMadeRecord scene;
-  scene.add("floor", BodyKind::fixed, Plane{Vec3::UnitY(), 0.0}, Vec3::Zero());
-  const int crate = scene.add("crate", BodyKind::dynamic, Box{{0.5, 0.5, 0.5}}, {0, 0.5, 0});  // 1 kg
-  const double weight = 9.81, step = scene.record().frame_time;
-  const auto arrows = [&](const ViewSettings& settings) {
-    SurfaceCache surfaces;
-    DrawList list;
-    for (const Layer& layer : layers())
-      if (layer.name == "contact_forces")
-        layer.draw({scene.record(), settings, settings.camera, surfaces, layer.name}, list);
-    return list.arrows;
-  };
-  ViewSettings settings = make_view_settings();
-  for (int n = 1; n <= 40; ++n) {
-    scene.touch(crate, 0, {0.01 * n, 0, 0}, Vec3::UnitY(), ContactState::stick);
-    for (ContactRecord& c : scene.record().contacts) c.lambda = {weight * step / n, 0.0, 0.0};
-    REQUIRE(static_cast<int>(arrows(settings).size()) == n);
-    for (const DrawArrow& arrow : arrows(settings)) {
-      CHECK(arrow.length_px == Approx(settings.arrow_length));
-      CHECK((arrow.direction - Vec3::UnitY()).norm() < 1e-12);
-    }
-  }
-  set(settings, "view.contact_forces.unit", shortest(weight / 20.0));  // each of the forty carries half of that
-  for (const DrawArrow& arrow : arrows(settings)) CHECK(arrow.length_px == Approx(0.5 * settings.arrow_length));
-}
-
 TEST_CASE("thinning keeps an even choice, and all where there are few") {
   CHECK(thinned(10, 20).size() == 10);
   CHECK(thinned(0, 20).empty());

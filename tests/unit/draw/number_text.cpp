@@ -64,3 +64,13 @@ TEST_CASE("a vector has one prefix and as many decimals in each component") {
   CHECK(vector_text({0.0, -1.0, 0.0}, "") == "0.000  -1.000  0.000");
   CHECK(vector_text({0.0, 0.0, 0.0}, "m/s") == "0  0  0 m/s");
 }
+
+TEST_CASE("round numbers have no zeros that say nothing") {
+  CHECK(round_text(20.0, "N") == "20 N");
+  CHECK(round_text(1200.0, "N") == "1.2 kN");
+  CHECK(round_text(0.5, "N") == "500 mN");
+  CHECK(round_text(4.905, "N") == "4.905 N");
+  CHECK(round_text(100.0, "rad/s") == "100 rad/s");
+  CHECK(round_text(0.0, "N") == "0 N");
+  CHECK(round_text(1e6, "") == "1e6");
+}

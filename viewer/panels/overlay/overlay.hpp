@@ -23,7 +23,7 @@ struct Pen {
   float picture_width = 0.0f, picture_height = 0.0f;
 
   /// Whether panels should say less and stand closer together.
-  bool is_small() const { return picture_height < 480.0f * unit; }
+  bool is_small() const { return picture_height <= 480.0f * unit; }
   // of panels
   float margin() const { return (is_small() ? 5.0f : 10.0f) * unit; }
   float padding() const { return (is_small() ? 5.0f : 9.0f) * unit; }

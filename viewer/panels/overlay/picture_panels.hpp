@@ -18,9 +18,10 @@ struct PanelArea {
 PanelArea draw_figures(const Pen& pen, const StepRecord& record, const ViewSettings& settings);
 
 /// What the marks in `list` mean, and those of what the scene has at any time, at the top right; left out where it would
-/// meet `other`. What is picked, at `picked`, it leaves in sight: by another corner, or folded.
+/// meet `other`. `pixel_scale` is that of the marks, of which some are as large in it as in the picture. What is picked,
+/// at `picked`, it leaves in sight: by another corner, or folded.
 PanelArea draw_legend(const Pen& pen, const StepRecord& record, const DrawList& list, const ViewSettings& settings,
-                      const PanelArea& other, const PanelArea& picked = {});
+                      float pixel_scale, const PanelArea& other, const PanelArea& picked = {});
 
 /// What the colours of heated surfaces mean, at the bottom right; left out with the legend, or where it would meet one
 /// of `taken`. Small where it would cover more of the picture than the legend may.
