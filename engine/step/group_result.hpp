@@ -23,6 +23,8 @@ struct SolvedContact {
   double residual = 0.0;  ///< its own natural map, as the judge measures it (GroupVerdict::of_contacts)
 };
 
+inline ContactKey key_of(const Collision& c) { return {c.body_a, c.body_b, c.feature}; }
+
 /// Of a body that moves so; `radius`: how far a rigid one reaches, metres. m/s.
 double fastest_point(const BodyVector& velocity, double radius);
 

@@ -17,8 +17,6 @@ std::vector<ContactCache::Item> starts_of(std::span<const GroupResult> results) 
   return items;
 }
 
-ContactKey key_of(const Collision& c) { return {c.body_a, c.body_b, c.feature}; }
-
 /// Adds an impulse, N·s, on A, world axes.
 void add_to(SolvedContact& contact, const Vec3& impulse) {
   contact.lambda += contact_axes(contact.collision.normal) * impulse;
