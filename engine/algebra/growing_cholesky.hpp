@@ -17,12 +17,15 @@ class GrowingCholesky {
   /// L⁻¹ b.
   VecX forward(const VecX& b) const { return l_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solve(b); }
   /// L⁻ᵀ b.
-  VecX backward(const VecX& b) const { return l_.topLeftCorner(size_, size_).transpose().triangularView<Eigen::Upper>().solve(b); }
+  VecX backward(const VecX& b) const {
+    return l_.topLeftCorner(size_, size_).transpose().triangularView<Eigen::Upper>().solve(b);
+  }
 
   /// One more row and column, the last: `forward` of the column above its diagonal, and what is left of the diagonal
   /// beside its square, > 0.
   void add(const VecX& row, double rest) {
-    if (size_ == l_.rows()) l_.conservativeResize(std::max<Eigen::Index>(8, 2 * size_), std::max<Eigen::Index>(8, 2 * size_));
+    if (size_ == l_.rows())
+      l_.conservativeResize(std::max<Eigen::Index>(8, 2 * size_), std::max<Eigen::Index>(8, 2 * size_));
     l_.row(size_).head(size_) = row.transpose();
     l_(size_, size_) = std::sqrt(rest);
     ++size_;

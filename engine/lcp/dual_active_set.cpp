@@ -21,10 +21,10 @@
 namespace impinge {
 namespace {
 
-constexpr double kProximal = 1e-10;      // of the proximal term, over W's diagonal
+constexpr double kProximal = 1e-10;  // of the proximal term, over W's diagonal
 constexpr int kMostCenters = 6;
-constexpr double kCenterGain = 0.3;        // what a centre has to leave of the residual of the last
-constexpr double kViolated = 0.01;     // of the tolerance
+constexpr double kCenterGain = 0.3;  // what a centre has to leave of the residual of the last
+constexpr double kViolated = 0.01;   // of the tolerance
 constexpr std::size_t kMostActiveRows = 3000;
 
 /// Entries of W between scalar rows 3 i + k.
@@ -51,7 +51,8 @@ class NormalEntries {
       column[k] = 0.0;
       for (const BodySpace::Side& other : bodies_->sides[rows_[others[k]] / 3])
         for (int s = 0; s < 2; ++s)
-          if (other.body >= 0 && other.body == sides[s].body) column[k] += other.row[rows_[others[k]] % 3].dot(moves[s]);
+          if (other.body >= 0 && other.body == sides[s].body)
+            column[k] += other.row[rows_[others[k]] % 3].dot(moves[s]);
     }
     return column;
   }
@@ -66,7 +67,12 @@ class NormalEntries {
 class ActiveSet {
  public:
   ActiveSet(const ConeProblem& problem, const LcpSettings& settings, std::vector<Vec3>& lambda)
-      : problem_(problem), settings_(settings), lambda_(lambda), u_(lambda.size()), rows_(moving_rows(problem)), entries_(*problem.w, rows_) {
+      : problem_(problem),
+        settings_(settings),
+        lambda_(lambda),
+        u_(lambda.size()),
+        rows_(moving_rows(problem)),
+        entries_(*problem.w, rows_) {
     for (const int row : rows_) {
       diagonal_.push_back(problem.w->diagonal(row / 3)(row % 3, row % 3));
       is_free_.push_back(problem.kind_of(row / 3) != RowKind::contact);
@@ -113,7 +119,8 @@ class ActiveSet {
   }
 
   void write() {
-    for (std::size_t r = 0; r < rows_.size(); ++r) lambda_[rows_[r] / 3][rows_[r] % 3] = is_free_[r] != 0 ? x_[r] : std::max(0.0, x_[r]);
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      lambda_[rows_[r] / 3][rows_[r] % 3] = is_free_[r] != 0 ? x_[r] : std::max(0.0, x_[r]);
   }
 
   double weight(int r) const { return kProximal * diagonal_[r]; }
@@ -187,7 +194,8 @@ class ActiveSet {
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
       if (is_in[r] != 0) continue;
       const double u = u_[rows_[r] / 3][rows_[r] % 3] + linear_[r] - problem_.q[rows_[r] / 3][rows_[r] % 3];
-      if (u < -violated_ && u < most * std::sqrt(diagonal_[r])) most = u / std::sqrt(diagonal_[r]), worst = r, violation_ = u;
+      if (u < -violated_ && u < most * std::sqrt(diagonal_[r]))
+        most = u / std::sqrt(diagonal_[r]), worst = r, violation_ = u;
     }
     return worst;
   }
@@ -202,7 +210,8 @@ class ActiveSet {
       double length = -u / rest;
       int leaves = -1;
       for (std::size_t k = 0; k < active_.size(); ++k)
-        if (is_free_[active_[k]] == 0 && r[k] > 0.0 && x_[active_[k]] < length * r[k]) length = std::max(0.0, x_[active_[k]]) / r[k], leaves = static_cast<int>(k);
+        if (is_free_[active_[k]] == 0 && r[k] > 0.0 && x_[active_[k]] < length * r[k])
+          length = std::max(0.0, x_[active_[k]]) / r[k], leaves = static_cast<int>(k);
       for (std::size_t k = 0; k < active_.size(); ++k) x_[active_[k]] -= length * r[k];
       x_[p] += length;
       u += length * rest;
@@ -250,7 +259,8 @@ class DualActiveSet : public LcpSolver {
 }  // namespace
 
 Entry<LcpSolver> dual_active_set_solver() {
-  return entry<LcpSolver, DualActiveSet>("dual_active_set", "Goldfarb and Idnani's method, exact: contacts without friction");
+  return entry<LcpSolver, DualActiveSet>("dual_active_set",
+                                         "Goldfarb and Idnani's method, exact: contacts without friction");
 }
 
 }  // namespace impinge

@@ -1,6 +1,6 @@
 #include "engine/response/packed_contacts.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +14,7 @@ namespace {
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr int kPairsPerTask = 192;
 constexpr int kRowsPerTask = 64;
+constexpr double kNoHold = 1e-9;   // of W: what rows of a joint hold together no better than this they don't hold
 constexpr int kMostStrikes = 200;  // sweeps over a pair's contacts that bounce
 // turns below the root of this add to gaps in the second order, which is rounding to what they are known to
 constexpr double kNoTurn = 1e-10;
@@ -116,7 +117,7 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactRows& row = group.contacts[i];
     if (row.kind != RowKind::contact) {
-      add_joint(group, i, share);
+      add_to_joint(group, i, share);
       continue;
     }
     const BodyPlaces now{row.a.rigid, row.b.rigid};
@@ -126,6 +127,7 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
     ++pairs.back().count;
     if (!row.surface.isZero(0.0)) pairs.back().is_driven = true;
   }
+  for (Joint& joint : joints_) close(joint);
   PairColours colours = colour_pairs(places, static_cast<int>(bodies_.size()));
   colours_ = std::move(colours.begin);
   last_is_rest_ = colours.last_is_rest;
@@ -172,24 +174,39 @@ void PackedContacts::fill(const GroupSystem& group, std::size_t place, double sh
   if (!surface_.empty()) surface_[place] = triple(d.transpose() * row.surface);
 }
 
-void PackedContacts::add_joint(const GroupSystem& group, std::size_t row, double share) {
+void PackedContacts::add_to_joint(const GroupSystem& group, std::size_t row, double share) {
   const ContactRows& of = group.contacts[row];
-  Joint joint;
-  joint.a = of.a.rigid, joint.b = of.b.rigid, joint.row = static_cast<int>(row);
-  joint.kind = of.kind;
-  joint.directions = of.directions;
-  joint.arm_a = of.a.arm, joint.arm_b = of.b.arm;
-  joint.surface = of.surface;
-  joint.surface.x() -= of.bound;
-  const Mat3 w = mobility(group, of);
-  joint.inverse.setZero();
-  if (of.kind == RowKind::sliding)
-    joint.inverse(0, 0) = w(0, 0) > 0.0 ? 1.0 / w(0, 0) : 0.0;
-  else
-    joint.inverse = w.inverse();
-  joint.impulse = share * group.lambda[row];
-  joints_.push_back(joint);
-  joint_sum_.push_back(Vec3::Zero());
+  auto joint = std::find_if(joints_.begin(), joints_.end(),
+                            [&](const Joint& known) { return known.a == of.a.rigid && known.b == of.b.rigid; });
+  if (joint == joints_.end()) joint = joints_.insert(joint, Joint{of.a.rigid, of.b.rigid});
+  if (of.kind == RowKind::attachment) joint->holds_points = true;
+  const auto before = joint->impulse.size();
+  const int count = of.kind == RowKind::sliding ? 1 : 3;
+  joint->impulse.conservativeResize(before + count);
+  for (int k = 0; k < count; ++k) {
+    const Vec3 d = of.directions.row(k);
+    joint->rows.push_back({static_cast<int>(row), k, triple(d), triple(of.a.arm.cross(d)), triple(of.b.arm.cross(d)),
+                           of.surface[k] - (k == 0 ? of.bound : 0.0)});
+    joint->impulse[before + k] = share * group.lambda[row][k];
+  }
+}
+
+/// W of its rows, inverted where it can be: two points hold a body in five ways, not in six.
+void PackedContacts::close(Joint& joint) {
+  const auto count = static_cast<Eigen::Index>(joint.rows.size());
+  const Sides sides(bodies_, joint.a, joint.b);
+  MatX w(count, count);
+  for (Eigen::Index r = 0; r < count; ++r)
+    for (Eigen::Index c = 0; c < count; ++c) {
+      const JointRow &of = joint.rows[r], &other = joint.rows[c];
+      w(r, c) = (sides.a.inverse_mass + sides.b.inverse_mass) * dot(of.direction, other.direction) +
+                dot(of.moment_a, times(sides.a.inverse_inertia, other.moment_a)) +
+                dot(of.moment_b, times(sides.b.inverse_inertia, other.moment_b));
+    }
+  Eigen::CompleteOrthogonalDecomposition<MatX> factors(w);
+  factors.setThreshold(kNoHold);
+  joint.inverse = factors.pseudoInverse();
+  joint.sum = VecX::Zero(count);
 }
 
 int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most) {
@@ -312,19 +329,26 @@ void PackedContacts::give(const Pair& pair) {
   }
 }
 
-void PackedContacts::give(const Joint& joint, const Vec3& impulse) {
+void PackedContacts::give(const Joint& joint, const VecX& impulse) {
   Sides sides(bodies_, joint.a, joint.b);
-  sides.push(triple(joint.arm_a), triple(joint.arm_b), triple(joint.directions.transpose() * impulse));
-}
-
-Vec3 PackedContacts::velocity(const Joint& joint) {
-  return joint.directions *
-             vector(Sides(bodies_, joint.a, joint.b).velocity(triple(joint.arm_a), triple(joint.arm_b))) +
-         joint.surface;
+  for (Eigen::Index r = 0; r < impulse.size(); ++r) {
+    const JointRow& row = joint.rows[r];
+    add(sides.a.velocity, sides.a.inverse_mass * impulse[r], row.direction);
+    add(sides.a.angular_velocity, impulse[r], times(sides.a.inverse_inertia, row.moment_a));
+    add(sides.b.velocity, -sides.b.inverse_mass * impulse[r], row.direction);
+    add(sides.b.angular_velocity, -impulse[r], times(sides.b.inverse_inertia, row.moment_b));
+  }
 }
 
 void PackedContacts::relax(Joint& joint) {
-  const Vec3 change = -(joint.inverse * velocity(joint));
+  const Sides sides(bodies_, joint.a, joint.b);
+  VecX u(joint.impulse.size());
+  for (Eigen::Index r = 0; r < u.size(); ++r) {
+    const JointRow& row = joint.rows[r];
+    u[r] = dot(row.direction, difference(sides.a.velocity, sides.b.velocity)) +
+           dot(row.moment_a, sides.a.angular_velocity) - dot(row.moment_b, sides.b.angular_velocity) + row.surface;
+  }
+  const VecX change = -(joint.inverse * u);
   joint.impulse += change;
   give(joint, change);
 }
@@ -403,7 +427,7 @@ void PackedContacts::close_step() {
     sum_n_[i] += contacts_[i].impulse;
     add(sum_t_[i], 1.0, contacts_[i].tangent);
   }
-  for (std::size_t i = 0; i < joints_.size(); ++i) joint_sum_[i] += joints_[i].impulse;
+  for (Joint& joint : joints_) joint.sum += joint.impulse;
 }
 
 std::vector<char> PackedContacts::only_pinned() const {
@@ -413,7 +437,7 @@ std::vector<char> PackedContacts::only_pinned() const {
       if (body >= 0) bodies[static_cast<std::size_t>(body)] = value;
   };
   for (const Joint& joint : joints_)
-    if (joint.kind == RowKind::attachment) mark(joint.a, joint.b, 1);
+    if (joint.holds_points) mark(joint.a, joint.b, 1);
   for (const Pair& pair : pairs_) mark(pair.a, pair.b, 0);
   return bodies;
 }
@@ -424,12 +448,17 @@ void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, doub
     return Vec3(normal, d.row(1).dot(vector(tangent)), d.row(2).dot(vector(tangent)));
   };
   for (std::size_t i = 0; i < contacts_.size(); ++i) group.lambda[rows_[i]] = along_rows(i, sum_n_[i], sum_t_[i]);
-  for (std::size_t i = 0; i < joints_.size(); ++i) group.lambda[joints_[i].row] = joint_sum_[i];
+  const auto to_rows = [&](const Joint& joint, const VecX& impulse, std::vector<Vec3>& of_rows) {
+    for (const JointRow& row : joint.rows) of_rows[row.row].setZero();
+    for (std::size_t r = 0; r < joint.rows.size(); ++r)
+      of_rows[joint.rows[r].row][joint.rows[r].k] = impulse[static_cast<Eigen::Index>(r)];
+  };
+  for (const Joint& joint : joints_) to_rows(joint, joint.sum, group.lambda);
   if (moved_for > 0.0) {
     group.next_start.resize(group.lambda.size());
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       group.next_start[rows_[i]] = steps_ * along_rows(i, contacts_[i].impulse, contacts_[i].tangent);
-    for (const Joint& joint : joints_) group.next_start[joint.row] = steps_ * joint.impulse;
+    for (const Joint& joint : joints_) to_rows(joint, steps_ * joint.impulse, group.next_start);
     group.position_velocity.resize(bodies_.size());
     group.position_angular_velocity.resize(bodies_.size());
   }

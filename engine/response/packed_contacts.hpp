@@ -82,19 +82,27 @@ class PackedContacts {
     int contact;
     double wanted, given;
   };
-  /// Attachments and sliding points: hard.
+  /// All attachments and sliding points of the same two bodies, hard: those of a hinge, whose points are close to each other,
+  /// a few sweeps could not bring together one by one.
+  struct JointRow {
+    int row, k;  // in the group, and which of its three
+    Triple direction, moment_a, moment_b;
+    double surface;  // m/s, without what is asked for
+  };
   struct Joint {
-    int a, b, row;  // in the group
-    RowKind kind;
-    Mat3 directions, inverse;
-    Vec3 arm_a, arm_b, surface, impulse;
+    int a, b;
+    bool holds_points = false;
+    std::vector<JointRow> rows = {};
+    MatX inverse = {};
+    VecX impulse = {}, sum = {};  // by row: of this solver step, of all
   };
   /// The two bodies of a pair as a sweep changes them; one that doesn't move stands in for none.
   struct Sides;
 
   void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out,
             const Threshold& restitution_threshold);
-  void add_joint(const GroupSystem& group, std::size_t row, double share);
+  void add_to_joint(const GroupSystem& group, std::size_t row, double share);
+  void close(Joint& joint);
   void strike(const Pair& pair, std::vector<Strike>& strikes, double slow);
   /// Of A's point from B's.
   Triple slip(const Pair& pair, int contact, const Sides& sides) const;
@@ -102,8 +110,7 @@ class PackedContacts {
   double gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const;
   void relax(Joint& joint);
   void give(const Pair& pair);
-  void give(const Joint& joint, const Vec3& impulse);
-  Vec3 velocity(const Joint& joint);
+  void give(const Joint& joint, const VecX& impulse);
   template <class Work>
   void for_each_pair(const Work& work);
   static Triple triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -120,7 +127,6 @@ class PackedContacts {
   std::vector<double> sum_n_;      // of each: impulses of all solver steps
   std::vector<Triple> sum_t_;
   std::vector<Joint> joints_;
-  std::vector<Vec3> joint_sum_;
   int steps_ = 0;  // closed
 };
 
