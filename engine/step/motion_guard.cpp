@@ -29,6 +29,7 @@ constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of 
 constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
 constexpr double kWithin = 5.0;    // of what paths are straight to: half the activation distance, which contacts see
 constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
+constexpr double kSink = 0.1;      // the same where they may end as deep as safe: as much again leads through in four
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
@@ -282,9 +283,10 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
     const double seen = seen_of(bodies, pairs[i]);
     if (depth == Depth::safe)
       own.depth = pairs[i].safe;
-    else if (depth == Depth::rough && !deforms(of_a) && !deforms(of_b))
+    else if (depth == Depth::rough && !deforms(of_a) && !deforms(of_b)) {
       own.depth = std::max(own.depth, pairs[i].safe);
-    else if (deforms(of_a) || deforms(of_b))
+      own.creep = kSink * own.depth;
+    } else if (deforms(of_a) || deforms(of_b))
       own.depth = pairs[i].a != pairs[i].b ? std::max(own.depth, kShallow * seen) : own.depth;
     else {
       own.depth = std::max(own.depth, (depth == Depth::least ? kLeast : kShallow) * seen);

@@ -153,6 +153,17 @@ void append_overlap_contacts(const ProximityQuery& query, std::vector<Collision>
         closest_features(query.a.corners(pair.triangle_a), query.b.corners(pair.triangle_b)).squared_distance;
     (features > query.touch * query.touch ? found : touching).emplace_back(separation.contact(), pair);
   }
+  // What only touches (a corner exactly on a corner) pushes nothing out, however deep they cross beside it.
+  const auto is_deep = [&](const Collision& c) { return c.gap < -query.touch; };
+  if (found.empty() && std::none_of(contacts.begin(), contacts.end(), is_deep))
+    for (const TrianglePair& pair : query.triangles) {
+      poll();
+      if (!pair.intersecting ||
+          features_within(query.a.corners(pair.triangle_a), query.b.corners(pair.triangle_b), query.touch))
+        continue;
+      const Separation separation(query, pair);
+      if (separation.is_found() && is_deep(separation.contact())) found.emplace_back(separation.contact(), pair);
+    }
   // triangles that meet in a border only (bodies flush with each other) tell little about the way out: the last resort
   if (found.empty() && !is_any_pushed) found = std::move(touching);
   if (found.empty()) return;

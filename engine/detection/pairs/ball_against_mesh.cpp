@@ -23,7 +23,10 @@ struct Nearest {
 class BallTest {
  public:
   BallTest(ContactSink& sink, const SurfaceView& mesh, const Ball& ball)
-      : sink_(sink), mesh_(mesh), ball_(ball), touch_(1e-9 * (sink.second().mean_edge + ball.radius)) {}
+      : sink_(sink),
+        mesh_(mesh),
+        ball_(ball),
+        touch_(1e-9 * (sink.second().mean_edge + ball.radius) + 1e-14 * largest_coordinate(sink.second().bounds)) {}
 
   bool run() {
     search();
@@ -32,8 +35,7 @@ class BallTest {
     const bool is_behind = (ball_.center - nearest_.point).dot(mesh_.normal(nearest_.feature)) < 0.0;
     if (is_behind && (distance <= touch_ || mesh_.winds_round(ball_.center))) {
       // all around a point inside are local minima; only the nearest is the way out
-      add(nearest_,
-          distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : mesh_.normal(nearest_.feature));
+      add(nearest_, distance > touch_ ? Vec3((nearest_.point - ball_.center).normalized()) : touching(nearest_));
       return true;
     }
     // faces before edges before vertices: a centre right above an edge belongs to the face
@@ -84,9 +86,29 @@ class BallTest {
     return std::all_of(star_.begin(), star_.end(), [&](const Vec3& e) { return r.dot(e) <= slack; });
   }
 
-  Vec3 outward(const Nearest& n) const {
+  /// The way out for a centre on the surface: such that the rest of its body needn't go farther, if there is one.
+  Vec3 touching(const Nearest& n) {
+    const Vec3 normal = mesh_.normal(n.feature);
+    if (normal.dot(ball_.rest) >= 0.0) return normal;
+    // of a place on a corner or an edge rounding may have made one in a face
+    SurfaceFeature feature = n.feature;
+    const auto is_at = [&](const Vec3& x) { return (x - ball_.center).norm() <= touch_; };
+    for (int k = 0; k < 3 && feature.kind == Feature::face; ++k) {
+      const MeshTopology::Edge& e = mesh_.edge(mesh_.triangle_edges(n.triangle)[k]);
+      if (is_at(closest_on_segment(ball_.center, mesh_.vertex(e.v0), mesh_.vertex(e.v1)).point))
+        feature = {Feature::edge, mesh_.triangle_edges(n.triangle)[k]};
+    }
+    for (const int v : mesh_.triangle(n.triangle))
+      if (is_at(mesh_.vertex(v))) feature = {Feature::vertex, v};
+    mesh_.star(feature, star_);
+    const std::optional<Vec3> across = way_across(ball_.rest, star_);
+    return across && across->dot(mesh_.normal(feature)) > 0.0 ? *across : normal;
+  }
+
+  Vec3 outward(const Nearest& n) {
     const double distance = std::sqrt(n.distance_sq);
-    if (n.feature.kind == Feature::face || distance <= touch_) return mesh_.normal(n.feature);
+    if (distance <= touch_) return touching(n);
+    if (n.feature.kind == Feature::face) return mesh_.normal(n.feature);
     return (ball_.center - n.point).normalized();
   }
 
@@ -146,6 +168,27 @@ class BallTest {
 };
 
 }  // namespace
+
+std::optional<Vec3> way_across(const Vec3& axis, std::span<const Vec3> star) {
+  constexpr double kRounding = 1e-9, kFall = 1e-5;  // of directions
+  const Vec3 u = axis.unitOrthogonal(), v = axis.normalized().cross(u);
+  std::vector<double> angles;
+  for (const Vec3& e : star) {
+    const double x = e.dot(u), y = e.dot(v);
+    if (std::hypot(x, y) > kRounding) angles.push_back(std::atan2(y, x));
+  }
+  if (angles.empty()) return std::nullopt;
+  std::sort(angles.begin(), angles.end());
+  double widest = -1.0, middle = 0.0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const double next = i + 1 < angles.size() ? angles[i + 1] : angles[0] + 2.0 * M_PI, width = next - angles[i];
+    if (width > widest) widest = width, middle = 0.5 * (angles[i] + next);
+  }
+  if (widest < M_PI - 2.0 * kRounding) return std::nullopt;
+  const Vec3 way = std::cos(middle) * u + std::sin(middle) * v;
+  const auto falls = [&](const Vec3& e) { return e.dot(way) < -kFall; };
+  return std::any_of(star.begin(), star.end(), falls) ? std::optional(way) : std::nullopt;
+}
 
 bool add_ball_contacts(ContactSink& sink, const SurfaceView& mesh, const Ball& ball) {
   return BallTest(sink, mesh, ball).run();

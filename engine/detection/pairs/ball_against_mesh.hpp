@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "engine/detection/contacts/surface_view.hpp"
 #include "engine/detection/pairs/contact_sink.hpp"
@@ -14,7 +15,12 @@ struct Ball {
   double radius = 0.0;
   Feature kind = Feature::shape;
   int index = 0;
+  Vec3 rest = Vec3::Zero();  ///< from the centre to where the rest of its body is; zero: nowhere
 };
+
+/// The middle one of the directions at right angles to an axis from which no surface is seen that leaves a point along
+/// `star`, unit; none if there is none, and if the surface is flat there.
+std::optional<Vec3> way_across(const Vec3& axis, std::span<const Vec3> star);
 
 /// Adds the contacts of a ball with the mesh that is the sink's second shape. A centre outside gives one contact for
 /// each local minimum of its distance to the surface (a ball on a tessellated plane has one, wherever it rolls); a

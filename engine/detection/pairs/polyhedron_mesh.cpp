@@ -7,6 +7,7 @@
 #include "engine/detection/pairs/ball_against_mesh.hpp"
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/detection/pairs/triangles_near.hpp"
+#include "engine/detection/pairs/way_apart.hpp"
 #include "engine/detection/triangles/tree_pairs.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 
@@ -194,6 +195,41 @@ bool has_neighbours(const Collider& mesh, const OrientedBox& frame, double margi
   return !in_frame(triangles_near(mesh, around.box), SurfaceView(mesh, 1), frame, around).empty();
 }
 
+/// A closed mesh that lies in the polyhedron as a whole: out where its middle is nearest to the outside. Returns whether it does.
+bool add_swallowed(ContactSink& sink, const PolyhedronView& solid) {
+  const Collider& mesh = sink.second();
+  const SolidFrame& own = solid.touching.frame;
+  const double touch = 1e-9 * (mesh.mean_edge + solid.frame.half.sum());
+  const Aabb outer = sink.first().bounds.inflated(touch), &inner = mesh.bounds;
+  if (!(outer.min.array() <= inner.min.array()).all() || !(inner.max.array() <= outer.max.array()).all()) return false;
+  if (!mesh.mesh().topology.is_closed()) return false;
+  const auto is_in = [&](const Vec3& x) { return own.distance(own.pose.apply_inverse(x)) <= touch; };
+  for (const Triangle& t : mesh.mesh().mesh.triangles)
+    if (!is_in(mesh.vertices[static_cast<std::size_t>(t[0])])) return false;
+  const Vec3 local = solid.touching.outward(own.pose.apply_inverse(inner.center())), out = own.pose.rotation * local;
+  int last = mesh.mesh().mesh.triangles.front()[0];
+  for (const Triangle& t : mesh.mesh().mesh.triangles)
+    for (const int v : t)
+      if (out.dot(mesh.vertices[static_cast<std::size_t>(v)]) < out.dot(mesh.vertices[static_cast<std::size_t>(last)]))
+        last = v;
+  Candidate c;
+  c.normal = -out;
+  c.point_second = mesh.vertices[static_cast<std::size_t>(last)];
+  c.point_first = c.point_second + (own.height(local) - out.dot(c.point_second - own.pose.position)) * out;
+  c.kind_second = Feature::vertex;
+  c.index_second = last;
+  c.triangle_second = SurfaceView(mesh, 1).triangle_of({Feature::vertex, last});
+  return sink.add(c);
+}
+
+/// How far it reaches from its frame's centre against a direction, metres.
+auto reach_of(const PolyhedronView& solid) {
+  return [&solid](const Vec3& n) {
+    const SolidFrame& own = solid.touching.frame;
+    return own.height(own.pose.rotation.transpose() * -n) + n.dot(solid.frame.center - own.pose.position);
+  };
+}
+
 }  // namespace
 
 bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<double(const Vec3&)>& reach_against) {
@@ -210,6 +246,38 @@ bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<dou
   return true;
 }
 
+namespace {
+
+/// Where the surfaces cross, and no contact tells of an overlap: what touches, but doesn't part the two, says nothing of what
+/// crosses there, as a corner exactly on a corner.
+void add_way_apart(ContactSink& sink, const PolyhedronView& solid, double own_edge,
+                   const std::vector<Collision>& found) {
+  const Collider& mesh = sink.second();
+  // in the mesh as a whole, but for a corner that touches its surface from within
+  const auto reach_against = reach_of(solid);
+  if (may_be_inside(mesh, sink.first()) && add_enclosed(sink, solid.frame.center, reach_against)) return;
+  const double touch = kTouching * std::min(own_edge, mesh.mean_edge);
+  const SurfaceView view(mesh, 1);
+  const auto rises = [&](const Collision& f, int t) {
+    const TriangleCorners c = view.corners(t);
+    return std::any_of(c.begin(), c.end(), [&](const Vec3& x) { return f.normal.dot(x - f.point_b) > touch; });
+  };
+  const auto is_below = [&](const Collision& f) {
+    if (f.gap > touch) return false;
+    if (reach_against(f.normal) > f.normal.dot(solid.frame.center - f.point_a) + touch) return true;
+    const FeaturePair on = features_of_key(f.feature);
+    if (on.kind_b != Feature::vertex) return rises(f, f.triangle_b);
+    const std::span<const int> round = view.triangles_round(on.index_b);
+    return std::any_of(round.begin(), round.end(), [&](int t) { return rises(f, t); });
+  };
+  if (std::none_of(found.begin(), found.end(), is_below)) return;
+  const PlacedConvex placed{solid.touching.frame.set, solid.touching.frame.pose};
+  if (const auto way = way_apart(view, placed, sink.first().bounds, triangles_near(mesh, sink.first().bounds), touch))
+    sink.add_new(*way);
+}
+
+}  // namespace
+
 void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const Collider& mesh = sink.second();
   const ContactQuery& query = sink.query();
@@ -217,14 +285,11 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const double most = std::max(2.0 * solid.frame.half.maxCoeff(), mesh.mean_edge);
   const double wide = query.activation + std::min(sink.reach(), most);
   BodyPair pair{BodyIndex(0), BodyIndex(1), query.activation + std::min(closing_reach(sink), most)};
-  const auto reach_against = [&](const Vec3& n) {
-    const SolidFrame& own = solid.touching.frame;
-    return own.height(own.pose.rotation.transpose() * -n) + n.dot(solid.frame.center - own.pose.position);
-  };
+  const auto reach_against = reach_of(solid);
   const std::vector<int> near = triangles_round_frame(sink, solid, pair.margin);
   if (near.empty()) {
-    if (may_be_inside(mesh, sink.first()) || !has_neighbours(mesh, solid.frame, wide))
-      add_enclosed(sink, solid.frame.center, reach_against);
+    const bool may_enclose = may_be_inside(mesh, sink.first()) || !has_neighbours(mesh, solid.frame, wide);
+    if (!may_enclose || !add_enclosed(sink, solid.frame.center, reach_against)) add_swallowed(sink, solid);
     return;
   }
 
@@ -264,16 +329,21 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   // A vertex of the mesh that lies below a side but beside the polyhedron is not in it: the crossing of edges there
   // tells the depth, and only if there is nothing else does the shallowest such vertex stand for the overlap.
   std::optional<Candidate> beside;
-  bool overlaps = false;
+  const double touch = 1e-9 * (mesh.mean_edge + solid.frame.half.sum());
+  bool overlaps = false, tells = false;  // by how much is rounding, or not
   for (const Collision& f : found) {
     Candidate c = candidate_of(f);
     if (c.kind_first == Feature::face && f.normal_owner == 0 && solid.place_on_face(c) && f.gap < 0.0) {
       if (!beside || f.gap > beside->normal.dot(beside->point_first - beside->point_second)) beside = c;
       continue;
     }
-    overlaps = (sink.add_new(c) && f.gap < 0.0) || overlaps;
+    if (!sink.add_new(c)) continue;
+    overlaps = f.gap < 0.0 || overlaps;
+    tells = f.gap < -touch || tells;
   }
   if (beside && !overlaps) sink.add_new(*beside);
+  tells = tells || (beside && !overlaps && gap_of(*beside) < -touch);
+  if (!tells && !add_swallowed(sink, solid) && any_crosses(triangles)) add_way_apart(sink, solid, own.mean_edge, found);
 }
 
 }  // namespace impinge

@@ -12,6 +12,7 @@
 #include "engine/detection/pairs/polyhedron_mesh.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
 #include "engine/detection/pairs/touched_triangles.hpp"
+#include "engine/detection/pairs/way_apart.hpp"
 #include "engine/geometry/convex/convex_point.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
@@ -75,7 +76,8 @@ class CurvedTest {
     add_edges();
     add_corners();
     look_ahead();
-    if (found_.empty()) leave();
+    const auto is_within = [&](const Candidate& c) { return gap_of(c) <= sink_.reach(); };
+    if ((std::none_of(found_.begin(), found_.end(), is_within) || only_touches()) && !leave()) part();
     for (const Candidate& c : found_) sink_.add_new(c);
   }
 
@@ -299,8 +301,21 @@ class CurvedTest {
     }
   }
 
-  void leave() {
-    add_enclosed(sink_, center(), [&](const Vec3& n) { return (farthest(-n) - center()).dot(-n); });
+  /// What touches doesn't part the two: a corner exactly on a corner, from where the way out is anyone's.
+  bool only_touches() const {
+    const auto overlaps = [&](const Candidate& c) { return gap_of(c) < -touch_; };
+    const auto is_below = [&](const Candidate& c) {
+      return gap_of(c) <= touch_ && c.normal.dot(c.point_first - farthest(-c.normal)) > touch_;
+    };
+    return std::none_of(found_.begin(), found_.end(), overlaps) && std::any_of(found_.begin(), found_.end(), is_below);
+  }
+
+  bool leave() {
+    return add_enclosed(sink_, center(), [&](const Vec3& n) { return (farthest(-n) - center()).dot(-n); });
+  }
+
+  void part() {
+    if (const std::optional<Candidate> way = way_apart(mesh_, solid_, bounds_, all_triangles(), touch_)) keep(*way);
   }
 
   ContactSink& sink_;
