@@ -105,7 +105,8 @@ position = [{}, {}, {}]
       REQUIRE(ran.code == 0);
       CHECK(ran.out.find("nothing passed, nothing overlaps") != std::string::npos);
       const double volume = M_PI * (4.0 / 3.0 * 0.125 + 0.0625 * 0.5 + 4.0 / 3.0 * 0.015625) + 1.0;
-      const double height = last_of(folder.path() / out / "stats.csv", "potential_J") / (1000.0 * volume * size * size * size * gravity);
+      const double weight = 1000.0 * volume * size * size * size * gravity,
+                   height = last_of(folder.path() / out / "stats.csv", "potential_J") / weight;
       CHECK(std::abs(height - 0.5 * size - 0.5 * thickness) < 1e-4 * size);
     }
 }
