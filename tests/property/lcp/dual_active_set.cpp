@@ -11,7 +11,7 @@ using namespace impinge::test;
 
 namespace {
 
-struct Bodies {
+struct Linkage {
   MatX jacobian;  // 3 rows a contact
   VecX mass, free;
   DenseDelassus w;
@@ -19,7 +19,7 @@ struct Bodies {
 };
 
 /// `contacts` between bodies of unlike masses (over `decades`), each row on two of them; one of `equations` holds a point.
-Bodies make_bodies(Random& random, int bodies, int contacts, double decades, int equations) {
+Linkage make_linkage(Random& random, int bodies, int contacts, double decades, int equations) {
   MatX j = MatX::Zero(3 * contacts, 6 * bodies);
   VecX mass(6 * bodies), free(6 * bodies);
   for (int b = 0; b < bodies; ++b) mass.segment<6>(6 * b).setConstant(std::pow(10.0, random.in(0.0, decades)));
@@ -34,7 +34,7 @@ Bodies make_bodies(Random& random, int bodies, int contacts, double decades, int
     if (i % 3 == 2) j.row(3 * i) = j.row(3 * i - 3);  // the same again
   }
   const MatX w = j * mass.cwiseInverse().asDiagonal() * j.transpose();
-  Bodies made{j, mass, free, DenseDelassus(0.5 * (w + w.transpose())), {}};
+  Linkage made{j, mass, free, DenseDelassus(0.5 * (w + w.transpose())), {}};
   const VecX closing = j * free;
   for (int i = 0; i < contacts; ++i) {
     made.problem.q.push_back(closing.segment<3>(3 * i));
@@ -46,15 +46,15 @@ Bodies make_bodies(Random& random, int bodies, int contacts, double decades, int
   return made;
 }
 
-VecX velocities_of(const Bodies& bodies, const std::vector<Vec3>& lambda) {
-  VecX all(bodies.jacobian.rows());
+VecX velocities_of(const Linkage& linkage, const std::vector<Vec3>& lambda) {
+  VecX all(linkage.jacobian.rows());
   for (std::size_t i = 0; i < lambda.size(); ++i) all.segment<3>(3 * static_cast<Eigen::Index>(i)) = lambda[i];
-  return bodies.free + bodies.mass.cwiseInverse().asDiagonal() * (bodies.jacobian.transpose() * all);
+  return linkage.free + linkage.mass.cwiseInverse().asDiagonal() * (linkage.jacobian.transpose() * all);
 }
 
-LcpResult solve(const char* name, const Bodies& bodies, std::vector<Vec3>& lambda) {
-  ConeProblem problem = bodies.problem;
-  DenseDelassus w = bodies.w;
+LcpResult solve_by(const char* name, const Linkage& linkage, std::vector<Vec3>& lambda) {
+  ConeProblem problem = linkage.problem;
+  DenseDelassus w = linkage.w;
   problem.w = &w;
   const LcpResult result = find_entry(lcp_solvers(), name)->make()->solve(problem, {1e-9, 20000}, lambda);
   if (result.reason == StopReason::converged) CHECK(judge(problem, lambda).map.relative <= 1e-9);
@@ -68,19 +68,19 @@ TEST_CASE("contacts without friction that are redundant are answered exactly, al
   int answered = 0, by_both = 0, most = 0;
   for (int i = 0; i < 300; ++i) {
     const int bodies = 1 + random.below(12), contacts = 1 + random.below(8 * bodies);
-    const Bodies made = make_bodies(random, bodies, contacts, random.in(0.0, 4.0), std::min(bodies, contacts / 4));
+    const Linkage made = make_linkage(random, bodies, contacts, random.in(0.0, 4.0), std::min(bodies, contacts / 4));
     std::vector<Vec3> lambda(contacts, Vec3::Zero()), other = lambda;
     if (i % 2 == 0)
       for (Vec3& of_contact : lambda) of_contact.x() = std::max(0.0, random.sym());  // from anywhere
     CAPTURE(i, bodies, contacts);
-    const LcpResult result = solve("dual_active_set", made, lambda);
+    const LcpResult result = solve_by("dual_active_set", made, lambda);
     if (result.reason != StopReason::converged) continue;  // more asked for than bodies can do: looked at below
     ++answered;
     most = std::max(most, result.iterations);
     CHECK(result.iterations <= 20 * (contacts + 1));
     // the answer is the velocity that is nearest to the free one of those that are allowed: none on the way to it is
     const VecX v = velocities_of(made, lambda);
-    if (solve("semismooth_newton", made, other).reason != StopReason::converged) continue;
+    if (solve_by("semismooth_newton", made, other).reason != StopReason::converged) continue;
     ++by_both;
     const VecX apart = v - velocities_of(made, other);
     CHECK(apart.cwiseAbs().maxCoeff() < 1e-5);
