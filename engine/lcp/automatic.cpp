@@ -68,6 +68,7 @@ constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method, wh
 constexpr double kSweepsOfBodies = 20.0;     // and where all bodies are rigid
 constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
 constexpr std::size_t kMostActive = 1500;    // contacts
+constexpr int kLeftByPivots = 4;             // the part of the iterations that is left for Newton
 constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
 constexpr std::size_t kMany = 500;    // with which its steps are dear
 constexpr std::size_t kSome = 300;    // with which a few digits come sooner by alternating directions
@@ -134,7 +135,8 @@ class Automatic : public LcpSolver {
       if (bodies) {
         LcpResult result{sweep, StopReason::stagnated};
         if (is_frictionless(problem) && n <= kMostActive) {
-          result = go_on(kActiveSet, problem, settings, sweep, lambda);
+          result = go_on(kActiveSet, problem, settings, sweep, lambda,
+                         settings.max_iterations - settings.max_iterations / kLeftByPivots - sweep);
           if (has_ended(result, settings)) return result;
         }
         return solve_bodies(problem, settings, is_cold, result.iterations, lambda);

@@ -139,6 +139,7 @@ class ActiveSet {
     for (const bool free : {true, false})
       for (int r = 0; r < n; ++r)
         if ((is_free_[r] != 0) == free && (free || lambda_[rows_[r] / 3][rows_[r] % 3] > 0.0)) join(r);
+    spend();  // all of these at once
     while (!balance()) {
       if (iterations_ >= settings_.max_iterations) return false;
     }
@@ -157,7 +158,6 @@ class ActiveSet {
   void add(int r, const VecX& row) {
     factor_.add(row, std::max(weight(r), diagonal_[r] + weight(r) - row.squaredNorm()));
     active_.push_back(r);
-    spend();
   }
   void drop(std::size_t place) {
     x_[active_[place]] = 0.0;
@@ -217,6 +217,7 @@ class ActiveSet {
       u += length * rest;
       if (leaves < 0) {
         add(p, row);
+        spend();
         return true;
       }
       drop(leaves);
