@@ -15,8 +15,9 @@
 // tried where that is less than Newton's price, and left where their rate doesn't keep it.
 //
 // Rigid bodies without friction are a quadratic program, which the dual active set answers exactly in some pivots more than
-// contacts carry (2,217 frozen groups of 78 to 187 contacts in a chain of links: 0.4 ms each, where Newton took 26). With more
-// contacts than kMostActive a pivot, in the square of those that carry, costs what Newton's steps do.
+// contacts carry (2,217 frozen groups of 78 to 187 contacts in a chain of links: 0.4 ms each, where Newton took 26). Pivots
+// are counted kPivotsOfIteration together: with as many of them as others have iterations a roller chain of a hundred links
+// had solves without an answer.
 //
 // With friction rigid bodies in many contacts first come to kEnough. A λ that comes from the step before is brought there by alternating
 // directions (ADMM), whose iterations cost a thirtieth of Newton's steps in a heap of a thousand boxes; where they creep,
@@ -67,8 +68,9 @@ constexpr std::size_t kMostDense = 1500, kMostFactored = 300;
 constexpr double kSweepsPerContact = 2.0;    // the price of Newton's method, where W has factors
 constexpr double kSweepsOfBodies = 20.0;     // and where all bodies are rigid
 constexpr double kSweepsOfConjugate = 50.0;  // what conjugate sweeps cost beside what they save
-constexpr std::size_t kMostActive = 1500;    // contacts
-constexpr int kLeftByPivots = 4;             // the part of the iterations that is left for Newton
+constexpr std::size_t kMostActive = 3000;    // contacts
+constexpr int kPivotsOfContact = 20;         // at most
+constexpr int kPivotsOfIteration = 50;       // which cost about as much as a step of Newton's
 constexpr std::size_t kLarge = 1500;  // contacts of rigid bodies with which Newton finds no answer that is far off
 constexpr std::size_t kMany = 500;    // with which its steps are dear
 constexpr std::size_t kSome = 300;    // with which a few digits come sooner by alternating directions
@@ -135,8 +137,7 @@ class Automatic : public LcpSolver {
       if (bodies) {
         LcpResult result{sweep, StopReason::stagnated};
         if (is_frictionless(problem) && n <= kMostActive) {
-          result = go_on(kActiveSet, problem, settings, sweep, lambda,
-                         settings.max_iterations - settings.max_iterations / kLeftByPivots - sweep);
+          result = pivot(problem, settings, sweep, lambda);
           if (has_ended(result, settings)) return result;
         }
         return solve_bodies(problem, settings, is_cold, result.iterations, lambda);
@@ -159,6 +160,23 @@ class Automatic : public LcpSolver {
     for (std::size_t i = 0; i < problem.q.size(); ++i)
       if (problem.kind_of(i) == RowKind::contact && problem.mu[i] != 0.0) return false;
     return true;
+  }
+
+  /// By the active set. Pivots are far cheaper than what iterations are counted for: so many are one of them.
+  static LcpResult pivot(const ConeProblem& problem, const LcpSettings& settings, int spent,
+                         std::vector<Vec3>& lambda) {
+    LcpSettings of_pivots = settings;
+    of_pivots.history = nullptr;
+    of_pivots.max_iterations = kPivotsOfContact * static_cast<int>(lambda.size());
+    const LcpResult result = go_on(kActiveSet, problem, of_pivots, 0, lambda);
+    const int count = std::min(1 + result.iterations / kPivotsOfIteration, settings.max_iterations - spent);
+    if (settings.history != nullptr)
+      settings.history->insert(settings.history->end(), count, relative_of(problem, settings, lambda));
+    return {spent + count, result.solved() ? StopReason::converged : StopReason::stagnated};
+  }
+  static double relative_of(const ConeProblem& problem, const LcpSettings& settings, const std::vector<Vec3>& lambda) {
+    const Residual residual = judge(problem, lambda);
+    return settings.measure == Measure::siconos ? residual.siconos : residual.map.relative;
   }
 
   /// One of Newton's steps in sweeps, where W is dense: a factorization goes by the cube of the contacts that carry, or of
