@@ -38,6 +38,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/conjugate_sweeps.hpp"
@@ -122,7 +123,8 @@ class Automatic : public LcpSolver {
     const double steps = stop.residual() < kGood && !is_cold ? kStepsFromNear : kSteps;
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
-    const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
+    const bool may_pivot = bodies && n <= kMostActive && is_frictionless(problem);
+    const std::vector<Vec3> start = (dense && newton) || may_pivot ? lambda : std::vector<Vec3>();
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       const double change = gauss_seidel_sweep(problem, lambda);
       if (stop.solved(lambda, change)) return {sweep, StopReason::converged};
@@ -136,9 +138,11 @@ class Automatic : public LcpSolver {
       if (left <= std::min({price, by_conjugate, static_cast<double>(settings.max_iterations - sweep)})) continue;
       if (bodies) {
         LcpResult result{sweep, StopReason::stagnated};
-        if (is_frictionless(problem) && n <= kMostActive) {
+        if (may_pivot) {
+          std::vector<Vec3> swept = std::exchange(lambda, start);
           result = pivot(problem, settings, sweep, lambda);
           if (has_ended(result, settings)) return result;
+          lambda = std::move(swept);
         }
         return solve_bodies(problem, settings, is_cold, result.iterations, lambda);
       }

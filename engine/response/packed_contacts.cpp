@@ -1,6 +1,5 @@
 #include "engine/response/packed_contacts.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -14,38 +13,10 @@ namespace {
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr int kPairsPerTask = 192;
 constexpr int kRowsPerTask = 64;
-constexpr double kNoHold = 1e-9;   // of W: what rows of a joint hold together no better than this they don't hold
 constexpr int kMostStrikes = 200;  // sweeps over a pair's contacts that bounce
 // turns below the root of this add to gaps in the second order, which is rounding to what they are known to
 constexpr double kNoTurn = 1e-10;
 
-template <class T>
-inline double dot(const T& a, const T& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-template <class T>
-inline T cross(const T& a, const T& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <class T>
-inline T sum(const T& a, const T& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class T>
-inline T difference(const T& a, const T& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-/// Adds s b to a.
-template <class T>
-inline void add(T& a, double s, const T& b) {
-  a.x += s * b.x, a.y += s * b.y, a.z += s * b.z;
-}
-/// A symmetric matrix times v.
-template <class T>
-inline T times(const double* m, const T& v) {
-  return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
-          m[2] * v.x + m[4] * v.y + m[5] * v.z};
-}
 /// How far an arm r that turned by t has come along n in the second order, n·(t × (t × r))/2, without what `skin` of it along
 /// n would do: that of a ball or rod is as thick wherever it is turned.
 template <class T>
@@ -73,28 +44,6 @@ SoftLaw soft_law(double hertz, double ratio, double h) {
   const double a1 = 2.0 * ratio + h * omega, a2 = h * omega * a1, a3 = 1.0 / (1.0 + a2);
   return {omega / a1, a2 * a3, a3};
 }
-
-struct PackedContacts::Sides {
-  Sides(std::vector<Body>& bodies, int a, int b) : a(a < 0 ? still_ : bodies[a]), b(b < 0 ? still_ : bodies[b]) {}
-
-  /// Of the two points of arms from the centres, A against B.
-  Triple velocity(const Triple& arm_a, const Triple& arm_b) const {
-    return difference(sum(a.velocity, cross(a.angular_velocity, arm_a)),
-                      sum(b.velocity, cross(b.angular_velocity, arm_b)));
-  }
-  void push(const Triple& arm_a, const Triple& arm_b, const Triple& impulse) {
-    add(a.velocity, a.inverse_mass, impulse);
-    add(a.angular_velocity, 1.0, times(a.inverse_inertia, cross(arm_a, impulse)));
-    add(b.velocity, -b.inverse_mass, impulse);
-    add(b.angular_velocity, -1.0, times(b.inverse_inertia, cross(arm_b, impulse)));
-  }
-
- private:
-  Body still_;
-
- public:
-  Body &a, &b;
-};
 
 PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share,
                                const Threshold& max_push_out, const Threshold& restitution_threshold) {
@@ -174,41 +123,6 @@ void PackedContacts::fill(const GroupSystem& group, std::size_t place, double sh
   if (!surface_.empty()) surface_[place] = triple(d.transpose() * row.surface);
 }
 
-void PackedContacts::add_to_joint(const GroupSystem& group, std::size_t row, double share) {
-  const ContactRows& of = group.contacts[row];
-  auto joint = std::find_if(joints_.begin(), joints_.end(),
-                            [&](const Joint& known) { return known.a == of.a.rigid && known.b == of.b.rigid; });
-  if (joint == joints_.end()) joint = joints_.insert(joint, Joint{of.a.rigid, of.b.rigid});
-  if (of.kind == RowKind::attachment) joint->holds_points = true;
-  const auto before = joint->impulse.size();
-  const int count = of.kind == RowKind::sliding ? 1 : 3;
-  joint->impulse.conservativeResize(before + count);
-  for (int k = 0; k < count; ++k) {
-    const Vec3 d = of.directions.row(k);
-    joint->rows.push_back({static_cast<int>(row), k, triple(d), triple(of.a.arm.cross(d)), triple(of.b.arm.cross(d)),
-                           of.surface[k] - (k == 0 ? of.bound : 0.0)});
-    joint->impulse[before + k] = share * group.lambda[row][k];
-  }
-}
-
-/// W of its rows, inverted where it can be: two points hold a body in five ways, not in six.
-void PackedContacts::close(Joint& joint) {
-  const auto count = static_cast<Eigen::Index>(joint.rows.size());
-  const Sides sides(bodies_, joint.a, joint.b);
-  MatX w(count, count);
-  for (Eigen::Index r = 0; r < count; ++r)
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const JointRow &of = joint.rows[r], &other = joint.rows[c];
-      w(r, c) = (sides.a.inverse_mass + sides.b.inverse_mass) * dot(of.direction, other.direction) +
-                dot(of.moment_a, times(sides.a.inverse_inertia, other.moment_a)) +
-                dot(of.moment_b, times(sides.b.inverse_inertia, other.moment_b));
-    }
-  Eigen::CompleteOrthogonalDecomposition<MatX> factors(w);
-  factors.setThreshold(kNoHold);
-  joint.inverse = factors.pseudoInverse();
-  joint.sum = VecX::Zero(count);
-}
-
 int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most) {
   double fastest = 0.0;
   std::vector<const Pair*> bounce;
@@ -252,9 +166,10 @@ int PackedContacts::collide(const GroupSystem& group, const Vec3& velocity_chang
 }
 
 /// The contacts of a pair that close get together what returns -e of each one's approach: one after the other those of a
-/// face would turn it away from what the last ones had to return.
+/// face would turn it away from what the last ones had to return. With friction that may win energy: less of all of it then.
 void PackedContacts::strike(const Pair& pair, std::vector<Strike>& strikes, double slow) {
   Sides sides(bodies_, pair.a, pair.b);
+  for (Strike& at : strikes) at.before = slip(pair, at.contact, sides);
   for (int sweep = 0; sweep < kMostStrikes; ++sweep) {
     double largest = 0.0;
     for (Strike& at : strikes) {
@@ -265,6 +180,7 @@ void PackedContacts::strike(const Pair& pair, std::vector<Strike>& strikes, doub
       Triple impulse;
       add(impulse, more, c.normal);
       sides.push(c.arm_a, c.arm_b, impulse);
+      add(at.impulse, 1.0, impulse);
       sum_n_[at.contact] += more;
       largest = std::max(largest, std::abs(more) / c.inverse_n);
       c.impulse = 0.0, c.tangent = Triple();  // that of a resting state says nothing about an impact
@@ -278,10 +194,24 @@ void PackedContacts::strike(const Pair& pair, std::vector<Strike>& strikes, doub
       add(clamped, size > limit ? limit / size : 1.0, tangent);
       const Triple across = difference(clamped, sum_t_[at.contact]);
       sides.push(c.arm_a, c.arm_b, across);
+      add(at.impulse, 1.0, across);
       sum_t_[at.contact] = clamped;
       largest = std::max(largest, std::sqrt(dot(across, across)) / c.inverse_t);
     }
-    if (largest <= slow || strikes.size() == 1) return;
+    if (largest <= slow || strikes.size() == 1) break;
+  }
+  double came = 0.0, left = 0.0;
+  for (const Strike& at : strikes)
+    came += dot(at.impulse, at.before), left += dot(at.impulse, slip(pair, at.contact, sides));
+  if (came + left <= 0.0 || came >= 0.0) return;
+  const double less = -2.0 * came / (left - came) - 1.0;
+  for (const Strike& at : strikes) {
+    const Contact& c = contacts_[at.contact];
+    Triple back, across = at.impulse;
+    add(back, less, at.impulse), add(across, -at.given, c.normal);
+    sides.push(c.arm_a, c.arm_b, back);
+    sum_n_[at.contact] += less * at.given;
+    add(sum_t_[at.contact], less, across);
   }
 }
 
@@ -327,30 +257,6 @@ void PackedContacts::give(const Pair& pair) {
     add(impulse, c.impulse, c.normal);
     sides.push(c.arm_a, c.arm_b, impulse);
   }
-}
-
-void PackedContacts::give(const Joint& joint, const VecX& impulse) {
-  Sides sides(bodies_, joint.a, joint.b);
-  for (Eigen::Index r = 0; r < impulse.size(); ++r) {
-    const JointRow& row = joint.rows[r];
-    add(sides.a.velocity, sides.a.inverse_mass * impulse[r], row.direction);
-    add(sides.a.angular_velocity, impulse[r], times(sides.a.inverse_inertia, row.moment_a));
-    add(sides.b.velocity, -sides.b.inverse_mass * impulse[r], row.direction);
-    add(sides.b.angular_velocity, -impulse[r], times(sides.b.inverse_inertia, row.moment_b));
-  }
-}
-
-void PackedContacts::relax(Joint& joint) {
-  const Sides sides(bodies_, joint.a, joint.b);
-  VecX u(joint.impulse.size());
-  for (Eigen::Index r = 0; r < u.size(); ++r) {
-    const JointRow& row = joint.rows[r];
-    u[r] = dot(row.direction, difference(sides.a.velocity, sides.b.velocity)) +
-           dot(row.moment_a, sides.a.angular_velocity) - dot(row.moment_b, sides.b.angular_velocity) + row.surface;
-  }
-  const VecX change = -(joint.inverse * u);
-  joint.impulse += change;
-  give(joint, change);
 }
 
 void PackedContacts::sweep(const SweepLaw& law) {

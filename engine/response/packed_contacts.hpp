@@ -55,6 +55,19 @@ class PackedContacts {
   /// Three numbers: what compilers keep in registers, where a matrix library's vectors go through calls.
   struct Triple {
     double x = 0.0, y = 0.0, z = 0.0;
+    friend double dot(const Triple& a, const Triple& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    friend Triple cross(const Triple& a, const Triple& b) {
+      return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    friend Triple sum(const Triple& a, const Triple& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Triple difference(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    /// Adds s b to a.
+    friend void add(Triple& a, double s, const Triple& b) { a.x += s * b.x, a.y += s * b.y, a.z += s * b.z; }
+    /// A symmetric matrix times v.
+    friend Triple times(const double* m, const Triple& v) {
+      return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
+              m[2] * v.x + m[4] * v.y + m[5] * v.z};
+    }
   };
   struct Body {
     Triple velocity, angular_velocity;
@@ -81,6 +94,7 @@ class PackedContacts {
   struct Strike {
     int contact;
     double wanted, given;
+    Triple before = {}, impulse = {};  // how fast its points slipped, all that it was given
   };
   /// All attachments and sliding points of the same two bodies, hard: those of a hinge, whose points are close to each other,
   /// a few sweeps could not bring together one by one.
@@ -128,6 +142,28 @@ class PackedContacts {
   std::vector<Triple> sum_t_;
   std::vector<Joint> joints_;
   int steps_ = 0;  // closed
+};
+
+struct PackedContacts::Sides {
+  Sides(std::vector<Body>& bodies, int a, int b) : a(a < 0 ? still_ : bodies[a]), b(b < 0 ? still_ : bodies[b]) {}
+
+  /// Of the two points of arms from the centres, A against B.
+  Triple velocity(const Triple& arm_a, const Triple& arm_b) const {
+    return difference(sum(a.velocity, cross(a.angular_velocity, arm_a)),
+                      sum(b.velocity, cross(b.angular_velocity, arm_b)));
+  }
+  void push(const Triple& arm_a, const Triple& arm_b, const Triple& impulse) {
+    add(a.velocity, a.inverse_mass, impulse);
+    add(a.angular_velocity, 1.0, times(a.inverse_inertia, cross(arm_a, impulse)));
+    add(b.velocity, -b.inverse_mass, impulse);
+    add(b.angular_velocity, -1.0, times(b.inverse_inertia, cross(arm_b, impulse)));
+  }
+
+ private:
+  Body still_;
+
+ public:
+  Body &a, &b;
 };
 
 }  // namespace impinge

@@ -134,12 +134,17 @@ class SequentialImpulse : public Response {
   }
 
   /// The contacts of a pair that close get together what returns -e of each one's approach: one after the other those of a
-  /// face would turn it away from what the last ones had to return.
+  /// face would turn it away from what the last ones had to return. With friction that may win energy: less of all of it
+  /// then.
   static void strike(GroupSystem& group, DelassusByContact& w, const std::vector<std::size_t>& closing,
                      const std::vector<double>& approach, double slow) {
+    const auto velocity = [&](std::size_t i) { return Vec3(w.velocity(i) + approach[i] * Vec3::UnitX()); };
     std::vector<double> wanted, given(closing.size(), 0.0);  // m/s; N·s
-    for (const std::size_t i : closing)
-      wanted.push_back(-group.contacts[i].restitution * (w.velocity(i).x() + approach[i]));
+    std::vector<Vec3> before, start;
+    for (const std::size_t i : closing) {
+      before.push_back(velocity(i)), start.push_back(group.lambda[i]);
+      wanted.push_back(-group.contacts[i].restitution * before.back().x());
+    }
     for (int sweep = 0; sweep < kMostStrikes; ++sweep) {
       double largest = 0.0;
       for (std::size_t k = 0; k < closing.size(); ++k) {
@@ -157,8 +162,16 @@ class SequentialImpulse : public Response {
         w.change(i, change);
         largest = std::max(largest, (w.diagonal(i) * change).norm());
       }
-      if (largest <= slow || closing.size() == 1) return;
+      if (largest <= slow || closing.size() == 1) break;
     }
+    double came = 0.0, left = 0.0;
+    for (std::size_t k = 0; k < closing.size(); ++k) {
+      const Vec3 impulse = group.lambda[closing[k]] - start[k];
+      came += impulse.dot(before[k]), left += impulse.dot(velocity(closing[k]));
+    }
+    if (came + left <= 0.0 || came >= 0.0) return;
+    const double less = -2.0 * came / (left - came) - 1.0;
+    for (std::size_t k = 0; k < closing.size(); ++k) w.change(closing[k], less * (group.lambda[closing[k]] - start[k]));
   }
 
   static constexpr int kMostStrikes = 200;  // sweeps over a pair's contacts

@@ -52,16 +52,23 @@ ContactCache impulses_of(std::span<const GroupResult> results) {
   return cache;
 }
 
-void EarlierPieces::take(std::span<const GroupResult> results) {
-  for (const GroupResult& result : results) {
+void EarlierPieces::close(const Bodies& bodies, bool is_last) {
+  if (!is_last)
+    take();
+  else if (!parts_.empty())
+    give(bodies);
+}
+
+void EarlierPieces::take() {
+  for (const GroupResult& result : step_.results) {
     for (const auto& [key, impulse] : result.impulses) parts_[key].impulse += impulse;
     for (const SolvedContact& c : result.solved) parts_[key_of(c.collision)].contact = c;
   }
 }
 
-void EarlierPieces::give(const Bodies& bodies, SubStep& step) const {
+void EarlierPieces::give(const Bodies& bodies) const {
   std::set<ContactKey> here;
-  for (GroupResult& result : step.results) {
+  for (GroupResult& result : step_.results) {
     std::set<ContactKey> solved;
     for (auto& [key, impulse] : result.impulses)
       if (const auto part = parts_.find(key); part != parts_.end() && here.insert(key).second)
@@ -72,13 +79,13 @@ void EarlierPieces::give(const Bodies& bodies, SubStep& step) const {
   }
   for (const auto& [key, part] : parts_) {
     if (!part.contact || part.impulse.isZero(0.0) || here.contains(key)) continue;
-    if (SolvedContact* nearest = nearest_of_pair(bodies, *part.contact, step.results)) {
+    if (SolvedContact* nearest = nearest_of_pair(bodies, *part.contact, step_.results)) {
       add_to(*nearest, part.impulse);
       continue;
     }
-    SolvedContact& parted = step.parted.emplace_back(*part.contact);
+    SolvedContact& parted = step_.parted.emplace_back(*part.contact);
     parted.lambda = contact_axes(parted.collision.normal) * part.impulse;
-    parted.group = step.group_of(key.body_a).is_none() ? step.group_of(key.body_b) : step.group_of(key.body_a);
+    parted.group = step_.group_of(key.body_a).is_none() ? step_.group_of(key.body_b) : step_.group_of(key.body_a);
   }
 }
 

@@ -17,16 +17,19 @@ ContactCache impulses_of(std::span<const GroupResult> results);
 /// What contacts and attachments gave in the pieces of a sub-step before its last, so that what is shown is of all of it.
 class EarlierPieces {
  public:
-  void take(std::span<const GroupResult> results);
-  /// To the results of the last piece: to the same contact, else to the nearest of its pair. Of a pair that has none any
-  /// more those that carried come into step.parted.
-  void give(const Bodies& bodies, SubStep& step) const;
+  explicit EarlierPieces(SubStep& step) : step_(step) { step.parted.clear(); }
+  /// A piece is solved. What those before the last gave comes to its results: to the same contact, else to the nearest of
+  /// its pair. Of a pair that has none any more those that carried come into step.parted.
+  void close(const Bodies& bodies, bool is_last);
 
  private:
+  void take();
+  void give(const Bodies& bodies) const;
   struct Part {
     Vec3 impulse = Vec3::Zero();           // on A, world axes, N·s
     std::optional<SolvedContact> contact;  // where it acted last; none: an attachment's
   };
+  SubStep& step_;
   std::map<ContactKey, Part> parts_;
 };
 

@@ -281,6 +281,11 @@ class PieceStart {
   std::vector<std::size_t> begin_;  // by active body
 };
 
+UnsafeBody::Cause why_let_go(Continuous which, bool is_kept) {
+  if (is_kept) return UnsafeBody::cut_limit;
+  return which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
+}
+
 /// Nobody stays where motions are not undone, and no start is known.
 void let_stay(const std::optional<PieceStart>& start, Bodies& bodies, const std::set<BodyIndex>& which,
               MotionGuard& guard) {
@@ -308,7 +313,6 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   const int substep = parameters.simulation.substeps - left + 1;
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
-  const auto why_let_go = which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
   const PassagesOf passages = passages_within(activation_by(parameters.contact), is_kept);
   const OverlapsOf overlaps = is_kept && !is_rough ? overlaps_by(bodies_, parameters) : OverlapsOf();
@@ -321,8 +325,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   double rest = 1.0, next = 1.0;  // of the sub-step: what is left, and what the next piece tries
   Asking asking;
   std::set<BodyIndex> stay;  // for the rest of it
-  EarlierPieces earlier;
-  sub_step_->parted.clear();
+  EarlierPieces earlier(*sub_step_);
   for (int piece = 1; rest > 0.0; ++piece) {
     std::optional<PieceStart> start;
     {
@@ -367,7 +370,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
             note_unsafe(held, substep, UnsafeBody::held_back);
             unsafe = look_back();
           });
-        if (unsafe) note_unsafe(*unsafe, substep, is_kept ? UnsafeBody::cut_limit : why_let_go);
+        if (unsafe) note_unsafe(*unsafe, substep, why_let_go(which, is_kept));
         break;
       }
       if (tears)
@@ -380,10 +383,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     rest = share == rest ? 0.0 : rest - share;
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);
-    if (rest > 0.0)
-      earlier.take(sub_step_->results);
-    else if (piece > 1)
-      earlier.give(bodies_, *sub_step_);
+    earlier.close(bodies_, rest == 0.0);
   }
   stats_.merged_impacts += cuts.wants_more ? 1 : 0;
   tell_finished(substep);

@@ -134,6 +134,8 @@ TEST_CASE("every LCP solver: honest at the cap, at ease with nothing and with re
     Random random(23);
     RandomProblem hard(random, 30, 40, 1e-6, 0.5);
     if (!solver->applies(hard.problem).empty()) hard.problem.law = FrictionLaw::pyramid;
+    if (!solver->applies(hard.problem).empty()) hard.problem.mu.assign(30, 0.0);
+    REQUIRE(solver->applies(hard.problem).empty());
     std::vector<Vec3> lambda(30, Vec3::Zero());
     CHECK(solver->solve(hard.problem, {1e-14, 2}, lambda).reason == StopReason::iteration_cap);
 
