@@ -38,7 +38,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "engine/lcp/alternating_directions.hpp"
 #include "engine/lcp/conjugate_sweeps.hpp"
@@ -123,8 +122,7 @@ class Automatic : public LcpSolver {
     const double steps = stop.residual() < kGood && !is_cold ? kStepsFromNear : kSteps;
     const double goal = settings.tolerance * velocity_scale(problem);
     std::vector<double> changes;
-    const bool may_pivot = bodies && n <= kMostActive && is_frictionless(problem);
-    const std::vector<Vec3> start = (dense && newton) || may_pivot ? lambda : std::vector<Vec3>();
+    const std::vector<Vec3> start = dense && newton ? lambda : std::vector<Vec3>();
     for (int sweep = 1; sweep <= settings.max_iterations; ++sweep) {
       const double change = gauss_seidel_sweep(problem, lambda);
       if (stop.solved(lambda, change)) return {sweep, StopReason::converged};
@@ -138,11 +136,9 @@ class Automatic : public LcpSolver {
       if (left <= std::min({price, by_conjugate, static_cast<double>(settings.max_iterations - sweep)})) continue;
       if (bodies) {
         LcpResult result{sweep, StopReason::stagnated};
-        if (may_pivot) {
-          std::vector<Vec3> swept = std::exchange(lambda, start);
+        if (is_frictionless(problem) && n <= kMostActive) {
           result = pivot(problem, settings, sweep, lambda);
           if (has_ended(result, settings)) return result;
-          lambda = std::move(swept);
         }
         return solve_bodies(problem, settings, is_cold, result.iterations, lambda);
       }
@@ -160,9 +156,10 @@ class Automatic : public LcpSolver {
   }
 
  private:
+  /// Contacts alone: beside equations Newton's digits are better where loads hang on light links.
   static bool is_frictionless(const ConeProblem& problem) {
     for (std::size_t i = 0; i < problem.q.size(); ++i)
-      if (problem.kind_of(i) == RowKind::contact && problem.mu[i] != 0.0) return false;
+      if (problem.kind_of(i) != RowKind::contact || problem.mu[i] != 0.0) return false;
     return true;
   }
 

@@ -84,17 +84,27 @@ class ActiveSet {
     double residual = look();
     if (residual <= settings_.tolerance) return {0, StopReason::converged};
     violated_ = kViolated * settings_.tolerance * velocity_scale(problem_);
+    std::vector<Vec3> answer;  // of the first step that is within the tolerance; the next one betters it
     for (int center = 0; center < kMostCenters; ++center) {
       const std::vector<Vec3> before = lambda_;
       const bool is_found = minimise();
       if (is_found) write();
       const double now = look();
-      if (now <= settings_.tolerance) return {iterations_, StopReason::converged};
-      if (!(now < residual)) lambda_ = before, look();
-      if (iterations_ >= settings_.max_iterations) return {iterations_, StopReason::iteration_cap};
-      if (!is_found || !(now < kCenterGain * residual)) break;
+      const bool is_within = now <= settings_.tolerance, is_spent = iterations_ >= settings_.max_iterations;
+      if (is_within && (is_spent || !answer.empty())) return {iterations_, StopReason::converged};
+      if (is_within)
+        answer = lambda_;
+      else if (answer.empty() && !(now < residual))
+        lambda_ = before, look();
+      if (is_spent) break;
+      if (answer.empty() && (!is_found || !(now < kCenterGain * residual))) break;
       residual = now;
     }
+    if (!answer.empty()) {
+      lambda_ = answer, look();
+      return {iterations_, StopReason::converged};
+    }
+    if (iterations_ >= settings_.max_iterations) return {iterations_, StopReason::iteration_cap};
     return {iterations_, StopReason::stagnated};
   }
 
