@@ -2,9 +2,9 @@
 // what active-set methods solve with in every step [GoldfarbIdnani83].
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Jacobi>
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/types.hpp"
 

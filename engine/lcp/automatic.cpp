@@ -171,13 +171,12 @@ class Automatic : public LcpSolver {
     of_pivots.max_iterations = kPivotsOfContact * static_cast<int>(lambda.size());
     const LcpResult result = go_on(kActiveSet, problem, of_pivots, 0, lambda);
     const int count = std::min(1 + result.iterations / kPivotsOfIteration, settings.max_iterations - spent);
-    if (settings.history != nullptr)
-      settings.history->insert(settings.history->end(), count, relative_of(problem, settings, lambda));
+    if (settings.history != nullptr) {
+      const Residual residual = judge(problem, lambda);
+      const double relative = settings.measure == Measure::siconos ? residual.siconos : residual.map.relative;
+      settings.history->insert(settings.history->end(), static_cast<std::size_t>(count), relative);
+    }
     return {spent + count, result.solved() ? StopReason::converged : StopReason::stagnated};
-  }
-  static double relative_of(const ConeProblem& problem, const LcpSettings& settings, const std::vector<Vec3>& lambda) {
-    const Residual residual = judge(problem, lambda);
-    return settings.measure == Measure::siconos ? residual.siconos : residual.map.relative;
   }
 
   /// One of Newton's steps in sweeps, where W is dense: a factorization goes by the cube of the contacts that carry, or of

@@ -1,13 +1,12 @@
-// Contacts without friction, exactly: the dual active-set method of [GoldfarbIdnani83]. Velocities are sought that change least,
-// in the measure of the masses, and part nothing that closes; one contact that is violated most is taken in at a time, and
-// those that would have to pull leave. What is done falls always in the same direction, so no set comes back: a chain of
-// links whose hundred contacts Newton's method tries in hundreds of steps takes some pivots more than contacts carry, each
-// in the square of those.
+// Contacts without friction, exactly: the dual active-set method of [GoldfarbIdnani83]. Of the velocities with which nothing
+// closes further those are sought that are nearest to the free ones, in the measure of the masses: the contact that is violated
+// most is taken into the set of those that carry, and those that would have to pull leave it. No set comes back, since what
+// is sought only grows: a chain of links whose hundred contacts Newton's method tries in hundreds of steps takes some pivots
+// more than contacts carry, each in the square of those.
 //
 // Redundant contacts make W singular, and forces arbitrary: among those that answer it the ones nearest to what came are
-// taken, by steps of a proximal point method with a weight that is next to nothing. The second step is there to take out
-// what the weight of the first did and what rounding did, and changes the set seldom.
-#include <Eigen/LU>
+// taken, by steps of a proximal point method with a weight that is next to nothing. The second step takes out what the
+// weight of the first did, and rounding; it goes on with the same set, which it changes seldom.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,9 +21,9 @@ namespace impinge {
 namespace {
 
 constexpr double kProximal = 1e-10;  // of the proximal term, over W's diagonal
-constexpr int kMostCenters = 6;
-constexpr double kCenterGain = 0.3;  // what a centre has to leave of the residual of the last
-constexpr double kViolated = 0.01;   // of the tolerance
+constexpr int kMostSteps = 6;
+constexpr double kStepGain = 0.3;   // what a step has to leave of the residual of the last
+constexpr double kViolated = 0.01;  // of the tolerance
 constexpr std::size_t kMostActiveRows = 3000;
 
 /// Entries of W between scalar rows 3 i + k.
@@ -84,28 +83,19 @@ class ActiveSet {
     double residual = look();
     if (residual <= settings_.tolerance) return {0, StopReason::converged};
     violated_ = kViolated * settings_.tolerance * velocity_scale(problem_);
-    std::vector<Vec3> answer;  // of the first step that is within the tolerance; the next one betters it
-    for (int center = 0; center < kMostCenters; ++center) {
-      const std::vector<Vec3> before = lambda_;
-      const bool is_found = minimise();
-      if (is_found) write();
-      const double now = look();
-      const bool is_within = now <= settings_.tolerance, is_spent = iterations_ >= settings_.max_iterations;
-      if (is_within && (is_spent || !answer.empty())) return {iterations_, StopReason::converged};
-      if (is_within)
-        answer = lambda_;
-      else if (answer.empty() && !(now < residual))
-        lambda_ = before, look();
-      if (is_spent) break;
-      if (answer.empty() && (!is_found || !(now < kCenterGain * residual))) break;
-      residual = now;
+    gather();
+    std::vector<Vec3> best = lambda_;
+    for (int step = 0; step < kMostSteps && minimise(); ++step) {
+      write();
+      const double now = look(), before = residual;
+      const bool is_within = now <= settings_.tolerance;
+      if (is_within || now < residual) best = lambda_, residual = now;
+      if (step > 0 && (is_within || !(now < kStepGain * before))) break;
     }
-    if (!answer.empty()) {
-      lambda_ = answer, look();
-      return {iterations_, StopReason::converged};
-    }
-    if (iterations_ >= settings_.max_iterations) return {iterations_, StopReason::iteration_cap};
-    return {iterations_, StopReason::stagnated};
+    lambda_ = std::move(best);
+    residual = look();
+    if (residual <= settings_.tolerance) return {iterations_, StopReason::converged};
+    return {iterations_, is_spent() ? StopReason::iteration_cap : StopReason::stagnated};
   }
 
  private:
@@ -123,6 +113,7 @@ class ActiveSet {
     if (settings_.history != nullptr) settings_.history->back() = residual;
     return residual;
   }
+  bool is_spent() const { return iterations_ >= settings_.max_iterations; }
   void spend() {
     ++iterations_;
     if (settings_.history != nullptr) settings_.history->push_back(settings_.history->back());
@@ -135,24 +126,26 @@ class ActiveSet {
 
   double weight(int r) const { return kProximal * diagonal_[r]; }
 
-  /// ½ xᵀ W x + qᵀ x + ½ Σ weight (x - λ)² with x >= 0 where it isn't free, from the set that λ carries by. Whether the
-  /// end was reached.
-  bool minimise() {
+  double lambda(int r) const { return lambda_[rows_[r] / 3][rows_[r] % 3]; }
+  double q(int r) const { return problem_.q[rows_[r] / 3][rows_[r] % 3]; }
+
+  /// The set that λ carries by, equations first.
+  void gather() {
     const auto n = static_cast<int>(rows_.size());
-    factor_ = {}, active_.clear();
-    x_ = VecX::Zero(n);
-    linear_.resize(n);
-    for (int r = 0; r < n; ++r) {
-      const double of_lambda = lambda_[rows_[r] / 3][rows_[r] % 3];
-      linear_[r] = problem_.q[rows_[r] / 3][rows_[r] % 3] - weight(r) * of_lambda;
-    }
+    x_ = VecX::Zero(n), linear_.resize(n);
     for (const bool free : {true, false})
       for (int r = 0; r < n; ++r)
-        if ((is_free_[r] != 0) == free && (free || lambda_[rows_[r] / 3][rows_[r] % 3] > 0.0)) join(r);
+        if ((is_free_[r] != 0) == free && (free || lambda(r) > 0.0))
+          add(r, factor_.forward(entries_.column(r, active_)));
     spend();  // all of these at once
-    while (!balance()) {
-      if (iterations_ >= settings_.max_iterations) return false;
-    }
+  }
+
+  /// ½ xᵀ W x + qᵀ x + ½ Σ weight (x - λ)² with x >= 0 where it isn't free, from the set that there is. Whether the end was
+  /// reached.
+  bool minimise() {
+    for (int r = 0; r < static_cast<int>(rows_.size()); ++r) linear_[r] = q(r) - weight(r) * lambda(r);
+    while (!balance())
+      if (is_spent()) return false;
     for (;;) {
       const int p = most_violated();
       if (p < 0) return true;
@@ -160,11 +153,7 @@ class ActiveSet {
     }
   }
 
-  /// Row r into the set.
-  void join(int r) {
-    const VecX row = factor_.forward(entries_.column(r, active_));
-    add(r, row);
-  }
+  /// Row r into the set; `row`: of its factor.
   void add(int r, const VecX& row) {
     factor_.add(row, std::max(weight(r), diagonal_[r] + weight(r) - row.squaredNorm()));
     active_.push_back(r);
@@ -203,7 +192,7 @@ class ActiveSet {
     double most = 0.0;
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
       if (is_in[r] != 0) continue;
-      const double u = u_[rows_[r] / 3][rows_[r] % 3] + linear_[r] - problem_.q[rows_[r] / 3][rows_[r] % 3];
+      const double u = u_[rows_[r] / 3][rows_[r] % 3] + linear_[r] - q(r);
       if (u < -violated_ && u < most * std::sqrt(diagonal_[r]))
         most = u / std::sqrt(diagonal_[r]), worst = r, violation_ = u;
     }
@@ -213,7 +202,7 @@ class ActiveSet {
   /// Row p, whose u is violation_, into the set, and out of it what would pull. False where the iterations end.
   bool take_in(int p) {
     double u = violation_;
-    while (iterations_ < settings_.max_iterations) {
+    while (!is_spent()) {
       const VecX row = factor_.forward(entries_.column(p, active_));
       const VecX r = factor_.backward(row);
       const double rest = std::max(weight(p), diagonal_[p] + weight(p) - row.squaredNorm());

@@ -6,6 +6,7 @@
 #include "engine/contact/mobility.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/response/passive_impulses.hpp"
 
 namespace impinge {
 namespace {
@@ -203,8 +204,8 @@ void PackedContacts::strike(const Pair& pair, std::vector<Strike>& strikes, doub
   double came = 0.0, left = 0.0;
   for (const Strike& at : strikes)
     came += dot(at.impulse, at.before), left += dot(at.impulse, slip(pair, at.contact, sides));
-  if (came + left <= 0.0 || came >= 0.0) return;
-  const double less = -2.0 * came / (left - came) - 1.0;
+  const double less = passive_share(came, left) - 1.0;
+  if (less == 0.0) return;
   for (const Strike& at : strikes) {
     const Contact& c = contacts_[at.contact];
     Triple back, across = at.impulse;

@@ -10,6 +10,7 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/response/operators/delassus_by_contact.hpp"
+#include "engine/response/passive_impulses.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {
@@ -169,8 +170,8 @@ class SequentialImpulse : public Response {
       const Vec3 impulse = group.lambda[closing[k]] - start[k];
       came += impulse.dot(before[k]), left += impulse.dot(velocity(closing[k]));
     }
-    if (came + left <= 0.0 || came >= 0.0) return;
-    const double less = -2.0 * came / (left - came) - 1.0;
+    const double less = passive_share(came, left) - 1.0;
+    if (less == 0.0) return;
     for (std::size_t k = 0; k < closing.size(); ++k) w.change(closing[k], less * (group.lambda[closing[k]] - start[k]));
   }
 

@@ -13,6 +13,7 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/response/operators/delassus_by_contact.hpp"
+#include "engine/response/passive_impulses.hpp"
 #include "engine/response/response.hpp"
 
 namespace impinge {
@@ -101,8 +102,8 @@ class SoftConstraint : public Response {
     for (std::size_t i = 0; i < group.contacts.size(); ++i)
       came += group.lambda[i].dot(group.contact_velocity(i, false)),
           left += group.lambda[i].dot(group.contact_velocity(i, true));
-    if (came + left <= 0.0 || came >= 0.0) return;
-    const double share = -2.0 * came / (left - came);
+    const double share = passive_share(came, left);
+    if (share == 1.0) return;
     for (Vec3& lambda : group.lambda) lambda *= share;
     for (std::size_t b = 0; b < group.rigid.size(); ++b)
       group.delta_velocity[b] *= share, group.delta_angular_velocity[b] *= share;

@@ -22,6 +22,7 @@ constexpr double kFarWorse = 10.0;   // than what a solve left: what goes in by 
 bool is_rigid(const Body& body) { return body.kind() != BodyKind::deformable; }
 bool is_of(const Collision& c, const BodyPair& pair) { return c.body_a == pair.a && c.body_b == pair.b; }
 Twist twist_of(const Collider& c) { return {c.velocity, c.angular_velocity}; }
+
 void merge_triangles(const std::vector<TrianglePair>& found, std::vector<TrianglePair>& all) {
   const auto middle = all.insert(all.end(), found.begin(), found.end());
   std::inplace_merge(all.begin(), middle, all.end());

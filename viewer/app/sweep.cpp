@@ -133,9 +133,8 @@ int sweep(SweepOptions sweep_options, const RunOptions& given, bool quiet) {
                     given.scene.string()));
   if (options.script == "-")
     throw InputError(
-        "command line: --script - with sweep, whose jobs are processes of their own and read the script each; a file "
-        "is "
-        "wanted; name one");
+        "command line: --script - with sweep, whose jobs are processes of their own and read the script each; "
+        "a file is wanted; name one");
   const fs::path out = options.out;
   options.export_ply = options.contacts = !sweep_options.reference.empty();
   options.resume = false;

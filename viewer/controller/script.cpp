@@ -1,22 +1,17 @@
 #include "viewer/controller/script.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <system_error>
 
 #include "engine/core/error.hpp"
-#include "engine/core/interrupt.hpp"
 #include "engine/core/utf8.hpp"
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
+#include "engine/io/standard_input.hpp"
 #include "viewer/controller/act_command.hpp"
 
 namespace impinge {
@@ -53,33 +48,6 @@ std::string unquoted(std::string_view word) {
   return std::string(word);
 }
 
-/// All of it, however often it is asked for.
-const std::string& standard_input() {
-  static const std::string text = [] {
-    constexpr int kPatience = 50;  // milliseconds between two looks at whether somebody wants an end
-    std::string all;
-    std::array<char, 65536> piece;
-    const auto give_up = [] {
-      throw InputError(fmt::format("-: standard input can't be read ({}); a script is wanted; name a file",
-                                   std::generic_category().message(errno)));
-    };
-    for (;;) {
-      check_interrupt();
-      pollfd input{STDIN_FILENO, POLLIN, 0};
-      const int ready = poll(&input, 1, kPatience);
-      if (ready < 0 && errno != EINTR) give_up();
-      if (ready <= 0) continue;
-      const ssize_t count = read(STDIN_FILENO, piece.data(), piece.size());
-      if (count < 0 && errno != EINTR && errno != EAGAIN) give_up();
-      if (count == 0) return all;
-      if (count > 0) all.append(piece.data(), static_cast<std::size_t>(count));
-      if (all.size() > kMostBytes)
-        throw InputError(fmt::format("-: more than {} bytes; a script is wanted; shorten it", kMostBytes));
-    }
-  }();
-  return text;
-}
-
 }  // namespace
 
 std::string_view without_comment(std::string_view line) {
@@ -97,7 +65,7 @@ std::string_view without_comment(std::string_view line) {
 }
 
 std::vector<std::string> read_lines(const std::filesystem::path& path) {
-  const std::string file = path == "-" ? standard_input() : read_file(path, kMostBytes);
+  const std::string file = path == "-" ? standard_input(kMostBytes) : read_file(path, kMostBytes);
   check_utf8(path.string(), file);
   const std::string_view text = without_byte_order_mark(file);
   std::vector<std::string> lines;

@@ -7,7 +7,7 @@ namespace impinge {
 namespace {
 
 constexpr double kFrames = 6.0;
-constexpr double kShortest = 0.5;  // pixels: the head of an arrow has a least size, which a body at rest must not have
+constexpr double kLeastWay = 0.5;  // pixels: the head of an arrow has a least size, which a body at rest must not have
 constexpr int kPictureHeight = 720;         // that view.arrow_length and others mean
 constexpr std::size_t kMostVertices = 160;  // of a deformable body
 
@@ -38,7 +38,7 @@ void draw_velocities(const LayerContext& context, DrawList& list) {
       continue;
     }
     const Vec3 way = body.velocity * time;
-    if (way.norm() > kShortest * context.camera.pixel_size_at(body.pose.position, kPictureHeight))
+    if (way.norm() > kLeastWay * context.camera.pixel_size_at(body.pose.position, kPictureHeight))
       list.arrows.push_back({body.pose.position, way, role::kVelocity, 0.0f, width, Depth::on_top, body_pick(i)});
     const double angle = body.angular_velocity.norm() * time;
     if (!(angle > 0.02)) continue;

@@ -195,11 +195,16 @@ bool has_neighbours(const Collider& mesh, const OrientedBox& frame, double margi
   return !in_frame(triangles_near(mesh, around.box), SurfaceView(mesh, 1), frame, around).empty();
 }
 
+/// What is nearer touches, metres: places are known no better.
+double touch_of(const Collider& mesh, const PolyhedronView& solid) {
+  return 1e-9 * (mesh.mean_edge + solid.frame.half.sum());
+}
+
 /// A closed mesh that lies in the polyhedron as a whole: out where its middle is nearest to the outside. Returns whether it does.
 bool add_swallowed(ContactSink& sink, const PolyhedronView& solid) {
   const Collider& mesh = sink.second();
   const SolidFrame& own = solid.touching.frame;
-  const double touch = 1e-9 * (mesh.mean_edge + solid.frame.half.sum());
+  const double touch = touch_of(mesh, solid);
   const Aabb outer = sink.first().bounds.inflated(touch), &inner = mesh.bounds;
   if (!(outer.min.array() <= inner.min.array()).all() || !(inner.max.array() <= outer.max.array()).all()) return false;
   if (!mesh.mesh().topology.is_closed()) return false;
@@ -230,24 +235,6 @@ auto reach_of(const PolyhedronView& solid) {
   };
 }
 
-}  // namespace
-
-bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<double(const Vec3&)>& reach_against) {
-  const std::optional<Collision> way = way_out(sink, SurfaceView(sink.second(), 1), center);
-  if (!way) return false;
-  Candidate c;
-  c.normal = way->normal;
-  c.point_first = center - reach_against(way->normal) * way->normal;
-  c.point_second = way->point_b;
-  c.triangle_second = way->triangle_b;
-  c.kind_second = Feature::face;
-  c.index_second = way->triangle_b;
-  sink.add(c);
-  return true;
-}
-
-namespace {
-
 /// Where the surfaces cross, and no contact tells of an overlap: what touches, but doesn't part the two, says nothing of what
 /// crosses there, as a corner exactly on a corner.
 void add_way_apart(ContactSink& sink, const PolyhedronView& solid, double own_edge,
@@ -277,6 +264,20 @@ void add_way_apart(ContactSink& sink, const PolyhedronView& solid, double own_ed
 }
 
 }  // namespace
+
+bool add_enclosed(ContactSink& sink, const Vec3& center, const std::function<double(const Vec3&)>& reach_against) {
+  const std::optional<Collision> way = way_out(sink, SurfaceView(sink.second(), 1), center);
+  if (!way) return false;
+  Candidate c;
+  c.normal = way->normal;
+  c.point_first = center - reach_against(way->normal) * way->normal;
+  c.point_second = way->point_b;
+  c.triangle_second = way->triangle_b;
+  c.kind_second = Feature::face;
+  c.index_second = way->triangle_b;
+  sink.add(c);
+  return true;
+}
 
 void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   const Collider& mesh = sink.second();
@@ -329,7 +330,7 @@ void polyhedron_against_mesh(ContactSink& sink, const PolyhedronView& solid) {
   // A vertex of the mesh that lies below a side but beside the polyhedron is not in it: the crossing of edges there
   // tells the depth, and only if there is nothing else does the shallowest such vertex stand for the overlap.
   std::optional<Candidate> beside;
-  const double touch = 1e-9 * (mesh.mean_edge + solid.frame.half.sum());
+  const double touch = touch_of(mesh, solid);
   bool overlaps = false, tells = false;  // by how much is rounding, or not
   for (const Collision& f : found) {
     Candidate c = candidate_of(f);

@@ -12,14 +12,7 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr const char* kSoft = R"([[body]]
-name = "jelly"
-kind = "deformable"
-shape = { box = { size = [0.5, 0.5, 0.5] } }
-volume = { lattice = { cells = 2 } }
-material = { young = 3e4, density = 400 }
-position = [-0.9, 0.9, 0]
-rotation = [0, 30, 0]
+const std::string kSoft = std::string(kSoftCube) + R"(rotation = [0, 30, 0]
 friction = 0.7
 fixed = [ { box = { min = [-5, 1.1, -5], max = [5, 2, 5] } } ]
 )";

@@ -73,14 +73,7 @@ TEST_CASE("a line that is typed for a deleted body says so in the console, and c
 
 TEST_CASE("an impulse far off its body is told of, in a run and by hand") {
   const TempFolder folder;
-  folder.write("s.toml", std::string(kRigid) + R"([[body]]
-name = "jelly"
-kind = "deformable"
-shape = { box = { size = [0.5, 0.5, 0.5] } }
-volume = { lattice = { cells = 2 } }
-material = { young = 3e4, density = 400 }
-position = [-0.9, 0.9, 0]
-)");
+  folder.write("s.toml", std::string(kRigid) + kSoftCube);
   struct Case {
     const char *push, *note;  // "": nothing is said
   };

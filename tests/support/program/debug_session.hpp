@@ -38,6 +38,16 @@ position = [0.1, 1.3, 0]
 backdrop = "flat"
 )";
 
+/// A soft cube that lies beside them.
+inline constexpr const char* kSoftCube = R"([[body]]
+name = "jelly"
+kind = "deformable"
+shape = { box = { size = [0.5, 0.5, 0.5] } }
+volume = { lattice = { cells = 2 } }
+material = { young = 3e4, density = 400 }
+position = [-0.9, 0.9, 0]
+)";
+
 inline constexpr const char* kSize = "960x600";
 
 inline Outcome debug(const TempFolder& folder, const std::string& scene, const std::string& script,
