@@ -6,7 +6,8 @@
 namespace impinge {
 
 std::string_view name_of(StopReason reason) {
-  constexpr std::string_view kNames[] = {"converged", "stagnated", "iteration cap", "trivial", "refused"};
+  constexpr std::string_view kNames[] = {"converged", "stagnated", "iteration cap",
+                                         "trivial",   "refused",   "contradiction"};
   return kNames[static_cast<int>(reason)];
 }
 

@@ -138,7 +138,7 @@ class Automatic : public LcpSolver {
         LcpResult result{sweep, StopReason::stagnated};
         if (is_frictionless(problem) && n <= kMostActive) {
           result = pivot(problem, settings, sweep, lambda);
-          if (has_ended(result, settings)) return result;
+          if (has_ended(result, settings) || result.reason == StopReason::contradiction) return result;
         }
         return solve_bodies(problem, settings, is_cold, result.iterations, lambda);
       }
@@ -176,7 +176,7 @@ class Automatic : public LcpSolver {
       const double relative = settings.measure == Measure::siconos ? residual.siconos : residual.map.relative;
       settings.history->insert(settings.history->end(), static_cast<std::size_t>(count), relative);
     }
-    return {spent + count, result.solved() ? StopReason::converged : StopReason::stagnated};
+    return {spent + count, result.reason == StopReason::iteration_cap ? StopReason::stagnated : result.reason};
   }
 
   /// One of Newton's steps in sweeps, where W is dense: a factorization goes by the cube of the contacts that carry, or of

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "engine/algebra/growing_cholesky.hpp"
@@ -24,6 +25,10 @@ constexpr double kProximal = 1e-10;  // of the proximal term, over W's diagonal
 constexpr int kMostSteps = 6;
 constexpr double kStepGain = 0.3;   // what a step has to leave of the residual of the last
 constexpr double kViolated = 0.01;  // of the tolerance
+constexpr double kBeyond = 1e3;  // times as fast as all that is asked for: no motion that anybody would call an answer
+constexpr double kFlat = 1e-6;   // of W's diagonal: what a row moves beside the others
+constexpr double kRounding = 4e-16;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostActiveRows = 3000;
 
 /// Entries of W between scalar rows 3 i + k.
@@ -82,19 +87,18 @@ class ActiveSet {
     if (settings_.history != nullptr) settings_.history->push_back(0.0);
     double residual = look();
     if (residual <= settings_.tolerance) return {0, StopReason::converged};
-    violated_ = kViolated * settings_.tolerance * velocity_scale(problem_);
-    gather();
+    scale_ = velocity_scale(problem_), violated_ = kViolated * settings_.tolerance * scale_;
     std::vector<Vec3> best = lambda_;
-    for (int step = 0; step < kMostSteps && minimise(); ++step) {
-      write();
-      const double now = look(), before = residual;
-      const bool is_within = now <= settings_.tolerance;
-      if (is_within || now < residual) best = lambda_, residual = now;
-      if (step > 0 && (is_within || !(now < kStepGain * before))) break;
+    improve(best, residual);
+    if (!(residual <= settings_.tolerance) && !contradicts_ &&
+        !is_spent()) {  // what it began with may have been in the way
+      std::fill(lambda_.begin(), lambda_.end(), Vec3::Zero());
+      improve(best, residual);
     }
-    lambda_ = std::move(best);
+    if (!contradicts_) lambda_ = std::move(best);
     residual = look();
     if (residual <= settings_.tolerance) return {iterations_, StopReason::converged};
+    if (contradicts_) return {iterations_, StopReason::contradiction};
     return {iterations_, is_spent() ? StopReason::iteration_cap : StopReason::stagnated};
   }
 
@@ -129,9 +133,22 @@ class ActiveSet {
   double lambda(int r) const { return lambda_[rows_[r] / 3][rows_[r] % 3]; }
   double q(int r) const { return problem_.q[rows_[r] / 3][rows_[r] % 3]; }
 
+  /// Proximal steps from λ; the best goes to `best`.
+  void improve(std::vector<Vec3>& best, double& residual) {
+    gather();
+    for (int step = 0; step < kMostSteps && minimise(); ++step) {
+      write();
+      const double now = look(), before = residual;
+      const bool is_within = now <= settings_.tolerance;
+      if (is_within || now < residual) best = lambda_, residual = now;
+      if (step > 0 && (is_within || !(now < kStepGain * before))) break;
+    }
+  }
+
   /// The set that λ carries by, equations first.
   void gather() {
     const auto n = static_cast<int>(rows_.size());
+    factor_ = {}, active_.clear();
     x_ = VecX::Zero(n), linear_.resize(n);
     for (const bool free : {true, false})
       for (int r = 0; r < n; ++r)
@@ -211,6 +228,7 @@ class ActiveSet {
       for (std::size_t k = 0; k < active_.size(); ++k)
         if (is_free_[active_[k]] == 0 && r[k] > 0.0 && x_[active_[k]] < length * r[k])
           length = std::max(0.0, x_[active_[k]]) / r[k], leaves = static_cast<int>(k);
+      if (leaves < 0 && rest < kFlat * diagonal_[p] && find_contradiction(p, r)) return false;
       for (std::size_t k = 0; k < active_.size(); ++k) x_[active_[k]] -= length * r[k];
       x_[p] += length;
       u += length * rest;
@@ -224,6 +242,40 @@ class ActiveSet {
     return false;
   }
 
+  /// Whether rows say the opposite of each other: forces z of which nothing moves push against what is asked for. With any λ
+  /// zᵀ u is zᵀ q and at most √(zᵀ W z) times what λ moves, in the measure of the masses, and has to be more than nothing.
+  /// λ is a ray of such forces then. `r`: of row p by those of the set.
+  bool find_contradiction(int p, VecX r) {
+    std::vector<Vec3> z(lambda_.size(), Vec3::Zero());
+    const auto take = [&](int row, double share) {
+      if (is_free_[row] != 0 || share > 0.0) z[rows_[row] / 3][rows_[row] % 3] = share;
+    };
+    const auto moves = [&](int row) { return u_[rows_[row] / 3][rows_[row] % 3] - q(row); };  // W z
+    for (int pass = 0;; ++pass) {
+      take(p, 1.0);
+      for (std::size_t k = 0; k < active_.size(); ++k) take(active_[k], -r[k]);
+      problem_.w->begin(z);
+      velocities(problem_, u_);
+      if (pass > 0) break;
+      VecX left(static_cast<Eigen::Index>(active_.size()));  // the factor's weights are no part of W
+      for (std::size_t k = 0; k < active_.size(); ++k) left[k] = moves(active_[k]);
+      r += factor_.backward(factor_.forward(left));
+    }
+    double moved = 0.0, against = 0.0, sum = 0.0, rounding = 0.0, least = kInfinite, most = 0.0;
+    for (int row = 0; row < static_cast<int>(rows_.size()); ++row) {
+      const double of = z[rows_[row] / 3][rows_[row] % 3];
+      least = std::min(least, diagonal_[row]), most = std::max(most, std::abs(of));
+      moved += of * moves(row);
+      against -= of * q(row);
+      sum += std::abs(of), rounding += kRounding * of * of * diagonal_[row];
+    }
+    const double in_reach = kBeyond * scale_ / std::sqrt(least);
+    contradicts_ = against > settings_.tolerance * scale_ * sum + std::sqrt(std::max(moved, rounding)) * in_reach;
+    if (!contradicts_) return false;
+    for (std::size_t i = 0; i < z.size(); ++i) lambda_[i] = scale_ / (diagonal_[p] * most) * z[i];
+    return true;
+  }
+
   const ConeProblem& problem_;
   const LcpSettings& settings_;
   std::vector<Vec3>& lambda_;
@@ -235,7 +287,8 @@ class ActiveSet {
   std::vector<int> active_;
   GrowingCholesky factor_;  // of W and the weights, in the order of active_
   VecX x_, linear_;
-  double violated_ = 0.0, violation_ = 0.0;  // m/s
+  double scale_ = 0.0, violated_ = 0.0, violation_ = 0.0;  // m/s
+  bool contradicts_ = false;
   int iterations_ = 0;
 };
 

@@ -12,7 +12,8 @@ enum class StopReason {
   stagnated,      ///< the method can get no nearer: no step lowers the residual, or rounding hides it
   iteration_cap,  ///< max_iterations were made
   trivial,        ///< there was nothing to solve
-  refused         ///< the problem is not of the method's kind (applies() says why); λ is as it came
+  refused,        ///< the problem is not of the method's kind (applies() says why); λ is as it came
+  contradiction  ///< no λ answers it: rows say the opposite of each other; λ is forces of which nothing moves that would
 };
 
 std::string_view name_of(StopReason reason);

@@ -99,7 +99,8 @@ class GroupSolve {
       system().lambda = start;
       solve();
     }
-    if (is_usable() || !starts_too_high(system(), start)) return;
+    const bool contradicts = result_.response.ended == StopReason::contradiction;
+    if (contradicts || is_usable() || !starts_too_high(system(), start)) return;
     std::fill(system().lambda.begin(), system().lambda.end(), Vec3::Zero());
     solve();
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <set>
 
 #include "engine/bodies/scale.hpp"
@@ -19,19 +20,22 @@
 namespace impinge {
 namespace {
 
-constexpr int kMostPieces = 64;       // of a sub-step
-constexpr int kMostMotions = 32;      // tried for a piece
-constexpr int kPatience = 4;          // motions after which pieces are cut shorter than they need be
-constexpr double kGrowth = 2.0;       // of the next piece over one that had rows and took more motions than that
-constexpr double kAfterCut = 16.0;    // of the next piece over one that was cut on a long way
-constexpr double kLongWay = 4.0;      // of a safe approach
-constexpr double kNoShare = 1e-9;     // of a motion: no time passes in less, and no velocity follows from that
-constexpr double kLeastShare = 1e-4;  // of a sub-step, that a piece is tried with
-constexpr double kFar = 20.0;         // of a safe approach: from there on the end tells nothing of what is on the way
-constexpr double kStandOff = 0.25;    // of the activation distance: how near a piece ends
-constexpr double kDepth = 1e-3;       // of the activation distance: overlap that is left to contacts and their push-out
-constexpr double kSelfDepth = 1e-6;   // the same of a body with itself, whose contacts keep it apart by more than that
-constexpr double kApart = 0.05;       // of the arms of an attachment: farther apart its points don't end
+constexpr int kMostPieces = 64;        // of a sub-step
+constexpr int kMostMotions = 32;       // tried for a piece
+constexpr int kPatience = 4;           // motions after which pieces are cut shorter than they need be
+constexpr int kPatienceWithMany = 2;   // the same without fewer pairs that pass, where many do
+constexpr std::size_t kMany = 4;       // pairs
+constexpr double kMuchShorter = 0.25;  // what is cut then
+constexpr double kGrowth = 2.0;        // of the next piece over one that had rows and took more motions than that
+constexpr double kAfterCut = 16.0;     // of the next piece over one that was cut on a long way
+constexpr double kLongWay = 4.0;       // of a safe approach
+constexpr double kNoShare = 1e-9;      // of a motion: no time passes in less, and no velocity follows from that
+constexpr double kLeastShare = 1e-4;   // of a sub-step, that a piece is tried with
+constexpr double kFar = 20.0;          // of a safe approach: from there on the end tells nothing of what is on the way
+constexpr double kStandOff = 0.25;     // of the activation distance: how near a piece ends
+constexpr double kDepth = 1e-3;      // of the activation distance: overlap that is left to contacts and their push-out
+constexpr double kSelfDepth = 1e-6;  // the same of a body with itself, whose contacts keep it apart by more than that
+constexpr double kApart = 0.05;      // of the arms of an attachment: farther apart its points don't end
 constexpr double kLeastTorn = 1.0 / 32.0;  // of a sub-step: pieces of what comes apart all the same
 constexpr double kReach = 0.1;             // of the activation distance: paths are straight to this
 
@@ -119,6 +123,18 @@ struct Asking {
   /// Whether the piece was cut for what deforms: driven into each other, soft surfaces pass in the next one too, which shows
   /// only when all its looks are spent. It grows from this one's length then.
   bool bends = false;
+  /// Whether rows bring anything yet: fewer pairs pass than in the motions before. Of many that hang in one another each
+  /// that is held has the next pass, and no number of rows is an end of that: a shorter piece is.
+  bool brings(std::size_t pairs) {
+    idle = pairs < fewest ? 0 : idle + 1;
+    fewest = std::min(fewest, pairs);
+    return idle < (pairs < kMany ? kPatience : kPatienceWithMany);
+  }
+  void shorten() { fewest = kNone, idle = 0; }
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::size_t fewest = kNone;  // pairs that passed
+  int idle = 0;                // motions since
+  bool gave_up = false;        // in the piece
   /// Takes them back where a solve with them has no answer: it is cut then.
   bool is_refused(SubStep& step) {
     if (!has || is_usable(step)) return false;
@@ -129,6 +145,7 @@ struct Asking {
   /// What the next piece tries: all that is left, or after a cut of a long way a few times as much, since the next meeting
   /// is as near as a rule, and what a long motion comes upon is dear to find, to solve and to look back at.
   double next_share(double share, int motions) const {
+    if (gave_up) return motions > kPatience ? share : kGrowth * share;
     if (bends || (has && motions > kPatience)) return kGrowth * share;
     return is_cut ? kAfterCut * share : 1.0;
   }
@@ -136,7 +153,7 @@ struct Asking {
 
 void begin_piece(SubStep& step, PassiveRebounds& passive, Asking& asking) {
   begin(step);
-  step.rebounds.clear(), passive = {}, asking.has = asking.bends = false;
+  step.rebounds.clear(), passive = {}, asking.has = asking.bends = asking.gave_up = false, asking.shorten();
 }
 
 /// By the contacts of the poses that bodies have; empty: those would not tell depths.
@@ -172,16 +189,24 @@ bool of_deforming(const Bodies& bodies, const UnsafeMotion& motion) {
   });
 }
 
-/// What changes for the next motion of a piece: features that pass get rows, or it is tried with a share of its length.
-double ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLength& seen,
-                  const PairLength& activation, bool is_patient, Asking& asking, std::vector<Collision>& asked) {
+/// What changes for the next motion of a piece: ends are looked at, features that pass get rows, or it is tried with a share
+/// of its length.
+double look_ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLength& seen,
+                       const PairLength& activation, bool may_look, bool is_patient, Asking& asking, SubStep& step) {
+  const bool brings = asking.brings(motion.pairs.size());
+  if (brings && may_look && is_patient && look_at_ends(bodies, motion, step)) return 1.0;
   asking.bends |= of_deforming(bodies, motion);
-  if (asking.may && ask_for(motion, seen, asked)) return asking.has = true, 1.0;
+  if (asking.may && brings && ask_for(motion, seen, step.asked)) return asking.has = true, 1.0;
   asking.is_cut |= std::any_of(motion.pairs.begin(), motion.pairs.end(),
                                [](const UnsafeMotion::Pair& p) { return p.approach > kLongWay * p.safe; });
-  if (const std::optional<double> safe = safe_share(motion, activation)) return is_patient ? *safe : 0.5 * *safe;
+  const std::optional<double> safe = safe_share(motion, activation);
+  if (!brings) {
+    asking.gave_up = true, asking.shorten();
+    return std::min(safe.value_or(1.0), motion.pairs.size() < kMany ? 0.5 : kMuchShorter);
+  }
+  if (safe) return is_patient ? *safe : 0.5 * *safe;
   const PairLength any = [](const UnsafeMotion::Pair&) { return INFINITY; };
-  return ask_for(motion, any, asked) ? 1.0 : 0.5;
+  return ask_for(motion, any, step.asked) ? 1.0 : 0.5;
 }
 
 /// The largest even part of what is left of a sub-step that is no larger than `most`: the drift of an attachment is taken
@@ -375,8 +400,9 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       }
       if (tears)
         share *= 0.5;
-      else if (!(motion <= kPatience && may_look_again() && look_at_ends(bodies_, *unsafe, *sub_step_)))
-        share *= ask_or_cut(bodies_, *unsafe, seen, of_pair, motion <= kPatience, asking, sub_step_->asked);
+      else
+        share *=
+            look_ask_or_cut(bodies_, *unsafe, seen, of_pair, may_look_again(), motion <= kPatience, asking, *sub_step_);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
     next = piece < kMostPieces ? std::max(kLeastShare, asking.next_share(share, motion)) : 1.0;

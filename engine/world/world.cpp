@@ -22,7 +22,8 @@ namespace {
 
 /// Of a group that is left without an answer. A response that has one was asked by Newton iterations that have none.
 UnsolvedGroups cause_of(const GroupResult& result) {
-  if (result.is_contradiction) return {SolveEnd::contradiction, "", 1};
+  if (result.is_contradiction || result.response.ended == StopReason::contradiction)
+    return {SolveEnd::contradiction, "", 1};
   const ResponseResult& solve = result.response;
   if (solve.converged()) return {SolveEnd::cap, "the Newton iterations of simulation.integrator", 1};
   if (solve.ended == StopReason::iteration_cap) return {SolveEnd::cap, std::string(solve.limit), 1};

@@ -102,9 +102,37 @@ TEST_CASE("contacts that contradict each other are given up, and nothing is clai
   problem.mu = {0.0, 0.0};
   std::vector<Vec3> lambda(2, Vec3::Zero());
   const LcpResult result = find_entry(lcp_solvers(), "dual_active_set")->make()->solve(problem, {1e-8, 1000}, lambda);
-  CHECK_FALSE(result.solved());
-  CHECK(lambda[0].allFinite());
+  CHECK(result.reason == StopReason::contradiction);
+  CHECK(result.iterations < 20);
+  // along it they move nothing and push against what is asked for
+  CHECK(lambda[0].x() == Approx(lambda[1].x()).epsilon(1e-12));
+  CHECK(lambda[0].x() == Approx(1.0).epsilon(0.1));
   CHECK(judge(problem, lambda).map.relative <= 1.0);  // no worse than nothing
+}
+
+TEST_CASE("a wedge between walls that close goes out, and contradicts them where no motion would do") {
+  // one kilogram in the plane, normals (1, slope) and (-1, slope), each wall at 1 m/s: it has to go out with 1 / slope
+  for (const double slope : {1.0, 0.1, 1e-2, 3e-3, 1e-5, 1e-7, 0.0}) {
+    MatX w = MatX::Zero(6, 6);
+    w.diagonal().setOnes();
+    w(0, 0) = w(3, 3) = 1.0 + slope * slope;
+    w(0, 3) = w(3, 0) = slope * slope - 1.0;
+    DenseDelassus operator_of(w);
+    ConeProblem problem;
+    problem.w = &operator_of;
+    problem.q = {Vec3(-1, 0, 0), Vec3(-1, 0, 0)};
+    problem.mu = {0.0, 0.0};
+    for (const double from : {0.0, 1e9}) {  // also from what somebody left who found no answer
+      std::vector<Vec3> lambda = {Vec3(from, 0, 0), Vec3(from, 0, 0)};
+      const LcpResult result =
+          find_entry(lcp_solvers(), "dual_active_set")->make()->solve(problem, {1e-8, 1000}, lambda);
+      CAPTURE(slope, from, lambda[0].x(), lambda[1].x());
+      const bool is_thin = slope <= 1e-5;
+      CHECK(result.reason == (is_thin ? StopReason::contradiction : StopReason::converged));
+      if (is_thin) continue;
+      CHECK(slope * (lambda[0].x() + lambda[1].x()) == Approx(1.0 / slope).epsilon(1e-6));
+    }
+  }
 }
 
 TEST_CASE("of many forces that carry alike those are taken that are nearest to what came") {
