@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/response/joint_system.hpp"
 #include "engine/response/operators/delassus_by_contact.hpp"
 #include "engine/response/passive_impulses.hpp"
 #include "engine/response/response.hpp"
@@ -56,10 +57,11 @@ class SoftConstraint : public Response {
 
   ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
     DelassusByContact w(group);
+    const JointSystem joints(group);
     const Softness soft = softness(settings_.frequency, settings_.damping_ratio, context.time_step);
     ResponseResult result;
     for (; result.iterations < settings_.iterations; ++result.iterations)
-      sweep(group, w, [&](std::size_t i, const Vec3& u) {
+      sweep(group, joints, w, [&](std::size_t i, const Vec3& u) {
         return soft_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
       });
     if (!w.finish()) result.ended = StopReason::stagnated;
@@ -78,7 +80,7 @@ class SoftConstraint : public Response {
                      : std::min(0.0, gap > 0.0 ? -rows.gap / context.time_step : 0.0);
     }
     for (int k = 0; k < settings_.relax_iterations; ++k, ++result.iterations)
-      sweep(group, w, [&](std::size_t i, Vec3 u) {
+      sweep(group, joints, w, [&](std::size_t i, Vec3 u) {
         u.x() -= bound[i];
         return relaxed_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i]);
       });
@@ -110,12 +112,23 @@ class SoftConstraint : public Response {
   }
 
   template <class Next>
-  static void sweep(const GroupSystem& group, DelassusByContact& w, const Next& next) {
+  static void sweep(const GroupSystem& group, const JointSystem& joints, DelassusByContact& w, const Next& next) {
     check_interrupt();
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+      if (joints.holds(i)) continue;
       const Vec3 change = next(i, w.velocity(i)) - group.lambda[i];
       if (!change.isZero(0.0)) w.change(i, change);
     }
+    close(group, joints, w);
+  }
+
+  /// What joins rigid bodies, hard and all at once.
+  static void close(const GroupSystem& group, const JointSystem& joints, DelassusByContact& w) {
+    std::vector<Vec3> u;
+    for (const std::size_t i : joints.contacts()) u.push_back(w.velocity(i) - group.contacts[i].bound * Vec3::UnitX());
+    const std::vector<Vec3> impulses = joints.answer(u);
+    for (std::size_t k = 0; k < impulses.size(); ++k)
+      if (!impulses[k].isZero(0.0)) w.change(joints.contacts()[k], impulses[k]);
   }
 
   static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,
