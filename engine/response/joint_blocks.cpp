@@ -26,14 +26,19 @@ void find_basis(const GroupSystem& group, JointBlock& block) {
     }
     w += of.inverse_mass * directions.transpose() * directions + moments.transpose() * (of.inverse_inertia * moments);
   }
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(w);
-  const VecX& values = eigen.eigenvalues();  // they rise
-  Eigen::Index rank = 0;
-  while (rank < count && values[count - 1 - rank] > kNoHold * values[count - 1]) ++rank;
-  block.basis = eigen.eigenvectors().rightCols(rank) * values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  block.basis = basis_of(w);
 }
 
 }  // namespace
+
+MatX basis_of(const MatX& w) {
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(w);
+  const VecX& values = eigen.eigenvalues();  // they rise
+  const Eigen::Index count = values.size();
+  Eigen::Index rank = 0;
+  while (rank < count && values[count - 1 - rank] > kNoHold * values[count - 1]) ++rank;
+  return eigen.eigenvectors().rightCols(rank) * values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+}
 
 std::vector<JointBlock> joint_blocks(const GroupSystem& group) {
   std::vector<JointBlock> blocks;

@@ -27,6 +27,9 @@ struct JointBlock {
   MatX basis = {};
 };
 
+/// B with W⁻¹ = B Bᵀ, as far as W has one.
+MatX basis_of(const MatX& w);
+
 /// In the order of their first rows.
 std::vector<JointBlock> joint_blocks(const GroupSystem& group);
 

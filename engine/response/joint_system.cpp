@@ -10,7 +10,6 @@ namespace {
 // What loops hold together no better than this they don't hold: the root of what is rounding. Each block is 1.
 constexpr double kLoose = 1e-8;
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 Mat3 root(const Mat3& symmetric) {

@@ -2,6 +2,7 @@
 // that has no excuse: points against each other, energy against what the fall gives.
 #include <catch2/catch.hpp>
 
+#include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 
@@ -357,4 +358,34 @@ TEST_CASE("soft_constraint: a linkage that closes, and closes by a tenth of a mi
       CHECK(run_hinge(world, fall).won < 0.02);
       for (const AttachmentRecord& pin : world.record().attachments) CHECK((pin.point_a - pin.point_b).norm() < 1e-3);
     }
+}
+
+TEST_CASE(
+    "soft_constraint: a bar that bends and hangs on two close points wins nothing, and a rigid one on it neither") {
+  for (const double half : {0.01, 0.05})
+    for (const int substeps : {1, 4, 16})
+      for (const bool carries : {false, true}) {
+        CAPTURE(half, substeps, carries);
+        World world;
+        world.parameters.simulation.sleeping = false;
+        world.parameters.simulation.substeps = substeps;
+        world.parameters.response.method = "soft_constraint";
+        SoftOptions soft;
+        soft.young = 1e5, soft.damping_beta = 0.002;
+        world.add_body(soft_box("bar", Vec3(0.5, 0.1, 0.1), Eigen::Vector3i(10, 2, 2), Vec3(0, -0.05, -0.05), soft));
+        if (carries) world.add_body(dynamic_body("rod", Box{Vec3(0.15, 0.025, 0.025)}, Vec3(0.65, 0, 0)));
+        add_hinge(world, HingeKind::points, "bar", "", Vec3::Zero(), half);
+        if (carries) add_hinge(world, HingeKind::swapped, "rod", "bar", Vec3(0.5, 0, 0), half);
+        world.start();
+        double first = 0.0, highest = -INFINITY;
+        for (int frame = 0; frame < 60; ++frame) {
+          world.step();
+          const FrameStats& stats = world.record().stats;
+          const double energy = stats.kinetic + stats.potential + stats.elastic;
+          if (frame == 0) first = energy;
+          highest = std::max(highest, energy);
+        }
+        CHECK(highest - first < 1e-6 * kGravity);  // it has 5 kg, and falls by a quarter of a metre
+        for (const AttachmentRecord& pin : world.record().attachments) CHECK((pin.point_a - pin.point_b).norm() < 0.01);
+      }
 }
