@@ -1,5 +1,6 @@
 #include "engine/bodies/body.hpp"
 
+#include "engine/bodies/time_integration.hpp"
 #include "engine/core/archive.hpp"
 
 namespace impinge {
@@ -53,6 +54,11 @@ MaterialPoint Body::point_beside(const MaterialPoint&, const Vec3& world) const 
 
 MaterialPoint Body::inner_point(const Vec3& world) const { return surface_point({}, world); }
 
+Vec3 Body::mean_gravity(const TimeIntegration& how) const {
+  if (lag == 0.0 || lag_gravity == how.gravity) return how.gravity;
+  return how.gravity + lag / kick * (lag_gravity - how.gravity);
+}
+
 void Body::save_frame(ByteWriter& out, const Vec3& velocity, const Vec3& angular_momentum,
                       const Vec3& angular_velocity) const {
   out.put(pose.position), out.put(pose.rotation);
@@ -61,7 +67,7 @@ void Body::save_frame(ByteWriter& out, const Vec3& velocity, const Vec3& angular
                         (lag != 0.0 ? kLags : 0));
   out.put(rest_time), out.put(island.value());
   if (pull) pull->save(out);
-  if (lag != 0.0) out.put(lag);
+  if (lag != 0.0) out.put(lag), out.put(lag_gravity);
 }
 
 Body::Frame Body::restore_frame(ByteReader& in) {
@@ -74,6 +80,7 @@ Body::Frame Body::restore_frame(ByteReader& in) {
   pull.reset();
   if ((marks & kPulled) != 0) pull = Pull::restore(in);
   lag = (marks & kLags) != 0 ? in.get<double>() : 0.0;
+  lag_gravity = lag != 0.0 ? in.get_vec3() : Vec3(Vec3::Zero());
   return frame;
 }
 

@@ -61,8 +61,12 @@ class Body {
   BodyIndex island;        ///< of a sleeping body: the group it fell asleep with, named by its lowest body
 
   // when its velocity is that of (VelocityTime, time_integration.hpp)
-  double lag = 0.0;   ///< by how much the velocity that moves it is older than its place, s
-  double kick = 0.0;  ///< for how long forces act in the open sub-step, s; no state
+  double lag = 0.0;                 ///< by how much the velocity that moves it is older than its place, s
+  Vec3 lag_gravity = Vec3::Zero();  ///< what acts on it for so long, m/s²: that of the sub-step before
+  double kick = 0.0;                ///< for how long forces act in the open sub-step, s; no state
+
+  /// What acts on it in the open sub-step in the mean of `kick`, m/s².
+  Vec3 mean_gravity(const TimeIntegration& how) const;
 
   // what somebody did to it (step/act.hpp)
   std::optional<Pull> pull;  ///< a force on it until it is let go
@@ -126,6 +130,8 @@ class Body {
   /// Throws DivergenceError where position or velocity is no longer finite.
   virtual void check_finite() const {}
   virtual void come_to_rest() {}
+  /// Takes the velocity that it shows for that of its place: forces of the sub-step before act on it no longer.
+  virtual void catch_up() {}
 
   // points of it
   /// A point on (or next to) its surface; `triangle` of a mesh's.

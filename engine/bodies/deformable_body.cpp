@@ -116,7 +116,7 @@ double DeformableBody::smallest_volume_ratio() const {
 }
 
 void DeformableBody::come_to_rest() {
-  lag = 0.0, lead_.resize(0);
+  catch_up();
   velocity.setZero();
   set_center_velocity(Vec3::Zero());
 }
@@ -169,12 +169,12 @@ void DeformableBody::stay(ByteReader& start) {
   const double late = lag;
   const bool is_known = acceleration_known;
   const std::vector<HeldRegion> regions = held;
-  const Vec3 center = center_velocity_;
+  const Vec3 center = center_velocity_, gravity = lag_gravity;
   restore(start);
   for (int node = 0; node < nodes(); ++node)
     if (is_held(node)) position.segment<3>(3 * node) = moved.segment<3>(3 * node);
-  velocity = v, lead_ = lead, lag = late, acceleration = a, acceleration_known = is_known, held = regions,
-  center_velocity_ = center;
+  velocity = v, lead_ = lead, lag = late, lag_gravity = gravity, acceleration = a, acceleration_known = is_known,
+  held = regions, center_velocity_ = center;
   interpolate(embedding, fem.rest(), velocity, surface_velocity_);
 }
 

@@ -97,6 +97,10 @@ class DeformableBody final : public Body {
   CarriedPoint carry(const MaterialPoint& point, const Vec3& at) const override;
   double relinearize(const DeformableIntegrator& integrator, const VecX& change, const VecX& impulse) override;
   void solve_again() override;
+  /// Moves all nodes of v alike, so that the sum of A v over them is that of b; v and b over the free nodes. `mass_factor`:
+  /// what A counts its mass by; whatever else A holds knows no such motion. How it moves as a whole needs no solve where
+  /// nothing holds it, and what an iteration leaves of that balance would be momentum lost.
+  void keep_momentum(double mass_factor, const VecX& b, VecX& v) const;
   void surface_at_end(const BodyVector* change, std::vector<Vec3>& vertices) const override;
   void change_velocity(const BodyVector& change, bool is_blow) override;
   void advance(const TimeIntegration& how, double end) override;
@@ -104,6 +108,7 @@ class DeformableBody final : public Body {
   void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;
+  void catch_up() override { lag = 0.0, lead_.resize(0); }
 
   // points
   MaterialPoint surface_point(TriangleIndex triangle, const Vec3& world) const override;
@@ -142,7 +147,7 @@ class DeformableBody final : public Body {
   void choose_solvers(const LinearSolverChoice& wanted);
   void check_solved() const;
   void find_displacement_velocity();
-  void lead_on();
+  void lead_on(const Vec3& changed);
   static MaterialPoint nearest_point(const Vec3& x, const TetMesh& mesh);
   std::vector<NodeWeight> carrying_nodes(const MaterialPoint& point) const;
   Mat3 edges_of(int tet) const;

@@ -47,11 +47,12 @@ void DeformableBody::open_sub_step() {
   if (lead_.size() > 0) velocity -= lead_;
 }
 
-/// Half a sub-step on, as forces have changed it. Where impulses took part nobody knows which of them go on.
-void DeformableBody::lead_on() {
+/// Half a sub-step on, as forces have changed it, and gravity since. Where impulses took part nobody knows which of them go on.
+void DeformableBody::lead_on(const Vec3& changed) {
   lead_.resize(0);
   if (lag == 0.0 || touched_) return;
   lead_ = lag / kick * (velocity - velocity_before_);
+  for (int i = 0; i < nodes(); ++i) lead_.segment<3>(3 * i) += lag * changed;
   for (int i = 0; i < nodes(); ++i)
     if (is_held(i)) lead_.segment<3>(3 * i).setZero();
   velocity += lead_;
@@ -65,7 +66,7 @@ void DeformableBody::find_free_velocity(const TimeIntegration& how) {
   const bool staggers = how.integrator.may_stagger();
   kick = staggers ? lag + how.ahead() : how.time_step;
   step_.kick = kick;
-  how.integrator.begin(*this, how.gravity, how.time_step, step_);
+  how.integrator.begin(*this, mean_gravity(how), how.time_step, step_);
   ThriftySolver thrifty(*solvers_.iterative, *solvers_.direct);
   how.integrator.free_velocity(*this, step_, thrifty);
   check_solved();
@@ -95,15 +96,21 @@ void DeformableBody::solve_again() {
   step_.linear_status = thrifty.factorize(step_.a);
   if (step_.linear_status == SolveStatus::ok) step_.linear_status = thrifty.solve(step_.b, step_.v_star).status;
   check_solved();
-  if (!pull && free_nodes() == nodes()) {
-    // as in integrators/kept_momentum.hpp, of whatever scheme made A
-    const VecX rest = step_.b - step_.a * step_.v_star;
-    Vec3 missing = Vec3::Zero();
-    for (int i = 0; i < nodes(); ++i) missing += rest.segment<3>(3 * i);
-    missing /= (1.0 + step_.tau * damping.alpha) * mass;
-    for (int i = 0; i < nodes(); ++i) step_.v_star.segment<3>(3 * i) += missing;
-  }
+  keep_momentum(1.0 + step_.tau * damping.alpha, step_.b, step_.v_star);
   find_displacement_velocity();
+}
+
+void DeformableBody::keep_momentum(double mass_factor, const VecX& b, VecX& v) const {
+  if (pull || free_nodes() != nodes() || v.size() != b.size()) return;
+  const std::vector<double>& node = fem.node_mass();
+  Vec3 missing = Vec3::Zero();
+  double whole = 0.0;
+  for (int i = 0; i < nodes(); ++i) {
+    missing += b.segment<3>(3 * i) - mass_factor * node[static_cast<std::size_t>(i)] * v.segment<3>(3 * i);
+    whole += mass_factor * node[static_cast<std::size_t>(i)];
+  }
+  if (!missing.allFinite() || !(whole > 0.0)) return;
+  for (int i = 0; i < nodes(); ++i) v.segment<3>(3 * i) += missing / whole;
 }
 
 void DeformableBody::surface_at_end(const BodyVector* change, std::vector<Vec3>& vertices) const {
@@ -119,8 +126,9 @@ void DeformableBody::change_velocity(const BodyVector& change, bool /*is_blow*/)
 
 void DeformableBody::advance(const TimeIntegration& how, double /*end*/) {
   how.integrator.advance(*this, step_, step_.v_star);
-  lag = how.integrator.may_stagger() ? how.time_step - how.ahead() : 0.0;
-  lead_on();
+  const Vec3 changed = how.gravity - mean_gravity(how);
+  lag = how.integrator.may_stagger() ? how.time_step - how.ahead() : 0.0, lag_gravity = how.gravity;
+  lead_on(changed);
   // Newmark's accelerations are those of the elastic forces alone: contact acts at the end of the step [Kane99], or a
   // body that lands would bounce back with the speed it came with; and so does a pull
   if (touched_ || pull) acceleration_known = false;

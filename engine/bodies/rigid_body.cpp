@@ -54,8 +54,10 @@ void RigidBody::open_sub_step() {
 
 void RigidBody::find_free_velocity(const TimeIntegration& how) {
   kick = lag + how.ahead();
-  apply_gravity(*this, how.gravity, kick);
+  apply_gravity(*this, mean_gravity(how), kick);
+  pulled_ = velocity, spin_pulled_ = angular_momentum;
   if (pull) apply_pull(*this, *pull, kick, how.time_step);
+  pulled_ = velocity - pulled_, spin_pulled_ = angular_momentum - spin_pulled_;
 }
 
 SystemBlock RigidBody::system_block() const {
@@ -84,14 +86,14 @@ void RigidBody::advance(const TimeIntegration& how, double /*end*/) {
     throw DivergenceError(
         fmt::format("body '{}': {}; use more sub-steps, or smaller velocities and forces", name, error.what()));
   }
-  lag = how.time_step - how.ahead();
+  lag = how.time_step - how.ahead(), lag_gravity = how.gravity;
   if (lag != 0.0)
     lead_on(how);
   else
     stagger_ = {};
 }
 
-/// By gravity and by impulses: those that carry a weight, and of larger ones what agrees with the sub-step before. What
+/// By gravity, a pull and impulses: those that carry a weight, and of larger ones what agrees with the sub-step before. What
 /// they have brought to a stand stays there.
 void RigidBody::lead_on(const TimeIntegration& how) {
   Vec3 rate = given_ / kick, spin_rate = spin_given_ / kick;
@@ -103,7 +105,8 @@ void RigidBody::lead_on(const TimeIntegration& how) {
     if (stagger_.rate.norm() > weight) goes_on.setZero(), spin_goes_on.setZero();
     rate = goes_on, spin_rate = spin_goes_on;
   }
-  const Vec3 lead = lag * (how.gravity + goes_on), spin_lead = lag * spin_goes_on;
+  const Vec3 lead = lag * (how.gravity + goes_on + pulled_ / kick),
+             spin_lead = lag * (spin_goes_on + spin_pulled_ / kick);
   const bool stands = !given_.isZero(0.0) && velocity.norm() <= kStands * lag * how.gravity.norm();
   stagger_ = {stands ? Vec3(Vec3::Zero()) : lead, stands ? Vec3(Vec3::Zero()) : spin_lead, rate, spin_rate};
   velocity += stagger_.lead, angular_momentum += stagger_.spin_lead;
@@ -115,8 +118,9 @@ void RigidBody::displace(const BodyVector& by) {
 
 void RigidBody::stay(ByteReader& start) {
   const double late = lag;
+  const Vec3 gravity = lag_gravity;
   restore_frame(start);
-  lag = late;
+  lag = late, lag_gravity = gravity;
 }
 
 void RigidBody::check_finite() const {
@@ -132,7 +136,7 @@ void RigidBody::check_finite() const {
 }
 
 void RigidBody::come_to_rest() {
-  lag = 0.0, stagger_ = {};
+  catch_up();
   velocity.setZero();
   angular_momentum.setZero();
 }

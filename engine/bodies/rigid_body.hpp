@@ -40,6 +40,7 @@ class RigidBody final : public Body {
   void stay(ByteReader& start) override;
   void check_finite() const override;
   void come_to_rest() override;
+  void catch_up() override { lag = 0.0, stagger_ = {}; }
 
   void push(const Vec3& impulse, const std::optional<Vec3>& at) override;
   void shift(const Vec3& by, const Mat3& turn) override;
@@ -55,9 +56,10 @@ class RigidBody final : public Body {
   void lead_on(const TimeIntegration& how);
 
   Stagger stagger_;
-  Twist lead_;                                             // that was taken off when the sub-step began
-  Vec3 given_ = Vec3::Zero(), spin_given_ = Vec3::Zero();  // velocity and angular momentum, by impulses
-  bool is_struck_ = false;                                 // by some of these
+  Twist lead_;                                               // that was taken off when the sub-step began
+  Vec3 given_ = Vec3::Zero(), spin_given_ = Vec3::Zero();    // velocity and angular momentum, by impulses
+  bool is_struck_ = false;                                   // by some of these
+  Vec3 pulled_ = Vec3::Zero(), spin_pulled_ = Vec3::Zero();  // the same, by a pull
 };
 
 }  // namespace impinge

@@ -74,8 +74,9 @@ class Assembly {
                         b = bodies_[c.body_b].surface_point(c.triangle_b, c.point_b);
     Vec3 velocity_before = Vec3::Zero();
     lead_.setZero();
-    fill_side(c.body_a, a, c.acts_on_a(), 1.0, rows, rows.a, velocity_before);
-    fill_side(c.body_b, b, c.acts_on_b(), -1.0, rows, rows.b, velocity_before);
+    const auto [on_a, on_b] = acts_on(c);
+    fill_side(c.body_a, a, on_a, 1.0, rows, rows.a, velocity_before);
+    fill_side(c.body_b, b, on_b, -1.0, rows, rows.b, velocity_before);
     rows.gap = c.gap;
     if (c.body_a == c.body_b) rows.gap -= kSelfDistance * input_.settings.activation(bodies_[c.body_a].size);
     rows.friction = pair_friction(bodies_[c.body_a], bodies_[c.body_b], input_.settings);
@@ -138,6 +139,13 @@ class Assembly {
   }
 
  private:
+  std::pair<Vec3, Vec3> acts_on(const Collision& c) const {
+    const bool a_moves = bodies_[c.body_a].has_freedom(), b_moves = bodies_[c.body_b].has_freedom();
+    if (!input_.acts_on_surfaces || c.meeting || c.gap <= 0.0 || a_moves == b_moves)
+      return {c.acts_on_a(), c.acts_on_b()};
+    const Vec3& at = a_moves ? c.point_a : c.point_b;
+    return {at, at};
+  }
   double rebound_share(const Collision& c) const {
     if (input_.rebounds == nullptr) return 1.0;
     const auto known = input_.rebounds->find({c.body_a, c.body_b});

@@ -21,6 +21,9 @@ struct AssemblyInput {
   const ReboundShares* rebounds = nullptr;  ///< none: all of them whole
   VelocityTime velocities = VelocityTime::end;
   double drift_time = 0.0;  ///< in which attachments drifted to where they are, s
+  /// What touches something that can't respond is pushed at its own surface, not half way across the gap: for responses
+  /// that nobody asks where bodies meet in flight. Of two that do respond the common point keeps the angular momentum.
+  bool acts_on_surfaces = false;
 };
 
 /// A group's system, and what its parts are in the scene.

@@ -7,7 +7,6 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
-#include "engine/integrators/kept_momentum.hpp"
 #include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
@@ -73,7 +72,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
 
     VecX direction;
     if (!newton_direction(solver, g, step, direction)) break;
-    keep_momentum(body, 1.0 + step.tau * d.alpha, -g, direction);
+    body.keep_momentum(1.0 + step.tau * d.alpha, -g, direction);
 
     const double slope = dot(direction, g), before = potential.value(v, elastic);
     bool lowered = false;

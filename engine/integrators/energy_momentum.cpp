@@ -11,7 +11,6 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
-#include "engine/integrators/kept_momentum.hpp"
 #include "engine/integrators/mean_turning.hpp"
 #include "engine/integrators/pull_spring.hpp"
 
@@ -57,7 +56,7 @@ class EnergyMomentum : public OneStepScheme {
       if (step.converged || step.newton_iterations >= newton_.max_iterations || !std::isfinite(g.norm())) break;
       VecX direction;
       if (!newton_direction(solver, g, step, direction)) break;
-      keep_momentum(body, 1.0 + 0.5 * step.tau * body.damping.alpha, -g, direction);
+      body.keep_momentum(1.0 + 0.5 * step.tau * body.damping.alpha, -g, direction);
       if (!go_down(body, step, direction, v, g, size)) break;
     }
     step.v_star = v;

@@ -2,7 +2,6 @@
 //   A v = b,  A = M − Δt ∂f/∂v − Δt² ∂f/∂q,  b = Δt f(q₀, v₀) + (M − Δt ∂f/∂v) v₀.
 // With Rayleigh damping ∂f/∂v = −D and f(q₀, v₀) = f(q₀) − D v₀, so D v₀ cancels: b = M v₀ + Δt (f(q₀) + f_ext).
 #include "engine/integrators/deformable_integrator.hpp"
-#include "engine/integrators/kept_momentum.hpp"
 #include "engine/integrators/pull_spring.hpp"
 
 namespace impinge {
@@ -50,7 +49,7 @@ class LinearlyImplicitEuler : public OneStepScheme {
   void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override {
     linearize(body, {}, step);
     solve_free_velocity(body, step, solver);
-    keep_momentum(body, 1.0 + step.tau * body.damping.alpha, step.b, step.v_star);
+    body.keep_momentum(1.0 + step.tau * body.damping.alpha, step.b, step.v_star);
   }
 };
 

@@ -144,7 +144,7 @@ LedgerEntry Ledger::side_entry(BodyIndex index, const Body& body, const ContactS
 void Ledger::take_rigid(Body& body, BodyIndex b, const TimeIntegration& how) {
   const RigidBody& rigid = *body.as<RigidBody>();
   LedgerEntry& gravity = of(motion_[b], LedgerSource::gravity);
-  gravity += rigid_entry(b, rigid.kick * rigid.mass * how.gravity, Vec3::Zero());
+  gravity += rigid_entry(b, rigid.kick * rigid.mass * rigid.mean_gravity(how), Vec3::Zero());
   gravity.stored -= gravity.motion;
   const Stagger& known_ahead = rigid.stagger();  // taken off at the sub-step's start
   of(motion_[b], LedgerSource::integrator) += rigid_entry(b, -rigid.mass * known_ahead.lead, -known_ahead.spin_lead);

@@ -66,10 +66,7 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
   std::vector<BodyPlaces> places;
   for (std::size_t i = 0; i < group.contacts.size(); ++i) {
     const ContactRows& row = group.contacts[i];
-    if (row.kind != RowKind::contact) {
-      add_to_joint(group, i, share);
-      continue;
-    }
+    if (row.kind != RowKind::contact) continue;
     const BodyPlaces now{row.a.rigid, row.b.rigid};
     const bool follows =
         !pairs.empty() && places.back() == now && pairs.back().first + pairs.back().count == static_cast<int>(i);
@@ -77,7 +74,7 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
     ++pairs.back().count;
     if (!row.surface.isZero(0.0)) pairs.back().is_driven = true;
   }
-  for (Joint& joint : joints_) close(joint);
+  for (const JointBlock& block : joint_blocks(group)) add_joint(group, block, share);
   PairColours colours = colour_pairs(places, static_cast<int>(bodies_.size()));
   colours_ = std::move(colours.begin);
   last_is_rest_ = colours.last_is_rest;

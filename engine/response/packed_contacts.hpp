@@ -5,6 +5,7 @@
 
 #include "engine/contact/group_system.hpp"
 #include "engine/core/threshold.hpp"
+#include "engine/response/joint_blocks.hpp"
 #include "engine/response/pair_colours.hpp"
 
 namespace impinge {
@@ -96,8 +97,7 @@ class PackedContacts {
     double wanted, given;
     Triple before = {}, impulse = {};  // how fast its points slipped, all that it was given
   };
-  /// All attachments and sliding points of the same two bodies, hard: those of a hinge, whose points are close to each other,
-  /// a few sweeps could not bring together one by one.
+  /// All attachments and sliding points of the same two bodies, hard.
   struct JointRow {
     int row, k;  // in the group, and which of its three
     Triple direction, moment_a, moment_b;
@@ -115,8 +115,7 @@ class PackedContacts {
 
   void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out,
             const Threshold& restitution_threshold);
-  void add_to_joint(const GroupSystem& group, std::size_t row, double share);
-  void close(Joint& joint);
+  void add_joint(const GroupSystem& group, const JointBlock& block, double share);
   void strike(const Pair& pair, std::vector<Strike>& strikes, double slow);
   /// Of A's point from B's.
   Triple slip(const Pair& pair, int contact, const Sides& sides) const;

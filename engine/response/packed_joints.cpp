@@ -1,50 +1,20 @@
 // Attachments and sliding points of packed contacts, all of two bodies together.
-#include <Eigen/QR>
-#include <algorithm>
-
 #include "engine/response/packed_contacts.hpp"
 
 namespace impinge {
-namespace {
 
-// of W: what rows of a joint hold together no better than this they don't hold
-constexpr double kNoHold = 1e-9;
-
-}  // namespace
-
-void PackedContacts::add_to_joint(const GroupSystem& group, std::size_t row, double share) {
-  const ContactRows& of = group.contacts[row];
-  auto joint = std::find_if(joints_.begin(), joints_.end(),
-                            [&](const Joint& known) { return known.a == of.a.rigid && known.b == of.b.rigid; });
-  if (joint == joints_.end()) joint = joints_.insert(joint, Joint{of.a.rigid, of.b.rigid});
-  if (of.kind == RowKind::attachment) joint->holds_points = true;
-  const auto before = joint->impulse.size();
-  const int count = of.kind == RowKind::sliding ? 1 : 3;
-  joint->impulse.conservativeResize(before + count);
-  for (int k = 0; k < count; ++k) {
-    const Vec3 d = of.directions.row(k);
-    joint->rows.push_back({static_cast<int>(row), k, triple(d), triple(of.a.arm.cross(d)), triple(of.b.arm.cross(d)),
-                           of.surface[k] - (k == 0 ? of.bound : 0.0)});
-    joint->impulse[before + k] = share * group.lambda[row][k];
+void PackedContacts::add_joint(const GroupSystem& group, const JointBlock& block, double share) {
+  Joint joint{block.a, block.b, block.holds_points, {}, block.basis * block.basis.transpose()};
+  joint.impulse.resize(static_cast<Eigen::Index>(block.rows.size()));
+  joint.sum = VecX::Zero(joint.impulse.size());
+  for (const JointBlock::Row& row : block.rows) {
+    const ContactRows& of = group.contacts[row.contact];
+    const Vec3 d = row.direction(of);
+    joint.impulse[static_cast<Eigen::Index>(joint.rows.size())] = share * group.lambda[row.contact][row.k];
+    joint.rows.push_back({static_cast<int>(row.contact), row.k, triple(d), triple(row.at_a(of).arm.cross(d)),
+                          triple(row.at_b(of).arm.cross(d)), of.surface[row.k] - (row.k == 0 ? of.bound : 0.0)});
   }
-}
-
-/// W of its rows, inverted where it can be: two points hold a body in five ways, not in six.
-void PackedContacts::close(Joint& joint) {
-  const auto count = static_cast<Eigen::Index>(joint.rows.size());
-  const Sides sides(bodies_, joint.a, joint.b);
-  MatX w(count, count);
-  for (Eigen::Index r = 0; r < count; ++r)
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const JointRow &of = joint.rows[r], &other = joint.rows[c];
-      w(r, c) = (sides.a.inverse_mass + sides.b.inverse_mass) * dot(of.direction, other.direction) +
-                dot(of.moment_a, times(sides.a.inverse_inertia, other.moment_a)) +
-                dot(of.moment_b, times(sides.b.inverse_inertia, other.moment_b));
-    }
-  Eigen::CompleteOrthogonalDecomposition<MatX> factors(w);
-  factors.setThreshold(kNoHold);
-  joint.inverse = factors.pseudoInverse();
-  joint.sum = VecX::Zero(count);
+  joints_.push_back(std::move(joint));
 }
 
 void PackedContacts::give(const Joint& joint, const VecX& impulse) {

@@ -5,13 +5,17 @@
 // Built to be compared with, so to be known exactly:
 // - regularised: the normal law. At rest a lone contact sinks by W_ii λ/(Δt ω²), a ball by g/ω². A gap closes freely.
 // - not regularised: friction, which is the cone by projection, and restitution. Attachments are hard, too.
-// - not solved: a bounded number of sweeps, started from the last impulses, is all; nothing is said of convergence.
+// - not solved: a bounded number of sweeps, started from the last impulses, is all; nothing is said of convergence. But
+//   what joins rigid bodies is, and the few points that join a deformable one to another body: what sweeps leave there would be
+//   taken back by a velocity, with energy from nowhere.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/response/joint_system.hpp"
 #include "engine/response/operators/delassus_by_contact.hpp"
 #include "engine/response/passive_impulses.hpp"
 #include "engine/response/response.hpp"
@@ -56,10 +60,11 @@ class SoftConstraint : public Response {
 
   ResponseResult solve(GroupSystem& group, const LcpSolver&, const ResponseContext& context) const override {
     DelassusByContact w(group);
+    const Joints joints(group, w);
     const Softness soft = softness(settings_.frequency, settings_.damping_ratio, context.time_step);
     ResponseResult result;
     for (; result.iterations < settings_.iterations; ++result.iterations)
-      sweep(group, w, [&](std::size_t i, const Vec3& u) {
+      sweep(group, joints, w, [&](std::size_t i, const Vec3& u) {
         return soft_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i], soft, context);
       });
     if (!w.finish()) result.ended = StopReason::stagnated;
@@ -78,7 +83,7 @@ class SoftConstraint : public Response {
                      : std::min(0.0, gap > 0.0 ? -rows.gap / context.time_step : 0.0);
     }
     for (int k = 0; k < settings_.relax_iterations; ++k, ++result.iterations)
-      sweep(group, w, [&](std::size_t i, Vec3 u) {
+      sweep(group, joints, w, [&](std::size_t i, Vec3 u) {
         u.x() -= bound[i];
         return relaxed_impulse(group.contacts[i], w.diagonal(i), u, group.lambda[i]);
       });
@@ -92,6 +97,46 @@ class SoftConstraint : public Response {
   }
 
  private:
+  /// Of what joins rigid bodies all, and of what joins a deformable one to another body the points of the two.
+  struct Joints {
+    Joints(const GroupSystem& group, const DelassusByContact& w) : of_rigid(group), is_of_block(group.contacts.size()) {
+      std::map<std::array<std::pair<int, int>, 2>, std::vector<std::size_t>> pairs;
+      for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+        const ContactRows& row = group.contacts[i];
+        const std::pair<int, int> a{row.a.rigid, row.a.deformable}, b{row.b.rigid, row.b.deformable};
+        if (row.kind != RowKind::contact && !of_rigid.holds(i)) pairs[{std::min(a, b), std::max(a, b)}].push_back(i);
+      }
+      for (const auto& [bodies, points] : pairs) {
+        if (points.size() < 2 || points.size() > kMostPoints) continue;
+        Block block;
+        for (const std::size_t i : points) {
+          for (int k = 0; k < (group.contacts[i].kind == RowKind::sliding ? 1 : 3); ++k) block.rows.emplace_back(i, k);
+          is_of_block[i] = true;
+        }
+        const auto count = static_cast<Eigen::Index>(block.rows.size());
+        MatX between(count, count);
+        for (Eigen::Index r = 0; r < count; ++r)
+          for (Eigen::Index c = 0; c < count; ++c) {
+            const auto [i, k] = block.rows[static_cast<std::size_t>(r)];
+            const auto [j, l] = block.rows[static_cast<std::size_t>(c)];
+            between(r, c) = w.between(i, j)(k, l);
+          }
+        const MatX basis = basis_of(0.5 * (between + between.transpose()));
+        block.inverse = basis * basis.transpose();
+        blocks.push_back(std::move(block));
+      }
+    }
+
+    struct Block {
+      std::vector<std::pair<std::size_t, int>> rows;  // of a contact, which of its three
+      MatX inverse;                                   // of W between them, kg
+    };
+    JointSystem of_rigid;
+    std::vector<Block> blocks;
+    std::vector<bool> is_of_block;  // by contact
+  };
+  static constexpr std::size_t kMostPoints = 16;  // of two bodies: more hold each other in sweeps
+
   static bool bounces(const ContactRows& rows) { return rows.restitution > 0.0 && rows.bound > 0.0; }
 
   /// Of rigid bodies: sweeps that are not at their end may rebound with more than came. All impulses are made less alike
@@ -110,12 +155,37 @@ class SoftConstraint : public Response {
   }
 
   template <class Next>
-  static void sweep(const GroupSystem& group, DelassusByContact& w, const Next& next) {
+  static void sweep(const GroupSystem& group, const Joints& joints, DelassusByContact& w, const Next& next) {
     check_interrupt();
     for (std::size_t i = 0; i < group.contacts.size(); ++i) {
+      if (joints.of_rigid.holds(i) || joints.is_of_block[i]) continue;
       const Vec3 change = next(i, w.velocity(i)) - group.lambda[i];
       if (!change.isZero(0.0)) w.change(i, change);
     }
+    for (const Joints::Block& block : joints.blocks) close(group, block, w);
+    close(group, joints.of_rigid, w);
+  }
+
+  static void close(const GroupSystem& group, const Joints::Block& block, DelassusByContact& w) {
+    VecX u(static_cast<Eigen::Index>(block.rows.size()));
+    for (Eigen::Index r = 0; r < u.size(); ++r) {
+      const auto [i, k] = block.rows[static_cast<std::size_t>(r)];
+      u[r] = w.velocity(i)[k] - (k == 0 ? group.contacts[i].bound : 0.0);
+    }
+    const VecX impulse = -(block.inverse * u);
+    for (Eigen::Index r = 0; r < u.size(); ++r) {
+      const auto [i, k] = block.rows[static_cast<std::size_t>(r)];
+      w.change(i, impulse[r] * Vec3::Unit(k));
+    }
+  }
+
+  /// What joins rigid bodies, hard and all at once.
+  static void close(const GroupSystem& group, const JointSystem& joints, DelassusByContact& w) {
+    std::vector<Vec3> u;
+    for (const std::size_t i : joints.contacts()) u.push_back(w.velocity(i) - group.contacts[i].bound * Vec3::UnitX());
+    const std::vector<Vec3> impulses = joints.answer(u);
+    for (std::size_t k = 0; k < impulses.size(); ++k)
+      if (!impulses[k].isZero(0.0)) w.change(joints.contacts()[k], impulses[k]);
   }
 
   static Vec3 soft_impulse(const ContactRows& rows, const Mat3& w, Vec3 u, Vec3 lambda, const Softness& soft,

@@ -1,5 +1,8 @@
 #include "engine/step/act.hpp"
 
+#include <map>
+#include <set>
+
 #include "engine/contact/contact_cache.hpp"
 #include "engine/core/error.hpp"
 #include "engine/geometry/rotation.hpp"
@@ -25,6 +28,26 @@ void leave_contacts(BodyIndex body, Bodies& bodies, Sleeping& sleeping, ContactC
   for (const BodyIndex other : touching) sleeping.wake(bodies, other);
 }
 
+/// What goes on to act for the half of a sub-step by which velocities lag (Body::lag) is what acted before. Where that
+/// ends, bodies go on from the velocities that they show: this one, and all that hangs together with it.
+void catch_up(BodyIndex first, Bodies& bodies, const ContactCache& cache) {
+  bool lags = false;
+  for (const Body& body : bodies) lags |= body.lag != 0.0;
+  if (!lags) return;
+  std::map<BodyIndex, std::vector<BodyIndex>> touching;
+  for (const ContactCache::Item& item : cache.items())
+    touching[item.key.body_a].push_back(item.key.body_b), touching[item.key.body_b].push_back(item.key.body_a);
+  std::vector<BodyIndex> open = {first};
+  std::set<BodyIndex> known = {first};
+  while (!open.empty()) {
+    const BodyIndex at = open.back();
+    open.pop_back();
+    bodies[at].catch_up();
+    for (const BodyIndex other : touching[at])
+      if (!other.is_none() && bodies[other].has_freedom() && known.insert(other).second) open.push_back(other);
+  }
+}
+
 }  // namespace
 
 Mat3 turn_of(const Act& act) {
@@ -38,6 +61,7 @@ void act_on(Bodies& bodies, const Act& act, double frame_time, Sleeping& sleepin
   Body& body = bodies[index];
   if (body.deleted) return;
   sleeping.wake(bodies, index);
+  if (act.verb != Act::push) catch_up(index, bodies, cache);
   switch (act.verb) {
     case Act::pull: {
       const double stiffness = act.stiffness > 0.0 ? act.stiffness : default_stiffness(body.mass, frame_time);

@@ -27,7 +27,8 @@ constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before tu
 constexpr double kEnergyTolerance = 1e-7;
 constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
 constexpr double kMoves = 0.03;             // of √(g size): the speed of a body of what does not come to rest yet
-constexpr double kRoughly = 1e-3;  // relative residual that tells where contacts are missed; a large group may keep it
+// relative residuals: that tells where contacts are missed, and a large group may keep it; of sweeps that are told turns
+constexpr double kRoughly = 1e-3, kTold = 1e-4;
 // a task should last longer than it takes to wake a thread: some 20 µs
 constexpr std::size_t kContactsPerTask = 16;
 
@@ -90,6 +91,7 @@ class GroupSolve {
     const std::vector<Vec3> start = system().lambda;
     const bool are_told = expect_turns();
     solve();
+    if (are_told && is_near()) result_.response.ended = StopReason::converged;
     if (are_told && is_usable() && wins_energy() && limit_turning(system(), bounds_, how_.contact, input_.time_step)) {
       system().lambda = start;
       solve();
@@ -159,6 +161,8 @@ class GroupSolve {
 
   /// Whether the answer is asked for only to see where it leads.
   bool may_wait() const { return how_.is_provisional && is_large() && !how_.response.is_approximate(); }
+  /// Rows that are told turns by spins of before strain against one another by what these change; sweeps creep there.
+  bool is_near() { return !how_.response.uses_cone_solver() && judge_group(system()).relative <= kTold; }
   bool is_large() const { return now_.contacts.size() >= kManyContacts; }
   bool follows_turns() const {
     if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
@@ -334,7 +338,7 @@ class GroupSolve {
   }
 
   std::vector<Vec3> spins() const {
-    const std::vector<Vec3>& changes = now_.system.delta_angular_velocity;
+    const auto& changes = now_.system.delta_angular_velocity;
     return now_.meeting == 0.0 ? changes : spins_as_they_stand(bodies_, now_, changes);
   }
 
@@ -349,8 +353,7 @@ class GroupSolve {
   bool floats() const {
     const auto is_rigid = [&](BodyIndex b) { return !b.is_none() && bodies_[b].kind() == BodyKind::dynamic; };
     return std::all_of(group_.contacts.begin(), group_.contacts.end(), [&](ContactIndex i) {
-      const auto [a, b] = input_.contacts.bodies(i);
-      return is_rigid(a) && is_rigid(b);
+      return is_rigid(input_.contacts.bodies(i).first) && is_rigid(input_.contacts.bodies(i).second);
     });
   }
 
@@ -420,8 +423,8 @@ GroupResult respond_to_group(Bodies& bodies, const AssemblyInput& input, const C
 void respond(Bodies& bodies, const ContactList& contacts, std::span<const Vec3> start,
              std::span<const CollisionGroup> groups, const std::vector<char>& is_known, const Solving& how,
              std::vector<GroupResult>& results, StageTimes& times) {
-  const AssemblyInput input{bodies,      contacts,     start,          how.contact,   how.context.time_step,
-                            how.gravity, how.rebounds, how.velocities, how.drift_time};
+  const AssemblyInput input{bodies,      contacts,     start,          how.contact,    how.context.time_step,
+                            how.gravity, how.rebounds, how.velocities, how.drift_time, how.response.is_approximate()};
   results.resize(groups.size());
   std::vector<std::size_t> wanted;
   for (std::size_t g = 0; g < groups.size(); ++g)

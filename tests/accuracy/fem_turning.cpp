@@ -118,3 +118,19 @@ TEST_CASE("the energy-momentum scheme turns a stiff cube as it is, damped or not
       CHECK(body.kinetic_energy() == Approx(energy).epsilon(2e-3));
     }
 }
+
+TEST_CASE("newmark's damping brakes what turns by 4 β (μ + λ) V (ω h)² ω, and wins nothing") {
+  const double beta = 0.005, mu = kStiff / (2.0 * (1.0 + kNearlyRubber)),
+               lambda = kStiff * kNearlyRubber / ((1.0 + kNearlyRubber) * (1.0 - 2.0 * kNearlyRubber));
+  for (const double omega : {1.0, 2.0, 10.0})
+    for (const double h : {1.0 / 480.0, 1.0 / 960.0, 1.0 / 1920.0}) {
+      CAPTURE(omega, h);
+      DeformableBody body = spinning_cube(omega, beta);
+      const double before = body.angular_momentum().z(), energy = body.kinetic_energy(), inertia = before / omega;
+      const double rate = 4.0 * beta * (mu + lambda) * std::pow(kCubeSide, 3) * h * h / inertia;  // of dω/dt = −rate ω³
+      spin_on("newmark", body, h, 1.0);
+      const double left = 1.0 / std::sqrt(1.0 + 2.0 * rate * omega * omega);
+      CHECK(body.angular_momentum().z() == Approx(left * before).epsilon(0.05));
+      CHECK(body.kinetic_energy() < 1.001 * energy);
+    }
+}

@@ -277,3 +277,31 @@ TEST_CASE("two balls on a floor that meet aslant part as the formula says, and s
         }
       }
 }
+
+TEST_CASE(
+    "a ball that strikes a floor aslant leaves with the spin that its own arm gives it, however far off it was seen") {
+  constexpr double kRadius = 0.1, kFriction = 0.1;
+  const auto response = GENERATE(as<std::string>(), "", "sequential_impulse", "quick", "soft_constraint");
+  for (const double restitution : {0.5, 1.0})
+    for (const double off : {0.001, 0.003, 0.0097, 0.016})  // of what is covered in a sub-step, 0.0167 m
+      for (const bool is_first : {true, false}) {
+        CAPTURE(response, restitution, off, is_first);
+        World world;
+        world.parameters.simulation.gravity.setZero();
+        world.parameters.simulation.sleeping = false;
+        world.parameters.contact.restitution = restitution, world.parameters.contact.friction = kFriction;
+        if (!response.empty()) world.parameters.response.method = response;
+        BodyDescription ball = dynamic_body("ball", Sphere{kRadius}, {0, kRadius + off, 0});
+        ball.velocity = {3, -4, 0};
+        if (is_first) world.add_body(ball);
+        world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+        if (!is_first) world.add_body(ball);
+        world.start();
+        run(world, 6);
+        const Twist after = world.bodies()[is_first ? 0 : 1].twist();
+        const double slowed = kFriction * (1.0 + restitution) * 4.0;  // it slips all the while
+        CHECK(after.linear.x() == Approx(3.0 - slowed).epsilon(1e-6));
+        CHECK(after.linear.y() == Approx(4.0 * restitution).epsilon(1e-6));
+        CHECK(after.angular.z() == Approx(-slowed / (0.4 * kRadius)).epsilon(1e-5));
+      }
+}

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/step/act.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/ledgers.hpp"
 #include "tests/support/mechanics/methods.hpp"
@@ -183,4 +184,110 @@ TEST_CASE("a state with velocities of the middle goes on from a snapshot bit for
   later.restore(in);
   CHECK(later.record().bodies[1].velocity == whole.record().bodies[1].velocity);
   CHECK(hashes(whole, 40) == hashes(later, 40));
+}
+
+namespace {
+
+/// Of a body: where it is and how fast it moves, along y.
+std::pair<double, double> upright(const World& world, int body) {
+  const BodyRecord& record = world.record().bodies[static_cast<std::size_t>(body)];
+  return {world.bodies()[body].center_of_mass().y(), record.velocity.y()};
+}
+
+void run_frames(World& world, int frames) {
+  for (int i = 0; i < frames; ++i) world.step();
+}
+
+}  // namespace
+
+TEST_CASE(
+    "gravity that changes in a run with velocities of the middle acts from then on, and the one before until then") {
+  for (const int substeps : {1, 4, 16})
+    for (const bool is_soft : {false, true}) {
+      CAPTURE(substeps, is_soft);
+      World world;
+      in_the_middle(world);
+      world.parameters.simulation.substeps = substeps;
+      world.parameters.simulation.integrator = "symplectic_euler";
+      SoftOptions soft;
+      soft.young = 2e3, soft.damping_beta = 0.0;
+      world.add_body(is_soft ? soft_cube("body", 0.2, 1, {0, 4.9, 0}, soft)
+                             : dynamic_body("body", Sphere{0.1}, {0, 5, 0}));
+      world.start();
+      const double frame = world.parameters.simulation.frame_time, before = 20 * frame, after = 15 * frame;
+      run_frames(world, 20);
+      world.parameters.simulation.gravity = {0, 5, 0};
+      world.parameters_changed();
+      const RunLedger later = keep_books(world, 15);
+      const auto [y, v] = upright(world, 0);
+      const double turned = -kGravity * before;
+      CHECK(v == Approx(turned + 5.0 * after).margin(1e-9));
+      CHECK(y == Approx(5.0 + 0.5 * turned * before + turned * after + 2.5 * after * after).margin(1e-9));
+      CHECK(later.momentum_share() < 1e-9);
+    }
+}
+
+TEST_CASE("what loses its support with velocities of the middle falls from rest, as long as it has none") {
+  for (const bool hangs : {false, true})
+    for (const int substeps : {1, 4, 16}) {
+      CAPTURE(hangs, substeps);
+      World world;
+      in_the_middle(world);
+      world.parameters.simulation.substeps = substeps;
+      world.parameters.simulation.sleeping = false;
+      BodyDescription support = cube(hangs ? "hook" : "post", 0.2, {0, 0.1, 0});
+      support.kind = BodyKind::fixed;
+      world.add_body(support);
+      const double side = hangs ? -1.0 : 1.0;
+      for (int i = 0; i < 2; ++i)
+        world.add_body(cube("box" + std::to_string(i), 0.2, {0, 0.1 + side * 0.2 * (i + 1), 0}));
+      for (int i = 0; hangs && i < 2; ++i)
+        for (const double x : {-0.05, 0.05}) {
+          AttachmentDescription pin{"pin" + std::to_string(i), "box" + std::to_string(i), i == 0 ? "hook" : "box0",
+                                    Vec3(x, -0.2 * i, 0)};
+          pin.collide = false;
+          world.add_attachment(pin);
+        }
+      world.start();
+      run_frames(world, 20);
+      const std::vector<double> before = {upright(world, 1).first, upright(world, 2).first};
+      Act act;
+      act.verb = Act::remove, act.body = support.name;
+      world.act(act);
+      const RunLedger books = keep_books(world, 12);
+      const double fallen = 12 * world.parameters.simulation.frame_time;
+      for (int i = 0; i < 2; ++i) {
+        const auto [y, v] = upright(world, 1 + i);
+        CHECK(v == Approx(-kGravity * fallen).epsilon(1e-6));
+        CHECK(y - before[static_cast<std::size_t>(i)] == Approx(-0.5 * kGravity * fallen * fallen).epsilon(1e-5));
+      }
+      CHECK(books.momentum_share() < 1e-9);
+    }
+}
+
+TEST_CASE("a pull acts with velocities of the middle from when it begins until it ends") {
+  for (const int substeps : {1, 4, 16}) {
+    CAPTURE(substeps);
+    World world;
+    in_the_middle(world);
+    world.parameters.simulation.gravity.setZero();
+    world.parameters.simulation.substeps = substeps;
+    BodyDescription ball = dynamic_body("ball", Sphere{0.1}, {0, 0, 0});
+    ball.mass = 1.0;
+    world.add_body(ball);
+    world.start();
+    run_frames(world, 3);
+    Act act;  // as good as a force of 1 N: its spring is soft and long, and its damping hardly there
+    act.body = "ball", act.vector = {0, 1e10, 0}, act.point = Vec3::Zero(), act.stiffness = 1e-10;
+    world.act(act);
+    run_frames(world, 20);
+    const double frame = world.parameters.simulation.frame_time, pulled = 20 * frame, free = 10 * frame;
+    CHECK(upright(world, 0).second == Approx(pulled).epsilon(1e-4));
+    act.verb = Act::release;
+    world.act(act);
+    run_frames(world, 10);
+    const auto [y, v] = upright(world, 0);
+    CHECK(v == Approx(pulled).epsilon(1e-4));
+    CHECK(y == Approx(0.5 * pulled * pulled + pulled * free).epsilon(1e-4));
+  }
 }

@@ -198,3 +198,27 @@ TEST_CASE("a top that stands on its tip keeps its energy, as a cone, a mesh and 
       }
     }
 }
+
+TEST_CASE("a box on a turntable that speeds up stays where it stands on it") {
+  const auto response =
+      GENERATE(as<std::string>(), "constraint_anticipation", "sequential_impulse", "simultaneous_impulse");
+  for (const double rate : {0.2, 0.5})  // rad/s²
+    for (const int substeps : {1, 4}) {
+      CAPTURE(response, rate, substeps);
+      World world;
+      world.parameters.simulation.sleeping = false;
+      world.parameters.simulation.substeps = substeps;
+      world.parameters.response.method = response;
+      BodyDescription table = dynamic_body("table", Box{Vec3(2, 0.1, 2)}, {0, -0.1, 0});
+      table.kind = BodyKind::scripted;
+      for (int i = 0; i <= 30; ++i)
+        table.motion.push_back({0.1 * i, Vec3(0, -0.1, 0), Vec3(0, 0.5 * rate * 0.01 * i * i * 180.0 / M_PI, 0)});
+      world.add_body(table);
+      world.add_body(cube("box", 0.05, {1, 0.025, 0}));
+      world.start();
+      run(world, 150);
+      const double turned = rate * 2.5, chord = turned * turned * 2.5 / 6.0 * world.parameters.simulation.time_step();
+      const Vec3 at = world.bodies()[1].pose.position;
+      CHECK(std::abs(std::hypot(at.x(), at.z()) - 1.0) < 0.02 * chord);
+    }
+}

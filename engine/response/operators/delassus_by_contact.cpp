@@ -102,6 +102,38 @@ Vec3 DelassusByContact::velocity(std::size_t i) const {
   return group_.contact_velocity(i, true) + coupled_velocity_[i];
 }
 
+Mat3 DelassusByContact::between(std::size_t i, std::size_t j) const {
+  const ContactRows &of = group_.contacts[i], &other = group_.contacts[j];
+  const auto cross = [](const Vec3& arm, const Mat3& rows) {
+    Mat3 turns;
+    for (int k = 0; k < 3; ++k) turns.row(k) = arm.cross(rows.row(k).transpose()).transpose();
+    return turns;
+  };
+  Mat3 w = Mat3::Zero();
+  for (int k = 0; k < 2; ++k)
+    for (int l = 0; l < 2; ++l) {
+      const ContactSide &side = k == 0 ? of.a : of.b, &at = l == 0 ? other.a : other.b;
+      const double sign = k == l ? 1.0 : -1.0;
+      if (side.rigid >= 0 && side.rigid == at.rigid) {
+        const RigidBlock& block = group_.rigid[static_cast<std::size_t>(side.rigid)];
+        w += sign *
+             (block.inverse_mass * of.directions * other.directions.transpose() +
+              cross(side.arm, of.directions) * block.inverse_inertia * cross(at.arm, other.directions).transpose());
+      }
+      if (side.nodes.empty() || at.nodes.empty() || side.deformable != at.deformable) continue;
+      if (place_[i][k] >= 0) {  // signs are in it
+        w += coupled_[side.deformable].w.block<3, 3>(3 * place_[i][k], 3 * place_[j][l]);
+        continue;
+      }
+      for (const NodeWeight& n : side.nodes)
+        for (const NodeWeight& m : at.nodes)
+          if (n.node == m.node)
+            w += sign * n.weight * m.weight * of.directions * node_inverse_[side.deformable][n.node] *
+                 other.directions.transpose();
+    }
+  return w;
+}
+
 double DelassusByContact::natural_residual(std::span<const double> bound, std::span<const double> impact) const {
   double worst = 0.0;
   for (std::size_t i = 0; i < group_.contacts.size(); ++i) {

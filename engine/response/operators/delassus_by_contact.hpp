@@ -17,6 +17,8 @@ class DelassusByContact {
 
   /// W_ii, 1/kg. Zero where both sides are held.
   const Mat3& diagonal(std::size_t i) const { return diagonal_[i]; }
+  /// W_ij, 1/kg.
+  Mat3 between(std::size_t i, std::size_t j) const;
   /// D_i with blockdiag(D) ⪰ W: what contact i answers with when all contacts act at once. A rigid body counts once for
   /// each of its contacts, which shares its mass among them [Tonge12]; a coupled body by the row sums of its part of W.
   const Mat3& split_diagonal(std::size_t i) const { return split_[i]; }
