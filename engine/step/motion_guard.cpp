@@ -14,6 +14,7 @@
 #include "engine/detection/continuous/solids_apart.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/sheet.hpp"
 #include "engine/shapes/wall.hpp"
 #include "engine/step/find_pairs.hpp"
 
@@ -28,6 +29,8 @@ constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left t
 constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
 constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
 constexpr double kWithin = 5.0;    // of what paths are straight to: half the activation distance, which contacts see
+constexpr double kStraight =
+    0.5;  // of a safe approach: what paths beside a sheet, to which any turn is large, are straight to
 constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
 constexpr double kSink = 0.1;      // the same where they may end as deep as safe: as much again leads through in four
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
@@ -293,6 +296,8 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
       if (depth == Depth::graze) own.depth = std::max(own.depth, std::min(kGraze * seen, kWithin * own.reach));
       own.creep = kCreep * own.depth;
     }
+    if (!deforms(of_a) && !deforms(of_b) && thick_beside_sheet(*of_a.shape, *of_b.shape) > 0.0)
+      own.reach = std::max(own.reach, kStraight * pairs[i].safe);
     if (is_plane(of_a) || is_plane(of_b)) {
       pairs[i].passages = passages_through_plane(of_a, paths[i].first, of_b, paths[i].second, own);
       return;

@@ -11,6 +11,7 @@
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/archive.hpp"
 #include "engine/ledger/ledger.hpp"
+#include "engine/shapes/sheet.hpp"
 #include "engine/step/end_pose.hpp"
 #include "engine/step/impacts.hpp"
 #include "engine/step/remember.hpp"
@@ -32,6 +33,7 @@ constexpr double kLongWay = 4.0;       // of a safe approach
 constexpr double kNoShare = 1e-9;      // of a motion: no time passes in less, and no velocity follows from that
 constexpr double kLeastShare = 1e-4;   // of a sub-step, that a piece is tried with
 constexpr double kFar = 20.0;          // of a safe approach: from there on the end tells nothing of what is on the way
+constexpr double kBesideSheet = 0.1;   // of a thickness: how far off rows hold what passes a sheet
 constexpr double kStandOff = 0.25;     // of the activation distance: how near a piece ends
 constexpr double kDepth = 1e-3;      // of the activation distance: overlap that is left to contacts and their push-out
 constexpr double kSelfDepth = 1e-6;  // the same of a body with itself, whose contacts keep it apart by more than that
@@ -77,12 +79,16 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
 
 /// How far apart features of a pair may begin that get rows before anything is cut. What turns in a hole slides over
 /// facets and meets others than it began with: rows of those hold it where turns are followed, as long as the way is one
-/// that contacts see well.
+/// that contacts see well. What turns over a sheet is through it before that shows in its end, and for its contacts nothing
+/// there is near: the same rows hold it, as far as they would if the sheet were the side of something thick. Not what is
+/// round: the triangles that are followed are inside it, and rows of theirs would let it in.
 PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_are_followed) {
   return [&bodies, &step, turns_are_followed](const UnsafeMotion::Pair& p) {
     const auto deforms = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
-    return turns_are_followed && !deforms(p.a) && !deforms(p.b) && are_interlocked(step.collisions, {p.a, p.b}) ? p.safe
-                                                                                                                : 0.0;
+    if (!turns_are_followed || deforms(p.a) || deforms(p.b)) return 0.0;
+    const double thick = thick_beside_sheet(*bodies[p.a].shape, *bodies[p.b].shape);
+    if (thick > 0.0 && p.approach > kFar * p.safe) return kBesideSheet * thick;
+    return are_interlocked(step.collisions, {p.a, p.b}) ? p.safe : 0.0;
   };
 }
 

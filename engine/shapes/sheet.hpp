@@ -1,0 +1,28 @@
+// Solids that are thin to another.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/shapes/wall.hpp"
+
+namespace impinge {
+
+/// Whether its triangles are its surface, and not a drawing of what is round, whose triangles are inside it.
+inline bool is_faceted(const Shape& shape) {
+  if (shape.mesh() != nullptr) return true;
+  const ShapeForm form = shape.form();
+  const auto* set = std::get_if<const ConvexSet*>(&form);
+  return set != nullptr && (*set)->polyhedron() != nullptr;
+}
+
+/// Of two whose surfaces are triangles: how thick the one is where the other's walls are less than a hundredth of that, a mere
+/// sheet to it, metres; else 0.
+inline double thick_beside_sheet(const Shape& a, const Shape& b) {
+  constexpr double kSheet = 0.01;
+  if (!is_faceted(a) || !is_faceted(b)) return 0.0;
+  const double of_a = wall_of(a), of_b = wall_of(b), thick = std::max(of_a, of_b);
+  return std::min(of_a, of_b) < kSheet * thick ? thick : 0.0;
+}
+
+}  // namespace impinge
