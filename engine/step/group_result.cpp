@@ -37,6 +37,22 @@ Vec3 normal_of(const SolvedContact& contact, const Bodies& bodies) {
   return owner.is_none() ? contact.collision.normal : Vec3(bodies[owner].pose.rotation * contact.local_normal);
 }
 
+bool floats(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
+  const auto is_rigid = [&](BodyIndex b) { return !b.is_none() && bodies[b].kind() == BodyKind::dynamic; };
+  return std::all_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex i) {
+    const auto [a, b] = contacts.bodies(i);
+    return is_rigid(a) && is_rigid(b);
+  });
+}
+
+bool is_driven(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
+  const auto is_scripted = [&](BodyIndex b) { return !b.is_none() && bodies[b].kind() == BodyKind::scripted; };
+  return std::any_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex i) {
+    const auto [a, b] = contacts.bodies(i);
+    return is_scripted(a) || is_scripted(b);
+  });
+}
+
 void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const CollisionGroup& group,
                const ContactList& contacts, GroupResult& result) {
   const GroupSystem& s = solved.system;

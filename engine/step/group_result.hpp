@@ -78,6 +78,11 @@ struct GroupResult {
   double assemble_ms = 0.0, response_ms = 0.0;
 };
 
+/// Whether nothing holds the group but its own rigid bodies one another; whether somebody moves bodies of it by a motion of his
+/// own.
+bool floats(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts);
+bool is_driven(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts);
+
 /// What the rows of a solved group gave, into `rows` and `row_impulse` of its result.
 void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const CollisionGroup& group,
                const ContactList& contacts, GroupResult& result);

@@ -89,15 +89,14 @@ class GroupSolve {
   /// answer; and from nothing, where what is started from was in the way.
   void solve_expecting_turns() {
     const std::vector<Vec3> start = system().lambda;
-    const bool are_told = expect_turns();
+    are_told_ = expect_turns();
     solve();
-    if (are_told && is_near()) result_.response.ended = StopReason::converged;
-    if (are_told && is_usable() && wins_energy() && limit_turning(system(), bounds_, how_.contact, input_.time_step)) {
+    if (are_told_ && is_usable() && wins_energy() && limit_turning(system(), bounds_, how_.contact, input_.time_step)) {
       system().lambda = start;
       solve();
     }
-    if (are_told && (!is_usable() || wins_energy())) {
-      forget_turning(system(), bounds_);
+    if (are_told_ && (!is_usable() || wins_energy())) {
+      forget_turns();
       system().lambda = start;
       solve();
     }
@@ -111,7 +110,7 @@ class GroupSolve {
   /// angular momentum by these.
   void pay_for_recovery() {
     if (now_.recovery.empty() || !now_.deformable.empty() || how_.response.lives_on_overlap()) return;
-    if (floats() || !wins_energy()) return;
+    if (floats(bodies_, group_, input_.contacts) || !wins_energy()) return;
     const AssembledGroup asked = now_;
     const ResponseResult response = result_.response;
     const std::optional<FrozenGroup> frozen = result_.frozen;
@@ -161,8 +160,6 @@ class GroupSolve {
 
   /// Whether the answer is asked for only to see where it leads.
   bool may_wait() const { return how_.is_provisional && is_large() && !how_.response.is_approximate(); }
-  /// Rows that are told turns by spins of before strain against one another by what these change; sweeps creep there.
-  bool is_near() { return !how_.response.uses_cone_solver() && judge_group(system()).relative <= kTold; }
   bool is_large() const { return now_.contacts.size() >= kManyContacts; }
   bool follows_turns() const {
     if (how_.contact.turning_solves == 0 || now_.rigid.empty() || how_.response.is_approximate()) return false;
@@ -182,9 +179,18 @@ class GroupSolve {
     });
   }
 
-  /// Whether there is an answer to go on with: of many rigid bodies one that is near the exact one serves, too.
+  void forget_turns() {
+    forget_turning(system(), bounds_);
+    are_told_ = false;
+  }
+
+  /// Whether there is an answer to go on with: of many rigid bodies one that is near the exact one serves, too. So it does
+  /// of sweeps that creep because rows are told turns by spins of before, and strain by what the one who drives them changes.
   bool is_usable() {
     if (result_.response.converged()) return true;
+    if (are_told_ && !how_.response.uses_cone_solver() && is_driven(bodies_, group_, input_.contacts) &&
+        judge_group(system()).relative <= kTold)
+      return true;
     if (!is_large() || !now_.deformable.empty() || how_.response.is_approximate()) return false;
     return judge_group(system()).relative <= kRoughly;
   }
@@ -219,8 +225,8 @@ class GroupSolve {
     // where bodies turn otherwise than was counted on, with less of that
     while (follow_turns_once() && trust_ != Trust::none) {
       trust_ = trust_ == Trust::facets ? Trust::lifts : Trust::none;
-      forget_turning(system(), bounds_);
-      if (trust_ == Trust::lifts) expect_turns();
+      forget_turns();
+      if (trust_ == Trust::lifts) are_told_ = expect_turns();
       solve();
     }
   }
@@ -269,11 +275,9 @@ class GroupSolve {
     return rows_at_end(bodies_, now_, input_.contacts, how_.contact, input_.time_step, trust_);
   }
 
-  /// Unless somebody moves bodies of the group by a motion of his own, who may give it some.
+  /// Unless it is driven by somebody, who may give it some.
   bool wins_energy() const {
-    for (const ContactIndex c : group_.contacts)
-      for (const BodyIndex b : {input_.contacts.bodies(c).first, input_.contacts.bodies(c).second})
-        if (!b.is_none() && bodies_[b].kind() == BodyKind::scripted) return false;
+    if (is_driven(bodies_, group_, input_.contacts)) return false;
     const auto [won, free] = energy_won(bodies_, now_);
     return won > free * kEnergyTolerance;
   }
@@ -298,7 +302,7 @@ class GroupSolve {
       return displace(now_.by_body(group_, s.position_velocity, s.position_angular_velocity, {}), 1.0);
     if (how_.response.lives_on_overlap()) return;
     // pulled together by positions what floats and turns would lose angular momentum: the next piece takes all by velocity
-    if (!now_.drift.empty() && floats()) now_.drift.clear();
+    if (!now_.drift.empty() && floats(bodies_, group_, input_.contacts)) now_.drift.clear();
     if (!needs_push_out(s, now_.drift, how_.contact, input_.time_step)) return follow_rebounds();
     check_interrupt();
     GroupSystem recovery = make_push_out_system(s, now_.drift, how_.contact, input_.time_step);
@@ -324,7 +328,8 @@ class GroupSolve {
   void follow_rebounds() {
     if (now_.meeting > 0.0) return;
     const std::optional<LateImpacts> late = late_impacts(system(), input_.time_step);
-    if (late && !floats()) result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
+    if (late && !floats(bodies_, group_, input_.contacts))
+      result_.displacement = now_.by_body(group_, late->linear, late->angular, {});
   }
 
   /// Until then the bodies go on: what that is beside the way of the velocities that they end with.
@@ -346,15 +351,7 @@ class GroupSolve {
     const double h = share * input_.time_step;
     for (BodyVector& by : velocity) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
     result_.displacement = std::move(velocity);
-    if (floats()) result_.taken = std::max(0.0, -energy_won(bodies_, now_).first);
-  }
-
-  /// Whether nothing holds the group but its own rigid bodies one another.
-  bool floats() const {
-    const auto is_rigid = [&](BodyIndex b) { return !b.is_none() && bodies_[b].kind() == BodyKind::dynamic; };
-    return std::all_of(group_.contacts.begin(), group_.contacts.end(), [&](ContactIndex i) {
-      return is_rigid(input_.contacts.bodies(i).first) && is_rigid(input_.contacts.bodies(i).second);
-    });
+    if (floats(bodies_, group_, input_.contacts)) result_.taken = std::max(0.0, -energy_won(bodies_, now_).first);
   }
 
   /// The largest part of a recovery that moves no point of a body faster than max_push_out allows.
@@ -409,6 +406,7 @@ class GroupSolve {
   AssembledGroup now_;
   GroupSystem before_meeting_;  // solved, where two meet in flight
   bool is_rough_ = false;
+  bool are_told_ = false;  // rows are, what turning takes
   Trust trust_ = Trust::facets;
   GroupResult result_;
 };

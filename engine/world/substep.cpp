@@ -197,8 +197,8 @@ bool of_deforming(const Bodies& bodies, const UnsafeMotion& motion) {
 
 /// What changes for the next motion of a piece: ends are looked at, features that pass get rows, or it is tried with a share
 /// of its length.
-double look_ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLength& seen,
-                       const PairLength& activation, bool may_look, bool is_patient, Asking& asking, SubStep& step) {
+double ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLength& seen,
+                  const PairLength& activation, bool may_look, bool is_patient, Asking& asking, SubStep& step) {
   const bool brings = asking.brings(motion.pairs.size());
   if (brings && may_look && is_patient && look_at_ends(bodies, motion, step)) return 1.0;
   asking.bends |= of_deforming(bodies, motion);
@@ -407,8 +407,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       if (tears)
         share *= 0.5;
       else
-        share *=
-            look_ask_or_cut(bodies_, *unsafe, seen, of_pair, may_look_again(), motion <= kPatience, asking, *sub_step_);
+        share *= ask_or_cut(bodies_, *unsafe, seen, of_pair, may_look_again(), motion <= kPatience, asking, *sub_step_);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
     next = piece < kMostPieces ? std::max(kLeastShare, asking.next_share(share, motion)) : 1.0;
