@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "engine/algebra/growing_cholesky.hpp"
@@ -28,7 +27,6 @@ constexpr double kViolated = 0.01;  // of the tolerance
 constexpr double kBeyond = 1e3;  // times as fast as all that is asked for: no motion that anybody would call an answer
 constexpr double kFlat = 1e-6;   // of W's diagonal: what a row moves beside the others
 constexpr double kRounding = 4e-16;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostActiveRows = 3000;
 
 /// Entries of W between scalar rows 3 i + k.
@@ -261,7 +259,7 @@ class ActiveSet {
       for (std::size_t k = 0; k < active_.size(); ++k) left[k] = moves(active_[k]);
       r += factor_.backward(factor_.forward(left));
     }
-    double moved = 0.0, against = 0.0, sum = 0.0, rounding = 0.0, least = kInfinite, most = 0.0;
+    double moved = 0.0, against = 0.0, sum = 0.0, rounding = 0.0, least = INFINITY, most = 0.0;
     for (int row = 0; row < static_cast<int>(rows_.size()); ++row) {
       const double of = z[rows_[row] / 3][rows_[row] % 3];
       least = std::min(least, diagonal_[row]), most = std::max(most, std::abs(of));

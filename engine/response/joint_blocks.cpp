@@ -50,7 +50,7 @@ std::vector<JointBlock> joint_blocks(const GroupSystem& group) {
     if (is_new) blocks.push_back({of.a.rigid, of.b.rigid});
     JointBlock& block = blocks[at->second];
     if (of.kind == RowKind::attachment) block.holds_points = true;
-    for (int k = 0; k < (of.kind == RowKind::sliding ? 1 : 3); ++k)
+    for (int k = 0; k < (of.has_one_row() ? 1 : 3); ++k)
       block.rows.push_back({i, k, of.a.rigid == block.a ? 1.0 : -1.0});
   }
   for (JointBlock& block : blocks) find_basis(group, block);

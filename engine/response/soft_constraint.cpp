@@ -109,17 +109,18 @@ class SoftConstraint : public Response {
       for (const auto& [bodies, points] : pairs) {
         if (points.size() < 2 || points.size() > kMostPoints) continue;
         Block block;
+        const auto count_of = [&](std::size_t i) { return group.contacts[i].has_one_row() ? 1 : 3; };
         for (const std::size_t i : points) {
-          for (int k = 0; k < (group.contacts[i].kind == RowKind::sliding ? 1 : 3); ++k) block.rows.emplace_back(i, k);
+          for (int k = 0; k < count_of(i); ++k) block.rows.emplace_back(i, k);
           is_of_block[i] = true;
         }
         const auto count = static_cast<Eigen::Index>(block.rows.size());
         MatX between(count, count);
-        for (Eigen::Index r = 0; r < count; ++r)
-          for (Eigen::Index c = 0; c < count; ++c) {
-            const auto [i, k] = block.rows[static_cast<std::size_t>(r)];
-            const auto [j, l] = block.rows[static_cast<std::size_t>(c)];
-            between(r, c) = w.between(i, j)(k, l);
+        for (Eigen::Index r = 0; r < count; r += count_of(block.rows[static_cast<std::size_t>(r)].first))
+          for (Eigen::Index c = 0; c < count; c += count_of(block.rows[static_cast<std::size_t>(c)].first)) {
+            const std::size_t i = block.rows[static_cast<std::size_t>(r)].first,
+                              j = block.rows[static_cast<std::size_t>(c)].first;
+            between.block(r, c, count_of(i), count_of(j)) = w.between(i, j).topLeftCorner(count_of(i), count_of(j));
           }
         const MatX basis = basis_of(0.5 * (between + between.transpose()));
         block.inverse = basis * basis.transpose();

@@ -2,19 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
+#include "engine/shapes/faceted.hpp"
 #include "engine/shapes/wall.hpp"
 
 namespace impinge {
-
-/// Whether its triangles are its surface, and not a drawing of what is round, whose triangles are inside it.
-inline bool is_faceted(const Shape& shape) {
-  if (shape.mesh() != nullptr) return true;
-  const ShapeForm form = shape.form();
-  const auto* set = std::get_if<const ConvexSet*>(&form);
-  return set != nullptr && (*set)->polyhedron() != nullptr;
-}
 
 /// Of two whose surfaces are triangles: how thick the one is where the other's walls are less than a hundredth of that, a mere
 /// sheet to it, metres; else 0.

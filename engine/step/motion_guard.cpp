@@ -29,8 +29,7 @@ constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left t
 constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
 constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
 constexpr double kWithin = 5.0;    // of what paths are straight to: half the activation distance, which contacts see
-constexpr double kStraight =
-    0.5;  // of a safe approach: what paths beside a sheet, to which any turn is large, are straight to
+constexpr double kStraight = 0.5;  // of a safe approach: what paths beside a sheet are straight to
 constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
 constexpr double kSink = 0.1;      // the same where they may end as deep as safe: as much again leads through in four
 constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns

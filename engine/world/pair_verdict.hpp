@@ -34,9 +34,11 @@ std::string_view name_of(FilterVerdict::Outcome outcome);
 /// response, time_of_impact. The last two come after there is a contact or none.
 struct PairVerdict {
   int frame = 0, substep = 0, substeps = 0;  ///< substep from 1; 0: frame 0, where nothing moves
-  int pieces = 1;                            ///< the sub-step was made in; this is of the last one
-  double time = 0.0, time_step = 0.0;        ///< s, when contacts were sought, and until when
-  BodyIndex a, b;                            ///< a <= b
+  /// The sub-step was made in, and this is of: the last one, or if they have no contact there, the last that they pushed
+  /// each other in.
+  int pieces = 1, piece = 1;
+  double time = 0.0, time_step = 0.0;  ///< s, when contacts were sought, and until when
+  BodyIndex a, b;                      ///< a <= b
   std::string name_a, name_b, shape_a, shape_b;
   BodyKind kind_a = BodyKind::dynamic, kind_b = BodyKind::dynamic;
   Aabb box_a, box_b, swept_a, swept_b;  ///< round the bodies, and as the broad phase had them

@@ -13,6 +13,15 @@ bool is_among(const std::optional<UnsafeMotion>& unsafe, BodyIndex a, BodyIndex 
                                [&](const UnsafeMotion::Pair& pair) { return pair.a == a && pair.b == b; });
 }
 
+bool is_pushed(const SubStep& step, BodyIndex a, BodyIndex b) {
+  const auto pushes = [&](const SolvedContact& c) {
+    return c.collision.body_a == a && c.collision.body_b == b && !c.lambda.isZero(0.0);
+  };
+  return std::any_of(step.results.begin(), step.results.end(), [&](const GroupResult& group) {
+    return std::any_of(group.solved.begin(), group.solved.end(), pushes);
+  });
+}
+
 }  // namespace
 
 PairWatch::PairWatch(const World& world, BodyIndex first, BodyIndex second, std::optional<Asked> asked)
@@ -45,11 +54,13 @@ void PairWatch::moved(const Bodies&, const SubStep& step, MotionGuard& guard, co
     return;
   }
   ++pieces_;
+  if (now_) now_->piece = pieces_;
   is_unsafe_ = is_unsafe_ || is_among(unsafe, a_, b_);
   if (now_) {
     now_->undone = undone_;
     add_outcome(*now_, world_, step, guard, passage);
     if (has_contact_now_ && !has_contact_) touching_ = now_;
+    if (has_contact_now_ && is_pushed(step, a_, b_)) pushing_ = now_;
   }
   has_contact_ = has_contact_ || has_contact_now_;
   kept_ = std::move(now_);
@@ -59,6 +70,8 @@ void PairWatch::finished(const Bodies&, int substep) { take(substep); }
 
 void PairWatch::take(int substep) {
   const Moment here{world_.frame(), substep};
+  // what pushed in an earlier piece is a contact of the sub-step, as its record has it
+  if (kept_ && !kept_->in_contact() && pushing_) kept_ = pushing_;
   for (std::optional<PairVerdict>* verdict : {&kept_, &touching_})
     if (*verdict) (*verdict)->substep = substep, (*verdict)->pieces = std::max(1, pieces_);
   if (has_contact_) {
@@ -74,7 +87,7 @@ void PairWatch::take(int substep) {
   if (is_unsafe_ && unsafe_motions_++ == 0) first_unsafe_ = here;
   is_unsafe_ = false;
   kept_.reset();
-  touching_.reset();
+  touching_.reset(), pushing_.reset();
   undone_ = {};
   pieces_ = 0;
   has_contact_ = false;

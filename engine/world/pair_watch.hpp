@@ -46,7 +46,8 @@ class PairWatch : public StepWatcher {
   BodyIndex a_, b_;
   std::optional<Asked> asked_;
   NearestSearch search_;
-  std::optional<PairVerdict> now_, kept_, touching_;  // of the motion; of the sub-step's last, and first with a contact
+  std::optional<PairVerdict> now_, kept_;          // of the motion; of the sub-step's last
+  std::optional<PairVerdict> touching_, pushing_;  // of its first with a contact, and its last with an impulse
   std::optional<PairVerdict> at_asked_, telling_;
   PairVerdict::Undone undone_;                          // of the sub-step
   bool has_contact_now_ = false, has_contact_ = false;  // of the motion, of a kept one of the sub-step

@@ -142,13 +142,18 @@ TEST_CASE("a roller chain swings with no more than 30 contacts a pair, its pins 
 }
 
 TEST_CASE("what only the response drives together overlaps unless it is looked for again", "[interlocked]") {
-  // looked for again also when the gaps have closed; without, that is where rounding decides how stones wedge
-  const AssemblyResult with = run({"arch", 25, 1, 0.1}, true), without = run({"arch", 25, 1, 0.05}, true, 0);
+  const Assembly arch{"arch", 25, 1, 0.1};
+  const AssemblyResult with = run(arch, true), without = run(arch, true, 0);
   CAPTURE(with.overlap, without.overlap, without.by_vertices, with.thickness);
   constexpr double kLeft = 1e-6;  // metres
   CHECK(with.overlap <= kLeft);
   CHECK(without.overlap >= 1000.0 * kLeft);  // the look at motions leaves what is shallow by vertices to it:
-  CHECK(without.by_vertices <= 5e-6 * without.thickness);  // of the thickness of a stone
+  CHECK(without.by_vertices <= 5e-3 * without.thickness);  // of the thickness of a stone
   // edges know better: all corners of two stones that meet lie in one another's sides, where vertices tell little
-  CHECK(without.overlap >= 1000.0 * without.by_vertices);
+  CHECK(without.overlap >= 10.0 * without.by_vertices);
+  // and until the gaps have closed, when stones wedge, vertices tell next to nothing
+  const AssemblyResult open = run({"arch", 25, 1, 0.05}, true, 0);
+  CAPTURE(open.overlap, open.by_vertices);
+  CHECK(open.overlap >= 1000.0 * kLeft);
+  CHECK(open.by_vertices <= 5e-6 * open.thickness);
 }

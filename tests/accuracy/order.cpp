@@ -194,10 +194,6 @@ std::pair<double, double> upright(const World& world, int body) {
   return {world.bodies()[body].center_of_mass().y(), record.velocity.y()};
 }
 
-void run_frames(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) world.step();
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -215,7 +211,7 @@ TEST_CASE(
                              : dynamic_body("body", Sphere{0.1}, {0, 5, 0}));
       world.start();
       const double frame = world.parameters.simulation.frame_time, before = 20 * frame, after = 15 * frame;
-      run_frames(world, 20);
+      run(world, 20);
       world.parameters.simulation.gravity = {0, 5, 0};
       world.parameters_changed();
       const RunLedger later = keep_books(world, 15);
@@ -249,7 +245,7 @@ TEST_CASE("what loses its support with velocities of the middle falls from rest,
           world.add_attachment(pin);
         }
       world.start();
-      run_frames(world, 20);
+      run(world, 20);
       const std::vector<double> before = {upright(world, 1).first, upright(world, 2).first};
       Act act;
       act.verb = Act::remove, act.body = support.name;
@@ -276,16 +272,16 @@ TEST_CASE("a pull acts with velocities of the middle from when it begins until i
     ball.mass = 1.0;
     world.add_body(ball);
     world.start();
-    run_frames(world, 3);
+    run(world, 3);
     Act act;  // as good as a force of 1 N: its spring is soft and long, and its damping hardly there
     act.body = "ball", act.vector = {0, 1e10, 0}, act.point = Vec3::Zero(), act.stiffness = 1e-10;
     world.act(act);
-    run_frames(world, 20);
+    run(world, 20);
     const double frame = world.parameters.simulation.frame_time, pulled = 20 * frame, free = 10 * frame;
     CHECK(upright(world, 0).second == Approx(pulled).epsilon(1e-4));
     act.verb = Act::release;
     world.act(act);
-    run_frames(world, 10);
+    run(world, 10);
     const auto [y, v] = upright(world, 0);
     CHECK(v == Approx(pulled).epsilon(1e-4));
     CHECK(y == Approx(0.5 * pulled * pulled + pulled * free).epsilon(1e-4));

@@ -110,7 +110,10 @@ std::string pair_text(const PairWatch& watch, int last_frame) {
   std::string moment = place_text(v.frame, v.substep);
   if (v.substep > 0) moment += fmt::format(" of {}", v.substeps);
   moment += fmt::format(": contacts sought at {:.6g} s", v.time);
-  if (v.pieces > 1) moment += fmt::format(", in the last of {} pieces", v.pieces);
+  if (v.pieces > 1)
+    moment += v.piece == v.pieces
+                  ? fmt::format(", in the last of {} pieces", v.pieces)
+                  : fmt::format(", in piece {} of {}, the last that they pushed each other in", v.piece, v.pieces);
   line("moment", moment);
   const FilterVerdict* stop = v.stopped_by();
   line("verdict",
@@ -145,6 +148,7 @@ std::string pair_json(const PairWatch& watch, int last_frame) {
   field("substep", fmt::format("{}", v.substep));
   field("substeps", fmt::format("{}", v.substeps));
   field("pieces", fmt::format("{}", v.pieces));
+  field("piece", fmt::format("{}", v.piece));
   field("time_s", json_number(v.time));
   field("time_step_s", json_number(v.time_step));
   field("in_contact", v.in_contact() ? "true" : "false");

@@ -10,7 +10,7 @@
 #include "engine/detection/pairs/primitive.hpp"
 #include "engine/detection/triangles/triangle_pair_test.hpp"
 #include "engine/geometry/box_tree.hpp"
-#include "engine/geometry/convex/convex_polyhedron.hpp"
+#include "engine/shapes/faceted.hpp"
 
 namespace impinge {
 namespace {
@@ -138,12 +138,6 @@ struct Triangulated {
   Collider collider;
 };
 
-bool is_polyhedron(const Collider& c) {
-  const ShapeForm form = c.shape->form();
-  const auto* convex = std::get_if<const ConvexSet*>(&form);
-  return convex != nullptr && (*convex)->polyhedron() != nullptr;
-}
-
 std::unique_ptr<Triangulated> triangulated(const Collider& c) {
   auto body = std::make_unique<Triangulated>();
   body->collider = c;
@@ -210,7 +204,7 @@ std::optional<NearestFeatures> NearestSearch::find(std::span<const Collider> col
   if (gap <= near)
     if (auto nearest = within(colliders, {a, b, near}, true); nearest && nearest->distance <= near) return nearest;
   const bool mesh_a = is_mesh(colliders[a]), mesh_b = is_mesh(colliders[b]);
-  if ((mesh_a || mesh_b) && (mesh_a || is_polyhedron(colliders[a])) && (mesh_b || is_polyhedron(colliders[b]))) {
+  if ((mesh_a || mesh_b) && is_faceted(*colliders[a].shape) && is_faceted(*colliders[b].shape)) {
     const auto of_a = triangulated(colliders[a]), of_b = triangulated(colliders[b]);
     const auto pair = TreeSearch(of_a->collider, of_b->collider).nearest(limit);
     if (!pair) return std::nullopt;

@@ -31,15 +31,6 @@ int changed_pixels(const Image& a, const Image& b) {
   return count;
 }
 
-constexpr const char* kSoft = R"([[body]]
-name = "jelly"
-kind = "deformable"
-shape = { box = { size = [0.5, 0.5, 0.5] } }
-volume = { lattice = { cells = 3 } }
-material = { young = 3e4, density = 400 }
-position = [-0.9, 0.9, 0]
-)";
-
 }  // namespace
 
 TEST_CASE("what is done to bodies by hand is what a script of a run does, and what a bundle and a replay do") {
@@ -112,7 +103,7 @@ TEST_CASE("what was done to bodies is undone and done again, a drag as a whole")
 
 TEST_CASE("what can't be done to a body is one message at its place") {
   const TempFolder folder;
-  folder.write("s.toml", std::string(kRigid) + kSoft);
+  folder.write("s.toml", std::string(kRigid) + kSoftCube);
   const std::pair<const char*, const char*> cases[] = {
       {"pull crat 0 0 0 to 1 1 1", "unknown body 'crat'; bodies: floor, crate, ball, jelly; did you mean 'crate'?"},
       {"pull floor 0 0 0 to 1 1 1", "'pull' of 'floor', which no force moves; a dynamic or deformable body is wanted"},
@@ -149,7 +140,7 @@ TEST_CASE("what can't be done to a body is one message at its place") {
 
 TEST_CASE("a drag with the mouse pulls the point under it, and its recording does the same") {
   const TempFolder folder;
-  folder.write("s.toml", std::string(kRigid) + kSoft + "[view.camera]\neye = [0, 0.6, 6]\ntarget = [0, 0.6, 0]\n");
+  folder.write("s.toml", std::string(kRigid) + kSoftCube + "[view.camera]\neye = [0, 0.6, 6]\ntarget = [0, 0.6, 0]\n");
   const auto drag_at = [&](int x, int y, const char* key) {
     return fmt::format(
         "step 5\nui move {} {}\nui key ctrl down\nui press left\nui move {} {}\nui wait 1\nui move {} {}\nui key ctrl "
@@ -187,7 +178,7 @@ TEST_CASE("a drag with the mouse pulls the point under it, and its recording doe
 
 TEST_CASE("a drag while it plays is one line for each frame in which the mouse moved, and one change") {
   const TempFolder folder;
-  folder.write("s.toml", std::string(kRigid) + kSoft + "[view.camera]\neye = [0, 0.6, 6]\ntarget = [0, 0.6, 0]\n");
+  folder.write("s.toml", std::string(kRigid) + kSoftCube + "[view.camera]\neye = [0, 0.6, 6]\ntarget = [0, 0.6, 0]\n");
   std::string drag = "step 5\nui move 365 195\nui key ctrl down\nui press left\nplay\n";
   for (int k = 1; k <= 8; ++k) drag += fmt::format("ui move {} {}\nui wait 2\n", 365 + 10 * k, 195 - 8 * k);
   drag += "ui release left\nui key ctrl up\npause\n";
