@@ -68,6 +68,7 @@ class Cone final : public ConvexShape {
     return face;
   }
   std::vector<Vec3> tips() const override { return {{0.0, apex_, 0.0}}; }
+  bool is_round_about_y() const override { return true; }
   Vec3 rolled(const Vec3& place, const Vec3& from, const Vec3& to) const override {
     return rolled_about_y(place, from, to);
   }

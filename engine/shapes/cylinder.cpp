@@ -60,6 +60,7 @@ class Cylinder final : public ConvexShape {
     for (const double y : {-half_, half_}) face.add({lowest.x(), y, lowest.z()});
     return face;
   }
+  bool is_round_about_y() const override { return true; }
   Vec3 rolled(const Vec3& place, const Vec3& from, const Vec3& to) const override {
     return rolled_about_y(place, from, to);
   }

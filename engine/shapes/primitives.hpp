@@ -37,6 +37,7 @@ class Sphere final : public ConvexShape {
   Vec3 support(const Vec3&) const override { return Vec3::Zero(); }
   double rounding() const override { return radius; }
   Vec3 rolled(const Vec3&, const Vec3&, const Vec3& to) const override { return radius * to; }
+  bool is_round_about_y() const override { return true; }
   TriangleMesh surface(double edge) const override;
   TriangleMesh drawn() const override;
   std::vector<double> dimensions() const override { return {radius}; }
@@ -75,6 +76,7 @@ class Capsule final : public ConvexShape {
   double signed_distance(const Vec3& x) const override;
   Vec3 support(const Vec3& direction) const override;
   ContactFace facing(const Vec3& direction) const override;
+  bool is_round_about_y() const override { return true; }
   double rounding() const override { return radius; }
   TriangleMesh surface(double edge) const override;
   TriangleMesh drawn() const override;

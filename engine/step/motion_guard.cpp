@@ -11,6 +11,7 @@
 #include "engine/detection/continuous/plane_between.hpp"
 #include "engine/detection/continuous/plane_passage.hpp"
 #include "engine/detection/continuous/round_path.hpp"
+#include "engine/detection/continuous/solid_passages.hpp"
 #include "engine/detection/continuous/solids_apart.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -28,7 +29,9 @@ constexpr double kRough = 5.0;     // of that, half the thickness: less than thi
 constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
 constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
 constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
-constexpr double kWithin = 5.0;    // of what paths are straight to: half the activation distance, which contacts see
+constexpr double kOfCurved =
+    1e-3;                        // of its thickness: the same of what is round beside triangles, however thin they are
+constexpr double kWithin = 5.0;  // of what paths are straight to: half the activation distance, which contacts see
 constexpr double kStraight = 0.5;  // of a safe approach: what paths beside a sheet are straight to
 constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
 constexpr double kSink = 0.1;      // the same where they may end as deep as safe: as much again leads through in four
@@ -80,23 +83,52 @@ double seen_of(const Bodies& bodies, const UnsafeMotion::Pair& pair) {
   return std::min(pair.safe, kSafe * std::min(wall_of(*bodies[pair.a].shape), wall_of(*bodies[pair.b].shape)));
 }
 
-/// Of a shape and a rigid mesh: of a ball or capsule as far as distances tell it, which touches all along its way as a rule;
-/// where it goes far, and of what isn't round, as far as planes do.
-bool is_known_off(const Body& body, const SurfacePath& own, const SurfacePath& triangles, double depth) {
-  const std::optional<RoundCore> core = round_core(*body.shape);
-  return (core && stays_out(*core, own, triangles, depth)) || stay_off(*body.shape, own, triangles, depth);
-}
-
 /// The same of any two bodies; of meshes if they are small.
 bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const SurfacePath& of_b, double depth) {
   if (deforms(a) || deforms(b)) return false;
   const bool a_is_mesh = a.shape->mesh() != nullptr, b_is_mesh = b.shape->mesh() != nullptr;
   if (a_is_mesh && b_is_mesh) return stays_beside(of_a, of_b, depth);
-  if (a_is_mesh) return is_known_off(b, of_b, of_a, depth);
-  if (b_is_mesh) return is_known_off(a, of_a, of_b, depth);
+  if (a_is_mesh) return stay_off(*b.shape, of_b, of_a, depth);
+  if (b_is_mesh) return stay_off(*a.shape, of_a, of_b, depth);
   const std::optional<RoundCore> core_a = round_core(*a.shape), core_b = round_core(*b.shape);
   return (core_a && core_b && stays_out(*core_a, of_a, *core_b, of_b, depth)) ||
          stay_apart(*a.shape, of_a, *b.shape, of_b, depth);
+}
+
+/// What is round, and not the triangles that stand for it in pictures.
+bool is_curved(const Body& body) { return !is_faceted(*body.shape) && !is_plane(body); }
+
+/// Of what is round and what has triangles, how deep it may be in one of them on its way, metres: to come through, it has to be
+/// in it by about half its thickness.
+double curved_graze(const Body& a, const Body& b) {
+  if (is_curved(a) && is_faceted(*b.shape)) return kOfCurved * a.shape->thickness();
+  return is_curved(b) && is_faceted(*a.shape) ? kOfCurved * b.shape->thickness() : 0.0;
+}
+
+void exchange(std::vector<Passage>& passages) {
+  for (Passage& p : passages) {
+    std::swap(p.point_a, p.point_b), std::swap(p.triangle_a, p.triangle_b);
+    p.normal = -p.normal;
+    const FeaturePair f = features_of_key(p.feature);
+    p.feature = feature_key(f.kind_b, f.index_b, f.kind_a, f.index_a);
+  }
+}
+
+/// Of what is round and what has triangles, whichever is which, by the formula; a ball or capsule touches all along its way
+/// as a rule, and distances tell it as far as they do.
+std::optional<std::vector<Passage>> passages_by_formula(const Body& a, const SurfacePath& of_a, const Body& b,
+                                                        const SurfacePath& of_b, const PassageSettings& settings) {
+  if (is_faceted(*a.shape) && is_curved(b)) {
+    auto passages = passages_by_formula(b, of_b, a, of_a, settings);
+    if (passages) exchange(*passages);
+    return passages;
+  }
+  if (!is_curved(a) || !is_faceted(*b.shape) || deforms(a) || deforms(b)) return std::nullopt;
+  const std::optional<RoundCore> core = round_core(*a.shape);
+  if (core && stays_out(*core, of_a, of_b, settings.depth)) return std::vector<Passage>();
+  if (b.shape->mesh() == nullptr && stay_apart(*a.shape, of_a, *b.shape, of_b, settings.depth))
+    return std::vector<Passage>();
+  return first_solid_passages(*a.shape, of_a, of_b, settings);
 }
 
 /// Of a body and a plane, whichever is which.
@@ -295,10 +327,15 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
       if (depth == Depth::graze) own.depth = std::max(own.depth, std::min(kGraze * seen, kWithin * own.reach));
       own.creep = kCreep * own.depth;
     }
+    own.graze = curved_graze(of_a, of_b);
     if (!deforms(of_a) && !deforms(of_b) && thick_beside_sheet(*of_a.shape, *of_b.shape) > 0.0)
       own.reach = std::max(own.reach, kStraight * pairs[i].safe);
     if (is_plane(of_a) || is_plane(of_b)) {
       pairs[i].passages = passages_through_plane(of_a, paths[i].first, of_b, paths[i].second, own);
+      return;
+    }
+    if (auto known = passages_by_formula(of_a, paths[i].first, of_b, paths[i].second, own)) {
+      pairs[i].passages = std::move(*known);
       return;
     }
     if (is_known_clear(of_a, of_b, paths[i].first, paths[i].second, own.depth)) return;

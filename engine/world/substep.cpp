@@ -80,8 +80,7 @@ std::optional<double> safe_share(const UnsafeMotion& motion, const PairLength& a
 /// How far apart features of a pair may begin that get rows before anything is cut. What turns in a hole slides over
 /// facets and meets others than it began with: rows of those hold it where turns are followed, as long as the way is one
 /// that contacts see well. What turns over a sheet is through it before that shows in its end, and for its contacts nothing
-/// there is near: the same rows hold it, as far as they would if the sheet were the side of something thick. Not what is
-/// round: the triangles that are followed are inside it, and rows of theirs would let it in.
+/// there is near: the same rows hold it, as far as they would if the sheet were the side of something thick.
 PairLength reach_of_rows(const Bodies& bodies, const SubStep& step, bool turns_are_followed) {
   return [&bodies, &step, turns_are_followed](const UnsafeMotion::Pair& p) {
     const auto deforms = [&](BodyIndex b) { return bodies[b].kind() == BodyKind::deformable; };
@@ -116,7 +115,13 @@ bool ask_for(const UnsafeMotion& motion, const PairLength& reach, std::vector<Co
       });
       if (same != asked.end()) continue;
       const double gap = p.normal.dot(p.point_a - p.point_b);
-      asked.push_back({pair.a, pair.b, p.triangle_a, p.triangle_b, p.point_a, p.point_b, p.normal, gap, {}, p.feature});
+      // another place of what has a formula may touch a face, whose normal it is
+      const FeaturePair f = features_of_key(p.feature);
+      const BodyIndex owner = f.is(Feature::shape, Feature::face)   ? pair.b
+                              : f.is(Feature::face, Feature::shape) ? pair.a
+                                                                    : BodyIndex();
+      asked.push_back(
+          {pair.a, pair.b, p.triangle_a, p.triangle_b, p.point_a, p.point_b, p.normal, gap, owner, p.feature});
       is_new = true;
     }
   }

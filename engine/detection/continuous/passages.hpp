@@ -21,6 +21,7 @@ struct PassageSettings {
   double depth = 1e-7;  ///< overlap along the normal that is not a passage yet, metres, > 0
   double reach = 1e-4;  ///< how far from straight a vertex's path may be taken to be, metres, > 0
   double creep = -1.0;  ///< how much deeper what begins deeper may end, metres; negative: as much again
+  double graze = 0.0;   ///< overlap of a solid with a formula (solid_passages) on a way that ends less deep, metres
 };
 
 /// The passages of the earliest moment there is one, sorted by feature; empty: none.

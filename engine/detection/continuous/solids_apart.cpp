@@ -1,10 +1,10 @@
 #include "engine/detection/continuous/solids_apart.hpp"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "engine/detection/continuous/convex_solids.hpp"
+#include "engine/detection/continuous/triangle_set.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/geometry/rotation.hpp"
@@ -55,21 +55,6 @@ bool is_beyond(const MovingSolid& a, const MovingSolid& b, const Vec3& normal_of
   };
   return overlap(a.last, b.last) <= allowed && overlap(a.first, b.first) <= allowed;
 }
-
-class TriangleSet final : public ConvexSet {
- public:
-  TriangleSet(const TriangleMesh& mesh, int triangle) {
-    for (int k = 0; k < 3; ++k)
-      corners_[k] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(triangle)][k])];
-  }
-  Vec3 support(const Vec3& direction) const override {
-    const double x = direction.dot(corners_[0]), y = direction.dot(corners_[1]), z = direction.dot(corners_[2]);
-    return corners_[x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2)];
-  }
-
- private:
-  std::array<Vec3, 3> corners_;
-};
 
 /// A ball's turning moves none of its surface.
 double swing_of(const Shape& shape) { return shape.as<Sphere>() != nullptr ? 0.0 : shape.bounding_radius(); }

@@ -47,6 +47,8 @@ class ConvexSet {
   virtual Vec3 rolled(const Vec3& place, const Vec3& from, const Vec3& to) const {
     return place + rounding() * (to - from);
   }
+  /// Whether turning about its y axis leaves it as it is.
+  virtual bool is_round_about_y() const { return false; }
   /// Points in which a curved surface ends; of a polyhedron none, its corners are known.
   virtual std::vector<Vec3> tips() const { return {}; }
   /// The corners, edges and faces of a set that has no other surface; null for all others.
