@@ -29,6 +29,7 @@ struct DeformableStep {
   BlockMatrix stiffness;  ///< K(x₀) over all nodes, N/m; empty where nothing needs it
   BlockMatrix tangent;    ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
   BlockMatrix a;          ///< over the free nodes, kg
+  double mass = 1.0;      ///< how much of M is in A: all of it that a motion of all nodes as one meets
   VecX b;                 ///< kg m/s
   VecX v_star;            ///< solution without contact, m/s
 

@@ -96,7 +96,7 @@ void DeformableBody::solve_again() {
   step_.linear_status = thrifty.factorize(step_.a);
   if (step_.linear_status == SolveStatus::ok) step_.linear_status = thrifty.solve(step_.b, step_.v_star).status;
   check_solved();
-  keep_momentum(1.0 + step_.tau * damping.alpha, step_.b, step_.v_star);
+  keep_momentum(step_.mass, step_.b, step_.v_star);
   find_displacement_velocity();
 }
 

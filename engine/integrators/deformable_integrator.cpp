@@ -66,6 +66,7 @@ void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step)
 void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k,
                  DeformableStep& step) {
   if (step.a.pattern != body.free_pattern()) step.a = BlockMatrix(body.free_pattern());
+  step.mass = mass;
   const std::vector<int>& source = body.free_source();
   const std::vector<double>& block_mass = body.fem.block_mass();
   parallel_for(source.size(), 4096, [&](std::size_t i) {

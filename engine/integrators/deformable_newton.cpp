@@ -72,7 +72,7 @@ void newton_solve(DeformableBody& body, DeformableStep& step, LinearSolver& solv
 
     VecX direction;
     if (!newton_direction(solver, g, step, direction)) break;
-    body.keep_momentum(1.0 + step.tau * d.alpha, -g, direction);
+    body.keep_momentum(step.mass, -g, direction);
 
     const double slope = dot(direction, g), before = potential.value(v, elastic);
     bool lowered = false;

@@ -56,7 +56,7 @@ class EnergyMomentum : public OneStepScheme {
       if (step.converged || step.newton_iterations >= newton_.max_iterations || !std::isfinite(g.norm())) break;
       VecX direction;
       if (!newton_direction(solver, g, step, direction)) break;
-      body.keep_momentum(1.0 + 0.5 * step.tau * body.damping.alpha, -g, direction);
+      body.keep_momentum(step.mass, -g, direction);
       if (!go_down(body, step, direction, v, g, size)) break;
     }
     step.v_star = v;

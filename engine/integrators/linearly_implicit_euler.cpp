@@ -49,7 +49,7 @@ class LinearlyImplicitEuler : public OneStepScheme {
   void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override {
     linearize(body, {}, step);
     solve_free_velocity(body, step, solver);
-    body.keep_momentum(1.0 + step.tau * body.damping.alpha, step.b, step.v_star);
+    body.keep_momentum(step.mass, step.b, step.v_star);
   }
 };
 

@@ -16,7 +16,7 @@ const std::array<LedgerSourceInfo, kLedgerSources>& ledger_sources() {
       {attachment, "attachment", "Work of the impulses of attachments and slides.", false},
       {script, "script",
        "Work of what is moved by a script, held nodes included, of pulls, and what pushes, moves,"
-       " additions and deletions did.",
+       " additions, deletions and changed parameters did.",
        false},
       {push_out, "push_out", "Recovery from overlap: bodies put elsewhere, with the turn of their spin.", false},
       {held_back, "held_back", "Bodies that stand still for the rest of a sub-step in which they would pass.", false},

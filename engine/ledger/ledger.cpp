@@ -64,7 +64,14 @@ void Ledger::know(Body& body, Known& known) const {
   if (const DeformableBody* soft = body.as<DeformableBody>()) known.nodes = soft->position;
 }
 
-void Ledger::open_frame(Bodies& bodies, const Vec3& gravity) {
+/// Between frames, beside what acts did.
+void Ledger::take_parameters(const Balance& before, const Balance& now, BodyLedger& books) const {
+  const Balance done = change(books.rise, change(before, now));
+  books[LedgerSource::script] += {done.kinetic, done.potential + done.elastic, done.momentum, done.angular_momentum};
+  books.rise += done;
+}
+
+void Ledger::open_frame(Bodies& bodies, const Vec3& gravity, std::span<const Balance> before) {
   gravity_ = gravity;
   const auto n = static_cast<std::size_t>(bodies.size().value());
   frame_ = {};
@@ -83,6 +90,8 @@ void Ledger::open_frame(Bodies& bodies, const Vec3& gravity) {
   for_each_body(bodies, [&](BodyIndex b, Body& body) {
     begin_[b] = measured(body);
     elastic_[b] = begin_[b].elastic;
+    if (body.has_freedom() && static_cast<std::size_t>(b.value()) < before.size())
+      take_parameters(before[static_cast<std::size_t>(b.value())], begin_[b], frame_.bodies[b]);
   });
 }
 

@@ -33,7 +33,8 @@
 //               v₁ by h g/2). motion: ½ Lᵀ (R₁ I⁻¹ R₁ᵀ − R₀ I⁻¹ R₀ᵀ) L, rounding for the exact rotation
 //   push_out    ΔU of the recovery, and ½ Lᵀ I⁻¹ L after less before
 //   held_back   the same where a body goes back to where it stood
-//   sleep       −T where a body falls asleep; script: −T − U where it is deleted, ΔU where it is moved
+//   sleep       −T where a body falls asleep; script: −T − U where it is deleted, ΔU where it is moved, and all that parameters
+//               which change between frames, gravity or a stiffness, do to a body that is where it was
 //
 // Pieces and motions that are undone leave no entry. Angular momentum is about the origin: an impulse at x gives x × p,
 // a move by d of what has the momentum p gives d × p.
@@ -45,6 +46,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "engine/bodies/bodies.hpp"
 #include "engine/bodies/time_integration.hpp"
@@ -63,7 +65,9 @@ class Ledger {
   /// What was done since the last frame is undone.
   void forget_acts() { acts_ = {}; }
 
-  void open_frame(Bodies& bodies, const Vec3& gravity);
+  /// `before`: by body, what was measured when the last frame ended; what acts don't explain of the change since then parameters
+  /// did.
+  void open_frame(Bodies& bodies, const Vec3& gravity, std::span<const Balance> before);
   /// A motion begins; whatever was told of one since the last kept() is undone.
   void open_motion(Bodies& bodies);
   /// Bodies have their free velocities.
@@ -100,6 +104,7 @@ class Ledger {
 
   Balance measured(Body& body) const;
   void know(Body& body, Known& known) const;
+  void take_parameters(const Balance& before, const Balance& now, BodyLedger& books) const;
   void take_rigid(Body& body, BodyIndex index, const TimeIntegration& how);
   void take_deformable(Body& body, BodyIndex index, const TimeIntegration& how, const GroupResult* result,
                        const VecX* row_impulse);

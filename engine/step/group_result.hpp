@@ -58,6 +58,7 @@ struct GroupResult {
   // how it was found
   ResponseResult response;                   ///< of the last solve
   bool is_at_root = true;                    ///< false: a Newton scheme ended at its cap
+  double root_residual = 0.0;                ///< what it left, by the forces and momenta that make it up
   bool is_contradiction = false;             ///< its rows have no answer
   bool is_provisional = false;               ///< roughly, and turns were not followed: contacts may still be added
   int iterations = 0, outer_iterations = 0;  ///< of all its solves

@@ -203,7 +203,7 @@ class GroupSolve {
       check_interrupt();
       {
         const StageTimer timer(result_.assemble_ms);
-        double residual = 0.0;
+        double& residual = result_.root_residual = 0.0;
         for (std::size_t k = 0; k < now_.deformable.size(); ++k)
           residual = larger(residual, bodies_[now_.deformable[k]].relinearize(
                                           how_.integrator, system().deformable_delta[k],

@@ -73,6 +73,9 @@ constexpr SolveEnd kSolveEnds[] = {SolveEnd::converged,     SolveEnd::cap,     S
                                    SolveEnd::contradiction, SolveEnd::refused, SolveEnd::fixed};
 std::string_view name_of(SolveEnd end);
 
+/// The limit of a Newton scheme that its deformable bodies' motion has not come to the root of, in words.
+inline constexpr std::string_view kRootLimit = "the Newton iterations of simulation.integrator";
+
 /// Group solves that ended without an answer, by what ended them.
 struct UnsolvedGroups {
   SolveEnd reason = SolveEnd::cap;

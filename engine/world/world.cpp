@@ -25,7 +25,7 @@ UnsolvedGroups cause_of(const GroupResult& result) {
   if (result.is_contradiction || result.response.ended == StopReason::contradiction)
     return {SolveEnd::contradiction, "", 1};
   const ResponseResult& solve = result.response;
-  if (solve.converged()) return {SolveEnd::cap, "the Newton iterations of simulation.integrator", 1};
+  if (solve.converged()) return {SolveEnd::cap, std::string(kRootLimit), 1};
   if (solve.ended == StopReason::iteration_cap) return {SolveEnd::cap, std::string(solve.limit), 1};
   return {solve.ended == StopReason::refused ? SolveEnd::refused : SolveEnd::stalled, "", 1};
 }
@@ -127,7 +127,11 @@ void World::advance(FrozenStep* frozen) {
   unsafe_.clear();
   ++frame_;
   keep_ledger();
-  if (ledger_) ledger_->open_frame(bodies_, parameters.simulation.gravity);
+  if (ledger_) {
+    std::vector<Balance> before;
+    for (const BodyShare& share : shares_) before.push_back(share.balance);
+    ledger_->open_frame(bodies_, parameters.simulation.gravity, before);
+  }
   try {
     const StageTimer timer(stats_.times.step_ms);
     const double h = parameters.simulation.time_step();
@@ -282,7 +286,8 @@ void World::take_results(FrozenStep* frozen) {
     stats_.lcp_iterations += result.iterations;
     stats_.outer_iterations += result.outer_iterations;
     if (!result.is_answered())
-      stats_.take_unsolved(cause_of(result), result.verdict.relative);
+      stats_.take_unsolved(cause_of(result),
+                           larger(result.verdict.relative, result.is_at_root ? 0.0 : result.root_residual));
     else if (work_is_fixed && !(result.verdict.relative <= parameters.lcp.tolerance))
       stats_.take_fixed();
     stats_.residual_coulomb = larger(stats_.residual_coulomb, result.verdict.relative);

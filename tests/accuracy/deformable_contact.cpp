@@ -116,6 +116,37 @@ BodyDescription damped_cube() {
 
 }  // namespace
 
+TEST_CASE("damping in proportion to mass takes e^(-alpha t) of a sliding body's momentum, whatever the integrator") {
+  constexpr double kAlpha = 3.0, kSpeed = 1.0, kSeconds = 0.5;
+  for (const Entry<DeformableIntegrator>& scheme : integrators())
+    for (const double beta : {0.0, 0.01}) {
+      CAPTURE(scheme.name, beta);
+      World world;
+      world.add_body(fixed_plane("floor", Vec3::UnitY(), 0));
+      BodyDescription d = soft_cube("block", 0.2, 2, {0, 0, 0}, {1e5, 0.3, 1000.0, beta, "corotational"});
+      auto soft = std::make_shared<DeformableDescription>(*d.deformable);
+      soft->damping.alpha = kAlpha;
+      d.deformable = soft, d.velocity = kSpeed * Vec3::UnitX();
+      world.add_body(d);
+      world.parameters.simulation.integrator = scheme.name;
+      world.parameters.simulation.sleeping = false;
+      world.parameters.contact.friction = 0.0;
+      const bool is_explicit = world.parameters.simulation.integrator->is_explicit();
+      if (is_explicit) world.parameters.simulation.substeps = 64;
+      world.start();
+      std::int64_t unsolved = 0;
+      for (int frame = 0; frame < static_cast<int>(60 * kSeconds); ++frame) {
+        world.step();
+        unsolved += world.record().stats.unconverged;
+      }
+      // of first order they lose less by alpha h / 2 in a second of decay
+      const double first = 0.5 * kAlpha * kAlpha * kSeconds * world.parameters.simulation.time_step();
+      const double left = deformable(world, 1).momentum().x() / (world.bodies()[1].mass * kSpeed);
+      CHECK(left == Approx(std::exp(-kAlpha * kSeconds)).epsilon(1.1 * first));
+      CHECK(unsolved == 0);
+    }
+}
+
 TEST_CASE("an attachment carries a hanging body, rigid or deformable, and its impulse is the weight") {
   for (const bool soft : {false, true}) {
     CAPTURE(soft);

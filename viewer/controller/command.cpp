@@ -246,10 +246,15 @@ void refuse_key_of_body(const PlacedText& word, const ParameterSet& rows) {
     others_have_it |= row.path.starts_with("body.") && row.path.find('.', 5) != std::string::npos &&
                       std::string_view(row.path).substr(row.path.find('.', 5)) == key;
   }
+  for (const std::string_view of_rigid : {".position", ".rotation", ".velocity", ".angular_velocity"})
+    others_have_it |= key == of_rigid;
   if (keys.empty() || !others_have_it) return;
   word.refuse(
       fmt::format("'{}' has no {}, as bodies of other kinds do", body.substr(5, body.size() - 6), key.substr(1)),
-      fmt::format("it has {}", fmt::join(keys, ", ")), "name one of them, or another body");
+      fmt::format("it has {}", fmt::join(keys, ", ")),
+      key == ".position" || key == ".velocity"
+          ? "name one of them, or another body; `move` and `push` act on any that moves"
+          : "name one of them, or another body");
 }
 
 std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterSet& rows, bool first_frame) {

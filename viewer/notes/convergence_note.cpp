@@ -1,5 +1,7 @@
 #include "viewer/notes/convergence_note.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "viewer/notes/note_archive.hpp"
@@ -64,8 +66,14 @@ std::string ConvergenceNote::text() const {
     for (const UnsolvedGroups& cause : causes_)
       causes += fmt::format("{}{} {}", &cause == causes_.data() ? "" : ", ", cause.solves, what_ended(cause));
   }
-  return fmt::format("note:     {} in {} {}; the largest residual was {:.2g} m/s in frame {}\n",
-                     count(solves_, "group solve"), count(frames_, "frame"), causes, worst_, worst_frame_) +
+  // the residual is that of the contacts, which a Newton scheme that ends at its cap has solved as they should be
+  const bool are_roots = std::all_of(causes_.begin(), causes_.end(),
+                                     [](const UnsolvedGroups& cause) { return cause.limit == kRootLimit; });
+  const std::string left = are_roots
+                               ? "motions don't balance their forces"
+                               : fmt::format("the largest residual was {:.2g} m/s in frame {}", worst_, worst_frame_);
+  return fmt::format("note:     {} in {} {}; {}\n", count(solves_, "group solve"), count(frames_, "frame"), causes,
+                     left) +
          impacts_text();
 }
 

@@ -149,6 +149,18 @@ std::string shortened_path(const std::string& path, std::size_t most) {
   return path.size() <= most ? path : "..." + path.substr(path.size() - (most - 3));
 }
 
+/// Its corners, far from the origin to as many digits as tell them apart.
+std::string corners_text(const Aabb& box) {
+  const double farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()),
+               extent = box.extent().maxCoeff();
+  const double more = extent > 0.0 ? std::ceil(std::log10(std::max(1.0, farthest / extent))) : 0.0;
+  const int digits = 4 + static_cast<int>(std::clamp(more, 0.0, 12.0));
+  const auto point = [&](const Vec3& x) {
+    return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", x.x(), digits, x.y(), digits, x.z(), digits);
+  };
+  return fmt::format("{}, {} m", point(box.min), point(box.max));
+}
+
 }  // namespace
 
 std::vector<std::string> fault_lines(const MeshFacts& f) {
@@ -178,8 +190,7 @@ std::string mesh_page(const MeshReport& r) {
   std::string out = r.file + "\n";
   if (f.box.is_empty()) return out + row("problem:", f.problem.value_or("has no triangles"));
   out += row("size:", fmt::format("{}, {}", size_text(f.box), r.unit));
-  out += row("from, to:", fmt::format("({:.4g}, {:.4g}, {:.4g}), ({:.4g}, {:.4g}, {:.4g}) m", f.box.min.x(),
-                                      f.box.min.y(), f.box.min.z(), f.box.max.x(), f.box.max.y(), f.box.max.z()));
+  out += row("from, to:", corners_text(f.box));
   if (const std::string question = question_of(r); !question.empty()) out += row("", question);
   out += row("solid:", solid_text(f));
   out += row("surface:",

@@ -179,6 +179,9 @@ void check_keys_of_kind(const TomlNode& table, const std::string& what, BodyKind
 std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, const char* name) {
   const BodyKey& key = body_key(name);
   if (node.kind == TomlNode::text && node.string == key.word) return std::nullopt;
+  if (!node.is_number())
+    refuse(node.place, fmt::format("{} is {} ({})", what, shortened(format_toml(node), 57), toml_kind_name(node)),
+           fmt::format("a real number or \"{}\" is wanted", key.word), "write one of them");
   return scene_real(node, what, key.range);
 }
 

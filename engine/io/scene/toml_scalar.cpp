@@ -240,7 +240,7 @@ TomlNode read_toml_word(TomlCursor& in) {
   } else if (const auto number = number_node(word)) {
     node = *number;
   } else if (is_date_or_time(word)) {
-    node.kind = TomlNode::other, node.string = "a date or time";
+    node.kind = TomlNode::other, node.string = std::string(word);
   } else if (is_digit(word[0]) || word[0] == '+' || word[0] == '-' || word[0] == '.') {
     in.fail(fmt::format("'{}' is no number", shortened(word, 40)));
   } else {

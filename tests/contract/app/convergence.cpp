@@ -55,6 +55,14 @@ TEST_CASE("the note at a run's end names the parameter that stopped the solves, 
     check_names(note_of(true, {"response.method=iterative_constraint_anticipation", iterative + ".form=" + form,
                                iterative + ".max_iterations=1"}),
                 iterative + ".max_iterations");
+  // contacts are solved at each of its iterations, and nobody is told of a residual of theirs
+  for (const std::string scheme : {"implicit_euler", "newmark", "energy_momentum"}) {
+    const std::string note =
+        note_of(true, {"simulation.integrator=" + scheme, "integrator." + scheme + ".max_iterations=1"});
+    INFO(note);
+    CHECK(note.find("stopped at the Newton iterations of simulation.integrator; motions don't balance their forces") !=
+          std::string::npos);
+  }
   // what was named is what helps
   CHECK(note_of(false, {"response.method=sequential_impulse", "response.sequential_impulse.iterations=100000",
                         "lcp.tolerance=1e-6"})

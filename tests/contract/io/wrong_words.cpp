@@ -32,6 +32,27 @@ TEST_CASE("a key that a body of its kind doesn't have is no other body's") {
                 "body.");
 }
 
+TEST_CASE("a deformable body's velocity is told of where no body of the scene has one") {
+  TempFolder folder;
+  folder.write("s.toml",
+               "[[body]]\nname = \"jelly\"\nkind = \"deformable\"\nshape = { box = { size = [0.2, 0.2, 0.2] } }\n"
+               "volume = { cage = { cells = 2 } }\n");
+  folder.write("a.script", "at 0 set body.jelly.velocity 1 0 0\n");
+  check_refused(folder, {"run", "s.toml", "--script", "a.script", "--no-images"},
+                "a.script:1:10: 'jelly' has no velocity, as bodies of other kinds do", "`move` and `push`");
+}
+
+TEST_CASE("a coefficient's other word and a date are shown as they are written") {
+  TempFolder folder;
+  const std::string ball = "[[body]]\nname = \"b\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 0.1 } }\n";
+  folder.write("s.toml", ball + "friction = \"scenee\"\n");
+  check_refused(folder, {"check", "s.toml"}, "s.toml:5:12: body.b.friction is \"scenee\" (a text)",
+                "a real number or \"scene\" is wanted");
+  folder.write("s.toml", ball + "position = 1979-05-27\n");
+  check_refused(folder, {"check", "s.toml"}, "s.toml:5:12: body.b.position is \"1979-05-27\" (a date or time)",
+                "a vector [x, y, z] is wanted");
+}
+
 TEST_CASE("tetrahedra as a surface are refused at their line, with the line that takes them") {
   TempFolder folder;
   folder.write("meshes/a.msh", "$MeshFormat\n");

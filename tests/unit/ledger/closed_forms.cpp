@@ -51,6 +51,42 @@ TEST_CASE("ledger: a free fall is gravity's, and what symplectic Euler misses of
   check_books(books);
 }
 
+TEST_CASE(
+    "ledger: what a parameter that changes between frames does is the script's, and the rise is that of the figures") {
+  World world;
+  world.add_body(cube("a", 0.2, {0.3, 5, 0}));
+  BodyDescription jelly = soft_cube("jelly", 0.2, 2, {2, 1, 0}, {1e4, 0.3, 1000.0, 0.0, "linear"});
+  world.add_body(jelly);
+  world.start();
+  deformable(world, 1).position.head(9) *= 1.01;
+  deformable(world, 1).update_world_vertices();
+  world.parameters.record.ledger = true;
+  world.step();
+  const auto energy = [&] {
+    const FrameStats& now = world.record().stats;
+    return now.kinetic + now.potential + now.elastic;
+  };
+  const double m = world.bodies()[0].mass, height = world.bodies()[0].pose.position.y(),
+               elastic = deformable(world, 1).elastic_energy(), before = energy();
+  const double weighed = deformable(world, 1).balance(-Vec3::UnitY()).potential;  // Σ m y
+  CHECK(elastic > 0.0);
+  set(world, "simulation.gravity", "[0, -4, 0]");
+  ParameterSet rows;
+  world.bind_body(rows, world.bodies()[1]);
+  const Parameter* young = rows.find("body.jelly.material.young");
+  REQUIRE(young != nullptr);
+  young->set(parse_value(*young, "3e4"));
+  world.step();
+  const FrameLedger& books = *world.record().stats.ledger;
+  CHECK(books.bodies[0].figure(script) == Approx(m * (4.0 - kGravity) * height).epsilon(1e-12));
+  CHECK(books.bodies[1].figure(script) == Approx(2.0 * elastic + (4.0 - kGravity) * weighed).epsilon(1e-9));
+  CHECK(books.world().rise.kinetic + books.world().rise.potential + books.world().rise.elastic ==
+        Approx(energy() - before).epsilon(1e-9));
+  CHECK(std::abs(books.world().closing_error()) < kBooks * books.world().turnover());
+  world.step();
+  CHECK(world.record().stats.ledger->bodies[0].figure(script) == 0.0);
+}
+
 TEST_CASE("ledger: a bounce takes a half (1 - e²) m v², and its momentum goes to the ground") {
   World world;
   world.parameters.simulation.gravity.setZero();
