@@ -20,15 +20,22 @@ Mat3 root(const Mat3& symmetric) {
 
 }  // namespace
 
-JointSystem::JointSystem(const GroupSystem& group) : blocks_(joint_blocks(group)), place_(group.contacts.size(), -1) {
+JointSystem::JointSystem(const GroupSystem& group, std::vector<JointBlock> blocks)
+    : blocks_(std::move(blocks)), place_(group.contacts.size(), -1) {
   if (blocks_.empty()) return;
   for (const JointBlock& block : blocks_)
     for (const JointBlock::Row& row : block.rows) place_[row.contact] = 0;
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (place_[i] == 0) place_[i] = static_cast<int>(contacts_.size()), contacts_.push_back(i);
 
+  std::vector<int> known(group.rigid.size(), -1);  // by body of the group: of the system, those that are joined only
   std::vector<Mat3> roots;
-  for (const RigidBlock& body : group.rigid) roots.push_back(root(body.inverse_inertia));
+  for (const JointBlock& block : blocks_)
+    for (const int body : {block.a, block.b}) {
+      if (body < 0 || known[static_cast<std::size_t>(body)] >= 0) continue;
+      known[static_cast<std::size_t>(body)] = static_cast<int>(roots.size());
+      roots.push_back(root(group.rigid[static_cast<std::size_t>(body)].inverse_inertia));
+    }
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::Index unknowns = 0;
   for (const JointBlock& block : blocks_) {
@@ -36,22 +43,23 @@ JointSystem::JointSystem(const GroupSystem& group) : blocks_(joint_blocks(group)
     for (const bool is_a : {true, false}) {
       const int body = is_a ? block.a : block.b;
       if (body < 0) continue;
-      const auto at = static_cast<std::size_t>(body);
+      const auto at = static_cast<std::size_t>(body), column = static_cast<std::size_t>(known[at]);
       Rows6 rows(static_cast<Eigen::Index>(block.rows.size()), 6);
       for (std::size_t r = 0; r < block.rows.size(); ++r) {
         const ContactRows& of = group.contacts[block.rows[r].contact];
         const Vec3 d = (is_a ? 1.0 : -1.0) * block.rows[r].direction(of),
                    arm = (is_a ? block.rows[r].at_a(of) : block.rows[r].at_b(of)).arm;
         rows.row(static_cast<Eigen::Index>(r)) << std::sqrt(group.rigid[at].inverse_mass) * d.transpose(),
-            (roots[at] * arm.cross(d)).transpose();
+            (roots[column] * arm.cross(d)).transpose();
       }
       const Rows6 own = block.basis.transpose() * rows;
       for (Eigen::Index r = 0; r < own.rows(); ++r)
-        for (Eigen::Index c = 0; c < 6; ++c) entries.emplace_back(unknowns + r, 6 * body + c, own(r, c));
+        for (Eigen::Index c = 0; c < 6; ++c)
+          entries.emplace_back(unknowns + r, 6 * static_cast<Eigen::Index>(column) + c, own(r, c));
     }
     unknowns += block.basis.cols();
   }
-  const auto bodies = static_cast<Eigen::Index>(6 * group.rigid.size());
+  const auto bodies = static_cast<Eigen::Index>(6 * roots.size());
   rows_.resize(unknowns, bodies);
   rows_.setFromTriplets(entries.begin(), entries.end());
 

@@ -11,10 +11,12 @@ namespace impinge {
 
 class JointSystem {
  public:
-  explicit JointSystem(const GroupSystem& group);
+  explicit JointSystem(const GroupSystem& group) : JointSystem(group, joint_blocks(group)) {}
+  JointSystem(const GroupSystem& group, std::vector<JointBlock> blocks);
 
   /// Contacts whose rows are in it, in their order.
   const std::vector<std::size_t>& contacts() const { return contacts_; }
+  int place(std::size_t contact) const { return place_[contact]; }  ///< in contacts(); -1: none
   bool holds(std::size_t contact) const { return place_[contact] >= 0; }
   /// Impulses along the rows of these contacts, by place in contacts(), that take velocities u along them away: the smallest,
   /// where some are redundant, and of what contradicts itself what least squares make of it.

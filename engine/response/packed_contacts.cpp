@@ -74,7 +74,7 @@ PackedContacts::PackedContacts(const GroupSystem& group, const Vec3& velocity_ch
     ++pairs.back().count;
     if (!row.surface.isZero(0.0)) pairs.back().is_driven = true;
   }
-  for (const JointBlock& block : joint_blocks(group)) add_joint(group, block, share);
+  add_joints(group, share);
   PairColours colours = colour_pairs(places, static_cast<int>(bodies_.size()));
   colours_ = std::move(colours.begin);
   last_is_rest_ = colours.last_is_rest;
@@ -242,7 +242,7 @@ void PackedContacts::for_each_pair(const Work& work) {
 }
 
 void PackedContacts::warm_start() {
-  for (const Joint& joint : joints_) give(joint, joint.impulse);
+  for (const Joint& joint : joints_) give(joint, joint.impulse, bodies_);
   for_each_pair([&](const Pair& pair) { give(pair); });
 }
 
@@ -259,8 +259,9 @@ void PackedContacts::give(const Pair& pair) {
 
 void PackedContacts::sweep(const SweepLaw& law) {
   check_interrupt();
-  for (Joint& joint : joints_) relax(joint);
+  if (!all_joints_) relax_joints();
   for_each_pair([&](const Pair& pair) { relax(pair, law); });
+  if (all_joints_) relax_joints();
 }
 
 inline double PackedContacts::gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const {
@@ -363,15 +364,21 @@ void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, doub
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       group.next_start[rows_[i]] = steps_ * along_rows(i, contacts_[i].impulse, contacts_[i].tangent);
     for (const Joint& joint : joints_) to_rows(joint, steps_ * joint.impulse, group.next_start);
-    group.position_velocity.resize(bodies_.size());
-    group.position_angular_velocity.resize(bodies_.size());
   }
-  const std::vector<char> is_only_pinned = only_pinned();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Body& body = bodies_[b];
     group.delta_velocity[b] = vector(body.velocity) - (start_velocity_[b] + velocity_change);
     group.delta_angular_velocity[b] = vector(body.angular_velocity) - group.rigid[b].angular_velocity;
-    if (!(moved_for > 0.0)) continue;
+  }
+  if (moved_for > 0.0 && !is_only_joined(group)) write_positions(group, moved_for);
+}
+
+void PackedContacts::write_positions(GroupSystem& group, double moved_for) const {
+  group.position_velocity.resize(bodies_.size());
+  group.position_angular_velocity.resize(bodies_.size());
+  const std::vector<char> is_only_pinned = only_pinned();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Body& body = bodies_[b];
     if (is_only_pinned[b] != 0) {
       group.position_velocity[b] = group.position_angular_velocity[b] = Vec3::Zero();
       continue;
@@ -379,6 +386,8 @@ void PackedContacts::write(GroupSystem& group, const Vec3& velocity_change, doub
     group.position_velocity[b] = vector(body.shift) / moved_for - vector(body.velocity);
     group.position_angular_velocity[b] = vector(body.turn) / moved_for - vector(body.angular_velocity);
   }
+  if (all_joints_ && std::find(is_only_pinned.begin(), is_only_pinned.end(), 1) != is_only_pinned.end())
+    keep_joined(group);
 }
 
 }  // namespace impinge

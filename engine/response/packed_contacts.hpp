@@ -3,9 +3,11 @@
 // those of the points where the bodies have carried them since.
 #pragma once
 
+#include <optional>
+
 #include "engine/contact/group_system.hpp"
 #include "engine/core/threshold.hpp"
-#include "engine/response/joint_blocks.hpp"
+#include "engine/response/joint_system.hpp"
 #include "engine/response/pair_colours.hpp"
 
 namespace impinge {
@@ -33,6 +35,8 @@ class PackedContacts {
   PackedContacts(const GroupSystem& group, const Vec3& velocity_change, double share, const Threshold& max_push_out,
                  const Threshold& restitution_threshold);
 
+  /// Whether nothing touches and every body is attached, so that one solve says all that many steps would come to.
+  static bool is_only_joined(const GroupSystem& group);
   /// Bounces: the contacts of a pair that close in the sub-step faster than their threshold get what returns e of it, until
   /// none does, `most` rounds at most. Returns the rounds.
   int collide(const GroupSystem& group, const Vec3& velocity_change, double time_step, int most);
@@ -50,6 +54,7 @@ class PackedContacts {
   void write(GroupSystem& group, const Vec3& velocity_change, double moved_for) const;
 
  private:
+  void write_positions(GroupSystem& group, double moved_for) const;
   /// By body: whether it is attached in points and touches nothing.
   std::vector<char> only_pinned() const;
 
@@ -115,15 +120,24 @@ class PackedContacts {
 
   void fill(const GroupSystem& group, std::size_t place, double share, const Threshold& max_push_out,
             const Threshold& restitution_threshold);
+  void add_joints(const GroupSystem& group, double share);
   void add_joint(const GroupSystem& group, const JointBlock& block, double share);
   void strike(const Pair& pair, std::vector<Strike>& strikes, double slow);
   /// Of A's point from B's.
   Triple slip(const Pair& pair, int contact, const Sides& sides) const;
   void relax(const Pair& pair, const SweepLaw& law);
   double gap_of(const Pair& pair, int contact, const Sides& sides, double elapsed) const;
-  void relax(Joint& joint);
+  /// Each by itself, or all at once where they share bodies.
+  void relax_joints();
+  /// Along its rows, less what is asked for.
+  static VecX missing(const Joint& joint, std::vector<Body>& bodies);
+  /// By joint: impulses that take from such velocities what joints miss.
+  std::vector<VecX> answer_joints(std::vector<Body>& bodies) const;
+  void add_impulse(Joint& joint, const VecX& change);
+  /// What is only pinned moves otherwise than what touches: changes the velocities of positions so that joints between stay.
+  void keep_joined(GroupSystem& group) const;
   void give(const Pair& pair);
-  void give(const Joint& joint, const VecX& impulse);
+  static void give(const Joint& joint, const VecX& impulse, std::vector<Body>& bodies);
   template <class Work>
   void for_each_pair(const Work& work);
   static Triple triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -140,7 +154,8 @@ class PackedContacts {
   std::vector<double> sum_n_;      // of each: impulses of all solver steps
   std::vector<Triple> sum_t_;
   std::vector<Joint> joints_;
-  int steps_ = 0;  // closed
+  std::optional<JointSystem> all_joints_;  // where some of them share a body
+  int steps_ = 0;                          // closed
 };
 
 struct PackedContacts::Sides {

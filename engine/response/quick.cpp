@@ -10,6 +10,8 @@
 // - what is only pinned to others moves by its velocity at the end, as with the exact methods: by the mean over the solver steps, as
 //   what touches does, a pendulum would win energy from arms of the start (its amplitude doubled in a minute).
 // - friction is Coulomb's cone in each solver step, by projection. Impacts come first, each as a collision of its pair.
+// - joints of rigid bodies that share one are factored as one system, answered after the contacts of each sweep: from joint to
+//   joint a chain lost what each link hands on, and won it back as energy. A group that is only attached is solved in one step.
 // - groups with deformable bodies, whose positions follow from A as a whole, go to sequential impulses.
 #include <fmt/format.h>
 
@@ -49,12 +51,14 @@ class Quick : public Response {
   }
 
   ResponseResult solve(GroupSystem& group, const LcpSolver& solver, const ResponseContext& context) const override {
-    if (!group.deformable.empty() || context.recovers_overlap) {
+    // one solve of joints is exact, and linear in the forces; what is only pinned moves by the velocity at the end
+    const bool is_only_joined = PackedContacts::is_only_joined(group);
+    if (!group.deformable.empty() || (context.recovers_overlap && !is_only_joined)) {
       ResponseResult of_others = others_->solve(group, solver, context);
       if (of_others.ended == StopReason::iteration_cap) of_others.limit = others_limit_;
       return of_others;
     }
-    const int steps = settings_.steps;
+    const int steps = is_only_joined ? 1 : settings_.steps;
     const double h = context.time_step / steps;
     const Vec3 change = context.time_step * context.gravity, part = change / steps;
     group.clear_delta();

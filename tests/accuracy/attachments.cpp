@@ -2,6 +2,7 @@
 // that has no excuse: points against each other, energy against what the fall gives.
 #include <catch2/catch.hpp>
 
+#include "tests/support/mechanics/chains.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/worlds.hpp"
@@ -205,10 +206,12 @@ TEST_CASE("penalty holds what is attached as well as constraint anticipation doe
 
 TEST_CASE("a chain that floats and turns fast keeps its angular momentum to rounding, and wins no energy") {
   constexpr double kLength = 0.1;
+  const auto method = GENERATE(as<std::string>(), "constraint_anticipation", "quick");
   for (const double spin : {10.0, 60.0, 300.0})  // rad/s, a 24th, a quarter and more than one radian a sub-step
     for (const int links : {2, 5}) {
-      CAPTURE(spin, links);
+      CAPTURE(method, spin, links);
       World world;
+      world.parameters.response.method = method;
       world.parameters.simulation.gravity.setZero();
       world.parameters.simulation.sleeping = false;
       for (int i = 0; i < links; ++i) {
@@ -248,19 +251,6 @@ TEST_CASE("a chain that floats and turns fast keeps its angular momentum to roun
 
 namespace {
 
-enum class HingeKind { points, swapped, point_and_line };
-
-/// Two bodies, or one and the world, at two points at `half` to each side.
-void add_hinge(World& world, HingeKind kind, const std::string& a, const std::string& b, const Vec3& at, double half) {
-  for (const double side : {1.0, -1.0}) {
-    AttachmentDescription pin{a + (side > 0.0 ? " front" : " back"), a, b, at + side * half * Vec3::UnitZ()};
-    pin.collide = false;
-    if (side < 0.0 && kind == HingeKind::swapped && !b.empty()) std::swap(pin.body_a, pin.body_b);
-    if (side < 0.0 && kind == HingeKind::point_and_line) pin.kind = AttachmentKind::line, pin.axis = Vec3::UnitZ();
-    world.add_attachment(pin);
-  }
-}
-
 struct HingeRun {
   double fastest = 0.0, won = 0.0;  // kinetic energy, J; of the fall
 };
@@ -290,9 +280,7 @@ TEST_CASE("a bar that hangs at rest on a hinge stays there, however narrow that 
         for (const bool is_level : {false, true}) {
           CAPTURE(method, static_cast<int>(kind), half, substeps, is_level);
           World world;
-          world.parameters.simulation.sleeping = false;
-          world.parameters.simulation.substeps = substeps;
-          world.parameters.response.method = method;
+          settle_method(world, method, substeps);
           BodyDescription bar =
               dynamic_body("bar", Box{Vec3(0.025, 0.5, 0.025)}, is_level ? Vec3(0.5, 0, 0) : Vec3(0, -0.5, 0));
           bar.mass = 1.0;
@@ -306,41 +294,29 @@ TEST_CASE("a bar that hangs at rest on a hinge stays there, however narrow that 
         }
 }
 
-TEST_CASE("soft_constraint: chains of hinges and of single points let go level win nothing") {
+TEST_CASE("quick and soft_constraint: chains of hinges and of single points let go level win nothing") {
+  const auto method = GENERATE(as<std::string>(), "quick", "soft_constraint");
   for (const bool is_rope : {false, true})
     for (const int links : {2, 5, 20})
       for (const double ratio : {1.0, 100.0})
         for (const int substeps : {4, 16, 64}) {
           if (substeps == 64 && links == 20) continue;
-          const auto kind = links == 5 ? HingeKind::swapped : HingeKind::points;
-          CAPTURE(is_rope, links, ratio, substeps);
+          CAPTURE(method, is_rope, links, ratio, substeps);
           World world;
-          world.parameters.simulation.sleeping = false;
-          world.parameters.simulation.substeps = substeps;
-          world.parameters.response.method = "soft_constraint";
-          double fall = 0.0;
-          for (int i = 0; i < links; ++i) {
-            BodyDescription bar =
-                dynamic_body("bar" + std::to_string(i), Box{Vec3(0.135, 0.02, 0.05)}, Vec3(0.3 * (i + 0.5), 0, 0));
-            bar.mass = i == links - 1 ? ratio : 1.0;
-            fall += *bar.mass * kGravity * 0.3 * (i + 0.5);
-            world.add_body(bar);
-          }
-          for (int i = 0; i < links; ++i)
-            add_hinge(world, kind, "bar" + std::to_string(i), i > 0 ? "bar" + std::to_string(i - 1) : "",
-                      Vec3(0.3 * i, 0, 0), is_rope ? 0.0 : 0.02);
+          settle_method(world, method, substeps);
+          const double fall =
+              add_bars(world, links, ratio, is_rope, links == 5 ? HingeKind::swapped : HingeKind::points);
           CHECK(run_hinge(world, fall).won < 0.02);
         }
 }
 
-TEST_CASE("soft_constraint: a linkage that closes, and closes by a tenth of a millimetre not, wins nothing") {
+TEST_CASE("quick and soft_constraint: a linkage that closes, and closes by a tenth of a millimetre not, wins nothing") {
+  const auto method = GENERATE(as<std::string>(), "quick", "soft_constraint");
   for (const double off : {0.0, 1e-4})
     for (const int substeps : {4, 16, 64}) {
-      CAPTURE(off, substeps);
+      CAPTURE(method, off, substeps);
       World world;
-      world.parameters.simulation.sleeping = false;
-      world.parameters.simulation.substeps = substeps;
-      world.parameters.response.method = "soft_constraint";
+      settle_method(world, method, substeps);
       const std::vector<Vec3> joints = {{0, 0, 0}, {0, 0.5, 0}, {1.3, 0.9, 0}, {1.5, 0, 0}};
       double fall = 0.0;
       for (int i = 0; i < 3; ++i) {
@@ -356,7 +332,7 @@ TEST_CASE("soft_constraint: a linkage that closes, and closes by a tenth of a mi
         add_hinge(world, HingeKind::points, "bar" + std::to_string(std::min(i, 2)),
                   i == 0 || i == 3 ? "" : "bar" + std::to_string(i - 1), joints[static_cast<std::size_t>(i)], 0.1);
       CHECK(run_hinge(world, fall).won < 0.02);
-      for (const AttachmentRecord& pin : world.record().attachments) CHECK((pin.point_a - pin.point_b).norm() < 1e-3);
+      CHECK(widest(world) < 1e-3);
     }
 }
 
@@ -367,9 +343,7 @@ TEST_CASE(
       for (const bool carries : {false, true}) {
         CAPTURE(half, substeps, carries);
         World world;
-        world.parameters.simulation.sleeping = false;
-        world.parameters.simulation.substeps = substeps;
-        world.parameters.response.method = "soft_constraint";
+        settle_method(world, "soft_constraint", substeps);
         SoftOptions soft;
         soft.young = 1e5, soft.damping_beta = 0.002;
         world.add_body(soft_box("bar", Vec3(0.5, 0.1, 0.1), Eigen::Vector3i(10, 2, 2), Vec3(0, -0.05, -0.05), soft));
@@ -386,6 +360,6 @@ TEST_CASE(
           highest = std::max(highest, energy);
         }
         CHECK(highest - first < 1e-6 * kGravity);  // it has 5 kg, and falls by a quarter of a metre
-        for (const AttachmentRecord& pin : world.record().attachments) CHECK((pin.point_a - pin.point_b).norm() < 0.01);
+        CHECK(widest(world) < 0.01);
       }
 }

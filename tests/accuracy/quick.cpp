@@ -5,6 +5,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/mechanics/bullets.hpp"
+#include "tests/support/mechanics/chains.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/pile.hpp"
 #include "tests/support/mechanics/response_worlds.hpp"
@@ -220,6 +221,7 @@ TEST_CASE("quick: piles have the same bits for 1, 2 and 4 threads, and go on fro
       const Vec3 at(0.205 * (i % 20), 0.1 + 0.2 * (i / 400), 0.205 * (i / 20 % 20));
       world.add_body(dynamic_body("ball" + std::to_string(i), Sphere{0.1}, at + 0.01 * random.vector()));
     }
+    add_bars(world, 20, 1.0, false);  // which falls through them
     world.start();
   };
   std::vector<std::uint64_t> first;
@@ -279,4 +281,77 @@ TEST_CASE("quick: a shot runs through Newton's cradle") {
   run(world, 10);
   for (int i = 0; i < 4; ++i) CHECK(std::abs(rigid(world, i).velocity.x()) < 1e-9);
   CHECK(rigid(world, 4).velocity.x() == Approx(1.0).epsilon(1e-9));
+}
+
+TEST_CASE(
+    "quick: chains of a hundred links, and of a few with an end ten thousand times as heavy, hold and win nothing") {
+  struct Case {
+    int links;
+    double ratio;
+    int substeps, frames;
+    double apart;  // of a link, at most
+  };
+  for (const bool is_rope : {false, true})
+    for (const Case& c : {Case{100, 1.0, 1, 90, 0.1}, Case{100, 1.0, 4, 90, 0.1}, Case{100, 100.0, 1, 60, 0.1},
+                          Case{20, 1.0, 1, 120, 0.1}, Case{8, 1e4, 1, 90, 0.15}, Case{8, 1e4, 4, 40, 0.15}}) {
+      CAPTURE(is_rope, c.links, c.ratio, c.substeps);
+      World world;
+      settle_method(world, "quick", c.substeps);
+      const double fall = add_bars(world, c.links, c.ratio, is_rope);
+      world.start();
+      double first = 0.0, won = 0.0, apart = 0.0;
+      for (int frame = 0; frame < c.frames; ++frame) {
+        world.step();
+        const double energy = world.record().stats.kinetic + world.record().stats.potential;
+        if (frame == 0) first = energy;
+        won = std::max(won, (energy - first) / fall);
+        apart = std::max(apart, widest(world) / 0.3);
+      }
+      CHECK(won < 0.01);
+      CHECK(apart < c.apart);
+    }
+}
+
+TEST_CASE(
+    "quick: a chain of twenty links comes to where constraint anticipation with fine sub-steps says, to first order") {
+  const auto ends = [](const std::string& method, int substeps) {
+    World world;
+    settle_method(world, method, substeps);
+    add_bars(world, 20, 1.0, false);
+    world.start();
+    for (int frame = 0; frame < 40; ++frame) world.step();
+    std::vector<Vec3> at;
+    for (const Body& body : world.bodies()) at.push_back(body.pose.position);
+    return at;
+  };
+  const std::vector<Vec3> truth = ends("constraint_anticipation", 64);
+  for (const int substeps : {4, 16}) {
+    const std::vector<Vec3> found = ends("quick", substeps);
+    double error = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) error = std::max(error, (found[i] - truth[i]).norm());
+    CAPTURE(substeps, error);
+    CHECK(error < 0.2 / substeps);
+  }
+}
+
+TEST_CASE(
+    "quick: a chain held at one end that falls on the ground stays together, wins nothing and is not deep in it") {
+  for (const bool is_rope : {false, true})
+    for (const int substeps : {1, 4}) {
+      CAPTURE(is_rope, substeps);
+      World world;
+      settle_method(world, "quick", substeps);
+      const double fall = add_bars(world, 20, 1.0, is_rope);
+      world.add_body(fixed_plane("ground", Vec3::UnitY(), -3.0));
+      world.start();
+      double first = 0.0;
+      for (int frame = 0; frame < 180; ++frame) {
+        world.step();
+        const FrameStats& stats = world.record().stats;
+        if (frame == 0) first = stats.kinetic + stats.potential;
+        REQUIRE(stats.kinetic + stats.potential - first < 1e-6 * fall);
+        REQUIRE(widest(world) < 0.05 * 0.3);
+        REQUIRE(stats.max_penetration < 5e-3);
+      }
+    }
 }

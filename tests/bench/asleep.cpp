@@ -1,6 +1,4 @@
-// What doesn't move: a plane of boxes that sleep, and the same with one that slides beside them for ever. Milliseconds,
-// the middle one of the frames, by stage: "step" is all sub-steps, "frame" is that and publishing, before anybody asks for
-// the hash. usage: bench_asleep [boxes = 10000] [steps = 200]
+// What doesn't move costs nothing: a plane of boxes that sleep.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "engine/world/world.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -51,7 +50,15 @@ void measure(int boxes, int steps, bool is_one_awake) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int boxes = argc > 1 ? std::atoi(argv[1]) : 10000, steps = argc > 2 ? std::atoi(argv[2]) : 200;
+  int boxes = 10000, steps = 200;
+  BenchArguments arguments(
+      "bench_asleep",
+      "What doesn't move: a plane of boxes that sleep, and the same with one that slides beside them for\n"
+      "ever. Milliseconds, the middle one of the frames, by stage: \"step\" is all sub-steps, \"frame\" is that\n"
+      "and publishing, before anybody asks for the hash.");
+  arguments.number("boxes", boxes, {1}, "how many");
+  arguments.number("steps", steps, {1}, "frames of each scene");
+  arguments.read_or_exit(argc, argv);
   measure(boxes, steps, false);
   measure(boxes, steps, true);
 }

@@ -1,5 +1,4 @@
-// Broad phases on moving boxes: milliseconds a frame (boxes in, sorted pairs out), growth with n, and FCL's dynamic
-// AABB tree in the same process when it is installed.  bench_broad_phase [largest n]
+// Broad phases on moving boxes, FCL's dynamic AABB tree beside them when it is installed.
 #include <fmt/format.h>
 #include <ctime>
 
@@ -10,6 +9,7 @@
 #include "engine/detection/broadphase/broad_phase.hpp"
 #include "tests/support/geometry/moving_boxes.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 #ifdef IMPINGE_HAS_FCL
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
@@ -118,7 +118,13 @@ double exponent(const std::vector<std::pair<int, double>>& points) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 100000;
+  int largest = 100000;
+  BenchArguments arguments(
+      "bench_broad_phase",
+      "Broad phases on moving boxes: milliseconds a frame (boxes in, sorted pairs out), growth with n, and\n"
+      "FCL's dynamic AABB tree in the same process when it is installed.");
+  arguments.number("largest", largest, {100}, "boxes at most: 100, 1000 and so on");
+  arguments.read_or_exit(argc, argv);
   fmt::print("{:<18}{:>8}  {:<9}{:>12}{:>12}{:>10}{:>12}\n", "broad phase", "boxes", "motion", "first ms", "frame ms",
              "pairs", "against FCL");
   for (double speed : {kCoherent, kFast}) {

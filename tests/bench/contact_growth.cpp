@@ -1,7 +1,4 @@
-// Fig. 6.5 beyond the seed: one step of the seed's dragon scene as the contacts grow, a soft dragon (1e4 Pa) sinking
-// onto the rest. Constraint anticipation by the seed's dense A⁻¹, by half solves with Gauss-Seidel, and by half solves
-// with the default solver, against iterative anticipation; all at the same tolerance, judged by the same ruler. A⁻¹
-// written out takes minutes: `dense` asks for it. usage: bench_contact_growth [frames = 26] [dense]
+// Fig. 6.5 beyond the seed: one step of its dragon scene as the contacts grow.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +6,7 @@
 
 #include "engine/frozen/frozen_comparison.hpp"
 #include "tests/support/mechanics/frozen_reference.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "viewer/controller/session.hpp"
 
 using namespace impinge;
@@ -36,8 +34,17 @@ void print(const char* label, const FrozenRuler& ruler, const FrozenStep& step, 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int frames = argc > 1 ? std::atoi(argv[1]) : 26;
-  const bool dense = argc > 2 && std::string(argv[2]) == "dense";
+  int frames = 26;
+  std::string dense = "no";
+  BenchArguments arguments(
+      "bench_contact_growth",
+      "Fig. 6.5 beyond the seed: one step of the seed's dragon scene as the contacts grow, a soft dragon\n"
+      "(1e4 Pa) sinking onto the rest. Constraint anticipation by the seed's dense A⁻¹, by half solves with\n"
+      "Gauss-Seidel, and by half solves with the default solver, against iterative anticipation; all at the\n"
+      "same tolerance, judged by the same ruler.");
+  arguments.number("frames", frames, {1}, "of the scene");
+  arguments.word("dense", dense, one_of({"dense", "no"}), "whether A⁻¹ is written out, which takes minutes");
+  arguments.read_or_exit(argc, argv);
   const std::filesystem::path scene = std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/dragon_spheres";
   Session session(scene.string() + ".toml",
                   {"body.dragon.material.young=1e4", "response.iterative_constraint_anticipation.factorizes=false"},
@@ -63,7 +70,7 @@ int main(int argc, char** argv) {
     print("ICA", ruler, step, "iterative_constraint_anticipation", "automatic", 12.0 * unknowns * 8e-6);
     largest = std::move(step);
   }
-  if (!dense || largest.groups.empty()) return 0;
+  if (dense == "no" || largest.groups.empty()) return 0;
   double megabytes = 0.0;
   for (const FrozenGroup& g : largest.groups)
     for (const BlockMatrix& a : g.matrices) megabytes += 8e-6 * a.rows() * a.rows();

@@ -1,7 +1,4 @@
-// The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a frame of it
-// costs, from the mouse's move to the pixels, and what of that is the scene and what the panels. Everything is drawn by
-// the processor. Then while a frame of a minute is computed: how long after a move its pixels are there.
-// usage: bench_debugger [boxes|few|self|block]: of the latter one alone
+// The debugger's window while it is paused and orbited, and while a frame of a minute is computed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +7,13 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "tests/support/program/slow_scenes.hpp"
 #include "tests/support/program/temp_folder.hpp"
 #include "viewer/debugger/window_loop.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 using impinge::test::median;
 
 namespace {
@@ -147,7 +146,16 @@ void measure_meanwhile(const char* name, const std::string& scene) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string only = argc > 1 ? argv[1] : "";
+  std::string only;
+  BenchArguments arguments(
+      "bench_debugger",
+      "The debugger's window at 1280 x 720 while it is paused and the view is orbited by the mouse: what a\n"
+      "frame of it costs, from the mouse's move to the pixels, and what of that is the scene and what the\n"
+      "panels, ms. Everything is drawn by the processor. Then while a frame of a minute is computed: how\n"
+      "long after a move its pixels are there.");
+  arguments.word("scene", only, one_of({"boxes", "few", "self", "block"}),
+                 "boxes, few, self or block: only while that is computed; all unless given");
+  arguments.read_or_exit(argc, argv);
   {
     const DebugWindow window(kWidth, kHeight);
     fmt::print("renderer: {}, {} threads\n", window.renderer_name(), thread_count());

@@ -1,17 +1,15 @@
-// The scenes with deformable bodies by stage: milliseconds a frame, contacts, and the overlap of their surfaces by the
-// judge, which shares nothing with detection. And constraint anticipation against its iterative form over the first
-// frames of dragon_spheres, time against contacts, at equal residual and with the seed's 5 % rule [Haapaoja16 Fig.
-// 6.5].
-//   usage: bench_deformable_scenes [FRAMES]
+// The scenes with deformable bodies by stage.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
 #include "engine/world/judge.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "viewer/controller/session.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -68,7 +66,15 @@ double mean_between(const Course& c, std::int64_t low, std::int64_t high, int& c
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int frames = argc > 1 ? std::atoi(argv[1]) : 120;
+  int frames = 120;
+  BenchArguments arguments(
+      "bench_deformable_scenes",
+      "The scenes with deformable bodies by stage: milliseconds a frame, contacts, and the overlap of their\n"
+      "surfaces by the judge, which shares nothing with detection. And constraint anticipation against its\n"
+      "iterative form over the first frames of dragon_spheres, time against contacts, at equal residual and\n"
+      "with the seed's 5 % rule [Haapaoja16 Fig. 6.5].");
+  arguments.number("frames", frames, {1}, "of each scene");
+  arguments.read_or_exit(argc, argv);
   std::printf(
       "ms a frame           DoF   broad  narrow  assemble  response  integrate     step contacts (most)  overlap[m] "
       "residual[m/s] unconverged\n");

@@ -1,6 +1,4 @@
-// What the elements of deformable bodies cost and what they are worth: a cantilever under its weight by element, mesh
-// and Poisson's ratio, static tip against the converged one; milliseconds of a step's parts, linear and quadratic in
-// turns, the least of several rounds. Prints CSV; one thread. usage: bench_elements [rounds = 5]
+// What the elements of deformable bodies cost and what they are worth.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -8,8 +6,10 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/mechanics/fem.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -107,8 +107,16 @@ void costs(int rounds) {
 
 }  // namespace
 
-int main(int count, char** words) {
+int main(int argc, char** argv) {
+  int rounds = 5;
+  BenchArguments arguments(
+      "bench_elements",
+      "What the elements of deformable bodies cost and what they are worth: a cantilever under its weight\n"
+      "by element, mesh and Poisson's ratio, static tip against the converged one; milliseconds of a step's\n"
+      "parts, linear and quadratic in turns, the least of several rounds. Prints CSV; one thread.");
+  arguments.number("rounds", rounds, {1}, "of each measurement");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(1);
-  costs(count > 1 ? std::atoi(words[1]) : 5);
+  costs(rounds);
   tips();
 }

@@ -1,12 +1,13 @@
-// Deformable bodies without contact: steps of Vega FEM's clamped cube by material, and how much of them is assembly.
-// Prints CSV; processor time of one thread. usage: bench_fem
+// Deformable bodies without contact: steps of Vega FEM's clamped cube.
 #include <cstdio>
 #include <ctime>
 
 #include "engine/core/parallel.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -59,7 +60,12 @@ void vega_steps() {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  BenchArguments arguments(
+      "bench_fem",
+      "Deformable bodies without contact: steps of Vega FEM's clamped cube by material, and how much of\n"
+      "them is assembly. Prints CSV; processor time of one thread, ms.");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(1);
   vega_steps();
 }

@@ -1,7 +1,4 @@
-// Free rotation of 1,000 bodies: the exact turn against rules that step along it. Time a body and step, energy gained
-// or lost over 10,000 steps, attitude after ten radians (or 1,000 steps) against small steps in long double, and steps
-// that did not settle.
-//   bench_free_rotation
+// Free rotation: the exact turn against rules that step along it.
 #include <fmt/format.h>
 #include <cstdio>
 #include <ctime>
@@ -12,6 +9,7 @@
 
 #include "engine/geometry/rotation.hpp"
 #include "engine/rotation/free_rotation.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
@@ -144,7 +142,13 @@ void report(const char* name, const Rule& rule, const Vec3& moments, double turn
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  BenchArguments arguments(
+      "bench_free_rotation",
+      "Free rotation of 1,000 bodies: the exact turn against rules that step along it. Time a body and\n"
+      "step, energy gained or lost over 10,000 steps, attitude after ten radians (or 1,000 steps) against\n"
+      "small steps in long double, and steps that did not settle.");
+  arguments.read_or_exit(argc, argv);
   fmt::print("{:<20}{:>9}{:>12}{:>12}{:>10}\n", "", "a step", "energy", "attitude", "unsettled");
   for (const auto& [name, moments] :
        {std::pair("a box, 1 : 2 : 2.5", Vec3(1, 2, 2.5)), std::pair("a ball", Vec3(1, 1, 1)),

@@ -1,7 +1,4 @@
-// The hardest frame (most contacts) of the seed's dragon scene, as it is and with a dragon of 1e4, 1e5, 1e6 Pa:
-// constraint anticipation (CA), its iterative form (ICA) and a monolithic KKT system without friction; natural maps
-// with friction; W by several routes. Distances are of Δv in A's norm, relative to CA's. usage: bench_frozen_methods
-// [frames = 30] [E…]
+// Every method on the hardest frame of the seed's dragon scene.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +6,7 @@
 
 #include "tests/support/mechanics/frozen_dragon.hpp"
 #include "tests/support/mechanics/frozen_reference.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -60,15 +58,26 @@ void routes(const FrozenStep& step) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int frames = argc > 1 ? std::atoi(argv[1]) : 30;
-  std::vector<std::string> stiffnesses(argv + std::min(argc, 2), argv + argc);
-  if (stiffnesses.empty()) stiffnesses = {"", "1e4", "1e5", "1e6"};
+  int frames = 30;
+  std::vector<std::string> stiffnesses = {"as_is", "1e4", "1e5", "1e6"};
+  BenchArguments arguments(
+      "bench_frozen_methods",
+      "The hardest frame (most contacts) of the seed's dragon scene, as it is and with a dragon of 1e4,\n"
+      "1e5, 1e6 Pa: constraint anticipation (CA), its iterative form (ICA) and a monolithic KKT system\n"
+      "without friction; natural maps with friction; W by several routes. Distances are of Δv in A's norm,\n"
+      "relative to CA's.");
+  arguments.number("frames", frames, {1}, "of which the hardest is taken");
+  const auto stiffness_fault = [](const std::string& word) {
+    return word == "as_is" ? "" : number_fault(word).empty() ? "" : std::string("as_is or a number");
+  };
+  arguments.words("E", stiffnesses, stiffness_fault, "Young's moduli of the dragon, Pa");
+  arguments.read_or_exit(argc, argv);
   for (const std::string& young : stiffnesses) {
     std::vector<std::string> overrides;
-    if (!young.empty()) overrides.push_back("body.dragon.material.young=" + young);
+    if (young != "as_is") overrides.push_back("body.dragon.material.young=" + young);
     const FrozenStep step = hardest_frame(overrides, frames);
-    std::printf("dragon E %s: frame %d, %zu contacts, %zu groups\n", young.empty() ? "as is" : young.c_str(),
-                step.frame, step.contacts(), step.groups.size());
+    std::printf("dragon E %s: frame %d, %zu contacts, %zu groups\n", young.c_str(), step.frame, step.contacts(),
+                step.groups.size());
     routes(step);
     const FrozenStep smooth = without_friction(step);
     const FrozenRuler smooth_ruler(smooth), ruler(step);

@@ -1,9 +1,9 @@
-// Bodies that hang in one another: how deep they sink, by the judge at the end of every sub-step, and what it costs.
-// usage: bench_interlocked [ASSEMBLY COUNT SECONDS [SUBSTEPS]]
+// Bodies that hang in one another: how deep they sink, and what it costs.
 #include <cstdio>
 #include <cstdlib>
 
 #include "tests/support/mechanics/interlocked.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -22,10 +22,21 @@ void print(const Assembly& what) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  Assembly one;
+  BenchArguments arguments(
+      "bench_interlocked",
+      "Bodies that hang in one another: how deep they sink, by the judge at the end of every sub-step, and\n"
+      "what it costs.");
+  arguments.word("assembly", one.name, one_of({"chain", "arms", "rollers", "bolt", "arch"}),
+                 "chain, arms, rollers, bolt or arch alone; unless given all, by their own counts");
+  arguments.number("count", one.count, {1}, "its links, arms or stones");
+  arguments.number("seconds", one.seconds, {0.01}, "s, how long it is watched");
+  arguments.number("substeps", one.substeps, {1}, "of a frame of 10 ms");
+  arguments.read_or_exit(argc, argv);
   std::printf("%-7s %4s %8s %7s  %11s %8s  %8s %11s %6s  %9s %10s  %8s %9s\n", "what", "of", "substeps", "seconds",
               "overlap", "of thick", "a pair", "unconverged", "unsafe", "gain/fall", "moved", "median", "dearest ms");
-  if (argc > 3) {
-    print({argv[1], std::atoi(argv[2]), argc > 4 ? std::atoi(argv[4]) : 1, std::atof(argv[3])});
+  if (!one.name.empty()) {
+    print(one);
     return 0;
   }
   for (const int substeps : {4, 1})

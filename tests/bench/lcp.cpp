@@ -1,7 +1,4 @@
-// bench_lcp [TOLERANCE [CAP [STEP_FILE...]]]: every LCP solver on stacks, on a light and a heavy box, and on the published
-// problems where the shared data folder is: iterations, milliseconds (the median of runs in turn), the residual as the
-// judge finds it, and what `automatic` takes beside the quickest method that reaches the tolerance. With files of frozen
-// steps (`impinge run --freeze`): their groups instead, from the λ before and from nothing.
+// Every LCP solver on stacks, on a light and a heavy box, and on published problems or frozen steps.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +14,10 @@
 #include "engine/response/response.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -160,11 +159,24 @@ void report_published(LcpSettings settings) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  const LcpSettings settings{count > 1 ? std::atof(words[1]) : 1e-8, count > 2 ? std::atoi(words[2]) : 2000};
-  if (count > 3) {
+int main(int argc, char** argv) {
+  LcpSettings settings{1e-8, 2000};
+  std::vector<std::string> files;
+  BenchArguments arguments(
+      "bench_lcp",
+      "Every LCP solver on stacks, on a light and a heavy box, and on the published problems where the\n"
+      "shared data folder is: iterations, milliseconds (the median of runs in turn), the residual as the\n"
+      "judge finds it, and what `automatic` takes beside the quickest method that reaches the tolerance.\n"
+      "With files of frozen steps (`impinge run --freeze`): their groups instead, from the λ before and\n"
+      "from nothing.");
+  arguments.number("tolerance", settings.tolerance, {0.0}, "of the residual, m/s");
+  arguments.number("cap", settings.max_iterations, {1}, "iterations at most");
+  arguments.words("step_file", files, file_fault,
+                  "frozen steps, in place of the problems that are made unless any is given");
+  arguments.read_or_exit(argc, argv);
+  if (!files.empty()) {
     std::vector<double> ratios;
-    for (int i = 3; i < count; ++i) report_step(words[i], settings, ratios);
+    for (const std::string& file : files) report_step(file, settings, ratios);
     summary("frozen groups", ratios);
     return 0;
   }

@@ -1,7 +1,4 @@
-// Linear solves of deformable bodies by route: analysis, factorization, one right-hand side, and W = J A⁻¹ Jᵀ of
-// contacts on the surface, by whole solves and by half ones. Lattice solids clamped at z = 0, K + m/Δt² (lumped, ν 0.3,
-// ρ 1000, Δt 0.01 s). Prints CSV; processor time of one thread, ms. usage: bench_linear_solvers [largest lattice, cells
-// a side (default 26; from 100 on Eigen's takes part in all)] [smallest]
+// Linear solves of deformable bodies by route.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -9,9 +6,11 @@
 
 #include "engine/core/parallel.hpp"
 #include "engine/integrators/deformable_integrator.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -115,8 +114,16 @@ void measure(std::string_view route, const System& system, double young) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  int largest = 26, smallest = 0;
+  BenchArguments arguments(
+      "bench_linear_solvers",
+      "Linear solves of deformable bodies by route: analysis, factorization, one right-hand side, and W = J\n"
+      "A⁻¹ Jᵀ of contacts on the surface, by whole solves and by half ones. Lattice solids clamped at z =\n"
+      "0, K + m/Δt² (lumped, ν 0.3, ρ 1000, Δt 0.01 s). Prints CSV; processor time of one thread, ms.");
+  arguments.number("largest", largest, {6}, "lattice, cells a side; from 100 on Eigen's takes part in all");
+  arguments.number("smallest", smallest, {0}, "lattice, cells a side");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(1);
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 26, smallest = argc > 2 ? std::atoi(argv[2]) : 0;
   std::printf("solve,route,young,dofs,analyze_ms,factor_ms,solve_ms,iterations,relative_residual\n");
   std::printf("gram,route,young,dofs,contacts,half_solves_ms,whole_solves_ms,relative_difference\n");
   for (const int cells : {6, 10, 14, 20, 26}) {

@@ -1,7 +1,4 @@
-// The main job by stage: milliseconds a frame, frames a second with and without pictures, peak memory. And which
-// meaning of contact.points is better at what: overlap (by the judge, which shares nothing with detection), chatter,
-// contacts, time.
-//   usage: bench_main_job [FRAMES]
+// The main job by stage.
 #include <sys/resource.h>
 
 #include <chrono>
@@ -10,9 +7,11 @@
 #include <filesystem>
 
 #include "engine/world/judge.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "viewer/controller/session.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -68,7 +67,14 @@ Figures run_job(const char* points, int frames, bool pictures, bool judged) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int frames = argc > 1 ? std::atoi(argv[1]) : 240;
+  int frames = 240;
+  BenchArguments arguments(
+      "bench_main_job",
+      "The main job by stage: milliseconds a frame, frames a second with and without pictures, peak memory.\n"
+      "And which meaning of contact.points is better at what: overlap (by the judge, which shares nothing\n"
+      "with detection), chatter, contacts, time.");
+  arguments.number("frames", frames, {1}, "of the scene");
+  arguments.read_or_exit(argc, argv);
   std::printf("scenes/drop.toml, %d frames of 4 sub-steps, 12 dynamic meshes (52,000 triangles)\n\n", frames);
   std::printf(
       "ms a frame      broad  narrow  assemble  response  integrate    step   contacts (most)  sweeps  unconverged\n");

@@ -1,8 +1,4 @@
-// Narrow phases between meshes, measured: the seed's Fig. 6.4, growth with the number of triangles, and the mesh-mesh
-// cases that peers were measured on. CSV on standard output, a summary for people on standard error.
-//
-// Processor time of the whole process (all threads), one thread unless --threads N; the median of some repeats after a
-// first call that allocates. Compare figures of one run only: machines and their other users differ.
+// Narrow phases between meshes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +8,7 @@
 
 #include "engine/core/parallel.hpp"
 #include "tests/support/geometry/meshes.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/present/plot_picture.hpp"
 
@@ -240,22 +237,17 @@ void flush() {
 int main(int argc, char** argv) {
   int threads = 1, finest = 7;
   std::string picture;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--threads" && i + 1 < argc) {
-      threads = std::atoi(argv[++i]);
-    } else if (word == "--finest" && i + 1 < argc) {
-      finest = std::clamp(std::atoi(argv[++i]), 3, 8);
-    } else if (word == "--plot" && i + 1 < argc) {
-      picture = argv[++i];
-    } else {
-      fmt::print(
-          stderr,
-          "usage: bench_narrow_phase [--threads N] [--finest K] [--plot FILE.png]\n  K: finest icosphere, 20·4^K "
-          "triangles a body (3 to 8, default 7: 655,360 together)\n  --plot: Fig. 6.4 of the seed as a picture\n");
-      return 2;
-    }
-  }
+  BenchArguments arguments(
+      "bench_narrow_phase",
+      "Narrow phases between meshes: the seed's Fig. 6.4, growth with the number of triangles, and the\n"
+      "mesh-mesh cases that peers were measured on. CSV on standard output, a summary for people on\n"
+      "standard error. Processor time of the whole process (all threads), ms; the median of some repeats\n"
+      "after a first call that allocates. Compare figures of one run only: machines and their other users\n"
+      "differ.");
+  arguments.number("--threads", threads, {1}, "how many");
+  arguments.number("--finest", finest, {3, 8}, "K of the finest icosphere, 20·4^K triangles a body");
+  arguments.word("--plot", picture, {}, "FILE.png for Fig. 6.4 of the seed as a picture, none if it isn't given");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(threads);
   fmt::print("series,triangles,pairs");
   for (const std::string& name : methods()) fmt::print(",{}_ms", name);

@@ -1,7 +1,4 @@
-// Of which order in the time step is what moves, by kind of motion and integrator: errors against formulas, or against far
-// finer steps, with 4, 8, 16 and 32 sub-steps of 1/60 s, and log2 of their ratios. Rigid bodies move alike in every
-// integrator; that they do is looked at.
-//   bench_order [PATH=VALUE...] [--only WORD]      e.g. bench_order simulation.velocities=middle
+// Of which order in the time step is what moves, by kind of motion and integrator.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +8,7 @@
 #include "engine/core/profile.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/timed_motions.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -51,18 +49,30 @@ void print(const TimedMotion& motion, std::string_view integrator, const Line& l
   std::fflush(stdout);
 }
 
+std::string motion_fault(const std::string& part) {
+  const auto& all = timed_motions();
+  const bool is_known =
+      std::any_of(all.begin(), all.end(), [&](const TimedMotion& m) { return m.name.find(part) != std::string::npos; });
+  return is_known ? "" : "a part of a motion's name, as \"" + std::string(all.front().name) + "\"";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<RowText> settings;
+  std::vector<std::string> rows;
   std::string only;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--only" && i + 1 < argc)
-      only = argv[++i];
-    else
-      settings.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
-  }
+  BenchArguments arguments(
+      "bench_order",
+      "Of which order in the time step is what moves, by kind of motion and integrator: errors against\n"
+      "formulas, or against far finer steps, with 4, 8, 16 and 32 sub-steps of 1/60 s, and log2 of their\n"
+      "ratios. Rigid bodies move alike in every integrator; that they do is looked at.");
+  arguments.words("path=value", rows, row_fault,
+                  "parameters of the scenes, as simulation.velocities=middle; none unless given");
+  arguments.word("--only", only, motion_fault, "motions with this in their names; all unless given");
+  arguments.read_or_exit(argc, argv);
+  std::vector<RowText> settings;
+  for (const std::string& row : rows)
+    settings.emplace_back(row.substr(0, row.find('=')), row.substr(row.find('=') + 1));
   fmt::print("| motion | integrator | error, 4 sub-steps | log2 of ratios | order | ms |\n|---|---|---|---|---|---|\n");
   for (const TimedMotion& motion : timed_motions()) {
     if (motion.name.find(only) == std::string::npos) continue;

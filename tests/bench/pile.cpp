@@ -1,7 +1,4 @@
-// A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, the relative residual
-// (the largest and the middle one of all frames), solves without an answer, overlap, and the frame from which on every
-// speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s); each frame on stderr as it is done.
-// usage: bench_pile [boxes = 1000] [frames = 60] [response[:solver[:tolerance[:so many frames, then the default]]] …]
+// A pile of boxes falling and coming to rest, by response and cone solver.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -11,18 +8,28 @@
 #include "engine/response/response.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/pile.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 int main(int argc, char** argv) {
-  const int boxes = argc > 1 ? std::atoi(argv[1]) : 1000, frames = argc > 2 ? std::atoi(argv[2]) : 60;
-  std::vector<std::string> methods(argv + std::min(argc, 3), argv + argc);
-  if (methods.empty()) {
-    for (const auto& e : responses()) methods.emplace_back(e.name);
-    methods.emplace_back("constraint_anticipation:projected_gauss_seidel");
-    methods.emplace_back("constraint_anticipation:accelerated_projected_gradient");
-  }
+  int boxes = 1000, frames = 60;
+  std::vector<std::string> methods = names_of(responses());
+  methods.emplace_back("constraint_anticipation:projected_gauss_seidel");
+  methods.emplace_back("constraint_anticipation:accelerated_projected_gradient");
+  BenchArguments arguments(
+      "bench_pile",
+      "A pile of boxes falling and coming to rest, by response and cone solver: ms of response a frame, the\n"
+      "relative residual (the largest and the middle one of all frames), solves without an answer, overlap,\n"
+      "and the frame from which on every speed is below 1 mm/s (sleeping off, one sub-step of 1/60 s); each\n"
+      "frame on stderr as it is done.");
+  arguments.number("boxes", boxes, {1}, "how many");
+  arguments.number("frames", frames, {1}, "of 1/60 s");
+  arguments.words(
+      "method", methods, [](const std::string& word) { return method_fault(word, "frames"); },
+      "response[:solver[:tolerance[:so many frames, then the default tolerance]]]");
+  arguments.read_or_exit(argc, argv);
   std::printf("%d boxes, %d frames\n%-58s %12s %12s %10s %10s %12s %12s %12s %8s\n", boxes, frames, "", "response ms",
               "of the last", "residual", "median", "unconverged", "overlap m", "speed m/s", "still");
   for (const std::string& method : methods) {

@@ -1,8 +1,4 @@
-// The pile of a thousand boxes, and ten thousand spheres, at a frame rate: ms of a whole step (wall) beside Bullet's in the
-// same run, the worst overlap by the judge over the run and at its end, speeds at the end. One sub-step of 1/60 s, friction
-// 0.3, restitution 0, nothing sleeps. Bullet is run as it comes (btSequentialImpulseConstraintSolver, 10 iterations or as
-// given, split impulses, one thread), if it was found when this was built.
-// usage: bench_quick [planes|walls|spheres = planes] [bodies = 1000] [frames = 300] [rounds = 3] [METHOD[:substeps]|bullet[:iterations] …]
+// The pile of a thousand boxes, and ten thousand spheres, at a frame rate, beside Bullet's.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -14,6 +10,7 @@
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/mechanics/pile.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 #ifdef IMPINGE_HAS_BULLET
 #include <btBulletDynamicsCommon.h>
@@ -94,20 +91,41 @@ struct Watch {
   }
 };
 
-Run run_ours(const std::string& scene, int bodies, int frames, const std::string& method, bool judges) {
+/// "path=value,path=value".
+std::vector<RowText> rows_in(const std::string& list) {
+  std::vector<RowText> rows;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');)
+    rows.emplace_back(word.substr(0, word.find('=')), word.substr(word.find('=') + 1));
+  return rows;
+}
+
+std::string rows_fault(const std::string& list) {
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');)
+    if (std::string fault = row_fault(word); !fault.empty()) return fault;
+  return "";
+}
+
+std::string quick_fault(const std::string& method) {
+  const std::size_t colon = method.find(':');
+  std::vector<std::string> names = names_of(responses());
+#ifdef IMPINGE_HAS_BULLET
+  names.emplace_back("bullet");
+#endif
+  std::string fault = one_of(names)(method.substr(0, colon));
+  if (fault.empty() && colon != std::string::npos) fault = whole_number_fault(method.substr(colon + 1));
+  return fault;
+}
+
+Run run_ours(const std::string& scene, int bodies, int frames, const std::string& method, const std::string& rows,
+             bool judges) {
   World world;
   const std::size_t colon = method.find(':');
   add_scene(world, scene, bodies);
   if (colon != std::string::npos) world.parameters.simulation.substeps = std::atoi(method.c_str() + colon + 1);
   world.parameters.response.method = method.substr(0, colon);
-  if (const char* rows = std::getenv("BENCH_ROWS")) {
-    std::string list = rows;
-    for (std::size_t at = 0; at < list.size();) {
-      const std::size_t end = std::min(list.find(',', at), list.size()), is = list.find('=', at);
-      set(world, list.substr(at, is - at), list.substr(is + 1, end - is - 1));
-      at = end + 1;
-    }
-  }
+  for (const auto& [path, value] : rows_in(rows)) set(world, path, value);
   world.start();
   Run run;
   const Watch watch{run, frames};
@@ -227,17 +245,30 @@ double mean(const std::vector<double>& of) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string scene = argc > 1 ? argv[1] : "planes";
-  const int bodies = argc > 2 ? std::atoi(argv[2]) : 1000, frames = argc > 3 ? std::atoi(argv[3]) : 300,
-            rounds = argc > 4 ? std::atoi(argv[4]) : 3;
-  std::vector<std::string> methods(argv + std::min(argc, 5), argv + argc);
-  if (methods.empty()) {
+  std::string scene = "planes";
+  int bodies = 1000, frames = 300, rounds = 3, threads = thread_count();
+  std::string rows;
+  std::vector<std::string> methods = {"quick"};
 #ifdef IMPINGE_HAS_BULLET
-    methods.emplace_back("bullet");
+  methods.insert(methods.begin(), "bullet");
 #endif
-    methods.emplace_back("quick");
-  }
-  if (const char* threads = std::getenv("BENCH_THREADS")) set_thread_count(std::atoi(threads));
+  BenchArguments arguments(
+      "bench_quick",
+      "The pile of a thousand boxes, and ten thousand spheres, at a frame rate: ms of a whole step (wall)\n"
+      "beside Bullet's in the same run, the worst overlap by the judge over the run and at its end, speeds\n"
+      "at the end. One sub-step of 1/60 s, friction 0.3, restitution 0, nothing sleeps. Bullet is run as it\n"
+      "comes (btSequentialImpulseConstraintSolver, 10 iterations or as given, split impulses, one thread),\n"
+      "if it was found when this was built.");
+  arguments.word("scene", scene, one_of({"planes", "walls", "spheres"}), "boxes between planes or walls, or spheres");
+  arguments.number("bodies", bodies, {1}, "how many");
+  arguments.number("frames", frames, {1}, "of 1/60 s");
+  arguments.number("rounds", rounds, {1}, "all methods in turn, so often");
+  arguments.words("method", methods, quick_fault, "a response[:substeps] or bullet[:iterations]");
+  arguments.number("--threads", threads, {1}, "how many");
+  arguments.word("--rows", rows, rows_fault,
+                 "path=value, with commas between: parameters of our runs; none unless given");
+  arguments.read_or_exit(argc, argv);
+  set_thread_count(threads);
   std::vector<std::vector<double>> means(methods.size());
   std::printf(
       "%s, %d bodies, %d frames\n%-28s %9s %9s %9s %10s %10s %9s %9s   stages ms (broad narrow assemble response "
@@ -252,7 +283,7 @@ int main(int argc, char** argv) {
         run = run_bullet(scene, bodies, frames, methods[m].size() > 7 ? std::atoi(methods[m].c_str() + 7) : 10, judges);
       else
 #endif
-        run = run_ours(scene, bodies, frames, methods[m], judges);
+        run = run_ours(scene, bodies, frames, methods[m], rows, judges);
       means[m].push_back(mean(run.ms));
       std::printf("%-28s %9.2f %9.2f %9.2f %10.1e %10.1e %9.1e %9.1e   %.2f %.2f %.2f %.2f %.2f\n", methods[m].c_str(),
                   means[m].back(), median(run.ms), *std::max_element(run.ms.begin(), run.ms.end()), run.worst, run.end,

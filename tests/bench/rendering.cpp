@@ -1,5 +1,4 @@
-// Pictures a second at 1280 x 720: a record in, pixels out, and with encoding as PNG in the same thread (a run encodes
-// on another one). Beside them what the same software renderer needed for the bare triangles, and what MuJoCo's needed.
+// Pictures a second at 1280 x 720.
 #include <fmt/format.h>
 #include <ctime>
 
@@ -9,11 +8,13 @@
 #include "engine/core/parallel.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "tests/support/pictures/hand_made_record.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "viewer/image/png.hpp"
 #include "viewer/layers/layer.hpp"
 #include "viewer/present/frame_painter.hpp"
 
 using namespace impinge;
+using namespace impinge::test;
 
 namespace {
 
@@ -57,7 +58,13 @@ void add_spheres(test::HandMadeRecord& scene, int count, int divisions) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  BenchArguments arguments(
+      "bench_rendering",
+      "Pictures a second at 1280 x 720: a record in, pixels out, and with encoding as PNG in the same\n"
+      "thread (a run encodes on another one), ms. Beside them what the same software renderer needed for\n"
+      "the bare triangles, and what MuJoCo's needed.");
+  arguments.read_or_exit(argc, argv);
   fmt::print("{:>10} {:>13} {:>12} {:>12} {:>12} {:>12}   {}\n", "triangles", "antialiasing", "paint ms", "cpu ms",
              "with PNG ms", "pictures/s", "peers, ms a frame with 1 / 2 threads");
   struct Case {

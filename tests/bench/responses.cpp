@@ -1,7 +1,4 @@
-// Constraint anticipation against its iterative form: two lattice cubes on a floor (0.2 m, 1000 kg/m³, ν 0.4, h 10 ms,
-// friction 0.5), from about 50 contacts to 1000, at three stiffnesses. All ratios are of one run. Prints CSV; processor
-// time of one thread. error: ‖Δv - Δv of CA at 1e-11‖_A, relative. memory: numbers a method holds beside A, MB (W; or
-// nine vectors and two inverses). usage: bench_responses [most lattice cells a side = 8]
+// Constraint anticipation against its iterative form: two lattice cubes on a floor.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +9,7 @@
 #include "engine/response/response.hpp"
 #include "tests/support/mechanics/deformable_stack.hpp"
 #include "tests/support/mechanics/methods.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -38,8 +36,16 @@ double relative_error(const GroupSystem& group, const GroupSystem& truth) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  int most = 8;
+  BenchArguments arguments(
+      "bench_responses",
+      "Constraint anticipation against its iterative form: two lattice cubes on a floor (0.2 m, 1000 kg/m³,\n"
+      "ν 0.4, h 10 ms, friction 0.5), from about 50 contacts to 1000, at three stiffnesses. All ratios are\n"
+      "of one run. Prints CSV; processor time of one thread, ms. error: ‖Δv - Δv of CA at 1e-11‖_A,\n"
+      "relative. memory: numbers a method holds beside A, MB (W; or nine vectors and two inverses).");
+  arguments.number("most", most, {4}, "lattice cells a side");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(1);
-  const int most = argc > 1 ? std::atoi(argv[1]) : 8;
   const char* iterative = "iterative_constraint_anticipation";
   const Way methods[] = {{"ca", "constraint_anticipation", {}},
                          {"ica", iterative, {{"factorizes", "false"}}},

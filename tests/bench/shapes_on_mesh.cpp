@@ -1,11 +1,4 @@
-// What a step costs with shapes by formula on meshes of more and more triangles: at rest on them, rolling (or sliding)
-// over them, falling onto them; one shape, and many on one mesh. A step is a frame of 1/60 s in four sub-steps, as
-// World::step makes it, its record included.
-//
-// Processor time of one thread; the median over the frames that are measured (all: their mean where it says so), parts by
-// the stages' own clocks. Bullet's btBvhTriangleMeshShape, where it was found (libbullet-dev), makes the same frames in
-// turn: four steps of 1/240 s, as it comes, double or single as Debian has it.
-//   bench_shapes_on_mesh [--finest K] [--mesh terrain|sphere|FILE.off] [--shape NAME] [--motion rest|roll|fall] [--many N]
+// What a step costs with shapes by formula on meshes of more and more triangles.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,6 +12,7 @@
 #include "tests/support/geometry/sample_shapes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 #ifdef IMPINGE_HAS_BULLET
 #include <btBulletDynamicsCommon.h>
@@ -310,10 +304,18 @@ std::vector<Ground> grounds(const Wanted& wanted, const std::string& name) {
   return all;
 }
 
+const std::vector<std::string> kShapes = {"sphere", "capsule", "box", "cylinder", "cone", "hull"};
+const std::vector<std::string> kMotions = {"rest", "roll", "fall"};
+
+std::string mesh_fault(const std::string& name) {
+  if (name == "terrain" || name == "sphere") return "";
+  return name.ends_with(".off") && file_fault(name).empty() ? "" : "terrain, sphere or an .off file that is there";
+}
+
 void compare_one(const Wanted& wanted, const std::string& mesh) {
   const std::vector<Ground> of = grounds(wanted, mesh);
-  for (const char* shape : {"sphere", "capsule", "box", "cylinder", "cone", "hull"})
-    for (const char* motion : {"rest", "roll", "fall"}) {
+  for (const std::string& shape : kShapes)
+    for (const std::string& motion : kMotions) {
       if ((!wanted.shape.empty() && wanted.shape != shape) || (!wanted.motion.empty() && wanted.motion != motion))
         continue;
       std::vector<Row> rows;
@@ -328,7 +330,7 @@ void compare_one(const Wanted& wanted, const std::string& mesh) {
 }
 
 void compare_many(const Wanted& wanted) {
-  for (const char* shape : {"sphere", "capsule", "box", "cylinder", "cone", "hull"}) {
+  for (const std::string& shape : kShapes) {
     if (!wanted.shape.empty() && wanted.shape != shape) continue;
     const Row few = measure({"terrain", surface(terrain(23))}, shape, "rest", wanted.many),
               lots = measure({"terrain", surface(terrain(362))}, shape, "rest", wanted.many);
@@ -343,14 +345,22 @@ void compare_many(const Wanted& wanted) {
 
 int main(int argc, char** argv) {
   Wanted wanted;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string option = argv[i];
-    if (option == "--finest") wanted.finest = std::clamp(std::atoi(argv[i + 1]), 0, 6);
-    if (option == "--mesh") wanted.mesh = argv[i + 1];
-    if (option == "--shape") wanted.shape = argv[i + 1];
-    if (option == "--motion") wanted.motion = argv[i + 1];
-    if (option == "--many") wanted.many = std::atoi(argv[i + 1]);
-  }
+  BenchArguments arguments(
+      "bench_shapes_on_mesh",
+      "What a step costs with shapes by formula on meshes of more and more triangles: at rest on them,\n"
+      "rolling (or sliding) over them, falling onto them; one shape, and many on one mesh. A step is a\n"
+      "frame of 1/60 s in four sub-steps, as World::step makes it, its record included. Processor time of\n"
+      "one thread, ms; the median over the frames that are measured (all: their mean where it says so),\n"
+      "parts by the stages' own clocks. Bullet's btBvhTriangleMeshShape, where it was found (libbullet-\n"
+      "dev), makes the same frames in turn: four steps of 1/240 s, as it comes, double or single as Debian\n"
+      "has it.");
+  arguments.number("--finest", wanted.finest, {0, 6}, "K of the finest mesh, 4^K times the coarsest's triangles");
+  arguments.word("--mesh", wanted.mesh, mesh_fault, "terrain, sphere or FILE.off alone; all unless given");
+  arguments.word("--shape", wanted.shape, one_of(kShapes),
+                 "sphere, capsule, box, cylinder, cone or hull alone; all unless given");
+  arguments.word("--motion", wanted.motion, one_of(kMotions), "rest, roll or fall alone; all unless given");
+  arguments.number("--many", wanted.many, {0}, "shapes on one mesh");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(1);
   print_head();
   for (const char* mesh : {"terrain", "sphere"})

@@ -1,25 +1,34 @@
-// A heap of rigid boxes on a soft mat of 9 x 3 x 9 nodes on the ground: one group, contacts more than nodes. Friction
-// 0.5, 1/60 s, one sub-step, nothing sleeps. The frames with the most contacts, ms of response, iterations, residual; then
-// the middle ones of all frames. usage: bench_soft_bed [boxes a side = 6] [layers = 3] [frames = 40] [solver]
+// A heap of rigid boxes on a soft mat on the ground: one group, contacts more than nodes.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 #include "tests/support/random.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
 
 int main(int argc, char** argv) {
-  const int side = argc > 1 ? std::atoi(argv[1]) : 6, layers = argc > 2 ? std::atoi(argv[2]) : 3;
-  const int frames = argc > 3 ? std::atoi(argv[3]) : 40;
+  int side = 6, layers = 3, frames = 40;
+  std::string solver = "automatic";
+  BenchArguments arguments(
+      "bench_soft_bed",
+      "A heap of rigid boxes on a soft mat of 9 x 3 x 9 nodes on the ground: one group, contacts more than\n"
+      "nodes. Friction 0.5, 1/60 s, one sub-step, nothing sleeps. The frames with the most contacts, ms of\n"
+      "response, iterations, residual; then the middle ones of all frames.");
+  arguments.number("side", side, {1}, "boxes a side");
+  arguments.number("layers", layers, {1}, "of boxes");
+  arguments.number("frames", frames, {1}, "of 1/60 s");
+  arguments.word("solver", solver, one_of(names_of(lcp_solvers())), "lcp.method");
+  arguments.read_or_exit(argc, argv);
   World world;
   world.parameters.simulation.substeps = 1;
   world.parameters.simulation.sleeping = false;
   world.parameters.contact.friction = 0.5;
-  if (argc > 4) world.parameters.lcp.method = argv[4];
+  world.parameters.lcp.method = solver;
   world.add_body(fixed_plane("ground", Vec3::UnitY(), 0.0));
   const double width = 0.2 * side;
   world.add_body(soft_box("mat", Vec3(width, 0.2, width), Eigen::Vector3i(8, 2, 8), Vec3(0.0, 0.0005, 0.0),

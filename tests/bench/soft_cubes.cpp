@@ -1,9 +1,4 @@
-// Two soft cubes, one falling on the other which lies on the ground: what Incremental Potential Contact is measured on in
-// PEERS §4 (1 m, E 1e5 Pa, ν 0.4, 1000 kg/m³, h 0.01 s, one sub-step, friction 0.1, neo-Hookean; 250, 1,458 and 4,394
-// nodes in all). Milliseconds a step in which the cubes touch, by stage; contacts, solves without an answer, Coulomb's
-// residual, the judge's overlap; `to IPC`: the median step over what is printed there; `apart`: how far a node is from
-// where the first response of the list had it, the farthest of all frames. Clock time.
-// usage: bench_soft_cubes [frames = 60] [threads = all] [nodes a side = 5,9,13] [aligned] [response[:solver[:tolerance[:sub-steps]]] …]
+// Two soft cubes, one falling on the other, beside what Incremental Potential Contact prints.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +10,7 @@
 #include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/methods.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 using namespace impinge;
 using namespace impinge::test;
@@ -115,35 +111,58 @@ double run(const Size& size, const Way& way, Course& first) {
   return median(step);
 }
 
+/// In the order of the list; none if a word of it is none of them.
+std::vector<Size> sizes_in(const std::string& list) {
+  std::vector<Size> sizes;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto at = std::find_if(std::begin(kSizes), std::end(kSizes),
+                                 [&](const Size& size) { return std::to_string(size.side) == word; });
+    if (at == std::end(kSizes)) return {};
+    sizes.push_back(*at);
+  }
+  return sizes;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Way way;
-  if (argc > 1) way.frames = std::atoi(argv[1]);
-  if (argc > 2) set_thread_count(std::atoi(argv[2]));
-  std::vector<Size> sizes(std::begin(kSizes), std::end(kSizes));
-  if (argc > 3) {
-    std::vector<Size> wanted;
-    std::stringstream sides(argv[3]);
-    for (std::string side; std::getline(sides, side, ',');)
-      for (const Size& size : sizes)
-        if (size.side == std::atoi(side.c_str())) wanted.push_back(size);
-    sizes = wanted;
-  }
-  std::vector<std::string> responses;
-  for (int i = 4; i < argc; ++i)
-    if (std::string(argv[i]) == "aligned")
-      way.is_aligned = true;
-    else
-      responses.emplace_back(argv[i]);
-  if (responses.empty()) responses = {"constraint_anticipation", "iterative_constraint_anticipation"};
+  int threads = thread_count();
+  std::string nodes = "5,9,13";
+  std::vector<std::string> words = {"constraint_anticipation", "iterative_constraint_anticipation"};
+  BenchArguments arguments(
+      "bench_soft_cubes",
+      "Two soft cubes, one falling on the other which lies on the ground: what Incremental Potential\n"
+      "Contact is measured on in PEERS §4 (1 m, E 1e5 Pa, ν 0.4, 1000 kg/m³, h 0.01 s, one sub-step,\n"
+      "friction 0.1, neo-Hookean; 250, 1,458 and 4,394 nodes in all). Milliseconds a step in which the\n"
+      "cubes touch, by stage; contacts, solves without an answer, Coulomb's residual, the judge's overlap;\n"
+      "`to IPC`: the median step over what is printed there; `apart`: how far a node is from where the\n"
+      "first response of the list had it, the farthest of all frames. Clock time.");
+  const std::vector<std::string> methods_unless_given = words;
+  arguments.number("frames", way.frames, {1}, "of 10 ms");
+  arguments.number("threads", threads, {1}, "how many");
+  arguments.word(
+      "nodes", nodes,
+      [](const std::string& list) -> std::string {
+        return sizes_in(list).empty() ? "5, 9 and 13, with commas between" : "";
+      },
+      "a side, with commas between");
+  arguments.words(
+      "method", words, [](const std::string& word) { return word == "aligned" ? "" : method_fault(word, "sub-steps"); },
+      "response[:solver[:tolerance[:sub-steps]]], and `aligned`: node over node");
+  arguments.read_or_exit(argc, argv);
+  set_thread_count(threads);
+  const std::vector<Size> sizes = sizes_in(nodes);
+  way.is_aligned = std::erase(words, "aligned") > 0;
+  if (words.empty()) words = methods_unless_given;
   std::printf(
       "%d threads; ms a step in which the cubes touch: median, mean\n%-50s %6s %5s %15s %15s %15s %15s %15s %7s "
       "%6s %7s %6s %6s %9s %9s %9s\n",
       thread_count(), "", "nodes", "steps", "detect", "assemble", "response", "integrate", "step", "contacts", "most",
       "to IPC", "open", "unsafe", "residual", "overlap m", "apart m");
   std::vector<Course> courses(sizes.size());
-  for (const std::string& response : responses) {
+  for (const std::string& response : words) {
     way.response = response;
     std::vector<double> ms;
     for (std::size_t i = 0; i < sizes.size(); ++i) ms.push_back(run(sizes[i], way, courses[i]));

@@ -1,12 +1,4 @@
-// Triangle pairs of two meshes beside Embree's rtcCollide and FCL's collide over its OBB-RSS trees, in the same run: rigid
-// ones, whose trees stay as they are, and deforming ones, whose trees are fitted before they are asked. Far and near pose
-// of two icospheres, and a dragon.
-//
-// Processor time of one thread. All are called in turn, 15 times and more; medians, and the median of the ratios of
-// neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list isn't sorted, nor is
-// FCL's. FCL turns one body into the frame of the other, so that triangles that just touch may be told otherwise: the last
-// column counts pairs that only one of the two has.
-//   bench_triangle_peers [--finest K]    20·4^K triangles a body (4 to 8, default 7: 655,360 together)
+// Triangle pairs of two meshes beside Embree's and FCL's, in the same run.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -21,6 +13,7 @@
 #include "engine/io/meshes/mesh_file.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/median.hpp"
+#include "tests/support/program/bench_arguments.hpp"
 
 #ifdef IMPINGE_HAS_EMBREE
 #include <embree3/rtcore.h>
@@ -361,7 +354,17 @@ void compare_all(int finest) {
 
 int main(int argc, char** argv) {
   int finest = 7;
-  if (argc == 3 && std::string(argv[1]) == "--finest") finest = std::clamp(std::atoi(argv[2]), 4, 8);
+  BenchArguments arguments(
+      "bench_triangle_peers",
+      "Triangle pairs of two meshes beside Embree's rtcCollide and FCL's collide over its OBB-RSS trees, in\n"
+      "the same run: rigid ones, whose trees stay as they are, and deforming ones, whose trees are fitted\n"
+      "before they are asked. Far and near pose of two icospheres, and a dragon. Processor time of one\n"
+      "thread, ms. All are called in turn, 15 times and more; medians, and the median of the ratios of\n"
+      "neighbours. Embree's callback tests the triangles in plain doubles, after their boxes; its list\n"
+      "isn't sorted, nor is FCL's. FCL turns one body into the frame of the other, so that triangles that\n"
+      "just touch may be told otherwise: the last column counts pairs that only one of the two has.");
+  arguments.number("--finest", finest, {4, 8}, "K of the finest icosphere, 20·4^K triangles a body");
+  arguments.read_or_exit(argc, argv);
   set_thread_count(1);
   compare_all(finest);
 }

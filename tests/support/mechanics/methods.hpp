@@ -31,6 +31,11 @@ inline std::istringstream choose(Parameters& parameters, const std::string& text
   return words;
 }
 
+/// What would be allowed in place of a text for choose() and one whole number more, called `more`; "" if nothing is wrong.
+std::string method_fault(const std::string& text, const std::string& more);
+/// The same for "path=value" with a parameter of the model.
+std::string row_fault(const std::string& text);
+
 /// Where a response has a limit of its own on iterations.
 inline void allow_iterations(Response& response, int most) {
   const IterationSetting own = response.iteration_setting();
