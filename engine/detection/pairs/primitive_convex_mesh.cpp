@@ -42,18 +42,6 @@ class Segment final : public ConvexSet {
   Vec3 p_, q_;
 };
 
-/// The direction in which a point's distance from the shape grows, near enough.
-Vec3 slope_of(const Shape& shape, const Vec3& x) {
-  const double step = 1e-6 * shape.size();
-  Vec3 slope;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 way = step * Vec3::Unit(k);
-    slope[k] = shape.signed_distance(x + way) - shape.signed_distance(x - way);
-  }
-  const double length = slope.norm();
-  return length > 0.0 ? Vec3(slope / length) : Vec3(Vec3::UnitY());
-}
-
 class CurvedTest {
  public:
   explicit CurvedTest(ContactSink& sink)
@@ -91,7 +79,7 @@ class CurvedTest {
     const Shape& shape = *sink_.first().shape;
     TouchingSolid solid;
     solid.frame = {solid_.pose, solid_.set, [&](const Vec3& x) { return shape.signed_distance(x); }};
-    solid.outward = [&](const Vec3& x) { return slope_of(shape, x); };
+    solid.outward = [&](const Vec3& x) { return shape.outward(x); };
     const double reach = sink_.reach() + touch_;
     TouchedTriangles touched =
         touched_triangles(sink_.second(), around_, solid, touch_limits(sink_, reach), relative_motion(sink_));
@@ -208,6 +196,15 @@ class CurvedTest {
     }
   }
 
+  /// Whether any candidate of the edge may leave the mesh between its faces: their normals are the gap's, or of the flat
+  /// side that the solid turns to it.
+  bool may_leave(const EdgeCone& cone, const ConvexGap& gap) const {
+    if (!gap.is_within_reach) return false;
+    if (cone.is_outward(gap.normal)) return true;
+    const ContactFace face = solid_.set->facing(solid_.pose.rotation.transpose() * -gap.normal);
+    return face.count > 2 && cone.is_outward(-(solid_.pose.rotation * face.normal));
+  }
+
   /// Edges that stand out, each as a segment.
   void add_edges() {
     std::vector<int> edges;
@@ -221,7 +218,9 @@ class CurvedTest {
       if (!cone) continue;
       const Vec3 middle = 0.5 * (p + q);
       const Segment segment(p - middle, q - middle);
-      for (Candidate c : convex_candidates(solid_, {&segment, {Mat3::Identity(), middle}}, sink_.reach())) {
+      const PlacedConvex placed{&segment, {Mat3::Identity(), middle}};
+      if (!may_leave(*cone, convex_gap(solid_, placed, sink_.reach()))) continue;
+      for (Candidate c : convex_candidates(solid_, placed, sink_.reach())) {
         const double t = closest_on_segment(c.point_second, p, q).t;
         // an end is a corner's, and what leaves into a face is that face's
         if (t <= 0.0 || t >= 1.0 || !cone->is_outward(c.normal)) continue;
