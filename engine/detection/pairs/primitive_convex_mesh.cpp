@@ -22,6 +22,9 @@ namespace {
 /// A way out of the mesh counts if nothing else of its surface is nearer than this part of its depth.
 constexpr double kNearestExit = 0.5;
 
+/// The way to the solid is known well enough where it is this part of its size away; then what rises by this sine does.
+constexpr double kOutside = 1e-5, kSlopes = 1e-3;
+
 class Segment final : public ConvexSet {
  public:
   Segment(const Vec3& p, const Vec3& q) : p_(p), q_(q) {}
@@ -196,6 +199,30 @@ class CurvedTest {
     }
   }
 
+  /// From a point of the mesh to the solid, unit, where it is outside of it for certain.
+  std::optional<Vec3> way_to_solid(const Vec3& x) const {
+    const Shape& shape = *sink_.first().shape;
+    const Vec3 local = solid_.pose.apply_inverse(x), out = shape.outward(local);
+    const double height = out.dot(solid_.set->support(out)) + solid_.set->rounding();
+    if (!(out.dot(local) - height > kOutside * shape.size())) return std::nullopt;
+    return product(solid_.pose.rotation, Vec3(-out));
+  }
+
+  /// Whether one end of the edge is nearest to the solid, by far, and what comes from there leaves the mesh elsewhere: the
+  /// same as may_leave says no to, told without a search.
+  bool leaves_elsewhere(EdgeCone cone) const {
+    const Vec3 along = (cone.q - cone.p).normalized();
+    std::optional<Vec3> way = way_to_solid(cone.p);
+    if (!way || way->dot(along) > -kSlopes) {  // of the distance, towards the other end
+      way = way_to_solid(cone.q);
+      if (!way || way->dot(along) < kSlopes) return false;
+    }
+    cone.slack += kSlopes;
+    if (cone.is_outward(*way)) return false;
+    const ContactFace face = solid_.set->facing(solid_.pose.rotation.transpose() * -*way);
+    return face.count < 3 || !cone.is_outward(-(solid_.pose.rotation * face.normal));
+  }
+
   /// Whether any candidate of the edge may leave the mesh between its faces: their normals are the gap's, or of the flat
   /// side that the solid turns to it.
   bool may_leave(const EdgeCone& cone, const ConvexGap& gap) const {
@@ -215,7 +242,7 @@ class CurvedTest {
       const Vec3 &p = mesh_.vertex(mesh_.edge(e).v0), &q = mesh_.vertex(mesh_.edge(e).v1);
       if (!is_in_reach(closest_on_segment(center(), p, q).point)) continue;
       const std::optional<EdgeCone> cone = make_edge_cone(mesh_, e);
-      if (!cone) continue;
+      if (!cone || leaves_elsewhere(*cone)) continue;
       const Vec3 middle = 0.5 * (p + q);
       const Segment segment(p - middle, q - middle);
       const PlacedConvex placed{&segment, {Mat3::Identity(), middle}};
@@ -245,9 +272,11 @@ class CurvedTest {
     std::vector<Vec3> star;
     for (int v : corners) {
       if (!is_in_reach(mesh_.vertex(v))) continue;
+      mesh_.star({Feature::vertex, v}, star);
+      if (const std::optional<Vec3> way = way_to_solid(mesh_.vertex(v)))
+        if (std::any_of(star.begin(), star.end(), [&](const Vec3& e) { return e.dot(*way) > kSlopes; })) continue;
       const ConvexGap gap = convex_gap(solid_, {&point, {Mat3::Identity(), mesh_.vertex(v)}}, sink_.reach());
       if (!gap.is_within_reach) continue;
-      mesh_.star({Feature::vertex, v}, star);
       double highest = -1.0, lowest = 1.0;
       for (const Vec3& e : star) {
         highest = std::max(highest, e.dot(gap.normal));

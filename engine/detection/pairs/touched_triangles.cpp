@@ -242,6 +242,13 @@ class Walk {
   bool is_deep_in_solid(int t) const {
     const TriangleMesh& mesh = mesh_.mesh().mesh;
     const Triangle& c = mesh.triangles[static_cast<std::size_t>(t)];
+    // a plane against which the solid lies on one side, near enough: most are told by one from a corner
+    const TriangleCorners corners{place(c[0]), place(c[1]), place(c[2])};
+    for (const Vec3& x : corners) {
+      const Vec3 out = solid_.outward(x);
+      const double low = std::min({out.dot(corners[0]), out.dot(corners[1]), out.dot(corners[2])});
+      if (low - solid_.frame.height(out) >= -depth_) return false;
+    }
     const Vec3& origin = mesh.vertices[c[0]];
     const ConvexTriangle triangle({Vec3::Zero(), mesh.vertices[c[1]] - origin, mesh.vertices[c[2]] - origin});
     const ConvexGap gap =
