@@ -1,6 +1,7 @@
 // A solid cone about y. It rests on its base by eight points of the rim, which turn with it, and by the lowest point of
 // the rim where it leans; on its side by the apex and a point of the rim.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,19 @@ namespace impinge {
 namespace {
 
 constexpr int kBasePoints = 8, kConeSides = 48;
+
+/// Cosine and sine of the angles of the rim's points.
+const std::array<Vec2, kBasePoints>& base_ways() {
+  static const std::array<Vec2, kBasePoints> ways = [] {
+    std::array<Vec2, kBasePoints> all;
+    for (int k = 0; k < kBasePoints; ++k) {
+      const double angle = -2.0 * std::numbers::pi * k / kBasePoints;
+      all[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return ways;
+}
 
 class Cone final : public ConvexShape {
  public:
@@ -41,6 +55,19 @@ class Cone final : public ConvexShape {
     const double to_wall = std::hypot(r - radius_ * (1.0 - t), h - length * t);
     return std::min(to_wall, std::hypot(std::max(r - radius_, 0.0), h));
   }
+  Vec3 outward(const Vec3& x) const override {
+    const double length = apex_ - base_, slant = std::sqrt(radius_ * radius_ + length * length);
+    const double r = std::sqrt(x.x() * x.x() + x.z() * x.z()), h = x.y() - base_;
+    const Vec3 radial = r > 0.0 ? Vec3(x.x() / r, 0.0, x.z() / r) : Vec3(Vec3::UnitX());
+    const auto way = [&](const Vec2& d) { return Vec3(d.x() * radial + d.y() * Vec3::UnitY()); };
+    const Vec2 off_wall = Vec2(length, radius_) / slant;
+    const double wall = off_wall.dot(Vec2(r - radius_, h));
+    if (wall <= 0.0 && h >= 0.0) return wall >= -h ? way(off_wall) : Vec3(-Vec3::UnitY());
+    const double t = std::clamp(((radius_ - r) * radius_ + h * length) / (slant * slant), 0.0, 1.0);
+    const Vec2 to_wall(r - radius_ * (1.0 - t), h - length * t), to_base(std::max(r - radius_, 0.0), h);
+    const Vec2 nearest = to_wall.squaredNorm() < to_base.squaredNorm() ? to_wall : to_base;
+    return nearest.isZero(0.0) ? way(off_wall) : way(nearest.normalized());
+  }
   Vec3 support(const Vec3& d) const override {
     const double across = std::hypot(d.x(), d.z());
     if (d.y() * (apex_ - base_) >= radius_ * across) return {0.0, apex_, 0.0};
@@ -50,10 +77,7 @@ class Cone final : public ConvexShape {
     ContactFace face;
     if (-d.y() > kNearlyFacing) {
       face.normal = {0.0, -1.0, 0.0};
-      for (int k = 0; k < kBasePoints; ++k) {
-        const double angle = -2.0 * std::numbers::pi * k / kBasePoints;
-        face.add({radius_ * std::cos(angle), base_, -radius_ * std::sin(angle)});
-      }
+      for (const Vec2& way : base_ways()) face.add({radius_ * way.x(), base_, -radius_ * way.y()});
       return face;
     }
     face.face = 1;

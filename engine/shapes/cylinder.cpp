@@ -1,6 +1,7 @@
 // A solid cylinder about y. It rests on its caps by eight points of the rim, which turn with it, and by the lowest
 // point of the rim where it leans; on its side by the two ends of a line.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,19 @@ namespace {
 
 constexpr int kRimPoints = 8, kCylinderSides = 48;
 constexpr double kWallFaces = 0.2431;  // sine of 14 degrees: how steep to a direction the wall may be that faces it
+
+/// Cosine and sine of the angles of the rim's points.
+const std::array<Vec2, kRimPoints>& rim_ways() {
+  static const std::array<Vec2, kRimPoints> ways = [] {
+    std::array<Vec2, kRimPoints> all;
+    for (int k = 0; k < kRimPoints; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kRimPoints;
+      all[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return ways;
+}
 
 class Cylinder final : public ConvexShape {
  public:
@@ -34,6 +48,13 @@ class Cylinder final : public ConvexShape {
     const double beside = std::hypot(x.x(), x.z()) - radius_, above = std::abs(x.y()) - half_;
     return std::hypot(std::max(beside, 0.0), std::max(above, 0.0)) + std::min(std::max(beside, above), 0.0);
   }
+  Vec3 outward(const Vec3& x) const override {
+    const double across = std::sqrt(x.x() * x.x() + x.z() * x.z());
+    const double beside = across - radius_, above = std::abs(x.y()) - half_, side = x.y() < 0.0 ? -1.0 : 1.0;
+    const Vec3 radial = across > 0.0 ? Vec3(x.x() / across, 0.0, x.z() / across) : Vec3(Vec3::UnitX());
+    if (beside > 0.0 && above > 0.0) return (beside * radial + above * side * Vec3::UnitY()).normalized();
+    return beside > above ? radial : Vec3(side * Vec3::UnitY());
+  }
   Vec3 support(const Vec3& d) const override {
     const double across = std::hypot(d.x(), d.z()), y = d.y() < 0.0 ? -half_ : half_;
     if (!(across > 0.0)) return {0.0, y, 0.0};
@@ -45,10 +66,7 @@ class Cylinder final : public ConvexShape {
       const double side = d.y() < 0.0 ? -1.0 : 1.0;
       face.face = side < 0.0 ? 0 : 1;
       face.normal = {0.0, side, 0.0};
-      for (int k = 0; k < kRimPoints; ++k) {
-        const double angle = side * 2.0 * std::numbers::pi * k / kRimPoints;
-        face.add({radius_ * std::cos(angle), side * half_, -radius_ * std::sin(angle)});
-      }
+      for (const Vec2& way : rim_ways()) face.add({radius_ * way.x(), side * half_, -radius_ * (side * way.y())});
       return face;
     }
     face.face = 2;

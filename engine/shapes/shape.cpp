@@ -24,6 +24,17 @@ SharedShape Shape::recentered(const Vec3& center) const {
   return SharedShape(shared_from_this());
 }
 
+Vec3 Shape::outward(const Vec3& x) const {
+  const double step = 1e-6 * size();
+  Vec3 slope;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 way = step * Vec3::Unit(k);
+    slope[k] = signed_distance(x + way) - signed_distance(x - way);
+  }
+  const double length = slope.norm();
+  return length > 0.0 ? Vec3(slope / length) : Vec3(Vec3::UnitY());
+}
+
 TriangleMesh Shape::drawn() const { return surface(bounds({}).extent().maxCoeff() / kDrawnEdges); }
 
 Aabb ConvexShape::bounds(const Pose& pose) const {

@@ -44,6 +44,8 @@ class Shape : public std::enable_shared_from_this<Shape> {
   virtual SharedShape recentered(const Vec3& center) const;
   /// Distance of a point from the surface, metres, negative inside; of a compound inside, that of one of its parts.
   virtual double signed_distance(const Vec3& x) const = 0;
+  /// Unit: the way in which that distance grows at x (inside, about so). By default from differences.
+  virtual Vec3 outward(const Vec3& x) const;
   /// Closed, outward, inscribed triangles with edges about `edge` metres long: what a deformable body of this shape
   /// collides with. Throws InternalError for a plane.
   virtual TriangleMesh surface(double edge) const = 0;

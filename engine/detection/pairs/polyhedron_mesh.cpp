@@ -102,21 +102,40 @@ double closing_reach(const ContactSink& sink) {
   return reach;
 }
 
+/// The polyhedron's triangles in the world.
+struct OwnTriangle {
+  TriangleCorners corners;
+  Aabb bounds, search;
+};
+
 /// Pairs of the polyhedron's triangles and those of the mesh that are within the margin of the pair, ascending.
 std::vector<TrianglePair> close_pairs(const Collider& own, const Collider& mesh, const std::vector<int>& near,
                                       const BodyPair& pair) {
+  constexpr int kLookAtAll = 256;  // triangles: so many are looked at sooner than a tree is asked
   const SurfaceView view(mesh, 1);
   const double reach = tree_margin(own, mesh, pair.margin);
+  const int count = static_cast<int>(own.mesh().mesh.triangles.size());
+  std::vector<OwnTriangle> all;
+  for (int k = 0; k < count; ++k) {
+    const TriangleCorners c = corners_of(own, k);
+    all.push_back({c, bounds_of(c[0], c[1], c[2]), search_box(c, pair.margin)});
+  }
   std::vector<TrianglePair> pairs;
   for (const int t : near) {
     const TriangleCorners c = view.corners(t);
-    const Aabb box = search_box(c, pair.margin);
-    for (const int k : triangles_near(own, bounds_of(c[0], c[1], c[2]).inflated(reach))) {
-      const TriangleCorners corners = corners_of(own, k);
-      if (!overlap(search_box(corners, pair.margin), box)) continue;
-      const PairState state = test_triangles(corners, c, pair.margin);
+    const Aabb box = search_box(c, pair.margin), around = bounds_of(c[0], c[1], c[2]).inflated(reach);
+    const auto look = [&](int k) {
+      const OwnTriangle& triangle = all[static_cast<std::size_t>(k)];
+      if (!overlap(triangle.search, box)) return;
+      const PairState state = test_triangles(triangle.corners, c, pair.margin);
       if (state != PairState::apart)
         pairs.push_back({pair.a, pair.b, TriangleIndex(k), TriangleIndex(t), state == PairState::intersecting});
+    };
+    if (count > kLookAtAll) {
+      for (const int k : triangles_near(own, around)) look(k);
+    } else {
+      for (int k = 0; k < count; ++k)
+        if (overlap(all[static_cast<std::size_t>(k)].bounds, around)) look(k);
     }
   }
   std::sort(pairs.begin(), pairs.end());

@@ -22,6 +22,9 @@ namespace {
 /// A way out of the mesh counts if nothing else of its surface is nearer than this part of its depth.
 constexpr double kNearestExit = 0.5;
 
+/// The way to the solid is known well enough where it is this part of its size away; then what rises by this sine does.
+constexpr double kOutside = 1e-5, kSlopes = 1e-3;
+
 class Segment final : public ConvexSet {
  public:
   Segment(const Vec3& p, const Vec3& q) : p_(p), q_(q) {}
@@ -41,18 +44,6 @@ class Segment final : public ConvexSet {
  private:
   Vec3 p_, q_;
 };
-
-/// The direction in which a point's distance from the shape grows, near enough.
-Vec3 slope_of(const Shape& shape, const Vec3& x) {
-  const double step = 1e-6 * shape.size();
-  Vec3 slope;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 way = step * Vec3::Unit(k);
-    slope[k] = shape.signed_distance(x + way) - shape.signed_distance(x - way);
-  }
-  const double length = slope.norm();
-  return length > 0.0 ? Vec3(slope / length) : Vec3(Vec3::UnitY());
-}
 
 class CurvedTest {
  public:
@@ -91,7 +82,7 @@ class CurvedTest {
     const Shape& shape = *sink_.first().shape;
     TouchingSolid solid;
     solid.frame = {solid_.pose, solid_.set, [&](const Vec3& x) { return shape.signed_distance(x); }};
-    solid.outward = [&](const Vec3& x) { return slope_of(shape, x); };
+    solid.outward = [&](const Vec3& x) { return shape.outward(x); };
     const double reach = sink_.reach() + touch_;
     TouchedTriangles touched =
         touched_triangles(sink_.second(), around_, solid, touch_limits(sink_, reach), relative_motion(sink_));
@@ -208,6 +199,39 @@ class CurvedTest {
     }
   }
 
+  /// From a point of the mesh to the solid, unit, where it is outside of it for certain.
+  std::optional<Vec3> way_to_solid(const Vec3& x) const {
+    const Shape& shape = *sink_.first().shape;
+    const Vec3 local = solid_.pose.apply_inverse(x), out = shape.outward(local);
+    const double height = out.dot(solid_.set->support(out)) + solid_.set->rounding();
+    if (!(out.dot(local) - height > kOutside * shape.size())) return std::nullopt;
+    return product(solid_.pose.rotation, Vec3(-out));
+  }
+
+  /// Whether one end of the edge is nearest to the solid, by far, and what comes from there leaves the mesh elsewhere: the
+  /// same as may_leave says no to, told without a search.
+  bool leaves_elsewhere(EdgeCone cone) const {
+    const Vec3 along = (cone.q - cone.p).normalized();
+    std::optional<Vec3> way = way_to_solid(cone.p);
+    if (!way || way->dot(along) > -kSlopes) {  // of the distance, towards the other end
+      way = way_to_solid(cone.q);
+      if (!way || way->dot(along) < kSlopes) return false;
+    }
+    cone.slack += kSlopes;
+    if (cone.is_outward(*way)) return false;
+    const ContactFace face = solid_.set->facing(solid_.pose.rotation.transpose() * -*way);
+    return face.count < 3 || !cone.is_outward(-(solid_.pose.rotation * face.normal));
+  }
+
+  /// Whether any candidate of the edge may leave the mesh between its faces: their normals are the gap's, or of the flat
+  /// side that the solid turns to it.
+  bool may_leave(const EdgeCone& cone, const ConvexGap& gap) const {
+    if (!gap.is_within_reach) return false;
+    if (cone.is_outward(gap.normal)) return true;
+    const ContactFace face = solid_.set->facing(solid_.pose.rotation.transpose() * -gap.normal);
+    return face.count > 2 && cone.is_outward(-(solid_.pose.rotation * face.normal));
+  }
+
   /// Edges that stand out, each as a segment.
   void add_edges() {
     std::vector<int> edges;
@@ -218,10 +242,12 @@ class CurvedTest {
       const Vec3 &p = mesh_.vertex(mesh_.edge(e).v0), &q = mesh_.vertex(mesh_.edge(e).v1);
       if (!is_in_reach(closest_on_segment(center(), p, q).point)) continue;
       const std::optional<EdgeCone> cone = make_edge_cone(mesh_, e);
-      if (!cone) continue;
+      if (!cone || leaves_elsewhere(*cone)) continue;
       const Vec3 middle = 0.5 * (p + q);
       const Segment segment(p - middle, q - middle);
-      for (Candidate c : convex_candidates(solid_, {&segment, {Mat3::Identity(), middle}}, sink_.reach())) {
+      const PlacedConvex placed{&segment, {Mat3::Identity(), middle}};
+      if (!may_leave(*cone, convex_gap(solid_, placed, sink_.reach()))) continue;
+      for (Candidate c : convex_candidates(solid_, placed, sink_.reach())) {
         const double t = closest_on_segment(c.point_second, p, q).t;
         // an end is a corner's, and what leaves into a face is that face's
         if (t <= 0.0 || t >= 1.0 || !cone->is_outward(c.normal)) continue;
@@ -246,9 +272,11 @@ class CurvedTest {
     std::vector<Vec3> star;
     for (int v : corners) {
       if (!is_in_reach(mesh_.vertex(v))) continue;
+      mesh_.star({Feature::vertex, v}, star);
+      if (const std::optional<Vec3> way = way_to_solid(mesh_.vertex(v)))
+        if (std::any_of(star.begin(), star.end(), [&](const Vec3& e) { return e.dot(*way) > kSlopes; })) continue;
       const ConvexGap gap = convex_gap(solid_, {&point, {Mat3::Identity(), mesh_.vertex(v)}}, sink_.reach());
       if (!gap.is_within_reach) continue;
-      mesh_.star({Feature::vertex, v}, star);
       double highest = -1.0, lowest = 1.0;
       for (const Vec3& e : star) {
         highest = std::max(highest, e.dot(gap.normal));

@@ -126,13 +126,15 @@ std::optional<std::vector<int>> triangles_within(const Collider& mesh, const Aab
   const Mat3 turn = solid.pose.rotation.transpose() * mesh.pose.rotation;
   const Vec3 shift = solid.pose.apply_inverse(mesh.pose.position);
   const Pose to_solid{turn, shift};
+  const Aabb own = solid.box();
   const double wide = widened(mesh, box, reach);
   const int last = mesh.mesh().discs().levels() - 1;
   std::size_t count = 0;
   const auto meets = [&](const PlacedDisc& disc, int level, int, int) {
     if (count > most) return false;
     const Vec3 center = to_solid.apply(disc.center);
-    if (solid.distance(center) > wide + disc.radius) return false;
+    const double most_away = wide + disc.radius;
+    if (squared_distance(own, center) > most_away * most_away || solid.distance(center) > most_away) return false;
     if (!disc.normal.isZero(0.0)) {
       const Vec3 normal = product(turn, disc.normal);
       const double at = normal.dot(center), thick = wide + disc.thickness;

@@ -42,6 +42,12 @@ struct SolidFrame {
   }
   /// How far it goes along a direction from the frame's origin, times the direction's length.
   double height(const Vec3& d) const { return d.dot(support(d)); }
+  /// Round it, along its own axes.
+  Aabb box() const {
+    Aabb all;
+    for (int k = 0; k < 3; ++k) all.include(support(Vec3::Unit(k))), all.include(support(-Vec3::Unit(k)));
+    return all;
+  }
 };
 
 /// Whether the mesh has discs and cones of normals to walk down: it is rigid, and not so small that looking at each

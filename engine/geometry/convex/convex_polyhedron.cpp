@@ -214,13 +214,18 @@ int ConvexPolyhedron::support_vertex(const Vec3& direction) const {
   return best;
 }
 
-ContactFace ConvexPolyhedron::facing(const Vec3& direction) const {
+int ConvexPolyhedron::face_facing(const Vec3& direction) const {
   int best = 0;
   double most = -2.0;
   for (std::size_t f = 0; f < faces_.size(); ++f)
     // strictly better by more than rounding: of equal faces the first, in every step
     if (const double along = faces_[f].normal.dot(direction); along > most + 1e-9)
       most = along, best = static_cast<int>(f);
+  return best;
+}
+
+ContactFace ConvexPolyhedron::facing(const Vec3& direction) const {
+  const int best = face_facing(direction);
   ContactFace face;
   face.face = best;
   face.normal = faces_[best].normal;

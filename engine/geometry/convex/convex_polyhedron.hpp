@@ -40,6 +40,8 @@ class ConvexPolyhedron {
   /// of single precision): what a body rests on does not depend on how a flat side was cut into triangles. At most 16
   /// corners: of more, those farthest out in 16 directions.
   ContactFace facing(const Vec3& direction) const;
+  /// The number of that face alone.
+  int face_facing(const Vec3& direction) const;
 
  private:
   struct Rows {

@@ -37,18 +37,18 @@ class MinkowskiDifference {
   /// The point farthest along a direction.
   MinkowskiPoint support(const Vec3& direction) const {
     MinkowskiPoint p;
-    const Vec3 to_a = a_.pose.rotation.transpose() * direction, to_b = b_.pose.rotation.transpose() * -direction;
+    const Vec3 to_a = turned_back(a_.pose.rotation, direction), to_b = turned_back(b_.pose.rotation, -direction);
     if (polyhedron_a_ != nullptr) {
       p.vertex_a = polyhedron_a_->support_vertex(to_a);
       p.a = corner_a(p.vertex_a);
     } else {
-      p.a = a_.pose.rotation * a_.set->support(to_a) + offset_;
+      p.a = product(a_.pose.rotation, a_.set->support(to_a)) + offset_;
     }
     if (polyhedron_b_ != nullptr) {
       p.vertex_b = polyhedron_b_->support_vertex(to_b);
       p.b = corner_b(p.vertex_b);
     } else {
-      p.b = b_.pose.rotation * b_.set->support(to_b);
+      p.b = product(b_.pose.rotation, b_.set->support(to_b));
     }
     p.w = p.a - p.b + shift_;
     return p;
@@ -57,8 +57,8 @@ class MinkowskiDifference {
   /// the largest value, and where all are negative it is the least overlap.
   double separation(const Vec3& direction) const { return direction.dot(support(-direction).w); }
 
-  Vec3 corner_a(int v) const { return a_.pose.rotation * polyhedron_a_->vertices()[v] + offset_; }
-  Vec3 corner_b(int v) const { return b_.pose.rotation * polyhedron_b_->vertices()[v]; }
+  Vec3 corner_a(int v) const { return product(a_.pose.rotation, polyhedron_a_->vertices()[v]) + offset_; }
+  Vec3 corner_b(int v) const { return product(b_.pose.rotation, polyhedron_b_->vertices()[v]); }
   Vec3 to_world(const Vec3& x) const { return x + b_.pose.position; }
   /// From b's position to a's.
   const Vec3& offset() const { return offset_; }
@@ -66,6 +66,13 @@ class MinkowskiDifference {
   void set_shift(const Vec3& shift) { shift_ = shift; }
 
  private:
+  /// By the transposed matrix, written out as `product` is: Eigen's sums to the bit.
+  static Vec3 turned_back(const Mat3& m, const Vec3& x) {
+    return {(m(0, 0) * x.x() + m(1, 0) * x.y()) + m(2, 0) * x.z(),
+            (m(0, 1) * x.x() + m(1, 1) * x.y()) + m(2, 1) * x.z(),
+            (m(0, 2) * x.x() + m(1, 2) * x.y()) + m(2, 2) * x.z()};
+  }
+
   PlacedConvex a_, b_;
   const ConvexPolyhedron *polyhedron_a_, *polyhedron_b_;
   Vec3 offset_, shift_ = Vec3::Zero();
