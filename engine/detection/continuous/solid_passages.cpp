@@ -18,7 +18,7 @@ namespace impinge {
 namespace {
 
 constexpr int kMostGaps = 1 << 14;      // that are worked out: beyond, a search of triangles is no dearer
-constexpr int kHalvings = 40;           // of a path's piece
+constexpr int kMostHalvings = 40;       // of a path's piece
 constexpr double kWindow = 1e-3;        // of the sub-step: what is met so soon after the first is told with it
 constexpr double kSoon = 100.0;         // of a way that is as good as none: the same
 constexpr double kFirstStep = 1e-6;     // of the sub-step: back from where it is too deep
@@ -49,7 +49,7 @@ class SolidSearch {
     for (int i = 0; i < pieces && !is_over_; ++i) {
       const double t0 = static_cast<double>(i) / pieces;
       if (t0 > best + kWindow) break;
-      begin({*this, t0, (i + 1.0) / pieces}, kHalvings);
+      begin({*this, t0, (i + 1.0) / pieces}, kMostHalvings);
     }
     if (left_ < 0) return false;
     for (const Passage& p : found_) best = std::min(best, p.time);
@@ -246,12 +246,12 @@ class SolidSearch {
     int index = t;
     if (is_corner(f)) kind = Feature::vertex, index = surface_.mesh.triangles[at][feature_number(f)];
     if (is_edge(f)) kind = Feature::edge, index = surface_.topology.triangle_edges[at][feature_number(f)];
-    if (kind == Feature::face) {
+    if (kind == Feature::face)
       if (const auto rolls = rolling_from(when, other_.pose_at(when).apply(then.point_a), p.normal)) {
-        p.point_a = *rolls, p.point_b = *rolls - p.normal.dot(*rolls - p.point_b) * p.normal;
-        own = Feature::shape;
+        // behind the plane of a face that it comes to over a ridge it isn't in that face
+        const double gap = p.normal.dot(*rolls - p.point_b);
+        if (gap >= -settings_.depth) p.point_a = *rolls, p.point_b = *rolls - gap * p.normal, own = Feature::shape;
       }
-    }
     p.feature = feature_key(own, number_, kind, index);
     const auto is_same = [&](const Passage& known) { return known.feature == p.feature; };
     if (std::none_of(found_.begin(), found_.end(), is_same)) found_.push_back(p);

@@ -19,7 +19,7 @@ using namespace impinge::test;
 
 namespace {
 
-constexpr int kInstants = 96, kSides = 12;
+constexpr int kLooksAtWay = 96, kCutsOfSide = 12;
 
 /// Of points all over the triangles, how deep the deepest is in the shape at a moment, metres.
 double deepest_at(double t, const Shape& shape, const SurfacePath& own, const SurfacePath& other) {
@@ -32,9 +32,9 @@ double deepest_at(double t, const Shape& shape, const SurfacePath& own, const Su
       x[k] = of_own.apply_inverse(of_other.apply(mesh.vertices[static_cast<std::size_t>(c[k])]));
     const double size = std::max((x[1] - x[0]).norm(), (x[2] - x[0]).norm());
     if (x[0].norm() > shape.bounding_radius() + size) continue;
-    for (int i = 0; i <= kSides; ++i)
-      for (int j = 0; i + j <= kSides; ++j) {
-        const double u = static_cast<double>(i) / kSides, v = static_cast<double>(j) / kSides;
+    for (int i = 0; i <= kCutsOfSide; ++i)
+      for (int j = 0; i + j <= kCutsOfSide; ++j) {
+        const double u = static_cast<double>(i) / kCutsOfSide, v = static_cast<double>(j) / kCutsOfSide;
         deepest = std::max(deepest, -shape.signed_distance((1.0 - u - v) * x[0] + u * x[1] + v * x[2]));
       }
   }
@@ -88,8 +88,8 @@ TEST_CASE("a solid with a formula passes triangles when points of theirs are in 
       REQUIRE(found.has_value());
       const double first = found->empty() ? 1.0 : found->front().time;
       double deepest = -INFINITY, after = -INFINITY;
-      for (int k = 0; k <= kInstants; ++k) {
-        const double t = static_cast<double>(k) / kInstants, now = deepest_at(t, shape, own, other);
+      for (int k = 0; k <= kLooksAtWay; ++k) {
+        const double t = static_cast<double>(k) / kLooksAtWay, now = deepest_at(t, shape, own, other);
         (t <= first ? deepest : after) = std::max(t <= first ? deepest : after, now);
       }
       CAPTURE(first, deepest, after);
