@@ -24,6 +24,7 @@ constexpr double kSoon = 100.0;         // of a way that is as good as none: the
 constexpr double kFirstStep = 1e-6;     // of the sub-step: back from where it is too deep
 constexpr std::size_t kMostPlanes = 8;  // of an interval
 constexpr double kRolls = 0.5;          // of its distance from the centre: how far the place at which it rolls may get
+constexpr double kSameNormal = 1e-6;    // the sine of an angle that is none
 constexpr int kBisections = 30;         // for the moment at which the two touch
 
 /// One solid of a body against the triangles, as their body sees it.
@@ -247,25 +248,34 @@ class SolidSearch {
     if (is_corner(f)) kind = Feature::vertex, index = surface_.mesh.triangles[at][feature_number(f)];
     if (is_edge(f)) kind = Feature::edge, index = surface_.topology.triangle_edges[at][feature_number(f)];
     if (kind == Feature::face)
-      if (const auto rolls = rolling_from(when, other_.pose_at(when).apply(then.point_a), p.normal)) {
-        // behind the plane of a face that it comes to over a ridge it isn't in that face
-        const double gap = p.normal.dot(*rolls - p.point_b);
-        if (gap >= -settings_.depth) p.point_a = *rolls, p.point_b = *rolls - gap * p.normal, own = Feature::shape;
+      if (const auto rolls = rolling_from(when, then, triangle.corners())) {
+        // its normal turns along with the face; behind the plane of one that it comes to over a ridge it isn't in that
+        const Vec3 normal = other_.pose_at(0.0).rotation * then.normal;
+        const double gap = normal.dot(*rolls - p.point_b);
+        if (gap >= -settings_.depth) {
+          p.point_a = *rolls, p.point_b = *rolls - gap * normal, p.normal = normal;
+          own = Feature::shape;
+        }
       }
     p.feature = feature_key(own, number_, kind, index);
     const auto is_same = [&](const Passage& known) { return known.feature == p.feature; };
     if (std::none_of(found_.begin(), found_.end(), is_same)) found_.push_back(p);
   }
 
-  /// Of what rolls on a face not the place that comes round counts, at `x` then, but the one that touches now, and moves round
-  /// it. None: it doesn't roll, or it rocks, and what comes down is another end of it.
-  std::optional<Vec3> rolling_from(double t, const Vec3& x, const Vec3& normal) const {
-    const PlacedConvex then = placed(solid_, own_.pose_at(t)), first = placed(solid_, own_.pose_at(0.0));
-    const Vec3 place = then.pose.apply_inverse(x),
-               rolled = solid_.set->rolled(place, then.pose.rotation.transpose() * -normal,
-                                           first.pose.rotation.transpose() * -normal);
+  /// Of what rolls on a face not the place that comes round counts, but the one that touches now, and moves round it. None: it
+  /// doesn't roll, or not on the face itself, or it rocks, and what comes down is another end of it. `then`: as the
+  /// triangles' body sees it.
+  std::optional<Vec3> rolling_from(double t, const ConvexGap& then, const std::array<Vec3, 3>& face) const {
+    const Vec3 across = (face[1] - face[0]).cross(face[2] - face[0]);
+    if (!is_round_ || !(then.normal.cross(across).norm() <= kSameNormal * across.norm())) return std::nullopt;
+    const Pose other = other_.pose_at(t);
+    const PlacedConvex solid = placed(solid_, own_.pose_at(t)), first = placed(solid_, own_.pose_at(0.0));
+    const Vec3 x = other.apply(then.point_a), place = solid.pose.apply_inverse(x),
+               faced = other.rotation * -then.normal, faced_first = other_.pose_at(0.0).rotation * -then.normal;
+    const Vec3 rolled = solid_.set->rolled(place, solid.pose.rotation.transpose() * faced,
+                                           first.pose.rotation.transpose() * faced_first);
     const Vec3 now = first.pose.apply(rolled);
-    const bool is_near = (now - x).norm() <= kRolls * (x - then.pose.position).norm();
+    const bool is_near = (now - x).norm() <= kRolls * (x - solid.pose.position).norm();
     return rolled != place && is_near ? std::optional(now) : std::nullopt;
   }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/detection/collision.hpp"
 #include "engine/detection/continuous/convex_solids.hpp"
 #include "engine/detection/continuous/solid_passages.hpp"
 #include "engine/detection/continuous/triangle_set.hpp"
@@ -103,12 +104,16 @@ TEST_CASE("a solid with a formula passes triangles when points of theirs are in 
         CHECK(p.approach > 0.0);
         CHECK(p.time <= first + 2e-3);
         CHECK(std::abs(p.normal.norm() - 1.0) < 1e-9);
-        // the places are on the two surfaces when it begins
+        // the places are on the two surfaces when it begins; of what rolls on a face, in its plane
         CHECK(std::abs(shape.signed_distance(own.pose_at(0.0).apply_inverse(p.point_a))) < 0.01);
         const Triangle& c = mesh.triangles[p.triangle_b];
-        CHECK(closest_on_triangle(other.pose_at(0.0).apply_inverse(p.point_b),
-                                  {mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]})
-                  .squared_distance < 1e-12);
+        const TriangleCorners corners = {mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]};
+        const Vec3 place = other.pose_at(0.0).apply_inverse(p.point_b);
+        const Vec3 across = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+        if (features_of_key(p.feature).kind_a == Feature::shape)
+          CHECK(std::abs(across.dot(place - corners[0])) < 1e-6);
+        else
+          CHECK(closest_on_triangle(place, corners).squared_distance < 1e-12);
       }
     }
   }
