@@ -98,11 +98,17 @@ bool is_known_clear(const Body& a, const Body& b, const SurfacePath& of_a, const
 /// What is round, and not the triangles that stand for it in pictures.
 bool is_curved(const Body& body) { return !is_faceted(*body.shape) && !is_plane(body); }
 
-/// Of what is round and what has triangles, how deep it may be in one of them on its way, metres: to come through, it has to be
-/// in it by about half its thickness.
+/// Whether triangles say of a body what its surface is to what is round: a mesh's do, and those of a box or a hull where
+/// they are thin to it. Planes between the two tell most of the rest.
+bool is_seen_as_triangles(const Body& body, const Body& by) {
+  return body.shape->mesh() != nullptr || (is_faceted(*body.shape) && thick_beside_sheet(*body.shape, *by.shape) > 0.0);
+}
+
+/// Of what is round and such a body, how deep it may be in one of its triangles on its way, metres: to come through, it has to
+/// be in it by about half its thickness.
 double curved_graze(const Body& a, const Body& b) {
-  if (is_curved(a) && is_faceted(*b.shape)) return kOfCurved * a.shape->thickness();
-  return is_curved(b) && is_faceted(*a.shape) ? kOfCurved * b.shape->thickness() : 0.0;
+  if (is_curved(a) && is_seen_as_triangles(b, a)) return kOfCurved * a.shape->thickness();
+  return is_curved(b) && is_seen_as_triangles(a, b) ? kOfCurved * b.shape->thickness() : 0.0;
 }
 
 void exchange(std::vector<Passage>& passages) {
@@ -114,7 +120,7 @@ void exchange(std::vector<Passage>& passages) {
   }
 }
 
-/// Of what is round and what has triangles, whichever is which, by the formula; a ball or capsule touches all along its way
+/// Of what is round and what is seen as triangles, whichever is which, by the formula; a ball or capsule touches all along its way
 /// as a rule, and distances tell it as far as they do.
 std::optional<std::vector<Passage>> passages_by_formula(const Body& a, const SurfacePath& of_a, const Body& b,
                                                         const SurfacePath& of_b, const PassageSettings& settings) {
@@ -123,7 +129,7 @@ std::optional<std::vector<Passage>> passages_by_formula(const Body& a, const Sur
     if (passages) exchange(*passages);
     return passages;
   }
-  if (!is_curved(a) || !is_faceted(*b.shape) || deforms(a) || deforms(b)) return std::nullopt;
+  if (!is_curved(a) || !is_seen_as_triangles(b, a) || deforms(a) || deforms(b)) return std::nullopt;
   const std::optional<RoundCore> core = round_core(*a.shape);
   if (core && stays_out(*core, of_a, of_b, settings.depth)) return std::vector<Passage>();
   if (b.shape->mesh() == nullptr && stay_apart(*a.shape, of_a, *b.shape, of_b, settings.depth))

@@ -13,13 +13,14 @@ bool is_among(const std::optional<UnsafeMotion>& unsafe, BodyIndex a, BodyIndex 
                                [&](const UnsafeMotion::Pair& pair) { return pair.a == a && pair.b == b; });
 }
 
-bool is_pushed(const SubStep& step, BodyIndex a, BodyIndex b) {
-  const auto pushes = [&](const SolvedContact& c) {
-    return c.collision.body_a == a && c.collision.body_b == b && !c.lambda.isZero(0.0);
-  };
-  return std::any_of(step.results.begin(), step.results.end(), [&](const GroupResult& group) {
-    return std::any_of(group.solved.begin(), group.solved.end(), pushes);
-  });
+/// Adds the contacts of the two that push, each as it was last. False: there are none.
+bool take_pushing(const SubStep& step, BodyIndex a, BodyIndex b, std::map<std::uint64_t, Collision>& pushed) {
+  bool is_pushed = false;
+  for (const GroupResult& group : step.results)
+    for (const SolvedContact& c : group.solved)
+      if (c.collision.body_a == a && c.collision.body_b == b && !c.lambda.isZero(0.0))
+        pushed.insert_or_assign(c.collision.feature, c.collision), is_pushed = true;
+  return is_pushed;
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ void PairWatch::moved(const Bodies&, const SubStep& step, MotionGuard& guard, co
     now_->undone = undone_;
     add_outcome(*now_, world_, step, guard, passage);
     if (has_contact_now_ && !has_contact_) touching_ = now_;
-    if (has_contact_now_ && is_pushed(step, a_, b_)) pushing_ = now_;
+    if (has_contact_now_ && take_pushing(step, a_, b_, pushed_)) pushing_ = now_;
   }
   has_contact_ = has_contact_ || has_contact_now_;
   kept_ = std::move(now_);
@@ -71,7 +72,11 @@ void PairWatch::finished(const Bodies&, int substep) { take(substep); }
 void PairWatch::take(int substep) {
   const Moment here{world_.frame(), substep};
   // what pushed in an earlier piece is a contact of the sub-step, as its record has it
-  if (kept_ && !kept_->in_contact() && pushing_) kept_ = pushing_;
+  if (kept_ && !kept_->in_contact() && pushing_) {
+    kept_ = pushing_;
+    kept_->contacts.clear();
+    for (const auto& [feature, contact] : pushed_) kept_->contacts.push_back(contact);
+  }
   for (std::optional<PairVerdict>* verdict : {&kept_, &touching_})
     if (*verdict) (*verdict)->substep = substep, (*verdict)->pieces = std::max(1, pieces_);
   if (has_contact_) {
@@ -87,7 +92,7 @@ void PairWatch::take(int substep) {
   if (is_unsafe_ && unsafe_motions_++ == 0) first_unsafe_ = here;
   is_unsafe_ = false;
   kept_.reset();
-  touching_.reset(), pushing_.reset();
+  touching_.reset(), pushing_.reset(), pushed_.clear();
   undone_ = {};
   pieces_ = 0;
   has_contact_ = false;

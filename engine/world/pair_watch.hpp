@@ -2,6 +2,8 @@
 // contact, and how near they came if they never had one.
 #pragma once
 
+#include <map>
+
 #include "engine/world/pair_verdict.hpp"
 
 namespace impinge {
@@ -48,6 +50,7 @@ class PairWatch : public StepWatcher {
   NearestSearch search_;
   std::optional<PairVerdict> now_, kept_;          // of the motion; of the sub-step's last
   std::optional<PairVerdict> touching_, pushing_;  // of its first with a contact, and its last with an impulse
+  std::map<std::uint64_t, Collision> pushed_;      // by feature: contacts that pushed in any piece
   std::optional<PairVerdict> at_asked_, telling_;
   PairVerdict::Undone undone_;                          // of the sub-step
   bool has_contact_now_ = false, has_contact_ = false;  // of the motion, of a kept one of the sub-step

@@ -246,15 +246,18 @@ void refuse_key_of_body(const PlacedText& word, const ParameterSet& rows) {
     others_have_it |= row.path.starts_with("body.") && row.path.find('.', 5) != std::string::npos &&
                       std::string_view(row.path).substr(row.path.find('.', 5)) == key;
   }
-  for (const std::string_view of_rigid : {".position", ".rotation", ".velocity", ".angular_velocity"})
-    others_have_it |= key == of_rigid;
   if (keys.empty() || !others_have_it) return;
   word.refuse(
       fmt::format("'{}' has no {}, as bodies of other kinds do", body.substr(5, body.size() - 6), key.substr(1)),
-      fmt::format("it has {}", fmt::join(keys, ", ")),
-      key == ".position" || key == ".velocity"
-          ? "name one of them, or another body; `move` and `push` act on any that moves"
-          : "name one of them, or another body");
+      fmt::format("it has {}", fmt::join(keys, ", ")), "name one of them, or another body");
+}
+
+/// Of a body that is there but has no place or velocity to set: what changes these all the same.
+bool is_motion_of_body(std::string_view path, const ParameterSet& rows) {
+  const std::size_t end = path.starts_with("body.") ? path.find('.', 5) : std::string_view::npos;
+  if (end == std::string_view::npos || (path.substr(end) != ".velocity" && path.substr(end) != ".position"))
+    return false;
+  return rows.find(std::string(path.substr(0, end)) + ".friction") != nullptr;
 }
 
 std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterSet& rows, bool first_frame) {
@@ -265,7 +268,8 @@ std::vector<const Parameter*> find_rows(const PlacedText& word, const ParameterS
     if (row == nullptr) {
       refuse_key_of_body(word, rows);
       word.refuse(fmt::format("unknown parameter '{}'", word.text), "`impinge list parameters` shows what there is",
-                  remedy(rows.nearest(word.text), "use one of them"));
+                  is_motion_of_body(word.text, rows) ? "what it does `move` and `push` change"
+                                                     : remedy(rows.nearest(word.text), "use one of them"));
     }
     if (!row->set)
       word.refuse(fmt::format("'{}' can't change while running", word.text), "it is fixed with the scene",

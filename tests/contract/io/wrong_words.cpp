@@ -39,7 +39,7 @@ TEST_CASE("a deformable body's velocity is told of where no body of the scene ha
                "volume = { cage = { cells = 2 } }\n");
   folder.write("a.script", "at 0 set body.jelly.velocity 1 0 0\n");
   check_refused(folder, {"run", "s.toml", "--script", "a.script", "--no-images"},
-                "a.script:1:10: 'jelly' has no velocity, as bodies of other kinds do", "`move` and `push`");
+                "a.script:1:10: unknown parameter 'body.jelly.velocity'", "`move` and `push`");
 }
 
 TEST_CASE("a coefficient's other word and a date are shown as they are written") {
