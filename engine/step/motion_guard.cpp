@@ -22,20 +22,19 @@
 namespace impinge {
 namespace {
 
-constexpr double kTurn = 0.25;     // radians between the poses of a path
-constexpr double kSafe = 0.1;      // of a body's thickness: what contacts found before the motion don't lose
-constexpr double kSeen = 0.3;      // of that: what they see well
-constexpr double kRough = 5.0;     // of that, half the thickness: less than this leads nobody through
-constexpr double kShallow = 5e-3;  // of the same: what ends no deeper is left to contacts and their push-out
-constexpr double kLeast = 9e-4;    // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
-constexpr double kGraze = 0.1;     // the same of rigid bodies on a way that ends no deeper than that
-constexpr double kOfCurved =
-    1e-3;                        // of its thickness: the same of what is round beside triangles, however thin they are
-constexpr double kWithin = 5.0;  // of what paths are straight to: half the activation distance, which contacts see
-constexpr double kStraight = 0.5;  // of a safe approach: what paths beside a sheet are straight to
-constexpr double kCreep = 0.01;    // of these depths: what rigid bodies may end deeper than they began
-constexpr double kSink = 0.1;      // the same where they may end as deep as safe: as much again leads through in four
-constexpr int kMostPieces = 4096;  // a body that turns farther, 160 times in a sub-step, is followed in larger turns
+constexpr double kTurn = 0.25;      // radians between the poses of a path
+constexpr double kSafe = 0.1;       // of a body's thickness: what contacts found before the motion don't lose
+constexpr double kSeen = 0.3;       // of that: what they see well
+constexpr double kRough = 5.0;      // of that, half the thickness: less than this leads nobody through
+constexpr double kShallow = 5e-3;   // of the same: what ends no deeper is left to contacts and their push-out
+constexpr double kLeast = 9e-4;     // the same of rigid bodies in the pieces of a sub-step, whose overlaps add up
+constexpr double kGraze = 0.1;      // the same of rigid bodies on a way that ends no deeper than that
+constexpr double kOfCurved = 1e-3;  // of its own thickness: the same of what is round beside triangles
+constexpr double kWithin = 5.0;     // of what paths are straight to: half the activation distance, which contacts see
+constexpr double kStraight = 0.5;   // of a safe approach: what paths beside a sheet are straight to
+constexpr double kCreep = 0.01;     // of these depths: what rigid bodies may end deeper than they began
+constexpr double kSink = 0.1;       // the same where they may end as deep as safe: as much again leads through in four
+constexpr int kMostPieces = 4096;   // a body that turns farther, 160 times in a sub-step, is followed in larger turns
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 
