@@ -4,6 +4,8 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <map>
@@ -351,31 +353,34 @@ TEST_CASE("a run that is killed at any moment resumes to the same bits") {
   const Files files;
   const auto words = [&](const std::string& out, bool resume) {
     std::vector<std::string> list = {"run", "s.toml",   "--script", "a.script",    "--out",
-                                     out,   "--frames", "400",      "--no-images", "--contacts"};
+                                     out,   "--frames", "800",      "--no-images", "--contacts"};
     if (resume) list.emplace_back("--resume");
     return list;
   };
-  const auto start = std::chrono::steady_clock::now();
-  REQUIRE(impinge_run(files.folder.path(), words("whole", false)).code == 0);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double seconds = INFINITY;  // of the quicker of two: others may be at work
+  for (const char* out : {"first", "whole"}) {
+    const auto start = std::chrono::steady_clock::now();
+    REQUIRE(impinge_run(files.folder.path(), words(out, false)).code == 0);
+    seconds = std::min(seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
   int stopped = 0;
   for (const int signal : {SIGKILL, SIGKILL, SIGINT}) {
     fs::remove_all(files.folder / "parts");
     for (int i = 1; i <= 4; ++i) {
-      // all four together are half of the whole: on a machine whose speed changes the signals still fall inside
+      // all four together are less than the whole: on a machine whose speed changes the signals still fall inside
       const Outcome outcome =
-          impinge_stopped(files.folder.path(), words("parts", true), seconds * (0.04 * i + 0.025), signal);
+          impinge_stopped(files.folder.path(), words("parts", true), seconds * (0.05 * i + 0.05), signal);
       if (outcome.code == 0) break;
       ++stopped;
       // an interrupt before main() runs ends the program as any other: a shell says 130 to both
       CHECK((outcome.code == -signal || (signal == SIGINT && outcome.code == 130)));
       CHECK_FALSE(fs::exists(files.folder / "parts/done"));
     }
-    // what a kill in the middle of a write leaves
-    if (!fs::exists(files.folder / "parts/done")) {
-      std::ofstream(files.folder / "parts/stats.csv", std::ios::app) << "399,6.6";
-      std::ofstream(files.folder / "parts/contacts.csv", std::ios::app) << "399,floor,cr";
-      std::ofstream(files.folder / "parts/snapshots/000390.bin") << "damaged";
+    // what a kill in the middle of a write leaves, if it came after the run's first one
+    if (fs::exists(files.folder / "parts/run.toml") && !fs::exists(files.folder / "parts/done")) {
+      std::ofstream(files.folder / "parts/stats.csv", std::ios::app) << "799,6.6";
+      std::ofstream(files.folder / "parts/contacts.csv", std::ios::app) << "799,floor,cr";
+      std::ofstream(files.folder / "parts/snapshots/000790.bin") << "damaged";
     }
     const Outcome last = impinge_run(files.folder.path(), words("parts", true));
     INFO(last.err);
