@@ -1,7 +1,6 @@
 // A solid cone about y. It rests on its base by eight points of the rim, which turn with it, and by the lowest point of
 // the rim where it leans; on its side by the apex and a point of the rim.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,20 +10,7 @@
 namespace impinge {
 namespace {
 
-constexpr int kBasePoints = 8, kConeSides = 48;
-
-/// Cosine and sine of the angles of the rim's points.
-const std::array<Vec2, kBasePoints>& base_ways() {
-  static const std::array<Vec2, kBasePoints> ways = [] {
-    std::array<Vec2, kBasePoints> all;
-    for (int k = 0; k < kBasePoints; ++k) {
-      const double angle = -2.0 * std::numbers::pi * k / kBasePoints;
-      all[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
-    }
-    return all;
-  }();
-  return ways;
-}
+constexpr int kConeSides = 48;
 
 class Cone final : public ConvexShape {
  public:
@@ -77,7 +63,7 @@ class Cone final : public ConvexShape {
     ContactFace face;
     if (-d.y() > kNearlyFacing) {
       face.normal = {0.0, -1.0, 0.0};
-      for (const Vec2& way : base_ways()) face.add({radius_ * way.x(), base_, -radius_ * way.y()});
+      for (const Vec2& way : rim_ways()) face.add({radius_ * way.x(), base_, radius_ * way.y()});
       return face;
     }
     face.face = 1;

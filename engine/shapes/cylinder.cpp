@@ -1,7 +1,6 @@
 // A solid cylinder about y. It rests on its caps by eight points of the rim, which turn with it, and by the lowest
 // point of the rim where it leans; on its side by the two ends of a line.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,21 +10,8 @@
 namespace impinge {
 namespace {
 
-constexpr int kRimPoints = 8, kCylinderSides = 48;
+constexpr int kCylinderSides = 48;
 constexpr double kWallFaces = 0.2431;  // sine of 14 degrees: how steep to a direction the wall may be that faces it
-
-/// Cosine and sine of the angles of the rim's points.
-const std::array<Vec2, kRimPoints>& rim_ways() {
-  static const std::array<Vec2, kRimPoints> ways = [] {
-    std::array<Vec2, kRimPoints> all;
-    for (int k = 0; k < kRimPoints; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kRimPoints;
-      all[static_cast<std::size_t>(k)] = {std::cos(angle), std::sin(angle)};
-    }
-    return all;
-  }();
-  return ways;
-}
 
 class Cylinder final : public ConvexShape {
  public:

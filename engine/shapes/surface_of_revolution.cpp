@@ -26,6 +26,18 @@ TriangleMesh surface_of_revolution(const std::vector<Vec2>& profile, double y_be
   return mesh;
 }
 
+const std::array<Vec2, 8>& rim_ways() {
+  static const std::array<Vec2, 8> ways = [] {
+    std::array<Vec2, 8> all;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(all.size());
+      all[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  return ways;
+}
+
 Vec3 rolled_about_y(const Vec3& place, const Vec3& from, const Vec3& to) {
   constexpr double kSame = 1e-6;  // of the rim's radius, and the sine of the least angle at which it is one place
   const Vec2 rim(place.x(), place.z()), side(from.x(), from.z()), side_then(to.x(), to.z());

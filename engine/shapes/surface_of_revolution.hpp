@@ -1,6 +1,8 @@
 // Triangles of round shapes: rings about the y axis between two poles.
 #pragma once
 
+#include <array>
+
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {
@@ -8,6 +10,9 @@ namespace impinge {
 /// A closed outward surface with `around` vertices on each ring (distance from the axis, y), from below, and one vertex
 /// at either pole.
 TriangleMesh surface_of_revolution(const std::vector<Vec2>& rings, double y_below, double y_above, int around);
+
+/// Cosine and sine of eight even angles about y: the points of a rim that a flat side rests on, which turn with the body.
+const std::array<Vec2, 8>& rim_ways();
 
 /// ConvexSet::rolled of what is round about y: where it is touched with the rim through `place` that goes round, and a
 /// place that turns with the body stays.

@@ -7,9 +7,9 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/collision.hpp"
 #include "engine/detection/continuous/convex_solids.hpp"
-#include "engine/detection/continuous/triangle_set.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/convex_triangle.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -153,7 +153,7 @@ class SolidSearch {
   /// Whether a plane that goes along with the triangle has all of the solid beyond it. Points on straight lines are below a plane
   /// most where they start or end; on the way it may be as deep as paths may bend, and at the end of it all no deeper
   /// than it may.
-  bool is_beyond(const Plane& plane, const Interval& interval, const std::array<Vec3, 3>& x, double depth) const {
+  bool is_beyond(const Plane& plane, const Interval& interval, const TriangleCorners& x, double depth) const {
     const double straight = interval.bend <= between_ ? 0.0 : interval.bend;
     const double stands = std::max({plane.normal.dot(x[0]), plane.normal.dot(x[1]), plane.normal.dot(x[2])}) + straight;
     const double between = std::max(depth, between_);
@@ -161,8 +161,8 @@ class SolidSearch {
   }
 
   bool is_clear(Passed& now, int t) {
-    const TriangleSet triangle(surface_.mesh, t);
-    const std::array<Vec3, 3>& x = triangle.corners();
+    const ConvexTriangle triangle(surface_.mesh, t);
+    const TriangleCorners& x = triangle.corners();
     const auto any_beyond = [&](double depth) {
       return std::any_of(now.planes.rbegin(), now.planes.rend(),
                          [&](const Plane& p) { return is_beyond(p, now.interval, x, depth); });
@@ -187,7 +187,7 @@ class SolidSearch {
   }
 
   /// How deep the solid may be in a triangle that it begins in, metres: a little deeper.
-  double allowed_in(int t, const TriangleSet& triangle) {
+  double allowed_in(int t, const ConvexTriangle& triangle) {
     const auto [known, is_new] = allowed_.try_emplace(t, settings_.depth);
     if (is_new && --left_ >= 0) {
       const ConvexGap first = convex_gap(at(0.0), {&triangle, Pose()}, 0.0);
@@ -196,7 +196,7 @@ class SolidSearch {
     return known->second;
   }
 
-  double gap_at(double t, const TriangleSet& triangle) {
+  double gap_at(double t, const ConvexTriangle& triangle) {
     --left_;
     return convex_gap(at(t), {&triangle, Pose()}).gap;
   }
@@ -205,7 +205,7 @@ class SolidSearch {
   /// soon after belongs to it.
   void judge(const Interval& interval, const std::vector<int>& triangles) {
     const auto is_deep = [&](int t, double when) {
-      const TriangleSet triangle(surface_.mesh, t);
+      const ConvexTriangle triangle(surface_.mesh, t);
       const double allowed = allowed_in(t, triangle);
       return gap_at(when, triangle) < -(when == 1.0 ? allowed : std::max(allowed, settings_.graze));
     };
@@ -222,7 +222,7 @@ class SolidSearch {
 
   /// Of a triangle in which it is too deep.
   void add(int t, double when) {
-    const TriangleSet triangle(surface_.mesh, t);
+    const ConvexTriangle triangle(surface_.mesh, t);
     double before = when, after = when, first = gap_at(before, triangle);
     for (double step = kFirstStep; first <= 0.0 && before > 0.0; step *= 2.0)
       after = before, before = std::max(0.0, when - step), first = gap_at(before, triangle);
@@ -265,7 +265,7 @@ class SolidSearch {
   /// Of what rolls on a face not the place that comes round counts, but the one that touches now, and moves round it. None: it
   /// doesn't roll, or not on the face itself, or it rocks, and what comes down is another end of it. `then`: as the
   /// triangles' body sees it.
-  std::optional<Vec3> rolling_from(double t, const ConvexGap& then, const std::array<Vec3, 3>& face) const {
+  std::optional<Vec3> rolling_from(double t, const ConvexGap& then, const TriangleCorners& face) const {
     const Vec3 across = (face[1] - face[0]).cross(face[2] - face[0]);
     if (!is_round_ || !(then.normal.cross(across).norm() <= kSameNormal * across.norm())) return std::nullopt;
     const Pose other = other_.pose_at(t);

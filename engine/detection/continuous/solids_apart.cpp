@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "engine/detection/continuous/convex_solids.hpp"
-#include "engine/detection/continuous/triangle_set.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/convex_triangle.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
 
@@ -158,7 +158,7 @@ bool stay_off(const Shape& solid, const SurfacePath& own, const SurfacePath& tri
     const SurfaceMesh& surface = *triangles.of->surface;
     const auto near = triangles_in(surface, box_of_way(part, swing_of(solid), own, triangles));
     return near && std::all_of(near->begin(), near->end(), [&](int t) {
-             const TriangleSet triangle(surface.mesh, t);
+             const ConvexTriangle triangle(surface.mesh, t);
              return pair.stays_apart(part, {&triangle, Pose()});
            });
   });

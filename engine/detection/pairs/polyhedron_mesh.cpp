@@ -102,8 +102,14 @@ double closing_reach(const ContactSink& sink) {
   return reach;
 }
 
-/// The polyhedron's triangles in the world.
+/// A triangle of the polyhedron in the world.
 struct OwnTriangle {
+  OwnTriangle(const Collider& own, int triangle, double margin)
+      : index(triangle),
+        corners(corners_of(own, triangle)),
+        bounds(bounds_of(corners[0], corners[1], corners[2])),
+        search(search_box(corners, margin)) {}
+  int index;
   TriangleCorners corners;
   Aabb bounds, search;
 };
@@ -116,27 +122,22 @@ std::vector<TrianglePair> close_pairs(const Collider& own, const Collider& mesh,
   const double reach = tree_margin(own, mesh, pair.margin);
   const int count = static_cast<int>(own.mesh().mesh.triangles.size());
   std::vector<OwnTriangle> all;
-  for (int k = 0; k < count; ++k) {
-    const TriangleCorners c = corners_of(own, k);
-    all.push_back({c, bounds_of(c[0], c[1], c[2]), search_box(c, pair.margin)});
-  }
+  for (int k = 0; k < count && count <= kLookAtAll && !near.empty(); ++k) all.emplace_back(own, k, pair.margin);
   std::vector<TrianglePair> pairs;
   for (const int t : near) {
     const TriangleCorners c = view.corners(t);
     const Aabb box = search_box(c, pair.margin), around = bounds_of(c[0], c[1], c[2]).inflated(reach);
-    const auto look = [&](int k) {
-      const OwnTriangle& triangle = all[static_cast<std::size_t>(k)];
+    const auto look = [&](const OwnTriangle& triangle) {
       if (!overlap(triangle.search, box)) return;
       const PairState state = test_triangles(triangle.corners, c, pair.margin);
       if (state != PairState::apart)
-        pairs.push_back({pair.a, pair.b, TriangleIndex(k), TriangleIndex(t), state == PairState::intersecting});
+        pairs.push_back(
+            {pair.a, pair.b, TriangleIndex(triangle.index), TriangleIndex(t), state == PairState::intersecting});
     };
-    if (count > kLookAtAll) {
-      for (const int k : triangles_near(own, around)) look(k);
-    } else {
-      for (int k = 0; k < count; ++k)
-        if (overlap(all[static_cast<std::size_t>(k)].bounds, around)) look(k);
-    }
+    if (count > kLookAtAll)
+      for (const int k : triangles_near(own, around)) look(OwnTriangle(own, k, pair.margin));
+    for (const OwnTriangle& triangle : all)
+      if (overlap(triangle.bounds, around)) look(triangle);
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;

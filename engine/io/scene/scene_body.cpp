@@ -178,11 +178,7 @@ void check_keys_of_kind(const TomlNode& table, const std::string& what, BodyKind
 // a body's own, or nothing by the word that `set` and --set give it back to the scene with
 std::optional<double> read_coefficient(const TomlNode& node, const std::string& what, const char* name) {
   const BodyKey& key = body_key(name);
-  if (node.kind == TomlNode::text && node.string == key.word) return std::nullopt;
-  if (!node.is_number())
-    refuse(node.place, fmt::format("{} is {} ({})", what, shortened(format_toml(node), 57), toml_kind_name(node)),
-           fmt::format("a real number or \"{}\" is wanted", key.word), "write one of them");
-  return scene_real(node, what, key.range);
+  return scene_real_or(key.word, node, what, key.range);
 }
 
 std::string fault_of_name(std::string_view name, const char* whose) {

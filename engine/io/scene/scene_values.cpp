@@ -41,6 +41,14 @@ double scene_real(const TomlNode& node, const std::string& what, Range range) {
   return value;
 }
 
+std::optional<double> scene_real_or(std::string_view word, const TomlNode& node, const std::string& what, Range range) {
+  if (node.kind == TomlNode::text && node.string == word) return std::nullopt;
+  if (!node.is_number())
+    refuse(node.place, fmt::format("{} is {}", what, found(node)),
+           fmt::format("a real number or \"{}\" is wanted", word), "write one of them");
+  return scene_real(node, what, range);
+}
+
 double scene_positive(const TomlNode& node, const std::string& what, double high) {
   if (!node.is_number())
     refuse(node.place, fmt::format("{} is {}", what, found(node)), "a positive real number is wanted",

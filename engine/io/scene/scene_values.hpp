@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 
 #include "engine/core/parameter.hpp"
 #include "engine/io/scene/toml.hpp"
@@ -17,6 +18,8 @@ inline constexpr Range kLength{-1e6, 1e6}, kAngle{-1e6, 1e6};
 
 /// `what` names the key in messages, such as "body.crate.mass".
 double scene_real(const TomlNode& node, const std::string& what, Range range);
+/// The same, or none where it is the word, which is not empty.
+std::optional<double> scene_real_or(std::string_view word, const TomlNode& node, const std::string& what, Range range);
 /// A real number that must be greater than zero.
 double scene_positive(const TomlNode& node, const std::string& what, double high);
 Vec3 scene_vector(const TomlNode& node, const std::string& what, Range range);

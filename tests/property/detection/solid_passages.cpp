@@ -7,8 +7,8 @@
 #include "engine/detection/collision.hpp"
 #include "engine/detection/continuous/convex_solids.hpp"
 #include "engine/detection/continuous/solid_passages.hpp"
-#include "engine/detection/continuous/triangle_set.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
+#include "engine/geometry/convex/convex_triangle.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "tests/support/geometry/meshes.hpp"
@@ -47,7 +47,7 @@ bool begin_apart(const Shape& shape, const SurfacePath& own, const SurfacePath& 
   const TriangleMesh& mesh = other.of->surface->mesh;
   for (const PlacedConvex& part : convex_solids(shape))
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-      const TriangleSet triangle(mesh, t);
+      const ConvexTriangle triangle(mesh, t);
       if (convex_gap(placed(part, own.pose_at(0.0)), {&triangle, other.pose_at(0.0)}).gap <= 0.0) return false;
     }
   return true;
