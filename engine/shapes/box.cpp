@@ -1,5 +1,6 @@
 // A box about the origin, its sides along the axes.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "engine/shapes/primitives.hpp"
@@ -23,6 +24,16 @@ MassProperties Box::mass(double density) const { return box_mass(half, density);
 double Box::signed_distance(const Vec3& x) const {
   const Vec3 q = x.cwiseAbs() - half;
   return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+Vec3 Box::outward(const Vec3& x) const {
+  const Vec3 offset = x - x.cwiseMax(-half).cwiseMin(half);
+  const double length = offset.norm();
+  if (length > 0.0) return offset / length;
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (half[k] - std::abs(x[k]) < half[axis] - std::abs(x[axis])) axis = k;
+  return x[axis] < 0.0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis));
 }
 
 Vec3 Box::support(const Vec3& direction) const {

@@ -52,6 +52,7 @@ class Box final : public ConvexShape {
   double bounding_radius() const override { return half.norm(); }
   MassProperties mass(double density) const override;
   double signed_distance(const Vec3& x) const override;
+  Vec3 outward(const Vec3& x) const override;
   Vec3 support(const Vec3& direction) const override;
   ContactFace facing(const Vec3& direction) const override { return polyhedron()->facing(direction); }
   /// Its surface is make_box_mesh's twelve triangles: two a face, in the order -z, +z, -y, +y, -x, +x.

@@ -7,11 +7,11 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/detection/collision.hpp"
 #include "engine/detection/continuous/convex_solids.hpp"
+#include "engine/detection/continuous/moving_solid.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/geometry/convex/convex_triangle.hpp"
 #include "engine/geometry/distance.hpp"
-#include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
@@ -60,30 +60,23 @@ class SolidSearch {
 
  private:
   struct Interval {
-    Interval(const SolidSearch& of, double from, double to) : t0(from), t1(to) {
-      const Pose own0 = of.own_.pose_at(t0), own1 = of.own_.pose_at(t1), other0 = of.other_.pose_at(t0),
-                 other1 = of.other_.pose_at(t1);
-      at0 = placed(of.solid_, seen_from(other0, own0)), at1 = placed(of.solid_, seen_from(other1, own1));
-      const Vec3 turn_own = rotation_log(own1.rotation * own0.rotation.transpose()),
-                 turn_other = rotation_log(other1.rotation * other0.rotation.transpose());
-      const Vec3 between = (own1.position - own0.position) - (other1.position - other0.position);
-      const Vec3 relative = turn_own - turn_other;
-      // of what is round about its axis only the turning of that moves its surface
-      const double turn = relative.norm(), frame = turn_other.norm(),
-                   swing =
-                       of.is_round_ ? std::min(turn, relative.cross(own0.rotation.col(1)).norm() + turn * turn) : turn;
-      const double from_other =
-          std::max((own0.position - other0.position).norm(), (own1.position - other1.position).norm());
-      ways = between.norm() + frame * from_other + swing * of.radius_;
-      bend = 0.125 *
-             (frame * frame * from_other + 2.0 * frame * between.norm() +
-              (of.is_round_ ? std::min((turn + frame + swing) * swing, (turn + frame) * turn) : (turn + frame) * turn) *
-                  of.radius_);
+    Interval(const SolidSearch& of, double from, double to)
+        : t0(from),
+          t1(to),
+          own{&of.solid_, of.own_.pose_at(t0), of.own_.pose_at(t1), of.radius_, of.is_round_},
+          other{nullptr, of.other_.pose_at(t0), of.other_.pose_at(t1), 0.0},
+          at0(placed(of.solid_, seen_from(other.first, own.first))),
+          at1(placed(of.solid_, seen_from(other.last, own.last))),
+          bend(bend_between(own, other)) {
+      const double from_other = std::max((own.first.position - other.first.position).norm(),
+                                         (own.last.position - other.last.position).norm());
+      ways = (own.way() - other.way()).norm() + other.turn().norm() * from_other + own.swing_beside(other) * of.radius_;
     }
     double t0, t1;
+    MovingSolid own, other;
     PlacedConvex at0, at1;  // as the triangles' body sees it
+    double bend;            // how far its points' places may be off the straight line between, metres
     double ways = 0.0;      // of its points at most, metres
-    double bend = 0.0;      // how far their places may be off the straight line between, metres
   };
 
   PlacedConvex at(double t) const { return placed(solid_, seen_from(other_.pose_at(t), own_.pose_at(t))); }
@@ -97,14 +90,7 @@ class SolidSearch {
       begin({*this, half_way, piece.t1}, halvings - 1);
       return;
     }
-    Aabb box;
-    for (const PlacedConvex& seen : {piece.at0, piece.at1})
-      for (int k = 0; k < 3; ++k)
-        for (const double sign : {-1.0, 1.0}) {
-          Vec3 x = seen.pose.position;
-          x[k] = farthest(seen, sign * Vec3::Unit(k))[k] + sign * piece.bend;
-          box.include(x);
-        }
+    const Aabb box = box_of_piece(piece.own, piece.other);
     const BoxTree& tree = surface_.tree();
     near_.clear();
     tree.search([&](int n) { return overlap(tree.nodes()[static_cast<std::size_t>(n)].box, box); },

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "engine/detection/continuous/convex_solids.hpp"
+#include "engine/detection/continuous/moving_solid.hpp"
 #include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/convex/convex_gap.hpp"
 #include "engine/geometry/convex/convex_triangle.hpp"
-#include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
@@ -22,27 +22,6 @@ constexpr std::size_t kMostTriangles = 512;  // round a solid's way: the same
 constexpr double kOfTriangle = 0.25;
 
 double reach_of(const PlacedConvex& solid, const Vec3& direction) { return direction.dot(farthest(solid, direction)); }
-
-/// A solid of a body that moves: where the body is when a piece of its path begins and ends.
-struct MovingSolid {
-  const PlacedConvex* solid;
-  Pose first, last;
-  double radius;  ///< that its points turn about the body's centre, metres
-
-  Vec3 way() const { return last.position - first.position; }
-  Vec3 turn() const { return rotation_log(last.rotation * first.rotation.transpose()); }
-};
-
-/// How far a point of `a`, as `b` sees it, may be off the straight line between its places where a piece begins and ends,
-/// metres: an eighth of the largest acceleration that two steady motions come to.
-double bend_between(const MovingSolid& a, const MovingSolid& b) {
-  const Vec3 turn_a = a.turn(), turn_b = b.turn();
-  const double from_b =
-      std::max((a.first.position - b.first.position).norm(), (a.last.position - b.last.position).norm());
-  const double own = turn_b.norm(), relative = a.radius == 0.0 ? 0.0 : (turn_a - turn_b).norm();
-  const double of_centre = own * own * from_b + 2.0 * own * (a.way() - b.way()).norm();
-  return 0.125 * (of_centre + (relative * relative + own * relative) * a.radius);
-}
 
 /// Whether the plane of this normal, from b to a, which stands at b's surface and goes along with b, has all of `a` beyond
 /// it but for `depth`. Points on straight lines are below a plane most where they start or end.
@@ -103,18 +82,9 @@ Aabb box_of_way(const PlacedConvex& solid, double radius, const SurfacePath& own
   const int pieces = std::max(own.pieces(), triangles.pieces());
   for (int i = 0; i < pieces; ++i) {
     const double t0 = static_cast<double>(i) / pieces, t1 = (i + 1.0) / pieces;
-    const MovingSolid moving{&solid, own.pose_at(t0), own.pose_at(t1), radius},
-        frame{nullptr, triangles.pose_at(t0), triangles.pose_at(t1), triangles.of->radius};
-    const double bend = bend_between(moving, frame);
-    for (const double t : {t0, t1}) {
-      const PlacedConvex seen = placed(solid, seen_from(triangles.pose_at(t), own.pose_at(t)));
-      for (int k = 0; k < 3; ++k)
-        for (const double sign : {-1.0, 1.0}) {
-          Vec3 x = seen.pose.position;
-          x[k] = farthest(seen, sign * Vec3::Unit(k))[k] + sign * bend;
-          box.include(x);
-        }
-    }
+    const Aabb piece = box_of_piece({&solid, own.pose_at(t0), own.pose_at(t1), radius},
+                                    {nullptr, triangles.pose_at(t0), triangles.pose_at(t1), triangles.of->radius});
+    box.include(piece.min), box.include(piece.max);
   }
   return box;
 }

@@ -17,17 +17,6 @@ std::pair<std::size_t, double> highest_face(const ConvexPolyhedron& hull, const 
   return highest;
 }
 
-/// As nearest_on_box has it, in the box's own frame.
-Vec3 way_out_of_box(const Vec3& half, const Vec3& x) {
-  const Vec3 offset = x - x.cwiseMax(-half).cwiseMin(half);
-  const double length = offset.norm();
-  if (length > 0.0) return offset / length;
-  int axis = 0;
-  for (int k = 1; k < 3; ++k)
-    if (half[k] - std::abs(x[k]) < half[axis] - std::abs(x[axis])) axis = k;
-  return x[axis] < 0.0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis));
-}
-
 }  // namespace
 
 void box_mesh(ContactSink& sink) {
@@ -50,7 +39,7 @@ void box_mesh(ContactSink& sink) {
   };
   solid.touching.frame = {sink.first().pose, &shape_of<Box>(sink.first()),
                           [&](const Vec3& x) { return (x.cwiseAbs() - box.half).cwiseMax(0.0).norm(); }};
-  solid.touching.outward = [half = box.half](const Vec3& x) { return way_out_of_box(half, x); };
+  solid.touching.outward = [&](const Vec3& x) { return shape_of<Box>(sink.first()).outward(x); };
   solid.touching.corners = shape_of<Box>(sink.first()).polyhedron()->vertices();
   polyhedron_against_mesh(sink, solid);
 }
