@@ -8,10 +8,10 @@
 #include "engine/contact/recovery/passive_share.hpp"
 #include "engine/contact/recovery/push_out.hpp"
 #include "engine/core/error.hpp"
-#include "engine/core/finite.hpp"
 #include "engine/core/interrupt.hpp"
 #include "engine/response/least_violation.hpp"
 #include "engine/step/late_impacts.hpp"
+#include "engine/step/roots/group_root.hpp"
 #include "engine/step/tasks.hpp"
 #include "engine/step/turns/turning.hpp"
 
@@ -198,25 +198,26 @@ class GroupSolve {
   /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.
   void find_root() {
     const NewtonSettings* newton = how_.integrator.newton();
-    result_.is_at_root = newton == nullptr || now_.deformable.empty();
-    for (int i = 0; !result_.is_at_root && i < newton->max_iterations; ++i) {
+    if (newton == nullptr || now_.deformable.empty()) return;
+    GroupRoot root(bodies_, how_.integrator, *newton, now_);
+    const auto look = [&] {
+      result_.root_residual = root.residual_of(now_);
+      return result_.is_at_root = result_.root_residual <= newton->tolerance;
+    };
+    for (int i = 0; i < newton->max_iterations; ++i) {
       check_interrupt();
       {
         const StageTimer timer(result_.assemble_ms);
-        double& residual = result_.root_residual = 0.0;
-        for (std::size_t k = 0; k < now_.deformable.size(); ++k)
-          residual = larger(residual, bodies_[now_.deformable[k]].relinearize(
-                                          how_.integrator, system().deformable_delta[k],
-                                          system().deformable_impulse(static_cast<int>(k), system().lambda)));
-        result_.is_at_root = residual <= newton->tolerance;
-        if (result_.is_at_root) break;
-        for (const BodyIndex b : now_.deformable) bodies_[b].solve_again();
+        if (look()) return;
+        root.go_on(now_, i + 1 == newton->max_iterations);
       }
       const std::vector<Vec3> lambda = system().lambda;
       make_system();
       if (!lambda.empty()) system().lambda = lambda;
+      root.keep_bounds(system());
       solve();
     }
+    if (root.is_controlled()) look();
   }
 
   /// Rigid bodies: the same rows, told how much nearer their points come because bodies turn on the way. An answer that

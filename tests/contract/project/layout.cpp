@@ -60,6 +60,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/response", 14},
                                                  {"engine/frozen", 15},
                                                  {"engine/step/turns", 15},
+                                                 {"engine/step/roots", 15},
                                                  {"engine/step", 16},
                                                  {"engine/ledger", 17},
                                                  {"engine/world", 18},
