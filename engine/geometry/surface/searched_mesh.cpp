@@ -28,6 +28,32 @@ bool line_meets(const Aabb& box, const Vec3& x, const Vec3& direction) {
   return low <= high;
 }
 
+/// Adds up angles that are mostly small by one arc tangent for many: as the argument of a product, which never gets near
+/// where arguments jump.
+class AngleSum {
+ public:
+  void add(double along, double across) {
+    if (!(along > std::abs(across))) {
+      sum_ += std::atan2(across, along);
+      return;
+    }
+    const double t = across / along, x = x_ - y_ * t;
+    y_ += x_ * t, x_ = x;
+    if (!(x_ > std::abs(y_)) || x_ > 1e100) flush();
+  }
+  double take() {
+    flush();
+    return sum_;
+  }
+
+ private:
+  void flush() {
+    sum_ += std::atan2(y_, x_);
+    x_ = 1.0, y_ = 0.0;
+  }
+  double sum_ = 0.0, x_ = 1.0, y_ = 0.0;
+};
+
 }  // namespace
 
 SearchedMesh::SearchedMesh(const SurfaceMesh& surface, std::span<const Vec3> vertices, const NodeRims* rims)
@@ -51,11 +77,15 @@ TriangleCorners SearchedMesh::corners(int triangle) const {
 double SearchedMesh::solid_angle_of_rim(int node, const Vec3& x) const {
   const std::span<const NodeRims::Edge> rim = rims_->rim(node);
   if (rim.empty()) return 0.0;
-  double sum = 0.0;
+  AngleSum half;
   const Vec3 a = vertices_[static_cast<std::size_t>(rim.front()[0])] - x;
-  for (const NodeRims::Edge& e : rim)
-    sum += solid_angle(a, vertices_[static_cast<std::size_t>(e[0])] - x, vertices_[static_cast<std::size_t>(e[1])] - x);
-  return sum;
+  const double la = a.norm();
+  for (const NodeRims::Edge& e : rim) {
+    const Vec3 b = vertices_[static_cast<std::size_t>(e[0])] - x, c = vertices_[static_cast<std::size_t>(e[1])] - x;
+    const double lb = b.norm(), lc = c.norm();
+    half.add(la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb, a.dot(b.cross(c)));  // as solid_angle
+  }
+  return 2.0 * half.take();
 }
 
 double SearchedMesh::winding(const Vec3& x) const {
