@@ -8,13 +8,14 @@
 
 namespace impinge {
 
+double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
 double winding_number(const Vec3& x, std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
   double sum = 0.0;
-  for (const Triangle& t : triangles) {
-    const Vec3 a = vertices[t[0]] - x, b = vertices[t[1]] - x, c = vertices[t[2]] - x;
-    const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-  }
+  for (const Triangle& t : triangles) sum += solid_angle(vertices[t[0]] - x, vertices[t[1]] - x, vertices[t[2]] - x);
   return sum / (4.0 * M_PI);
 }
 

@@ -14,6 +14,7 @@ const Registry<Warning>& warnings() {
     IMPINGE_LIST(all, long_substep_warning);
     IMPINGE_LIST(all, size_ratio_warning);
     IMPINGE_LIST(all, odd_length_warning);
+    IMPINGE_LIST(all, far_attachment_warning);
     IMPINGE_LIST(all, coarse_threshold_warning);
     IMPINGE_LIST(all, ignored_restitution_warning);
     IMPINGE_LIST(all, fast_body_warning);

@@ -87,8 +87,8 @@ double depth_in_one_place(const Body& a, const Body& b) {
     const std::size_t most =
         std::clamp(kMostWork / std::max<std::size_t>(mesh->mesh.triangles.size(), 1), kFewest, kPoints);
     const auto depth = [&, body = other](const Vec3& x) { return depth_in(*body, x); };
-    deepest = std::max(deepest,
-                       deepest_inner_point({own->world_vertices, mesh->mesh.triangles}, most, other->bounds(), depth));
+    deepest =
+        std::max(deepest, deepest_inner_point(SearchedMesh(*mesh, own->world_vertices), most, other->bounds(), depth));
   }
   return deepest;
 }

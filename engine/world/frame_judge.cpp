@@ -7,7 +7,7 @@
 namespace impinge {
 
 void FrameJudge::add(const Bodies& bodies, int substep) {
-  OverlapVerdict now = judge_overlap(bodies);
+  OverlapVerdict now = judge_overlap(bodies, memory_);
   now.crossing.substep = substep;
   worst_.penetration = std::max(worst_.penetration, now.penetration);
   worst_.deepest = std::max(worst_.deepest, now.deepest);

@@ -19,6 +19,7 @@ class FrameJudge : public StepWatcher {
   void add(const Bodies& bodies, int substep);
 
   When when_;
+  JudgeMemory memory_;
   OverlapVerdict worst_;
   std::int64_t self_crossings_ = 0;
   bool has_looked_ = false;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/core/lazily.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/geometry/edges_inside.hpp"
-#include "engine/geometry/inside.hpp"
+#include "engine/geometry/surface/edges_inside.hpp"
 #include "engine/geometry/surface/inner_points.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -19,21 +18,35 @@ namespace {
 
 constexpr double kOnSurface = 1e-9;  // of the smaller box: a depth that is rounding
 
+constexpr std::size_t kMostPoints = 64;  // well inside a mesh
+
 /// A solid that the judge looks at by itself: a body, or a part of one that is a compound.
 struct Solid {
+  const SharedShape* shared = nullptr;
+  JudgeMemory* memory = nullptr;
   const Shape* shape = nullptr;
   Pose pose;
   std::span<const Vec3> vertices;  ///< of a mesh
   Aabb bounds;
+  // of a mesh, for all its pairs
+  Lazily<SearchedMesh> lazy_search = {};
+  Lazily<std::vector<Vec3>> lazy_points = {};
+  const SearchedMesh& search() const {
+    return lazy_search.get([&] { return SearchedMesh(*shape->mesh(), vertices, &memory->rims_of(*shared)); });
+  }
+  const std::vector<Vec3>& points_inside() const {
+    return lazy_points.get([&] { return inner_points(search(), kMostPoints); });
+  }
 };
 
-std::vector<Solid> solids_of(const Body& body) {
+std::vector<Solid> solids_of(const Body& body, JudgeMemory& memory) {
   const std::vector<ShapePart>* parts = body.shape->parts();
-  if (parts == nullptr) return {{body.shape.get(), body.pose, body.world_vertices, body.bounds()}};
+  if (parts == nullptr)
+    return {{&body.shape, &memory, body.shape.get(), body.pose, body.world_vertices, body.bounds()}};
   std::vector<Solid> list;
   for (const ShapePart& part : *parts) {
     const Pose pose{body.pose.rotation * part.pose.rotation, body.pose.apply(part.pose.position)};
-    list.push_back({part.shape.get(), pose, {}, part.shape->bounds(pose)});
+    list.push_back({&part.shape, &memory, part.shape.get(), pose, {}, part.shape->bounds(pose)});
   }
   return list;
 }
@@ -62,11 +75,8 @@ bool centre_line(const Solid& solid, Vec3& p, Vec3& q, double& radius) {
   return false;
 }
 
-std::span<const Triangle> triangles_of(const Solid& mesh) { return mesh.shape->mesh()->mesh.triangles; }
-
 double depth_in_mesh(const Solid& mesh, const Vec3& x) {
-  if (winding_number(x, mesh.vertices, triangles_of(mesh)) < 0.5) return 0.0;
-  return distance_to_surface(x, mesh.vertices, triangles_of(mesh));
+  return mesh.search().winding(x) < 0.5 ? 0.0 : mesh.search().distance(x);
 }
 
 /// Lowest value of a convex function on the segment pq (golden section).
@@ -101,13 +111,32 @@ struct Overlap {
   std::int64_t crossings = 0;  ///< of triangles
 };
 
-/// The deepest point inside a convex solid of a mesh's edges, metres; `known` if that is deeper. `depth`: of each vertex.
-double edges_in_solid(const Solid& mesh, const Solid& solid, const std::vector<double>& depth, double known) {
+/// How deep vertices of a mesh are in another solid, metres, negative outside.
+struct VertexDepths {
+  std::vector<int> vertices;  ///< ascending
+  std::vector<double> depths;
+  double of(int vertex) const {
+    return depths[static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), vertex) -
+                                           vertices.begin())];
+  }
+};
+
+/// The deepest point inside a convex solid of a mesh's edges, metres; `known` if that is deeper. Edges in the box alone may
+/// be in the solid; their ends have depths.
+double edges_in_solid(const Solid& mesh, const Solid& solid, const Aabb& box, const VertexDepths& depths,
+                      double known) {
+  const MeshTopology& topology = mesh.shape->mesh()->topology;
+  std::vector<int> edges;
+  for (const int t : mesh.search().triangles_near(box))
+    for (const int e : topology.triangle_edges[static_cast<std::size_t>(t)]) edges.push_back(e);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   InterruptPoll poll;
-  for (const MeshTopology::Edge& e : mesh.shape->mesh()->topology.edges) {
+  for (const int number : edges) {
+    const MeshTopology::Edge& e = topology.edges[static_cast<std::size_t>(number)];
     const Vec3 &p = mesh.vertices[e.v0], &q = mesh.vertices[e.v1];
     // a distance changes no faster than the place
-    if ((q - p).norm() + depth[e.v0] + depth[e.v1] <= 2.0 * known) continue;
+    if ((q - p).norm() + depths.of(e.v0) + depths.of(e.v1) <= 2.0 * known) continue;
     poll();
     known = std::max(known, -lowest_on_segment(p, q, [&](const Vec3& x) { return signed_distance(solid, x); }));
   }
@@ -117,16 +146,13 @@ double edges_in_solid(const Solid& mesh, const Solid& solid, const std::vector<d
 /// Solids in one place have every vertex and edge of the one on the other's surface, as solids that touch have: the deepest
 /// in the other of points well inside either, metres.
 double inner_overlap(const Solid& a, const Solid& b) {
-  constexpr std::size_t kMostPoints = 64;
   double deepest = 0.0;
   for (const auto& [own, other] : {std::pair(&a, &b), std::pair(&b, &a)}) {
     if (own->shape->mesh() == nullptr) continue;
     check_interrupt();
-    const auto depth = [&, solid = other](const Vec3& x) {
-      return solid->shape->mesh() ? depth_in_mesh(*solid, x) : -signed_distance(*solid, x);
-    };
-    deepest =
-        std::max(deepest, deepest_inner_point({own->vertices, triangles_of(*own)}, kMostPoints, other->bounds, depth));
+    for (const Vec3& x : own->points_inside())
+      if (overlap(other->bounds, Aabb{x, x}))
+        deepest = std::max(deepest, other->shape->mesh() ? depth_in_mesh(*other, x) : -signed_distance(*other, x));
   }
   return deepest;
 }
@@ -136,13 +162,25 @@ bool may_coincide(const Solid& a, const Solid& b, double depth) {
   return depth <= kOnSurface * std::min(a.bounds.extent().norm(), b.bounds.extent().norm());
 }
 
-Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
+double deepest_below(const Solid& plane, const Solid& mesh) {
   double depth = 0.0;
+  for (const Vec3& v : mesh.vertices) depth = std::max(depth, -signed_distance(plane, v));
+  return depth;
+}
+
+Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
   check_interrupt();
-  std::vector<double> of_vertices;
-  for (const Vec3& v : mesh.vertices) {
-    of_vertices.push_back(-signed_distance(solid, v));
-    depth = std::max(depth, of_vertices.back());
+  if (solid.shape->as<Plane>() != nullptr) {
+    const double depth = deepest_below(solid, mesh);
+    return {depth, depth};
+  }
+  double depth = 0.0;
+  const Aabb box =
+      solid.bounds.inflated(kOnSurface * (solid.bounds.extent().norm() + largest_coordinate(solid.bounds)));
+  VertexDepths near{mesh.search().vertices_near(box), {}};
+  for (const int v : near.vertices) {
+    near.depths.push_back(-signed_distance(solid, mesh.vertices[static_cast<std::size_t>(v)]));
+    depth = std::max(depth, near.depths.back());
   }
   Vec3 p, q;
   double radius = 0.0;
@@ -152,46 +190,44 @@ Overlap mesh_with_shape(const Solid& mesh, const Solid& solid) {
     for (int i = 0; i < samples; ++i) {
       check_interrupt();
       const Vec3 x = p + (samples == 1 ? 0.0 : i / (samples - 1.0)) * (q - p);
-      const double distance = distance_to_surface(x, mesh.vertices, triangles_of(mesh));
-      const bool inside = winding_number(x, mesh.vertices, triangles_of(mesh)) > 0.5;
+      const double distance = mesh.search().distance(x);
+      const bool inside = mesh.search().winding(x) > 0.5;
       depth = std::max(depth, radius + (inside ? distance : -distance));
     }
-  } else if (solid.shape->as<Plane>() == nullptr) {
+  } else {
     // corners of a polyhedron, points on the surface of anything else
     std::vector<Vec3> points = solid.shape->drawn().vertices;
     for (Vec3& x : points) x = solid.pose.apply(x);
     depth = std::max(depth, points_in_mesh(points, mesh));
   }
-  if (solid.shape->as<Plane>() != nullptr) return {depth, depth};
-  const double edges = edges_in_solid(mesh, solid, of_vertices, depth);
+  const double edges = edges_in_solid(mesh, solid, box, near, depth);
   return {depth, may_coincide(mesh, solid, edges) ? std::max(edges, inner_overlap(mesh, solid)) : edges};
 }
 
+/// The deepest of the vertices of `own` inside a mesh.
+double vertices_in_mesh(const Solid& own, const Solid& mesh) {
+  std::vector<Vec3> points;
+  for (const int v : own.search().vertices_near(mesh.bounds))
+    points.push_back(own.vertices[static_cast<std::size_t>(v)]);
+  return points_in_mesh(points, mesh);
+}
+
 Overlap mesh_with_mesh(const Solid& a, const Solid& b) {
-  const auto near = [&](const Solid& mesh, const Aabb& region) {
-    std::vector<std::tuple<Aabb, TriangleCorners, Triangle>> list;
-    for (const Triangle& t : triangles_of(mesh)) {
-      const TriangleCorners c{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-      const Aabb box = bounds_of(c[0], c[1], c[2]);
-      if (overlap(box, region)) list.emplace_back(box, c, t);
-    }
-    return list;
-  };
-  const auto list_a = near(a, b.bounds), list_b = near(b, a.bounds);
   Overlap found;
   std::vector<EdgeHit> of_a, of_b;
   InterruptPoll poll;
-  for (const auto& [box_a, corners_a, t_a] : list_a)
-    for (const auto& [box_b, corners_b, t_b] : list_b) {
+  for (const int t_a : a.search().triangles_near(b.bounds))
+    for (const int t_b : b.search().triangles_near(a.search().box(t_a))) {
       poll();
-      if (!overlap(box_a, box_b) || !triangles_intersect(corners_a, corners_b)) continue;
+      const TriangleCorners corners_a = a.search().corners(t_a), corners_b = b.search().corners(t_b);
+      if (!triangles_intersect(corners_a, corners_b)) continue;
       ++found.crossings;
-      add_edge_hits(t_a, a.vertices, corners_b, of_a);
-      add_edge_hits(t_b, b.vertices, corners_a, of_b);
+      add_edge_hits(a.search().triangles()[static_cast<std::size_t>(t_a)], a.vertices, corners_b, of_a);
+      add_edge_hits(b.search().triangles()[static_cast<std::size_t>(t_b)], b.vertices, corners_a, of_b);
     }
-  found.vertices = std::max(points_in_mesh(a.vertices, b), points_in_mesh(b.vertices, a));
-  found.edges = deepest_of_edges(std::move(of_a), a.vertices, {b.vertices, triangles_of(b)}, found.vertices);
-  found.edges = deepest_of_edges(std::move(of_b), b.vertices, {a.vertices, triangles_of(a)}, found.edges);
+  found.vertices = std::max(vertices_in_mesh(a, b), vertices_in_mesh(b, a));
+  found.edges = deepest_of_edges(std::move(of_a), a.vertices, b.search(), found.vertices);
+  found.edges = deepest_of_edges(std::move(of_b), b.vertices, a.search(), found.edges);
   if (found.crossings > 0 && may_coincide(a, b, found.edges)) found.edges = std::max(found.edges, inner_overlap(a, b));
   return found;
 }
@@ -224,9 +260,21 @@ Overlap overlap_of(const Solid& a, const Solid& b) {
 
 }  // namespace
 
+const NodeRims& JudgeMemory::rims_of(const SharedShape& mesh) {
+  const SurfaceMesh* surface = mesh->mesh();
+  const auto it = kept_.find(surface);
+  if (it != kept_.end()) return it->second.rims;
+  return kept_.emplace(surface, Kept{mesh, NodeRims(surface->tree(), surface->mesh.triangles)}).first->second.rims;
+}
+
 OverlapVerdict judge_overlap(const Bodies& bodies) {
+  JudgeMemory memory;
+  return judge_overlap(bodies, memory);
+}
+
+OverlapVerdict judge_overlap(const Bodies& bodies, JudgeMemory& memory) {
   std::vector<std::vector<Solid>> solids;
-  for (const Body& body : bodies) solids.push_back(solids_of(body));
+  for (const Body& body : bodies) solids.push_back(solids_of(body, memory));
   OverlapVerdict verdict;
   for (BodyIndex i(0); i < bodies.size(); ++i)
     for (BodyIndex j(i + 1); j < bodies.size(); ++j) {

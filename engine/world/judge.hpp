@@ -1,10 +1,11 @@
-// How much bodies really overlap, whatever detection found: the judge of `--judge`. Slow on purpose: winding numbers
-// over all triangles, formulas for exact shapes, no data structure shared with detection.
+// How much bodies really overlap, whatever detection found: the judge of `--judge`. Winding numbers, formulas for exact
+// shapes, and the answers that going through all triangles would have (geometry/surface/searched_mesh).
 #pragma once
 
-#include <span>
+#include <map>
 
 #include "engine/bodies/bodies.hpp"
+#include "engine/geometry/surface/node_rims.hpp"
 #include "engine/world/step_record.hpp"
 
 namespace impinge {
@@ -21,6 +22,21 @@ struct OverlapVerdict {
   std::int64_t intersections = 0;  ///< triangle pairs of different meshes that share a point
 };
 
+/// What of meshes stays the same whatever they do, kept from one look to the next.
+class JudgeMemory {
+ public:
+  /// Not for several threads at once.
+  const NodeRims& rims_of(const SharedShape& mesh);
+
+ private:
+  struct Kept {
+    SharedShape shape;  // so that nobody else gets its place in memory
+    NodeRims rims;
+  };
+  std::map<const SurfaceMesh*, Kept> kept_;
+};
+
+OverlapVerdict judge_overlap(const Bodies& bodies, JudgeMemory& memory);
 OverlapVerdict judge_overlap(const Bodies& bodies);
 
 }  // namespace impinge

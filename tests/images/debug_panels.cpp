@@ -165,6 +165,33 @@ TEST_CASE("no text of tables, numbers and plots is cut off or lies over another,
   }
 }
 
+TEST_CASE("the arrow of the column that a table is sorted by stands beside that column's word") {
+  PanelSession session(1280, 720);
+  session.run(kLines);
+  for (const char* column : {"gap", "a", "index"}) {
+    CAPTURE(column);
+    // what turns with the order is the arrow alone, and without it there is the word
+    const Image plain = session.run({"panel sort normal"}).loop.picture();
+    const Image up = session.run({fmt::format("panel sort {}", column)}).loop.picture();
+    const Image down = session.run({fmt::format("panel sort {} down", column)}).loop.picture();
+    const UiWidget* head = session.window.ui().find(fmt::format("contacts/sort:{}", column));
+    REQUIRE(head != nullptr);
+    int left = 100000, right = -1, ink_left = 100000, ink_right = -1;
+    const auto at = [&](double v) { return static_cast<int>(v); };
+    const int x0 = at(head->area.x), x1 = at(head->area.x + head->area.width) - 1, y0 = at(head->area.y) + 2;
+    const int y1 = at(head->area.y + head->area.height) - 2;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) {
+        const bool turns = !std::equal(up.pixel(x, y), up.pixel(x, y) + 3, down.pixel(x, y));
+        if (turns) left = std::min(left, x), right = std::max(right, x);
+        if (plain.pixel(x, y)[0] > 150) ink_left = std::min(ink_left, x), ink_right = std::max(ink_right, x);
+      }
+    REQUIRE(right > left);
+    REQUIRE(ink_right >= ink_left);
+    CHECK(std::min(std::abs(ink_left - right), std::abs(left - ink_right)) < 8);
+  }
+}
+
 TEST_CASE("texts that are cut off or lie over each other are found") {
   PanelSession session(960, 600);
   Ui& ui = session.window.ui();

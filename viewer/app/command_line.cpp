@@ -64,12 +64,28 @@ void refuse_reserved(const std::vector<std::string>& words) {
                       fmt::format("see impinge {} --help", command), "leave it out");
 }
 
+/// The option that stands more often than it may, as it was written, and how often; "" if none does.
+std::string option_given_twice(const CLI::App& command, const std::vector<std::string>& words) {
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_expected_max() != 1 || option->count() < 2) continue;
+    const auto is_it = [&](const std::string& word) { return option->check_name(word.substr(0, word.find('='))); };
+    const auto first = std::find_if(words.begin(), words.end(), is_it);
+    if (first == words.end() || std::none_of(first + 1, words.end(), is_it)) continue;
+    return fmt::format("{} stands {}", first->substr(0, first->find('=')),
+                       option->count() == 2 ? "twice" : fmt::format("{} times", option->count()));
+  }
+  return "";
+}
+
 // the parser's complaint on one line; for an option that isn't there, the nearest that is
 std::string complaint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
   std::string text = error.what();
   std::replace(text.begin(), text.end(), '\n', ' ');
   const CLI::App* command = &app;
   for (const CLI::App* sub : app.get_subcommands()) command = sub;
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch))
+    if (const std::string twice = option_given_twice(*command, words); !twice.empty())
+      return fmt::format("command line: {}; it takes one value; leave the others out", twice);
   std::vector<std::string> options;
   for (const CLI::Option* option : command->get_options())
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);

@@ -43,11 +43,17 @@ void memory_option(Options& options) {
     if (!bytes)
       refuse_option(fmt::format("--memory-limit is '{}'", text), "bytes, or a number with K, M, G or T, are wanted",
                     "write --memory-limit 4G");
+    // a limit that is passed before anything is loaded could hold nothing
+    if (const std::uint64_t held = memory_in_use(); *bytes <= held)
+      refuse_option(fmt::format("--memory-limit is '{}'", text),
+                    fmt::format("more than the {} that the program holds with nothing loaded is wanted",
+                                describe_bytes(static_cast<double>(held))),
+                    "write --memory-limit 4G");
     set_memory_limit(*bytes);
   };
   options.other("--memory-limit", take,
-                "SIZE such as 4G: what would take more memory is refused before it is taken (default: half of the "
-                "machine's)");
+                "SIZE such as 4G: surfaces, volumes and factorizations that would take more memory are refused before "
+                "it is taken; what many small things add up to is not watched (default: half of the machine's)");
 }
 
 void judge_option(Options& options, RunOptions& run) {

@@ -11,6 +11,7 @@ ExpressionWords condition_words(const std::vector<std::string>& figures, const B
   ExpressionWords words;
   words.names = figures;
   words.bodies = bodies.names();
+  for (const Body& body : bodies) words.may_meet_itself.push_back(body.kind() == BodyKind::deformable);
   return words;
 }
 

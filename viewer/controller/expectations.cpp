@@ -16,6 +16,13 @@ std::string in_frames(const Script::Expectation& expectation) {
   return fmt::format(" in frames {} to {}", expectation.first, expectation.last);
 }
 
+std::string what_was_found(const std::string& figures, const std::string& odd) {
+  std::string text = figures.empty() ? "" : "found " + figures;
+  if (!odd.empty())
+    text += fmt::format("{}{}, and what is not finite is no answer", text.empty() ? "found that " : ": ", odd);
+  return text.empty() ? "it asks of nothing that could change" : text;
+}
+
 }  // namespace
 
 void Expectations::check(int frame, const ConditionValues& values,
@@ -30,10 +37,13 @@ void Expectations::check(int frame, const ConditionValues& values,
     if (!expectation.is_of(frame)) continue;
     failed_[i].erase(failed_[i].lower_bound(frame), failed_[i].end());  // what was made before is another future
     const std::vector<double> found = values(expectation.condition);
-    if (expectation.condition.holds(found)) continue;
+    std::string odd;
+    const std::optional<bool> holds = expectation.condition.truth(found, odd);
+    if (holds == true) continue;
     if (failed_[i].empty())
-      fail(fmt::format("{}: frame {}: expected {}{}; found {}", expectation.place, frame, expectation.condition.text(),
-                       in_frames(expectation), expectation.condition.describe(found, figure_names(judged_))));
+      fail(fmt::format("{}: frame {}: expected {}{}; {}", expectation.place, frame, expectation.condition.text(),
+                       in_frames(expectation),
+                       what_was_found(expectation.condition.describe(found, figure_names(judged_)), odd)));
     failed_[i].insert(frame);
   }
   for (const Script::ImageExpectation& image : script_.images()) {

@@ -46,6 +46,26 @@ double apply(Operation operation, double l, double r) {
   }
 }
 
+/// Of a comparison, else null.
+const char* sign_of(Operation operation) {
+  switch (operation) {
+    case Operation::less:
+      return "<";
+    case Operation::less_equal:
+      return "<=";
+    case Operation::greater:
+      return ">";
+    case Operation::greater_equal:
+      return ">=";
+    case Operation::equal:
+      return "==";
+    case Operation::unequal:
+      return "!=";
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
 Expression::Expression(const PlacedText& text, const ExpressionWords& words) : text_(text.text) {
@@ -81,6 +101,46 @@ double Expression::evaluate(std::span<const double> values) const {
     }
   }
   return stack.back();
+}
+
+std::optional<bool> Expression::truth(std::span<const double> values, std::string& why) const {
+  // three truths: not a number is the one that nobody knows
+  std::vector<double> stack;
+  for (const Step& step : steps_) {
+    if (step.operation == Operation::number || step.operation == Operation::name) {
+      stack.push_back(step.operation == Operation::number ? step.number : values[step.name]);
+      continue;
+    }
+    if (step.operation == Operation::negate || step.operation == Operation::absolute ||
+        step.operation == Operation::logical_not) {
+      double& x = stack.back();
+      if (step.operation == Operation::logical_not)
+        x = std::isnan(x) ? x : x == 0.0;
+      else
+        x = step.operation == Operation::negate ? -x : std::abs(x);
+      continue;
+    }
+    const double r = stack.back();
+    stack.pop_back();
+    double& l = stack.back();
+    if (step.operation == Operation::logical_and || step.operation == Operation::logical_or) {
+      const double decides = step.operation == Operation::logical_or ? 1.0 : 0.0;
+      l = l == decides || r == decides ? decides : std::isnan(l) || std::isnan(r) ? NAN : 1.0 - decides;
+    } else if (const char* sign = sign_of(step.operation); sign != nullptr && !(std::isfinite(l) && std::isfinite(r))) {
+      const bool is_left = !std::isfinite(l);
+      const double odd = is_left ? l : r;
+      if (why.empty())
+        why = fmt::format("{} stands {} of '{}'",
+                          std::isnan(odd) ? "not a number"
+                          : odd > 0.0     ? "inf"
+                                          : "-inf",
+                          is_left ? "left" : "right", sign);
+      l = NAN;
+    } else {
+      l = apply(step.operation, l, r);
+    }
+  }
+  return std::isnan(stack.back()) ? std::nullopt : std::optional(stack.back() != 0.0);
 }
 
 std::string Expression::describe(std::span<const double> values, const std::vector<std::string>& names) const {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "engine/ledger/frame_ledger.hpp"
@@ -38,6 +39,8 @@ struct ExpressionWords {
   std::string allowed;                   ///< for messages, instead of all names
   bool takes_number = false;             ///< whether the whole may be a number too
   std::vector<std::string> bodies = {};  ///< that calls may name; none: there are no calls
+  /// By body, whether a call of two may name it twice: of a rigid body that says nothing. None: every body.
+  std::vector<bool> may_meet_itself = {};
 };
 
 class Expression {
@@ -52,6 +55,9 @@ class Expression {
   /// Truth is 1, falsehood 0. Comparisons with NaN are false.
   double evaluate(std::span<const double> values) const;
   bool holds(std::span<const double> values) const { return evaluate(values) != 0.0; }
+  /// Whether it can be said to hold, or not to: nothing where that hangs on a comparison with a value that is not finite,
+  /// whichever way that comparison goes. `why`: the first of these, "inf stands left of '>'".
+  std::optional<bool> truth(std::span<const double> values, std::string& why) const;
   const std::string& text() const { return text_; }
   bool uses(std::size_t name) const;  ///< whether that name stands in it
   /// The named figures with their values, "contacts = 12, groups = 3": for messages.

@@ -245,7 +245,15 @@ class Parser {
     }
     if (function.bodies == 2) {
       if (!take(",")) here().refuse(found(), fmt::format("{} asks of two bodies", function.name), "name another one");
+      skip_blanks();
+      const std::size_t begin = at_;
       term.b = read_body();
+      const auto second = static_cast<std::size_t>(term.b);
+      if (term.b == term.a && second < words_.may_meet_itself.size() && !words_.may_meet_itself[second])
+        text_.part(begin, at_ - begin)
+            .refuse(fmt::format("'{}' a second time", words_.bodies[second]),
+                    fmt::format("{} asks of two bodies, and only one that deforms may touch itself", function.name),
+                    "name another one");
       term.text += fmt::format(",{}", words_.bodies[static_cast<std::size_t>(term.b)]);
     }
     term.text += ")";

@@ -19,8 +19,7 @@ struct ReportChoice {
 };
 ReportChoice choose_columns(const ReportTable& table);
 
-/// Error against time, a line for each combination of the values that are no numbers or that the reference leaves
-/// alone.
+/// Error against time, a line for each combination of the values that lines don't go along (ReportColumn::is_joined).
 Plot work_precision_plot(const ReportTable& table, const ReportChoice& choice, const std::string& title);
 
 /// The first two parameters that were varied against each other, the others at their first values; false if there are

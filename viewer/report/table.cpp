@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "viewer/sweep/reference.hpp"
@@ -125,15 +126,29 @@ void describe(ReportColumn& column) {
   column.is_main = column.kind != ReportColumn::text && column.kind != ReportColumn::hash;
 }
 
-// A line goes along what the reference sets; a formula is one truth for everything, and the line then goes along the
-// time step, if that is varied.
-void mark_joined(ReportTable& table, bool is_formula) {
-  const bool varies_step = std::any_of(table.columns.begin(), table.columns.end(), [](const ReportColumn& column) {
-    return column.kind == ReportColumn::varied && is_time_step_path(column.name);
+/// Whether each value of the one goes with a single value of the other, as of two that --zip varies.
+bool is_told_by(const ReportTable& table, std::size_t one, std::size_t other) {
+  std::map<std::string, std::string> value_of;
+  return std::all_of(table.rows.begin(), table.rows.end(), [&](const std::vector<std::string>& row) {
+    return value_of.try_emplace(row[one], row[other]).first->second == row[other];
   });
-  for (ReportColumn& column : table.columns)
-    column.is_joined = column.kind == ReportColumn::varied && column.is_numeric && column.in_reference &&
-                       (!is_formula || !varies_step || is_time_step_path(column.name));
+}
+
+// A line goes along one value that the reference sets: the time step where it is one of them, else the one with the most
+// values; and along those that only change with it. All others tell lines apart: one through both would jump from the end of
+// what the first one's value gives to the beginning of what its next does. A formula is one truth for everything.
+void mark_joined(ReportTable& table) {
+  const auto rank = [&](const ReportColumn& c) { return std::pair(is_time_step_path(c.name), c.distinct); };
+  const auto may_join = [](const ReportColumn& c) {
+    return c.kind == ReportColumn::varied && c.is_numeric && c.in_reference;
+  };
+  const ReportColumn* along = nullptr;
+  for (const ReportColumn& column : table.columns)
+    if (may_join(column) && (along == nullptr || rank(column) > rank(*along))) along = &column;
+  if (along == nullptr) return;
+  const auto place = static_cast<std::size_t>(along - table.columns.data());
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    table.columns[c].is_joined = may_join(table.columns[c]) && is_told_by(table, place, c);
 }
 
 }  // namespace
@@ -266,7 +281,7 @@ ReportTable read_report_table(const std::string& csv, const std::vector<std::str
     // what is the same nothing in every job has no place among the main figures
     if (column.kind == ReportColumn::figure && values == std::set<std::string>{"0"}) column.is_main = false;
   }
-  mark_joined(table, is_formula);
+  mark_joined(table);
   if (const int cpu = table.column("step_cpu_ms"); cpu < 0 || !table.columns[static_cast<std::size_t>(cpu)].is_main)
     for (ReportColumn& column : table.columns) column.is_main |= column.name == "step_ms";
   return table;

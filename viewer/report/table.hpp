@@ -20,7 +20,8 @@ struct ReportColumn {
   bool is_main = false;       ///< shown before anybody asks for all columns
   int distinct = 0;           ///< different values
   bool in_reference = false;  ///< a varied path that the reference sets, or that a formula is the truth for
-  bool is_joined = false;     ///< jobs that differ in nothing but such columns belong to one line of a plot
+  bool is_joined =
+      false;  ///< jobs that differ in nothing but such columns belong to one line of a plot, which goes along them
 };
 const char* kind_name(ReportColumn::Kind kind);
 

@@ -320,6 +320,13 @@ TEST_CASE("the command line names what is wrong with it") {
   refused({"run", "s.toml", "--frame", "3"}, "--frames");
   refused({"run", "s.toml", "--frames", "-3"}, "whole number");
   refused({"run", "s.toml", "--frames", "3x"}, "whole number");
+  refused({"run", "s.toml", "--frames", "3", "--frames", "4"},
+          "command line: --frames stands twice; it takes one value");
+  refused({"run", "s.toml", "--threads", "1", "--threads=2", "--threads", "3"}, "--threads stands 3 times");
+  refused({"run", "s.toml", "--out=a", "--no-images", "--out", "b"}, "--out stands twice");
+  CHECK(impinge_run(folder.path(), {"run", "s.toml", "--no-images", "--no-images", "--frames", "0", "--out", "once",
+                                    "--set", "contact.friction=0", "--set", "simulation.substeps=1"})
+            .code == 0);
   refused({"run", "s.toml", "--size", "1280"}, "WIDTHxHEIGHT");
   refused({"run", "s.toml", "--size", "0x0"}, "width");
   refused({"run", "s.toml", "--threads", "0"}, "--threads");

@@ -59,4 +59,10 @@ TEST_CASE("what a volume needs is estimated within a factor of 1.5 before it is 
   folder.write("s.toml", cube("{ cage = { cells = 200 } }"));
   check_refused(folder, {"run", "s.toml", "--out", "o", "--no-images", "--memory-limit", "2G"}, "s.toml:5:", "GiB");
   check_refused(folder, {"check", "s.toml", "--memory-limit", "plenty"}, "command line: ", "write --memory-limit 4G");
+  // of a scene that asks for nothing large: less than the program holds by itself
+  folder.write("s.toml",
+               "[[body]]\nname = \"ball\"\nkind = \"dynamic\"\nshape = { sphere = { radius = 1 } }\nmass = 1\n");
+  for (const char* limit : {"1K", "100K", "1M"})
+    check_refused(folder, {"check", "s.toml", "--memory-limit", limit}, "command line: ", "with nothing loaded");
+  CHECK(impinge_run(folder.path(), {"check", "s.toml", "--memory-limit", "200M"}).code == 0);
 }

@@ -193,6 +193,67 @@ TEST_CASE("a formula is the truth for every job: a line a method, along the time
   CHECK(red(paint_heat_table(heat, 640, 360)) > 20);
 }
 
+TEST_CASE(
+    "of several values that the reference sets a line goes along one, and those beside it have lines of their own") {
+  ParameterSet rows;
+  const auto table_of = [&](const std::vector<std::string>& paths, const std::vector<std::string>& values,
+                            const std::vector<std::string>& reference) {
+    std::string csv =
+        "hash," + fmt::format("{}", fmt::join(paths, ",")) + ",status,reason,step_ms,error_rms_m,doubts\n";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      csv += fmt::format("a{},{},done,,{},{}e-3,\n", i, values[i], 3 + i, 9 - i);
+    return read_report_table(csv, paths, reference, rows);
+  };
+  const auto lines_of = [](const ReportTable& table) {
+    std::vector<std::string> lines;
+    for (const PlotSeries& s : work_precision_plot(table, choose_columns(table), "s").series)
+      lines.push_back(fmt::format("{}: {}", s.name, s.points.size()));
+    return lines;
+  };
+  const std::vector<std::string> product = {"0,1", "0,2", "0,4", "4,1", "4,2", "4,4"};
+  const std::vector<std::string> both = {"contact.second_looks=0", "simulation.substeps=64"};
+  using Lines = std::vector<std::string>;
+  // the time step, whichever stands first
+  CHECK(lines_of(table_of({"contact.second_looks", "simulation.substeps"}, product, both)) ==
+        Lines{"second_looks 0: 3", "second_looks 4: 3"});
+  CHECK(lines_of(table_of({"simulation.substeps", "contact.second_looks"}, {"1,0", "1,4", "2,0", "2,4"}, both)) ==
+        Lines{"second_looks 0: 2", "second_looks 4: 2"});
+  // without it the one with the most values, and what the reference leaves alone as ever
+  CHECK(lines_of(table_of({"contact.second_looks", "lcp.tolerance"}, product,
+                          {"contact.second_looks=8", "lcp.tolerance=1e-12"})) ==
+        Lines{"second_looks 0: 3", "second_looks 4: 3"});
+  CHECK(lines_of(table_of({"contact.second_looks", "simulation.substeps"}, product, {"contact.second_looks=8"})) ==
+        Lines{"substeps 1: 2", "substeps 2: 2", "substeps 4: 2"});
+  // what changes only with it doesn't tell lines apart
+  CHECK(lines_of(table_of({"lcp.tolerance", "simulation.substeps"}, {"1e-3,1", "1e-4,2", "1e-5,4"},
+                          {"lcp.tolerance=1e-12", "simulation.substeps=64"})) == Lines{"all jobs: 3"});
+}
+
+TEST_CASE("a time axis of less than a decade has more than two labels") {
+  // grid lines that cross the middle of the picture: of y there are none as thin
+  const auto lines_across = [](double first, double last) {
+    Plot plot;
+    plot.series = {{"all jobs", {{first, 3e-4}, {last, 3e-4}}}};
+    plot.marks_all = true;
+    const Image image = paint_plots({plot}, 1280, 720).front();
+    int lines = 0;
+    for (int x = 1; x < image.width; ++x) {
+      const auto is_grid = [&](int at) {
+        const std::uint8_t* p = image.pixel(at, 90);
+        return p[0] > 215 && p[0] < p[1] && p[1] < p[2] && p[2] < p[0] + 12;  // the pale grey of the grid
+      };
+      lines += is_grid(x) && !is_grid(x - 1);
+    }
+    return lines;
+  };
+  CHECK(lines_across(3.9, 8.4) >= 3);
+  CHECK(lines_across(1.1, 1.9) >= 3);
+  CHECK(lines_across(110.0, 250.0) >= 3);
+  CHECK(lines_across(1.0, 400.0) >= 6);
+  CHECK(lines_across(1.0, 400.0) <= 9);
+  CHECK(lines_across(1e-3, 1e5) <= 9);  // decades alone
+}
+
 TEST_CASE("an ablation runs the scene with each economy off, and the sweep's report shows it") {
   const TempFolder folder;
   folder.write("s.toml", replaced(kCrateScene, "velocity = [1, 0, 0]\n", "velocity = [1, 0, 0]\nfriction = 0\n"));

@@ -142,6 +142,53 @@ TEST_CASE("expect: without --frames a run goes on to the end of a range") {
   CHECK(count(slurp(runs.folder / "out/stats.csv"), "\n") == 247);  // heading, frames 0 to 245; alone it would be 240
 }
 
+TEST_CASE("expect: what is not finite fulfils nothing, and is named") {
+  const Runs runs;
+  const auto failed = [&](const std::string& condition, const std::string& why) {
+    CAPTURE(condition);
+    const Outcome outcome = runs("expect " + condition + " at 2\n");
+    CHECK(outcome.code == 1);
+    CAPTURE(outcome.err);
+    CHECK(outcome.err.find("frame 2: expected " + condition + "; " + why) != std::string::npos);
+  };
+  failed("1/0 > 1", "found that inf stands left of '>', and what is not finite is no answer");
+  failed("1 > -1/0", "found that -inf stands right of '>'");
+  failed("0/0 < 1", "found that not a number stands left of '<'");
+  failed("!(0/0 < 1)", "found that not a number stands left of '<'");
+  failed("1/0 == 1/0", "found that inf stands left of '=='");
+  failed("bodies/0 > 1", "found bodies = 2: inf stands left of '>'");
+  failed("bodies == 3 || contacts/0 > 1", "found bodies = 2, contacts = 0: not a number stands left of '>'");
+  failed("bodies == 2 && contacts/contacts != 5", "found bodies = 2, contacts = 0: not a number stands left of '!='");
+  failed("1 > 2", "it asks of nothing that could change");
+  // what is decided without it
+  CHECK(runs("expect bodies == 2 || contacts/0 > 1 at 2\nexpect !(bodies == 3 && contacts/0 > 1) at 2\n").code == 0);
+}
+
+TEST_CASE("expect: only a body that deforms may be asked about itself") {
+  const Runs runs;
+  for (const char* function : {"depth", "gap", "contacts", "force"}) {
+    const std::string line = fmt::format("expect {}(ball,ball) < 1 at 2", function);
+    const Outcome outcome = runs(line + "\n");
+    CAPTURE(line, outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.rfind(fmt::format("a.script:1:{}: 'ball' a second time", line.find(",ball") + 2), 0) == 0);
+    CHECK(outcome.err.find("name another one") != std::string::npos);
+    CHECK(count(outcome.err, "\n") == 1);
+  }
+  runs.folder.write("s.toml", std::string(kThrow) + R"(
+[[body]]
+name = "jelly"
+kind = "deformable"
+shape = { box = { size = [1, 1, 1] } }
+volume = { lattice = { cells = 2 } }
+material = { density = 1000, young = 1e6, poisson = 0.3 }
+position = [9, 9, 9]
+)");
+  const Outcome soft = runs("expect contacts(jelly,jelly) == 0 && depth(ball,post) == 0 at 2\n");
+  CAPTURE(soft.err);
+  CHECK(soft.code == 0);
+}
+
 TEST_CASE("expect: forms that are none are refused at their place") {
   const Runs runs;
   const auto refused = [&](const std::string& line, const std::string& where, const std::string& remedy) {

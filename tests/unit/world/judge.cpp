@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/geometry/inside.hpp"
+#include "engine/geometry/triangle_intersection.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
@@ -194,4 +195,103 @@ TEST_CASE("how much of a thickness an overlap is goes by the wall of a hollow bo
   CHECK(verdict.deepest == Approx(2e-3).epsilon(0.2));
   CHECK(verdict.crossing.thickness == Approx(0.01).epsilon(0.1));
   CHECK(verdict.crossing.share() > 0.1);
+}
+
+namespace {
+
+/// An open heightfield with hills, 2 m × 2 m.
+TriangleMesh hilly_ground(int n) {
+  TriangleMesh mesh;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      const double x = 2.0 * i / n - 1.0, z = 2.0 * j / n - 1.0;
+      mesh.vertices.emplace_back(x, 0.1 * std::sin(9.0 * x) * std::cos(7.0 * z) - 0.6 * (x * x + z * z), z);
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int v = i * (n + 1) + j;
+      mesh.triangles.push_back({v, v + 1, v + n + 2});
+      mesh.triangles.push_back({v, v + n + 2, v + n + 1});
+    }
+  return mesh;
+}
+
+double deepest_of_vertices(const std::vector<Vec3>& points, const Body& mesh) {
+  double deepest = 0.0;
+  const std::vector<Triangle>& triangles = mesh.shape->mesh()->mesh.triangles;
+  for (const Vec3& x : points)
+    if (winding_number(x, mesh.world_vertices, triangles) > 0.5)
+      deepest = std::max(deepest, distance_to_surface(x, mesh.world_vertices, triangles));
+  return deepest;
+}
+
+}  // namespace
+
+TEST_CASE("what stands on an open ground of many triangles is judged as all of them say, one by one") {
+  Random random(41);
+  const SharedShape fine = surface(hilly_ground(32)), coarse = surface(hilly_ground(12));
+  const Vec3 half(0.08, 0.05, 0.11);
+  const double radius = 0.1;
+  int overlaps = 0, crossings = 0, edges_alone = 0;
+  for (int i = 0; i < 60; ++i) {
+    const SharedShape& ground = i % 2 == 0 ? fine : coarse;  // of which edges alone may run through what stands there
+    const double x = random.in(-0.7, 0.7), z = random.in(-0.7, 0.7);
+    const Vec3 place(x, 0.1 * std::sin(9.0 * x) * std::cos(7.0 * z) - 0.6 * (x * x + z * z) + random.in(-0.05, 0.13),
+                     z);
+    const SharedShape shape = i % 3 == 0   ? SharedShape(Sphere{radius})
+                              : i % 3 == 1 ? SharedShape(Box{half})
+                                           : SharedShape(make_box_mesh(half));
+    BodyDescription on = dynamic_body("on", shape, place), below = dynamic_body("ground", ground, Vec3::Zero());
+    on.rotation = 180.0 * random.vector();
+    below.kind = BodyKind::fixed;
+    Bodies bodies;
+    bodies.add(make_body(below));
+    bodies.add(make_body(on));
+    const Body &b = bodies[BodyIndex(0)], &a = bodies[BodyIndex(1)];
+    const std::vector<Triangle>& triangles = ground->mesh()->mesh.triangles;
+    double depth = 0.0, of_edges = 0.0, longest = 0.0;
+    std::int64_t crossing = 0;
+    const auto in_solid = [&](const Vec3& p) { return -shape->signed_distance(a.pose.apply_inverse(p)); };
+    if (i % 3 < 2)
+      for (const Triangle& t : triangles)
+        for (int k = 0; k < 3; ++k) {
+          const Vec3 &p = b.world_vertices[t[k]], &q = b.world_vertices[t[(k + 1) % 3]];
+          depth = std::max(depth, in_solid(p));
+          longest = std::max(longest, (q - p).norm());
+          if ((p - place).norm() < 0.3)
+            for (int s = 0; s <= 50; ++s) of_edges = std::max(of_edges, in_solid(p + s / 50.0 * (q - p)));
+        }
+    if (i % 3 == 0) {
+      const double away = distance_to_surface(place, b.world_vertices, triangles);
+      const bool is_inside = winding_number(place, b.world_vertices, triangles) > 0.5;
+      depth = std::max(depth, radius + (is_inside ? away : -away));
+    } else {
+      std::vector<Vec3> corners;
+      for (int k = 0; k < 8; ++k)
+        corners.push_back(a.pose.apply(half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1))));
+      depth = std::max(depth, deepest_of_vertices(corners, b));
+    }
+    if (i % 3 == 2) {
+      depth = std::max(depth, deepest_of_vertices(b.world_vertices, a));
+      for (const Triangle& s : shape->mesh()->mesh.triangles)
+        for (const Triangle& t : triangles)
+          crossing += triangles_intersect({a.world_vertices[s[0]], a.world_vertices[s[1]], a.world_vertices[s[2]]},
+                                          {b.world_vertices[t[0]], b.world_vertices[t[1]], b.world_vertices[t[2]]});
+    }
+    JudgeMemory memory;
+    const OverlapVerdict verdict = judge_overlap(bodies, memory), again = judge_overlap(bodies, memory);
+    CAPTURE(i, place, depth, of_edges);
+    CHECK(verdict.penetration == Approx(depth).margin(1e-12));
+    CHECK(verdict.intersections == crossing);
+    CHECK(verdict.deepest >= std::max(depth, of_edges) - 1e-12);
+    if (i % 3 < 2) CHECK(verdict.deepest <= std::max(depth, of_edges + longest / 100.0) + 1e-12);
+    CHECK(again.penetration == verdict.penetration);
+    CHECK(again.deepest == verdict.deepest);
+    overlaps += depth > 0.0;
+    crossings += crossing > 0;
+    edges_alone += of_edges > depth + 1e-6;
+  }
+  CHECK(overlaps > 20);
+  CHECK(crossings > 5);
+  CHECK(edges_alone > 0);
 }

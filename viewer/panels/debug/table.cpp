@@ -90,12 +90,12 @@ std::string elided(const std::string& text, float width) {
   return text.substr(0, 1);
 }
 
-void draw_arrow(bool down, bool at_left) {
+/// Beside its head's word: at the other end of the cell it would stand behind the word of the column before.
+void draw_arrow(bool down, float middle) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  const float half = 0.22f * ImGui::GetFontSize(), y = 0.5f * (low.y + high.y), tip = down ? half : -half,
-              x = at_left ? low.x + 1.6f * half : high.x - 1.6f * half;
-  ImGui::GetWindowDrawList()->AddTriangleFilled({x - half, y - 0.6f * tip}, {x + half, y - 0.6f * tip}, {x, y + tip},
-                                                ImGui::GetColorU32(ImGuiCol_Text));
+  const float half = 0.22f * ImGui::GetFontSize(), y = 0.5f * (low.y + high.y), tip = down ? half : -half;
+  ImGui::GetWindowDrawList()->AddTriangleFilled({middle - half, y - 0.6f * tip}, {middle + half, y - 0.6f * tip},
+                                                {middle, y + tip}, ImGui::GetColorU32(ImGuiCol_Text));
 }
 
 void text_at(float x, float y, const std::string& text, ImU32 ink) {
@@ -107,9 +107,9 @@ void draw_head(const TableColumn& column, bool by, bool down) {
   const std::string head(column.head);
   const float pad = 0.5f * ImGui::GetStyle().ItemSpacing.x, wide = ImGui::CalcTextSize(head.c_str()).x;
   const bool is_words = column.look == TableColumn::words;
-  text_at(is_words ? at.x + pad : end.x - pad - wide, at.y + ImGui::GetStyle().CellPadding.y, head,
-          ImGui::GetColorU32(ImGuiCol_Text));
-  if (by) draw_arrow(down, !is_words);
+  const float left = is_words ? at.x + pad : end.x - pad - wide, aside = 0.45f * ImGui::GetFontSize();
+  text_at(left, at.y + ImGui::GetStyle().CellPadding.y, head, ImGui::GetColorU32(ImGuiCol_Text));
+  if (by) draw_arrow(down, is_words ? left + wide + aside : left - aside);
 }
 
 void draw_cell(const TableColumn& column, double value) {

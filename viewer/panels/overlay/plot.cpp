@@ -101,13 +101,15 @@ class Painter {
       pen_.list.AddRect({x_.from, y_.to}, {x_.to, y_.from}, ink, 0.0f, 0, u_);
       return;
     }
-    // a short axis has room for 2 and 5 in each decade
-    const bool fine = x_.high - x_.low < 3.5;
+    // a short axis has room for 2 and 5 in each decade, one of about a decade for 3 and 7
+    const double decades = x_.high - x_.low;
+    const auto is_told = [&](int digit) {
+      return digit == 1 || (decades < 3.5 && (digit == 2 || digit == 5)) || decades < 1.4;
+    };
     for (int d = static_cast<int>(std::floor(x_.low)); d <= static_cast<int>(std::ceil(x_.high)); ++d)
-      for (const int digit : {1, 2, 5}) {
+      for (const int digit : {1, 2, 3, 5, 7}) {
         const double at = d + std::log10(digit);
-        if ((digit != 1 && !fine) || at < x_.low - 1e-9 || at > x_.high + 1e-9 || (plot_.x_counts && at < 0.0))
-          continue;
+        if (!is_told(digit) || at < x_.low - 1e-9 || at > x_.high + 1e-9 || (plot_.x_counts && at < 0.0)) continue;
         tick_x(at, fmt::format("{:g}", digit * std::pow(10.0, d)), line);
       }
     if (plot_.x_counts && x_.low < 0.0) tick_x(-kZeroShift, "0", line);

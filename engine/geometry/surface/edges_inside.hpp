@@ -1,19 +1,13 @@
 // How deep edges of one closed mesh run through another between their ends: what thin plates that cross like an X, or boxes
-// edge on edge, overlap by while no vertex of either is inside the other. Slow, and used by nobody but judges.
+// edge on edge, overlap by while no vertex of either is inside the other. Used by nobody but judges.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "engine/geometry/distance.hpp"
-#include "engine/geometry/triangle_mesh.hpp"
+#include "engine/geometry/surface/searched_mesh.hpp"
 
 namespace impinge {
-
-struct PlacedMesh {
-  std::span<const Vec3> vertices;
-  std::span<const Triangle> triangles;
-};
 
 /// Where an edge of a mesh meets a triangle of the other.
 struct EdgeHit {
@@ -27,7 +21,7 @@ void add_edge_hits(const Triangle& own, std::span<const Vec3> vertices, const Tr
 
 /// The deepest point inside closed `other` of the edges that are hit, metres; `known`, which no vertex is deeper than, if
 /// they are not.
-double deepest_of_edges(std::vector<EdgeHit> hits, std::span<const Vec3> vertices, const PlacedMesh& other,
+double deepest_of_edges(std::vector<EdgeHit> hits, std::span<const Vec3> vertices, const SearchedMesh& other,
                         double known);
 
 }  // namespace impinge

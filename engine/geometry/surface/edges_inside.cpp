@@ -1,4 +1,4 @@
-#include "engine/geometry/edges_inside.hpp"
+#include "engine/geometry/surface/edges_inside.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
-#include "engine/geometry/box_tree.hpp"
 #include "engine/geometry/inside.hpp"
 #include "engine/geometry/triangle_intersection.hpp"
 
@@ -48,14 +47,13 @@ std::vector<Stretch> inner_stretches(std::vector<EdgeHit>& hits, std::span<const
 
 /// Finds the place of the stretch that is farthest from the surface. One of its ends is on it, so that no triangle farther
 /// off than the stretch is long can be the nearest.
-void measure(Stretch& s, const PlacedMesh& other, std::span<const Aabb> boxes) {
+void measure(Stretch& s, const SearchedMesh& other) {
   const Aabb reach = Aabb{s.p.cwiseMin(s.q), s.p.cwiseMax(s.q)}.inflated((s.q - s.p).norm() * (1.0 + kSlack));
   std::vector<Triangle> near;
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    if (overlap(boxes[i], reach)) near.push_back(other.triangles[i]);
+  for (const int t : other.triangles_near(reach)) near.push_back(other.triangles()[static_cast<std::size_t>(t)]);
   double at = 0.5, step = 1.0 / (kSamples + 1);
   const auto look = [&](double t) {
-    const double d = distance_to_surface(s.at(t), other.vertices, near);
+    const double d = distance_to_surface(s.at(t), other.vertices(), near);
     if (d > s.deepest) s.deepest = d, at = t;
   };
   for (int i = 1; i <= kSamples; ++i) look(i * step);
@@ -64,14 +62,13 @@ void measure(Stretch& s, const PlacedMesh& other, std::span<const Aabb> boxes) {
   s.place = s.at(at);
 }
 
-bool is_inside(const Vec3& x, const PlacedMesh& mesh) { return winding_number(x, mesh.vertices, mesh.triangles) > 0.5; }
+bool is_inside(const Vec3& x, const SearchedMesh& mesh) { return mesh.winding(x) > 0.5; }
 
 /// Of a stretch whose deepest place is outside: it runs along a face, which it leaves without meeting anything.
-double deepest_inner_sample(const Stretch& s, const PlacedMesh& other) {
+double deepest_inner_sample(const Stretch& s, const SearchedMesh& other) {
   double deepest = 0.0;
   for (int i = 1; i <= kSamples; ++i)
-    if (const Vec3 x = s.at(i / (kSamples + 1.0)); is_inside(x, other))
-      deepest = std::max(deepest, distance_to_surface(x, other.vertices, other.triangles));
+    if (const Vec3 x = s.at(i / (kSamples + 1.0)); is_inside(x, other)) deepest = std::max(deepest, other.distance(x));
   return deepest;
 }
 
@@ -88,16 +85,15 @@ void add_edge_hits(const Triangle& own, std::span<const Vec3> vertices, const Tr
   }
 }
 
-double deepest_of_edges(std::vector<EdgeHit> hits, std::span<const Vec3> vertices, const PlacedMesh& other,
+double deepest_of_edges(std::vector<EdgeHit> hits, std::span<const Vec3> vertices, const SearchedMesh& other,
                         double known) {
   std::vector<Stretch> list = inner_stretches(hits, vertices);
   // of its ends one is on the surface and the other as well, or a vertex no deeper than what is known
   std::erase_if(list, [&](const Stretch& s) { return (s.q - s.p).norm() <= known; });
   if (list.empty()) return known;
-  const std::vector<Aabb> boxes = triangle_boxes(other.triangles, other.vertices);
   parallel_for(list.size(), 8, [&](std::size_t i) {
     check_interrupt();
-    measure(list[i], other, boxes);
+    measure(list[i], other);
   });
   std::stable_sort(list.begin(), list.end(), [](const Stretch& l, const Stretch& r) { return l.deepest > r.deepest; });
   for (const Stretch& s : list) {
