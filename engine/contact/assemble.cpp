@@ -70,8 +70,8 @@ class Assembly {
   void add_collision(ContactIndex index, const Collision& c) {
     ContactRows rows;
     rows.directions = contact_axes(c.normal);
-    const MaterialPoint a = bodies_[c.body_a].surface_point(c.triangle_a, c.point_a),
-                        b = bodies_[c.body_b].surface_point(c.triangle_b, c.point_b);
+    const MaterialPoint a = bodies_[c.body_a].surface_point(c.triangle_a, c.touches_a()),
+                        b = bodies_[c.body_b].surface_point(c.triangle_b, c.touches_b());
     Vec3 velocity_before = Vec3::Zero();
     lead_.setZero();
     const auto [on_a, on_b] = acts_on(c);

@@ -36,6 +36,9 @@ struct Meeting {
   double time = 0.0;  ///< s, from now
   /// From the common point to where the row acts on A and on B, metres, which come together then.
   Vec3 on_a = Vec3::Zero(), on_b = Vec3::Zero();
+  /// Where the material is now that touches then, metres: the contact's points went back from there by straight lines, and
+  /// what turns did not come by these.
+  Vec3 from_a = Vec3::Zero(), from_b = Vec3::Zero();
   bool is_after = false;  ///< the two meet elsewhere before: what this contact meets with is not their free velocity
 };
 
@@ -56,6 +59,9 @@ struct Collision {
   /// Where its row acts on either body.
   Vec3 acts_on_a() const { return meeting ? Vec3(common_point() + meeting->on_a) : common_point(); }
   Vec3 acts_on_b() const { return meeting ? Vec3(common_point() + meeting->on_b) : common_point(); }
+  /// The places of either body that touch, as they are now.
+  const Vec3& touches_a() const { return meeting ? meeting->from_a : point_a; }
+  const Vec3& touches_b() const { return meeting ? meeting->from_b : point_b; }
 };
 
 /// Identity of a feature pair for warm starting: kinds and indices of the features on a and b.

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/core/interrupt.hpp"
+#include "engine/geometry/convex/convex_set.hpp"
 #include "engine/shapes/primitives.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
@@ -44,13 +45,21 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
   sort_by_pair(collisions);
 }
 
-/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. Balls may touch what can't
-/// move; of others that do new places come round in a turn, which only looks at the end find.
+/// A ball, and what is round about an axis: it may lie on what can't move, and flies on over it.
+bool may_roll(const Body& body) {
+  const ShapeForm form = body.shape->form();
+  const auto* solid = std::get_if<const ConvexSet*>(&form);
+  return body.shape->as<Sphere>() != nullptr || (solid != nullptr && (*solid)->is_round_about_y());
+}
+
+/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. What rolls may touch what can't
+/// move, which holds it until then (GroupSolve::solve_before_meeting); of others that do new places come round in a turn, which
+/// only looks at the end find.
 template <class Counts>
 std::vector<char> held_bodies(const Bodies& bodies, const std::vector<Collision>& collisions, Counts&& counts) {
   std::vector<char> held(static_cast<std::size_t>(bodies.size().value()), 0);
   const auto hold = [&](BodyIndex own, BodyIndex other) {
-    if (bodies[other].has_freedom() || bodies[own].shape->as<Sphere>() == nullptr) held[own] = 1;
+    if (bodies[other].has_freedom() || !may_roll(bodies[own])) held[own] = 1;
   };
   for (const Collision& c : collisions)
     if (counts(c)) hold(c.body_a, c.body_b), hold(c.body_b, c.body_a);
@@ -140,9 +149,12 @@ void end_flights(const Bodies& bodies, SubStep& step) {
   if (std::none_of(step.collisions.begin(), step.collisions.end(), is_flight)) return;
   const std::vector<char> held =
       held_bodies(bodies, step.collisions, [&](const Collision& c) { return !is_flight(c); });
+  std::vector<BodyPair> others;  // sorted: that touch in other places
+  for (const Collision& c : step.collisions)
+    if (!is_flight(c)) others.push_back({c.body_a, c.body_b});
   std::vector<BodyPair> ended;
   std::erase_if(step.collisions, [&](const Collision& c) {
-    if (!is_flight(c) || (held[c.body_a] == 0 && held[c.body_b] == 0)) return false;
+    if (!is_flight(c) || (held[c.body_a] == 0 && held[c.body_b] == 0 && !is_of_any(c, others))) return false;
     if (!is_of_any(c, ended)) ended.push_back({c.body_a, c.body_b});
     return true;
   });

@@ -6,6 +6,7 @@
 
 #include "engine/bodies/rigid_motion.hpp"
 #include "engine/contact/pair_scale.hpp"
+#include "engine/core/finite.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -18,12 +19,17 @@ namespace {
 
 constexpr double kAllowed = 0.04;  // of the activation distance: overlap at the end that is left to recovery
 constexpr double kOfRigid = 0.02;  // of the same: where neither deforms, and nothing of the answer is smooth over nodes
+/// Of the same: where two meet in flight, whose rebound is exact as long as that stays.
+constexpr double kOfFlight = 0.2;
 constexpr double kSwift = 10.0;    // of the same: an approach in which rigid bodies meet where their start doesn't show
 constexpr double kInHollow = 5.0;  // of the same: where one is hollow, from the inside of which nothing slides away
 constexpr double kDeepest = 100.0;        // of the same: what ends deeper has passed, and its normal says nothing
+constexpr double kFarFromThrough = 0.25;  // of a wall: overlap that leads nowhere
+constexpr double kShallow = 1e-3;         // of the same: overlap that contacts are believed
 constexpr std::size_t kMostOfMeshes = 3;  // contacts of two rigid meshes that a look brings
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
+bool is_ball(const Body& body) { return body.shape->as<Sphere>() != nullptr; }
 
 /// Of collisions in pair order.
 std::span<const Collision> of_pair(std::span<const Collision> all, const BodyPair& pair) {
@@ -48,6 +54,11 @@ bool may_hide(const Bodies& bodies, const BodyPair& pair, std::span<const Collis
   const Body &a = bodies[pair.a], &b = bodies[pair.b];
   if (has_plane(a, b)) return false;
   return !are_meshes(a, b) || !are_interlocked(collisions, pair);
+}
+
+/// Whether detection says how deep the two are where they stand, which of two meshes takes more (detection/triangles).
+bool tells_its_depth(const Body& a, const Body& b) {
+  return &a != &b && !has_plane(a, b) && !are_meshes(a, b) && !deforms(a) && !deforms(b);
 }
 
 bool is_hollow(const Shape& shape) { return wall_of(shape) < shape.thickness(); }
@@ -78,10 +89,13 @@ class EndPose {
 
   std::span<const Collider> colliders() const { return colliders_; }
 
-  /// The place at the start of the material that is at `x` at the end.
+  /// The place at the start of the material that is at `x` at the end; of a ball the place on the same side of it, which a
+  /// row can push without turning it, however far it rolls meanwhile.
   Vec3 at_start(BodyIndex b, TriangleIndex triangle, const Vec3& x) const {
     const Body& body = bodies_[b];
-    if (!deforms(body)) return body.pose.apply(colliders_[b].pose.apply_inverse(x));
+    const Pose& then = colliders_[b].pose;
+    if (is_ball(body)) return x + (body.pose.position - then.position);
+    if (!deforms(body)) return body.pose.apply(then.apply_inverse(x));
     const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
     const std::vector<Vec3>& end = vertices_[b];
     const Vec3 w = nearest_weights(x, {end[t[0]], end[t[1]], end[t[2]]});
@@ -163,10 +177,10 @@ std::vector<BodyPair> pairs_at_end(const Bodies& bodies, const ContactSettings& 
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
     if (pair.a == pair.b || a.asleep || b.asleep) continue;
     const bool is_passing = std::binary_search(step.passing.begin(), step.passing.end(), pair);
-    // where two meet in flight they have the contacts of that place alone; of a mesh on a plane others come round
+    // where two meet in flight they have the contacts of that place alone, and others come round; of a ball none do
     const bool has_mesh = a.shape->mesh() != nullptr || b.shape->mesh() != nullptr,
                is_flight = step.is_flight(pair.a, pair.b);
-    const bool comes_down = is_flight && has_plane(a, b) && (is_passing || has_mesh);
+    const bool comes_down = is_flight && (is_passing || has_mesh || !(is_ball(a) || is_ball(b)));
     if (is_flight && !comes_down) continue;
     if (step.group_of(pair.a).is_none() && step.group_of(pair.b).is_none()) continue;
     const double activation = contact.activation(pair_size(a, b));
@@ -197,13 +211,18 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
   std::erase_if(found, [&](Collision& c) {
     const double activation = by.contact.activation(pair_size(bodies[c.body_a], bodies[c.body_b]));
     const bool is_rigid = !deforms(bodies[c.body_a]) && !deforms(bodies[c.body_b]);
-    const double allowed = (is_rigid ? kOfRigid : kAllowed) * activation;
+    const double allowed = activation * (!is_rigid                            ? kAllowed
+                                         : step.is_flight(c.body_a, c.body_b) ? kOfFlight
+                                                                              : kOfRigid);
     const bool is_lost = c.gap < -kDeepest * activation && !has_plane(bodies[c.body_a], bodies[c.body_b]);
     if (c.gap >= -allowed || is_lost) return true;
     const double at_end = c.gap;
     c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a);
     c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);
     c.gap = c.normal.dot(c.point_a - c.point_b);
+    // a ball and what can't move come together from the side, and a push half way between them would turn it
+    if (!bodies[c.body_a].has_freedom() && is_ball(bodies[c.body_b])) c.point_a = c.point_b + c.gap * c.normal;
+    if (!bodies[c.body_b].has_freedom() && is_ball(bodies[c.body_a])) c.point_b = c.point_a - c.gap * c.normal;
     if (!c.normal_owner.is_none() && turns(c.normal_owner)) c.normal_owner = {};
     if (at_end >= std::min(c.gap, 0.0) - allowed) return true;
     ends.push_back(at_end);
@@ -236,6 +255,41 @@ std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std:
   for (const std::optional<Collision>& c : deepest_now(bodies, by, std::move(pairs)))
     depths.push_back(c ? -c->gap : 0.0);
   return depths;
+}
+
+double overlap_at_start(const Bodies& bodies, const SubStep& step, const BodyPair& pair) {
+  const Body &a = bodies[pair.a], &b = bodies[pair.b];
+  if (!tells_its_depth(a, b) || (a.has_freedom() && b.has_freedom())) return 0.0;
+  double depth = 0.0;
+  for (const Collision& c : of_pair(step.collisions, pair)) depth = std::max(depth, -c.gap);
+  return depth == 0.0 ? 0.0 : std::min(depth, kFarFromThrough * std::min(wall_of(*a.shape), wall_of(*b.shape)));
+}
+
+double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const GroupResult> solved, double known) {
+  struct Shown {
+    double depth;
+    BodyPair pair;
+  };
+  std::vector<Shown> doubtful;
+  const bool may_ask = by.contact.points == ContactPoints::proximity;
+  for (const GroupResult& result : solved)
+    for (const SolvedContact& c : result.solved) {
+      const auto& [a, b] = std::tie(c.collision.body_a, c.collision.body_b);
+      const double depth = -gap_of(c, bodies);
+      if (depth > known && c.lambda.isZero(0.0) && may_ask && tells_its_depth(bodies[a], bodies[b]) &&
+          depth > kShallow * by.contact.activation(pair_size(bodies[a], bodies[b])))
+        doubtful.push_back({depth, {a, b}});
+      else
+        known = larger(known, depth);
+    }
+  std::stable_sort(doubtful.begin(), doubtful.end(), [](const Shown& l, const Shown& r) { return l.depth > r.depth; });
+  std::set<BodyPair> asked;
+  for (const Shown& shown : doubtful) {
+    if (shown.depth <= known) break;
+    if (!asked.insert(shown.pair).second) continue;
+    known = std::max(known, overlaps_now(bodies, by, {shown.pair}).front());
+  }
+  return known;
 }
 
 }  // namespace impinge

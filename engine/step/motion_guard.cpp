@@ -318,7 +318,7 @@ void MotionGuard::search(const Bodies& bodies, std::vector<UnsafeMotion::Pair>& 
     paths.emplace_back(path_of(bodies[pair.a], pair.a), path_of(bodies[pair.b], pair.b));
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const Body &of_a = bodies[pairs[i].a], &of_b = bodies[pairs[i].b];
-    PassageSettings own = settings(of_a, of_b);
+    PassageSettings own = settings(pairs[i].a, pairs[i].b);
     const double seen = seen_of(bodies, pairs[i]);
     if (depth == Depth::safe)
       own.depth = pairs[i].safe;
@@ -364,7 +364,7 @@ void MotionGuard::forgive_grazes(const Bodies& bodies, std::vector<UnsafeMotion:
   const std::vector<double> depths = overlaps(of);
   std::size_t i = 0;
   std::erase_if(grazing, [&](const UnsafeMotion::Pair& pair) {
-    const double allowed = settings(bodies[pair.a], bodies[pair.b]).depth;
+    const double allowed = settings(pair.a, pair.b).depth;
     return depths[i++] > std::max(allowed, kShallow * seen_of(bodies, pair));
   });
   search(bodies, grazing, settings, Depth::graze);

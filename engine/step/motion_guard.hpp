@@ -35,7 +35,7 @@ struct UnsafeMotion {
 };
 
 /// What counts as a passage of two bodies.
-using PassagesOf = std::function<PassageSettings(const Body& a, const Body& b)>;
+using PassagesOf = std::function<PassageSettings(BodyIndex a, BodyIndex b)>;
 
 /// By pair of rigid bodies: how deep they overlap where they stand, metres; 0: they don't.
 using OverlapsOf = std::function<std::vector<double>(std::vector<BodyPair>)>;

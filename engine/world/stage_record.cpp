@@ -71,8 +71,8 @@ class Writer {
     std::vector<SolvedContact> contacts;
     for (const Collision& c : collisions) {
       const Body &a = bodies_[c.body_a], &b = bodies_[c.body_b];
-      contacts.push_back(unsolved_contact(c, a.surface_point(c.triangle_a, c.point_a),
-                                          b.surface_point(c.triangle_b, c.point_b),
+      contacts.push_back(unsolved_contact(c, a.surface_point(c.triangle_a, c.touches_a()),
+                                          b.surface_point(c.triangle_b, c.touches_b()),
                                           pair_friction(a, b, world_.parameters.contact), bodies_));
       if (entry_.kind == StageKind::groups)
         contacts.back().group = step_.group_of(a.has_freedom() ? c.body_a : c.body_b);

@@ -53,11 +53,14 @@ double pair_activation(const Bodies& bodies, const Parameters& parameters, const
   return activation_by(parameters.contact)(bodies[p.a], bodies[p.b]);
 }
 
-/// Of the activation distance of two bodies, metres, what counts as a passage; `is_kept`: of motions that are undone.
-PassagesOf passages_within(std::function<double(const Body&, const Body&)> activation, bool is_kept) {
-  return [activation = std::move(activation), is_kept](const Body& a, const Body& b) {
-    const double size = activation(a, b);
-    return PassageSettings{is_kept ? (&a == &b ? kSelfDepth : kDepth) * size : size, kReach * size};
+/// What counts as a passage, of the activation distance of two bodies; `is_kept`: of motions that are undone. What a sub-step
+/// finds in something else by more than that hasn't passed it on the way.
+PassagesOf passages_within(const Bodies& bodies, const ContactSettings& contact, const SubStep& step, bool is_kept) {
+  return [&, is_kept](BodyIndex a, BodyIndex b) {
+    const double size = activation_by(contact)(bodies[a], bodies[b]);
+    if (!is_kept) return PassageSettings{size, kReach * size};
+    return PassageSettings{a == b ? kSelfDepth * size : kDepth * size + overlap_at_start(bodies, step, {a, b}),
+                           kReach * size};
   };
 }
 
@@ -350,7 +353,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
   // what lives on overlap is only watched: no contact at a distance would hold it
   const bool is_kept = which != Continuous::off && !parameters.response.method->lives_on_overlap();
   const bool is_rough = is_kept && parameters.response.method->is_approximate();
-  const PassagesOf passages = passages_within(activation_by(parameters.contact), is_kept);
+  const PassagesOf passages = passages_within(bodies_, parameters.contact, *sub_step_, is_kept);
   const OverlapsOf overlaps = is_kept && !is_rough ? overlaps_by(bodies_, parameters) : OverlapsOf();
   const PairLength of_pair = [&](const UnsafeMotion::Pair& p) { return pair_activation(bodies_, parameters, p); };
   const PairLength seen = reach_of_rows(bodies_, *sub_step_, parameters.contact.turning_solves > 0);
@@ -409,10 +412,10 @@ void World::substep(double h, int left, FrozenStep* frozen) {
         if (unsafe) note_unsafe(*unsafe, substep, why_let_go(which, is_kept));
         break;
       }
-      if (tears)
-        share *= 0.5;
-      else
-        share *= ask_or_cut(bodies_, *unsafe, seen, of_pair, may_look_again(), motion <= kPatience, asking, *sub_step_);
+      const double part = tears ? 0.5
+                                : ask_or_cut(bodies_, *unsafe, seen, of_pair, may_look_again(), motion <= kPatience,
+                                             asking, *sub_step_);
+      if (part < 1.0) share *= part, sub_step_->brought.clear();  // which was of another end
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
     next = piece < kMostPieces ? std::max(kLeastShare, asking.next_share(share, motion)) : 1.0;

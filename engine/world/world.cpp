@@ -11,6 +11,7 @@
 #include "engine/ledger/ledger.hpp"
 #include "engine/step/act.hpp"
 #include "engine/step/drive.hpp"
+#include "engine/step/end_pose.hpp"
 #include "engine/step/free_velocities.hpp"
 #include "engine/step/integrate.hpp"
 #include "engine/step/remember.hpp"
@@ -292,9 +293,8 @@ void World::take_results(FrozenStep* frozen) {
       stats_.take_fixed();
     stats_.residual_coulomb = larger(stats_.residual_coulomb, result.verdict.relative);
     stats_.residual = larger(stats_.residual, result.verdict.residual());
-    for (const SolvedContact& c : result.solved)
-      stats_.substep_penetration = larger(stats_.substep_penetration, -gap_of(c, bodies_));
   }
+  stats_.substep_penetration = deepest_shown(bodies_, detecting(parameters), s.results, stats_.substep_penetration);
   if (frozen != nullptr)
     for (GroupResult& result : s.results) frozen->groups.push_back(std::move(*result.frozen));
   time_ += s.time_step;

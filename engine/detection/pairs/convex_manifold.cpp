@@ -258,6 +258,14 @@ std::vector<Candidate> convex_candidates(const PlacedConvex& first, const Placed
   for (const Candidate& c : points)
     if (c.normal.dot(gap.normal) > 1.0 - 1e-9) lowest = std::min(lowest, gap_of(c));
   if (lowest <= gap.gap + kTie * size) return points;
+  // what lies along an edge touches it with both ends of its line, though a face is near
+  const std::vector<Candidate> line = line_candidates(face_a, face_b, gap.normal);
+  if (line.size() > 1 && std::all_of(line.begin(), line.end(), [&](const Candidate& c) {
+        return std::abs(gap_of(c) - gap.gap) <= kTie * size;
+      })) {
+    points.insert(points.end(), line.begin(), line.end());
+    return points;
+  }
   Candidate own;
   own.normal = gap.normal;
   own.point_first = gap.point_a;

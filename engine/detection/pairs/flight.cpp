@@ -204,7 +204,10 @@ std::vector<Collision> contacts_where_they_meet(std::span<const Collider> collid
     return !is_near(c, query) && (c.gap < 0.0 || !(c.normal.dot(normal) > kSameFace));
   });
   for (Collision& c : found) {
-    Meeting meeting{time, {}, {}, !is_near(c, query)};
+    Meeting meeting;
+    meeting.time = time, meeting.is_after = !is_near(c, query);
+    meeting.from_a = a.pose.apply(then[0].pose.apply_inverse(c.point_a));
+    meeting.from_b = b.pose.apply(then[1].pose.apply_inverse(c.point_b));
     const Vec3 common = c.common_point();
     // back along straight lines, as rows see motion
     c.point_a -= time * then[0].velocity_at(c.point_a), c.point_b -= time * then[1].velocity_at(c.point_b);

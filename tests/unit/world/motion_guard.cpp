@@ -43,7 +43,7 @@ struct Edges {
     place(from);
     guard.open(bodies);
     place(to);
-    const PassagesOf settings = [](const Body&, const Body&) { return PassageSettings{1e-7, 2e-3}; };
+    const PassagesOf settings = [](BodyIndex, BodyIndex) { return PassageSettings{1e-7, 2e-3}; };
     return guard.look(bodies, Continuous::when_needed, settings, false, false, overlaps).has_value();
   }
 
