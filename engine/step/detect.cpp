@@ -45,11 +45,11 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
   sort_by_pair(collisions);
 }
 
-/// A ball, and what is round about an axis: it may lie on what can't move, and flies on over it.
+/// What is round about an axis may lie on what can't move, and flies on over it.
 bool may_roll(const Body& body) {
   const ShapeForm form = body.shape->form();
   const auto* solid = std::get_if<const ConvexSet*>(&form);
-  return body.shape->as<Sphere>() != nullptr || (solid != nullptr && (*solid)->is_round_about_y());
+  return solid != nullptr && (*solid)->is_round_about_y();
 }
 
 /// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. What rolls may touch what can't

@@ -265,6 +265,10 @@ double overlap_at_start(const Bodies& bodies, const SubStep& step, const BodyPai
   return depth == 0.0 ? 0.0 : std::min(depth, kFarFromThrough * std::min(wall_of(*a.shape), wall_of(*b.shape)));
 }
 
+bool is_idle_overlap(const Vec3& lambda, double gap, double activation) {
+  return lambda.isZero(0.0) && -gap > kShallow * activation;
+}
+
 double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const GroupResult> solved, double known) {
   struct Shown {
     double depth;
@@ -276,8 +280,8 @@ double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const 
     for (const SolvedContact& c : result.solved) {
       const auto& [a, b] = std::tie(c.collision.body_a, c.collision.body_b);
       const double depth = -gap_of(c, bodies);
-      if (depth > known && c.lambda.isZero(0.0) && may_ask && tells_its_depth(bodies[a], bodies[b]) &&
-          depth > kShallow * by.contact.activation(pair_size(bodies[a], bodies[b])))
+      if (depth > known && may_ask && tells_its_depth(bodies[a], bodies[b]) &&
+          is_idle_overlap(c.lambda, -depth, by.contact.activation(pair_size(bodies[a], bodies[b]))))
         doubtful.push_back({depth, {a, b}});
       else
         known = larger(known, depth);

@@ -28,9 +28,12 @@ std::vector<std::optional<Collision>> deepest_now(const Bodies& bodies, const De
 /// By pair, of rigid bodies: how deep that is, metres; 0: they don't overlap.
 std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std::vector<BodyPair> pairs);
 
+/// Whether a contact that carries nothing shows an overlap: its points may be those of another end than the bodies came to, and
+/// what is between them nothing.
+bool is_idle_overlap(const Vec3& lambda, double gap, double activation);
+
 /// How deep the solved contacts of a step show bodies in one another where these stand, or `known` where that is more, metres.
-/// The points of a contact that carries nothing may have been those of another end than the bodies came to, and what is between
-/// them nothing: of what would be the deepest and has a formula, detection says how deep it is.
+/// Of an idle overlap that would be the deepest, and has a formula, detection says how deep it is.
 double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const GroupResult> solved, double known);
 
 /// How deep the contacts of a rigid body and one that can't respond say that they are in one another where a sub-step begins,

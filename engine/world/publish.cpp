@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 
-#include "engine/contact/pair_coefficients.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/detection/contacts/deepest_vertex.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -21,7 +20,6 @@ namespace impinge {
 namespace {
 
 constexpr double kLeastOfEdges = 4e-4;  // of the activation distance: edges are shown that are deeper
-constexpr double kIdle = 1e-3;          // of the same: overlap that contacts are believed which carry nothing
 constexpr double kOfVertices = 1e-6;  // of the smaller body's extent: deeper vertices tell how deep a pair is, within 2
 
 /// Whether the two points of a contact have left each other sideways: what is between them is no longer what is between
@@ -29,11 +27,6 @@ constexpr double kOfVertices = 1e-6;  // of the smaller body's extent: deeper ve
 bool has_slid(const ContactRecord& c, double activation) {
   const Vec3 apart = c.point_a - c.point_b;
   return (apart - apart.dot(c.normal) * c.normal).norm() > activation;
-}
-
-/// Whether a contact that carries nothing shows an overlap: its points may be those of another end of the sub-step.
-bool is_idle_overlap(const ContactRecord& c, double activation) {
-  return c.lambda.isZero(0.0) && -c.gap > kIdle * activation;
 }
 
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.
@@ -104,7 +97,7 @@ void show_overlaps_of_shapes(const Bodies& bodies, const SubStep& step, const Pa
     if (is_of_shapes(pair) && (bends(pair.a) || bends(pair.b) || is_lost(pair))) pairs.push_back({pair.a, pair.b});
   for (const ContactRecord& c : record.contacts) {
     const BodyPair pair{c.body_a, c.body_b};
-    if (is_of_shapes(pair) && (has_slid(c, activation(pair)) || is_idle_overlap(c, activation(pair))))
+    if (is_of_shapes(pair) && (has_slid(c, activation(pair)) || is_idle_overlap(c.lambda, c.gap, activation(pair))))
       pairs.push_back(pair);
   }
   if (pairs.empty()) return;
@@ -205,12 +198,7 @@ void World::publish_found() {
   s.results.clear(), s.parted.clear();
   s.groups = find_groups(bodies_, s.contacts(attachments_));
   std::vector<SolvedContact> contacts;
-  for (const Collision& c : s.collisions) {
-    const Body &a = bodies_[c.body_a], &b = bodies_[c.body_b];
-    contacts.push_back(unsolved_contact(c, a.surface_point(c.triangle_a, c.touches_a()),
-                                        b.surface_point(c.triangle_b, c.touches_b()),
-                                        pair_friction(a, b, parameters.contact), bodies_));
-  }
+  for (const Collision& c : s.collisions) contacts.push_back(found_contact(c, bodies_, parameters.contact));
   for (GroupIndex g(0); g < s.groups.size(); ++g)
     for (const ContactIndex c : s.groups[g].contacts)
       if (c < contacts.size()) contacts[c].group = g;

@@ -1,6 +1,14 @@
 #include "engine/world/record_parts.hpp"
 
+#include "engine/contact/pair_coefficients.hpp"
+
 namespace impinge {
+
+SolvedContact found_contact(const Collision& c, const Bodies& bodies, const ContactSettings& settings) {
+  const Body &a = bodies[c.body_a], &b = bodies[c.body_b];
+  return unsolved_contact(c, a.surface_point(c.triangle_a, c.touches_a()), b.surface_point(c.triangle_b, c.touches_b()),
+                          pair_friction(a, b, settings), bodies);
+}
 
 ContactRecord carried(const SolvedContact& contact, const Bodies& bodies) {
   const Collision& c = contact.collision;

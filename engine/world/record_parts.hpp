@@ -9,6 +9,8 @@ namespace impinge {
 
 /// All but its group.
 BodyRecord record_of(const Body& body);
+/// Of detection, with the places of the bodies that touch; not solved.
+SolvedContact found_contact(const Collision& collision, const Bodies& bodies, const ContactSettings& settings);
 /// Its points and its normal carried with their bodies to where these are now.
 ContactRecord carried(const SolvedContact& contact, const Bodies& bodies);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/contact/pair_coefficients.hpp"
 #include "engine/step/find_pairs.hpp"
 #include "engine/world/record_parts.hpp"
 #include "engine/world/world.hpp"
@@ -70,12 +69,9 @@ class Writer {
   void found(const std::vector<Collision>& collisions) {
     std::vector<SolvedContact> contacts;
     for (const Collision& c : collisions) {
-      const Body &a = bodies_[c.body_a], &b = bodies_[c.body_b];
-      contacts.push_back(unsolved_contact(c, a.surface_point(c.triangle_a, c.touches_a()),
-                                          b.surface_point(c.triangle_b, c.touches_b()),
-                                          pair_friction(a, b, world_.parameters.contact), bodies_));
+      contacts.push_back(found_contact(c, bodies_, world_.parameters.contact));
       if (entry_.kind == StageKind::groups)
-        contacts.back().group = step_.group_of(a.has_freedom() ? c.body_a : c.body_b);
+        contacts.back().group = step_.group_of(bodies_[c.body_a].has_freedom() ? c.body_a : c.body_b);
     }
     add(contacts);
   }

@@ -223,6 +223,13 @@ double ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLe
   return ask_for(motion, any, step.asked) ? 1.0 : 0.5;
 }
 
+/// Takes out the rows that looks brought of an end which a cut motion doesn't come to. Their key is that of wherever a formula
+/// touches, also from where the motion starts; those of two meshes are of features with keys of their own.
+void forget_end(const Bodies& bodies, SubStep& step) {
+  const auto has_formula = [&](BodyIndex b) { return bodies[b].shape->mesh() == nullptr; };
+  std::erase_if(step.brought, [&](const Collision& c) { return has_formula(c.body_a) || has_formula(c.body_b); });
+}
+
 /// The largest even part of what is left of a sub-step that is no larger than `most`: the drift of an attachment is taken
 /// back within the next piece, and faster in a shorter one.
 double even_part(double rest, double most) { return rest / std::ceil(rest / most * (1.0 - 1e-12)); }
@@ -415,7 +422,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       const double part = tears ? 0.5
                                 : ask_or_cut(bodies_, *unsafe, seen, of_pair, may_look_again(), motion <= kPatience,
                                              asking, *sub_step_);
-      if (part < 1.0) share *= part, sub_step_->brought.clear();  // which was of another end
+      if (part < 1.0) share *= part, forget_end(bodies_, *sub_step_);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
     next = piece < kMostPieces ? std::max(kLeastShare, asking.next_share(share, motion)) : 1.0;

@@ -102,7 +102,7 @@ namespace {
 
 constexpr double kRadius = 0.05, kSpeed = 5.0, kBend = 3.0;  // metres, m/s, degrees
 
-/// Two faces, z along the joint at x = 0; `low` lies in y = 0.
+/// Two faces that meet at x = 0, z along the joint; that of x < 0 lies in y = 0.
 MeshPointer bent_track() {
   const double far = 3.0, up = far * std::tan(kBend * M_PI / 180.0);
   TriangleMesh mesh;
@@ -110,14 +110,6 @@ MeshPointer bent_track() {
     for (const double z : {-0.25, 0.25}) mesh.vertices.emplace_back(x, y, z);
   mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}};  // seen from above
   return surface(thickened(mesh, {SurfaceSides::front, 0.02}));
-}
-
-BodyDescription fixed_body(const char* name, SharedShape shape) {
-  BodyDescription body;
-  body.name = name;
-  body.kind = BodyKind::fixed;
-  body.shape = std::move(shape);
-  return body;
 }
 
 struct Rolled {
@@ -135,6 +127,7 @@ Rolled roll_over(World& world, SharedShape wheel, const Vec3& degrees, double st
   body.rotation = degrees;
   body.velocity = {kSpeed, 0.0, 0.0};
   body.angular_velocity = {0.0, 0.0, -kSpeed / kRadius};
+  const int place = static_cast<int>(world.bodies().size().value());
   world.add_body(body);
   world.start();
   const auto energy = [&] { return world.record().stats.kinetic + world.record().stats.potential; };
@@ -142,14 +135,14 @@ Rolled roll_over(World& world, SharedShape wheel, const Vec3& degrees, double st
   Rolled worst;
   for (int frame = 0; frame < 8; ++frame) {
     world.step();
-    const RigidBody& now = rigid(world, static_cast<int>(world.bodies().size().value()) - 1);
+    const RigidBody& now = rigid(world, place);
     const Vec3& x = now.pose.position;
     const double over = x.x() > 0.0 ? x.y() * std::cos(angle) - x.x() * std::sin(angle) : x.y();
     worst.hop = std::max(worst.hop, over - kRadius);
     const Vec3 spin = now.angular_velocity();
     worst.sway = std::max(worst.sway, std::hypot(spin.x(), spin.y()));
   }
-  REQUIRE(rigid(world, static_cast<int>(world.bodies().size().value()) - 1).pose.position.x() > 0.1);
+  REQUIRE(rigid(world, place).pose.position.x() > 0.1);
   worst.lost = (before - energy()) / kinetic;
   return worst;
 }
@@ -167,8 +160,7 @@ TEST_CASE("a ball that rolls up a bend of triangles loses what the bend takes, w
   for (const int substeps : {1, 2, 4, 8, 16})
     for (int phase = 0; phase < 12; ++phase) {
       World world;
-      BodyDescription track = fixed_body("track", bent_track());
-      world.add_body(track);
+      world.add_body(fixed_body("track", bent_track()));
       const Rolled r = roll_over(world, Sphere{kRadius}, Vec3::Zero(), -0.3 + 0.0069 * phase, substeps);
       INFO(substeps << " sub-steps, phase " << phase << ": lost " << r.lost << ", hop " << r.hop << ", bend "
                     << lost_at_bend(0.4));
@@ -184,9 +176,9 @@ TEST_CASE("a wheel that rolls from a floor onto a ramp flush with it goes on, an
     for (int phase = 0; phase < 12; ++phase) {
       World world;
       world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
-      BodyDescription ramp = fixed_body("ramp", Box(Vec3(half, thick, 0.5)));
-      ramp.position = {half * std::cos(angle) + thick * std::sin(angle),
-                       half * std::sin(angle) - thick * std::cos(angle), 0.0};
+      BodyDescription ramp = fixed_body(
+          "ramp", Box(Vec3(half, thick, 0.5)),
+          {half * std::cos(angle) + thick * std::sin(angle), half * std::sin(angle) - thick * std::cos(angle), 0.0});
       ramp.rotation = {0.0, 0.0, kBend};
       world.add_body(ramp);
       const Rolled r = roll_over(world, made("cylinder", {{"radius", kRadius}, {"length", 0.04}}), {90.0, 0.0, 0.0},
@@ -205,9 +197,7 @@ TEST_CASE("a ball that starts a little deep in a floor comes out of it as it rol
       World world;
       world.parameters.simulation.sleeping = false;
       world.parameters.simulation.substeps = substeps;
-      BodyDescription floor = fixed_body("floor", Box(Vec3(3.0, 0.1, 0.5)));
-      floor.position = {0.0, -0.1, 0.0};
-      world.add_body(floor);
+      world.add_body(fixed_body("floor", Box(Vec3(3.0, 0.1, 0.5)), {0.0, -0.1, 0.0}));
       BodyDescription ball = dynamic_body("ball", Sphere{kRadius}, {-1.0, kRadius - depth, 0.0});
       ball.velocity = {kSpeed, 0.0, 0.0};
       ball.angular_velocity = {0.0, 0.0, -kSpeed / kRadius};

@@ -12,12 +12,6 @@ using namespace impinge::test;
 
 namespace {
 
-BodyDescription fixed_body(const std::string& name, const SharedShape& shape) {
-  BodyDescription d = dynamic_body(name, shape, Vec3::Zero());
-  d.kind = BodyKind::fixed;
-  return d;
-}
-
 /// On a ball of a metre, `angle` from its lowest point.
 Vec3 on_ball(double angle) { return {std::sin(angle), -std::cos(angle), 0.0}; }
 

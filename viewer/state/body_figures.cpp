@@ -16,9 +16,8 @@ constexpr BodyFigure kBodyFigures[] = {
     {"contacts", "", F::contacts, 2, everywhere, "Contacts of the two that were handed to the response."},
     {"depth", "m", F::depth, 2, everywhere, "How far the two overlap, 0 if they don't."},
     {"gap", "m", F::gap, 2, everywhere,
-     "Smallest gap of their contacts, whose points go on with the material: where something rolls they rise from what "
-     "it "
-     "rolls on, and position_* tells more; without contacts, in conditions, how far their surfaces are apart."},
+     "Smallest gap of their contacts, whose points go on with the material: where something rolls they rise, and "
+     "position_* tells more. Without contacts, in conditions, how far their surfaces are apart."},
     {"force", "N", F::force, 2, everywhere, "Sum of the normal forces of their contacts, last sub-step."},
     {"speed", "m/s", F::speed, 1, everywhere, "Of the centre of mass."},
     {"energy", "J", F::energy, 1, conditions, "Kinetic, elastic and potential."},

@@ -242,7 +242,8 @@ std::vector<Candidate> convex_candidates(const PlacedConvex& first, const Placed
   const double facing_a = face_a.count > 2 ? -face_a.normal.dot(gap.normal) : -1.0;
   const double facing_b = face_b.count > 2 ? face_b.normal.dot(gap.normal) : -1.0;
   std::vector<Candidate> points;
-  if (std::max(facing_a, facing_b) > kNearlyFacing) {
+  const bool is_face = std::max(facing_a, facing_b) > kNearlyFacing;
+  if (is_face) {
     // equal within rounding: the first's, in every step
     const bool of_first = facing_a > facing_b - 1e-6;
     const ContactFace &reference = of_first ? face_a : face_b, &incident = of_first ? face_b : face_a;
@@ -259,7 +260,7 @@ std::vector<Candidate> convex_candidates(const PlacedConvex& first, const Placed
     if (c.normal.dot(gap.normal) > 1.0 - 1e-9) lowest = std::min(lowest, gap_of(c));
   if (lowest <= gap.gap + kTie * size) return points;
   // what lies along an edge touches it with both ends of its line, though a face is near
-  const std::vector<Candidate> line = line_candidates(face_a, face_b, gap.normal);
+  const std::vector<Candidate> line = is_face ? line_candidates(face_a, face_b, gap.normal) : std::vector<Candidate>();
   if (line.size() > 1 && std::all_of(line.begin(), line.end(), [&](const Candidate& c) {
         return std::abs(gap_of(c) - gap.gap) <= kTie * size;
       })) {

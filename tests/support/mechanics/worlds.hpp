@@ -50,6 +50,13 @@ inline BodyDescription dynamic_body(const std::string& name, const SharedShape& 
   return d;
 }
 
+inline BodyDescription fixed_body(const std::string& name, const SharedShape& shape,
+                                  const Vec3& position = Vec3::Zero()) {
+  BodyDescription d = dynamic_body(name, shape, position);
+  d.kind = BodyKind::fixed;
+  return d;
+}
+
 inline BodyDescription cube(const std::string& name, double size, const Vec3& position) {
   return dynamic_body(name, Box{Vec3::Constant(0.5 * size)}, position);
 }

@@ -201,18 +201,9 @@ namespace {
 
 /// An open heightfield with hills, 2 m × 2 m.
 TriangleMesh hilly_ground(int n) {
-  TriangleMesh mesh;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) {
-      const double x = 2.0 * i / n - 1.0, z = 2.0 * j / n - 1.0;
-      mesh.vertices.emplace_back(x, 0.1 * std::sin(9.0 * x) * std::cos(7.0 * z) - 0.6 * (x * x + z * z), z);
-    }
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const int v = i * (n + 1) + j;
-      mesh.triangles.push_back({v, v + 1, v + n + 2});
-      mesh.triangles.push_back({v, v + n + 2, v + n + 1});
-    }
+  TriangleMesh mesh = sheet(1.0, n);
+  for (Vec3& v : mesh.vertices)
+    v.y() = 0.1 * std::sin(9.0 * v.x()) * std::cos(7.0 * v.z()) - 0.6 * (v.x() * v.x() + v.z() * v.z());
   return mesh;
 }
 

@@ -18,18 +18,9 @@ namespace {
 
 /// Open, with hills: nothing is wholly inside it, and solid angles are no whole numbers.
 TriangleMesh hills(int n) {
-  TriangleMesh mesh;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j) {
-      const double x = 2.0 * i / n - 1.0, z = 2.0 * j / n - 1.0;
-      mesh.vertices.emplace_back(x, 0.3 * std::sin(5.0 * x) * std::cos(4.0 * z) - 0.4 * (x * x + z * z), z);
-    }
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const int v = i * (n + 1) + j;
-      mesh.triangles.push_back({v, v + 1, v + n + 2});
-      mesh.triangles.push_back({v, v + n + 2, v + n + 1});
-    }
+  TriangleMesh mesh = sheet(1.0, n);
+  for (Vec3& v : mesh.vertices)
+    v.y() = 0.3 * std::sin(5.0 * v.x()) * std::cos(4.0 * v.z()) - 0.4 * (v.x() * v.x() + v.z() * v.z());
   return mesh;
 }
 
