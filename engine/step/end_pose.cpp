@@ -7,6 +7,7 @@
 #include "engine/bodies/rigid_motion.hpp"
 #include "engine/contact/pair_scale.hpp"
 #include "engine/core/finite.hpp"
+#include "engine/geometry/convex/convex_set.hpp"
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
@@ -30,6 +31,13 @@ constexpr std::size_t kMostOfMeshes = 3;  // contacts of two rigid meshes that a
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 bool is_ball(const Body& body) { return body.shape->as<Sphere>() != nullptr; }
+
+/// Of what is round about an axis, or null.
+const ConvexSet* round_solid(const Shape& shape) {
+  const ShapeForm form = shape.form();
+  const auto* solid = std::get_if<const ConvexSet*>(&form);
+  return solid != nullptr && (*solid)->is_round_about_y() ? *solid : nullptr;
+}
 
 /// Of collisions in pair order.
 std::span<const Collision> of_pair(std::span<const Collision> all, const BodyPair& pair) {
@@ -89,12 +97,23 @@ class EndPose {
 
   std::span<const Collider> colliders() const { return colliders_; }
 
-  /// The place at the start of the material that is at `x` at the end; of a ball the place on the same side of it, which a
-  /// row can push without turning it, however far it rolls meanwhile.
-  Vec3 at_start(BodyIndex b, TriangleIndex triangle, const Vec3& x) const {
+  /// Whether it is a ball, or round about an axis that keeps its direction.
+  bool rolls(BodyIndex b) const {
+    if (is_ball(bodies_[b])) return true;
+    return round_solid(*bodies_[b].shape) != nullptr &&
+           rolls_about_y(bodies_[b].pose.rotation, colliders_[b].pose.rotation);
+  }
+
+  /// The place at the start of the material that is at `x` at the end, where it faces `faced`; of what rolls the place on the
+  /// same side of it, which a row can push without turning it, however far it rolls meanwhile.
+  Vec3 at_start(BodyIndex b, TriangleIndex triangle, const Vec3& x, const Vec3& faced) const {
     const Body& body = bodies_[b];
     const Pose& then = colliders_[b].pose;
     if (is_ball(body)) return x + (body.pose.position - then.position);
+    if (rolls(b)) {
+      const Vec3 from = then.rotation.transpose() * faced, to = body.pose.rotation.transpose() * faced;
+      return body.pose.apply(round_solid(*body.shape)->rolled(then.apply_inverse(x), from, to));
+    }
     if (!deforms(body)) return body.pose.apply(then.apply_inverse(x));
     const Triangle& t = body.shape->mesh()->mesh.triangles[triangle];
     const std::vector<Vec3>& end = vertices_[b];
@@ -217,12 +236,12 @@ std::vector<Collision> overlaps_at_end(const Bodies& bodies, const Detecting& by
     const bool is_lost = c.gap < -kDeepest * activation && !has_plane(bodies[c.body_a], bodies[c.body_b]);
     if (c.gap >= -allowed || is_lost) return true;
     const double at_end = c.gap;
-    c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a);
-    c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b);
+    c.point_a = end.at_start(c.body_a, c.triangle_a, c.point_a, -c.normal);
+    c.point_b = end.at_start(c.body_b, c.triangle_b, c.point_b, c.normal);
     c.gap = c.normal.dot(c.point_a - c.point_b);
-    // a ball and what can't move come together from the side, and a push half way between them would turn it
-    if (!bodies[c.body_a].has_freedom() && is_ball(bodies[c.body_b])) c.point_a = c.point_b + c.gap * c.normal;
-    if (!bodies[c.body_b].has_freedom() && is_ball(bodies[c.body_a])) c.point_b = c.point_a - c.gap * c.normal;
+    // what rolls and what can't move come together from the side, and a push half way between them would turn it
+    if (!bodies[c.body_a].has_freedom() && end.rolls(c.body_b)) c.point_a = c.point_b + c.gap * c.normal;
+    if (!bodies[c.body_b].has_freedom() && end.rolls(c.body_a)) c.point_b = c.point_a - c.gap * c.normal;
     if (!c.normal_owner.is_none() && turns(c.normal_owner)) c.normal_owner = {};
     if (at_end >= std::min(c.gap, 0.0) - allowed) return true;
     ends.push_back(at_end);
@@ -269,6 +288,10 @@ bool is_idle_overlap(const Vec3& lambda, double gap, double activation) {
   return lambda.isZero(0.0) && -gap > kShallow * activation;
 }
 
+bool have_parted(const Vec3& apart, const Vec3& normal, double activation) {
+  return (apart - apart.dot(normal) * normal).norm() > activation;
+}
+
 double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const GroupResult> solved, double known) {
   struct Shown {
     double depth;
@@ -278,10 +301,14 @@ double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const 
   const bool may_ask = by.contact.points == ContactPoints::proximity;
   for (const GroupResult& result : solved)
     for (const SolvedContact& c : result.solved) {
-      const auto& [a, b] = std::tie(c.collision.body_a, c.collision.body_b);
+      const BodyIndex a = c.collision.body_a, b = c.collision.body_b;
       const double depth = -gap_of(c, bodies);
-      if (depth > known && may_ask && tells_its_depth(bodies[a], bodies[b]) &&
-          is_idle_overlap(c.lambda, -depth, by.contact.activation(pair_size(bodies[a], bodies[b]))))
+      const auto is_doubtful = [&] {
+        const double activation = by.contact.activation(pair_size(bodies[a], bodies[b]));
+        const Vec3 apart = bodies[a].position_of(c.point_a) - bodies[b].position_of(c.point_b);
+        return is_idle_overlap(c.lambda, -depth, activation) || have_parted(apart, normal_of(c, bodies), activation);
+      };
+      if (depth > known && may_ask && tells_its_depth(bodies[a], bodies[b]) && is_doubtful())
         doubtful.push_back({depth, {a, b}});
       else
         known = larger(known, depth);

@@ -32,8 +32,12 @@ std::vector<double> overlaps_now(const Bodies& bodies, const Detecting& by, std:
 /// what is between them nothing.
 bool is_idle_overlap(const Vec3& lambda, double gap, double activation);
 
+/// Whether the two points of a contact have left each other sideways: what is between them is no longer what is between
+/// their bodies. `apart`: from B's to A's, metres.
+bool have_parted(const Vec3& apart, const Vec3& normal, double activation);
+
 /// How deep the solved contacts of a step show bodies in one another where these stand, or `known` where that is more, metres.
-/// Of an idle overlap that would be the deepest, and has a formula, detection says how deep it is.
+/// Of one that is idle, or whose points have parted, and would be the deepest, and has a formula, detection says how deep it is.
 double deepest_shown(const Bodies& bodies, const Detecting& by, std::span<const GroupResult> solved, double known);
 
 /// How deep the contacts of a rigid body and one that can't respond say that they are in one another where a sub-step begins,

@@ -22,11 +22,8 @@ namespace {
 constexpr double kLeastOfEdges = 4e-4;  // of the activation distance: edges are shown that are deeper
 constexpr double kOfVertices = 1e-6;  // of the smaller body's extent: deeper vertices tell how deep a pair is, within 2
 
-/// Whether the two points of a contact have left each other sideways: what is between them is no longer what is between
-/// their bodies.
 bool has_slid(const ContactRecord& c, double activation) {
-  const Vec3 apart = c.point_a - c.point_b;
-  return (apart - apart.dot(c.normal) * c.normal).norm() > activation;
+  return have_parted(c.point_a - c.point_b, c.normal, activation);
 }
 
 /// A contact of before the motion shows how far its own two points went, which is more or less than their bodies overlap.

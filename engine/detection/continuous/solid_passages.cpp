@@ -220,49 +220,86 @@ class SolidSearch {
         after = middle;
     }
     const ConvexGap then = convex_gap(at(when), {&triangle, Pose()});
+    const double approach = std::max((first - then.gap) / std::max(when - before, 1e-12), 1e-300);
+    for (const Touch& touch : touches(then, when, triangle.corners())) {
+      Passage p = passage_of(t, when, then.normal, touch);
+      p.time = before;
+      p.approach = approach;
+      const auto is_same = [&](const Passage& known) { return known.feature == p.feature; };
+      if (std::none_of(found_.begin(), found_.end(), is_same)) found_.push_back(p);
+    }
+  }
+
+  /// A place where it touches a triangle, as that one's body sees it.
+  struct Touch {
+    Vec3 point_a, point_b;
+    int end = 0;  // of a line: from 1 on; else 0
+  };
+
+  /// Of a line that lies along a face its ends over it: one of them alone would turn it.
+  std::vector<Touch> touches(const ConvexGap& then, double t, const TriangleCorners& face) const {
+    std::vector<Touch> ends;
+    if (is_round_ && is_normal_to(then.normal, face)) {
+      const PlacedConvex solid = at(t);
+      const ContactFace line = solid_.set->facing(solid.pose.rotation.transpose() * -then.normal);
+      for (int k = 0; k < line.count && line.count == 2; ++k) {
+        const Vec3 x = solid.pose.apply(line.point[static_cast<std::size_t>(k)]);
+        const double gap = then.normal.dot(x - face[0]);
+        const Vec3 on = x - gap * then.normal;
+        const TriangleFeature f = closest_on_triangle(on, face).feature;
+        if (!is_corner(f) && !is_edge(f) && gap - then.gap <= settings_.depth) ends.push_back({x, on, k + 1});
+      }
+    }
+    if (ends.empty()) ends.push_back({then.point_a, then.point_b});
+    return ends;
+  }
+
+  Passage passage_of(int t, double when, const Vec3& normal, const Touch& touch) const {
+    const ConvexTriangle triangle(surface_.mesh, t);
     Passage p;
-    p.time = before;
-    p.approach = std::max((first - then.gap) / std::max(when - before, 1e-12), 1e-300);
     p.triangle_b = TriangleIndex(t);
-    p.normal = other_.pose_at(when).rotation * then.normal;
-    p.point_a = own_.pose_at(0.0).apply(own_.pose_at(when).apply_inverse(other_.pose_at(when).apply(then.point_a)));
-    p.point_b = other_.pose_at(0.0).apply(then.point_b);
-    const TriangleFeature f = closest_on_triangle(then.point_b, triangle.corners()).feature;
+    p.normal = other_.pose_at(when).rotation * normal;
+    p.point_a = own_.pose_at(0.0).apply(own_.pose_at(when).apply_inverse(other_.pose_at(when).apply(touch.point_a)));
+    p.point_b = other_.pose_at(0.0).apply(touch.point_b);
+    const TriangleFeature f = closest_on_triangle(touch.point_b, triangle.corners()).feature;
     const auto at = static_cast<std::size_t>(t);
     Feature kind = Feature::face, own = Feature::vertex;
     int index = t;
     if (is_corner(f)) kind = Feature::vertex, index = surface_.mesh.triangles[at][feature_number(f)];
     if (is_edge(f)) kind = Feature::edge, index = surface_.topology.triangle_edges[at][feature_number(f)];
-    if (kind == Feature::face)
-      if (const auto rolls = rolling_from(when, then, triangle.corners())) {
+    if (kind == Feature::face && is_normal_to(normal, triangle.corners()))
+      if (const auto rolls = rolling_from(when, normal, touch.point_a)) {
         // its normal turns along with the face; behind the plane of one that it comes to over a ridge it isn't in that
-        const Vec3 normal = other_.pose_at(0.0).rotation * then.normal;
-        const double gap = normal.dot(*rolls - p.point_b);
+        const Vec3 face_now = other_.pose_at(0.0).rotation * normal;
+        const double gap = face_now.dot(*rolls - p.point_b);
         if (gap >= -settings_.depth) {
-          p.point_a = *rolls, p.point_b = *rolls - gap * normal, p.normal = normal;
+          p.point_a = *rolls, p.point_b = *rolls - gap * face_now, p.normal = face_now;
           own = Feature::shape;
         }
       }
-    p.feature = feature_key(own, number_, kind, index);
-    const auto is_same = [&](const Passage& known) { return known.feature == p.feature; };
-    if (std::none_of(found_.begin(), found_.end(), is_same)) found_.push_back(p);
+    p.feature = feature_key(own, number_ + touch.end, kind, index);
+    return p;
+  }
+
+  static bool is_normal_to(const Vec3& normal, const TriangleCorners& face) {
+    const Vec3 across = (face[1] - face[0]).cross(face[2] - face[0]);
+    return normal.cross(across).norm() <= kSameNormal * across.norm();
   }
 
   /// Of what rolls on a face not the place that comes round counts, but the one that touches now, and moves round it. None: it
-  /// doesn't roll, or not on the face itself, or it rocks, and what comes down is another end of it. `then`: as the
-  /// triangles' body sees it.
-  std::optional<Vec3> rolling_from(double t, const ConvexGap& then, const TriangleCorners& face) const {
-    const Vec3 across = (face[1] - face[0]).cross(face[2] - face[0]);
-    if (!is_round_ || !(then.normal.cross(across).norm() <= kSameNormal * across.norm())) return std::nullopt;
+  /// doesn't roll, or it rocks, and what comes down is another end of it. `normal`, `point`: as the triangles' body sees it.
+  std::optional<Vec3> rolling_from(double t, const Vec3& normal, const Vec3& point) const {
+    if (!is_round_) return std::nullopt;
     const Pose other = other_.pose_at(t);
     const PlacedConvex solid = placed(solid_, own_.pose_at(t)), first = placed(solid_, own_.pose_at(0.0));
-    const Vec3 x = other.apply(then.point_a), place = solid.pose.apply_inverse(x),
-               faced = other.rotation * -then.normal, faced_first = other_.pose_at(0.0).rotation * -then.normal;
+    const Vec3 x = other.apply(point), place = solid.pose.apply_inverse(x), faced = other.rotation * -normal,
+               faced_first = other_.pose_at(0.0).rotation * -normal;
     const Vec3 rolled = solid_.set->rolled(place, solid.pose.rotation.transpose() * faced,
                                            first.pose.rotation.transpose() * faced_first);
     const Vec3 now = first.pose.apply(rolled);
-    const bool is_near = (now - x).norm() <= kRolls * (x - solid.pose.position).norm();
-    return rolled != place && is_near ? std::optional(now) : std::nullopt;
+    const bool is_near = (now - x).norm() <= kRolls * (x - solid.pose.position).norm(),
+               rolls_on = rolls_about_y(solid.pose.rotation, first.pose.rotation);
+    return rolled != place && (is_near || rolls_on) ? std::optional(now) : std::nullopt;
   }
 
   const PlacedConvex solid_;

@@ -55,6 +55,12 @@ class ConvexSet {
   virtual const ConvexPolyhedron* polyhedron() const { return nullptr; }
 };
 
+/// Of what is round about its y axis, by its orientations now and then: whether it rolls, its axis keeping its direction.
+inline bool rolls_about_y(const Mat3& now, const Mat3& then) {
+  constexpr double kSameAxis = 1e-2;  // radians
+  return now.col(1).cross(then.col(1)).norm() <= kSameAxis;
+}
+
 /// Cosine of the angle to a direction up to which a face or line counts as facing it: about 14 degrees.
 constexpr double kNearlyFacing = 0.97;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/geometry/convex/convex_set.hpp"
+#include "engine/geometry/distance.hpp"
 #include "engine/geometry/triangle_mesh.hpp"
 
 namespace impinge {

@@ -61,6 +61,24 @@ Vec3 rolled(const Body& body, const Vec3& place, const Vec3& from, const Vec3& t
   return convex == nullptr ? place : (*convex)->rolled(place, from, to);
 }
 
+/// Of one side of a contact: where it touches at the end, if it is round and goes round; else where its material is then.
+Vec3 touches_then(const Body& body, const BodyEnd& end, const Vec3& now, const Vec3& material, const Vec3& faces,
+                  const Vec3& faces_then) {
+  if (body.kind() == BodyKind::deformable || !(end.turn <= kMostTurns)) return material;
+  const Vec3 place = body.pose.apply_inverse(now);
+  return end.pose.apply(
+      rolled(body, place, body.pose.rotation.transpose() * faces, end.pose.rotation.transpose() * faces_then));
+}
+
+/// Of what is round and leans on several sides: none of its places is farther out at the end than the one that touches then.
+double least_gap(const Bodies& bodies, const RowEnd& at) {
+  const Collision& c = *at.of;
+  Vec3 a = at.point_a, b = at.point_b;
+  if (c.normal_owner != c.body_a) a = touches_then(bodies[c.body_a], *at.a, c.point_a, a, -c.normal, -at.normal);
+  if (c.normal_owner != c.body_b) b = touches_then(bodies[c.body_b], *at.b, c.point_b, b, c.normal, at.normal);
+  return at.normal.dot(a - b);
+}
+
 /// Of a rigid body on another one's face: the velocity of their place half way, between the arms of now and then. Where
 /// the body is round that place moves round it, and its gap is that of the place which touches then.
 void roll(const Bodies& bodies, const RowEnd& at, const ContactRows& row, std::size_t i, EndRows& ends) {
@@ -133,7 +151,11 @@ EndRows rows_at_end(const Bodies& bodies, const AssembledGroup& group, const Con
   }
   if (!rolls) return ends;
   for_each_pair(rows, [&](std::size_t first, std::size_t last) {
-    if (!is_one_face(std::span(rows).subspan(first, last - first))) return;
+    if (!is_one_face(std::span(rows).subspan(first, last - first))) {
+      for (std::size_t i = first; i < last; ++i)
+        if (std::isfinite(ends.gaps[i])) ends.gaps[i] = std::min(ends.gaps[i], least_gap(bodies, rows[i]));
+      return;
+    }
     for (std::size_t i = first; i < last; ++i) roll(bodies, rows[i], group.system.contacts[i], i, ends);
   });
   if (trust == Trust::facets) roll_over_facets(bodies, group, settings, time_step, rows, ends);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kTouching = 0.02;         // of the activation distance: a corner that it stands on
 constexpr double kSweep = 2.0;             // of the turn: what comes down in it or in the next one
+constexpr double kAtOnce = 0.05;           // of the turn: what comes down together, as both ends of an edge do
 constexpr double kFinest = 0.25;           // radians between corners of what may be round
 constexpr double kSameFace = 1.0 - 1e-10;  // cosine
 
@@ -29,6 +30,7 @@ class FineFacets {
         ends_(ends) {}
 
   void roll(std::size_t first, std::size_t last) {
+    is_round_ = ends_.is_round;
     const std::vector<double> own(ends_.gaps.begin() + static_cast<std::ptrdiff_t>(first),
                                   ends_.gaps.begin() + static_cast<std::ptrdiff_t>(last));
     std::vector<std::size_t> takers, order(last - first);
@@ -68,8 +70,10 @@ class FineFacets {
     if (!(now.of->gap < kTouching * activation && now.of->gap < then.of->gap)) return false;
     if (!(now.of->normal.dot(then.of->normal) > kSameFace))
       return is_ball(now.body()) && distance(c, e) < kSweep * kSweep * way(now).squaredNorm();
+    if (is_round_[c] != 0 && is_round_[e] != 0) return false;  // both ends of a line, which goes round as a whole
     const Vec3 from = across(now), to = across(then);
-    return std::atan2(from.cross(to).norm(), from.dot(to)) < std::min(kSweep * turn_, kFinest);
+    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    return angle > kAtOnce * turn_ && angle < std::min(kSweep * turn_, kFinest);
   }
 
   bool is_ball(BodyIndex body) const { return bodies_[body].shape->as<Sphere>() != nullptr; }
@@ -87,6 +91,7 @@ class FineFacets {
   const Vec3 axis_;
   const double turn_;
   EndRows& ends_;
+  std::vector<char> is_round_;  // by row: before any answered for others
 };
 
 }  // namespace
