@@ -21,6 +21,8 @@ class FrameView {
   /// InputError (without a place) where the scene names a body that isn't there.
   void settle(const StepRecord& record, int width, int height);
   const ViewSettings& settings() const { return settings_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
   void move_camera(const CameraCommand& command, const StepRecord& record);
   void show(const BodiesCommand& command, const StepRecord& record);
 

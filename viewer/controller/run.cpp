@@ -295,6 +295,8 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
     const int frame = session.frame();
     tell_of_acts(watcher, frame, commands, session.record());
     stats.times.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
+    if (options.images && watcher.picture)
+      watcher.picture(session.record(), view.settings(), view.width(), view.height());
     if (freezes) {
       folder.add_frozen_step(frozen);
       result.frozen_step = folder.frozen_step(frame);

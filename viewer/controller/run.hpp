@@ -41,6 +41,8 @@ struct RunWatcher {
   std::function<void(const FrameStats& stats, int last_frame)> frame;
   /// The same frame's world; `is_driven`: commands before it may have given energy.
   std::function<void(const World& world, bool is_driven)> world;
+  /// Its picture is made, of this size in pixels.
+  std::function<void(const StepRecord& record, const ViewSettings& settings, int width, int height)> picture;
   /// Of a run that goes on: frames that are there already.
   std::function<void(const EarlierFrame& earlier)> earlier_frame;
   /// What is known after a frame, in bytes that are kept with its state; and the same back, once earlier_frame was

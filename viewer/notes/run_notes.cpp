@@ -4,13 +4,16 @@
 
 namespace impinge {
 
-std::string RunNotes::text() const { return convergence.text() + watchdog.text() + balance.text() + swell.text(); }
+std::string RunNotes::text() const {
+  return convergence.text() + watchdog.text() + balance.text() + swell.text() + empty.text();
+}
 
 void RunNotes::keep(NoteArchive& archive) {
   convergence.keep(archive);
   watchdog.keep(archive);
   balance.keep(archive);
   swell.keep(archive);
+  empty.keep(archive);
   archive.list(told, [&](std::string& line) { archive.keep(line); });
 }
 

@@ -4,6 +4,7 @@
 
 #include "viewer/notes/balance_note.hpp"
 #include "viewer/notes/convergence_note.hpp"
+#include "viewer/notes/empty_note.hpp"
 #include "viewer/notes/swell_note.hpp"
 #include "viewer/notes/watchdog_note.hpp"
 
@@ -14,6 +15,7 @@ struct RunNotes {
   WatchdogNote watchdog;
   BalanceNote balance;
   SwellNote swell;
+  EmptyNote empty;
   std::vector<std::string> told;  ///< lines that were said at once, of frames so far
 
   /// Their lines with their ends, "" if there is nothing to say.
