@@ -100,8 +100,9 @@ class EndPose {
   /// Whether it is a ball, or round about an axis that keeps its direction.
   bool rolls(BodyIndex b) const {
     if (is_ball(bodies_[b])) return true;
-    return round_solid(*bodies_[b].shape) != nullptr &&
-           rolls_about_y(bodies_[b].pose.rotation, colliders_[b].pose.rotation);
+    const ConvexSet* solid = round_solid(*bodies_[b].shape);
+    if (solid == nullptr) return false;
+    return solid->rounding() > 0.0 || rolls_about_y(bodies_[b].pose.rotation, colliders_[b].pose.rotation);
   }
 
   /// The place at the start of the material that is at `x` at the end, where it faces `faced`; of what rolls the place on the

@@ -87,22 +87,25 @@ bool ContactSink::add(const Candidate& c) {
     contact.normal = -c.normal;
     contact.triangle_a = TriangleIndex(c.triangle_second);
     contact.triangle_b = TriangleIndex(c.triangle_first);
-    contact.feature = feature_key(c.kind_second, c.index_second, c.kind_first, c.index_first);
   } else {
     contact.point_a = c.point_first;
     contact.point_b = c.point_second;
     contact.normal = c.normal;
     contact.triangle_a = TriangleIndex(c.triangle_first);
     contact.triangle_b = TriangleIndex(c.triangle_second);
-    contact.feature = feature_key(c.kind_first, c.index_first, c.kind_second, c.index_second);
   }
+  contact.feature = key_of(c);
   contacts_.push_back(contact);
   return true;
 }
 
+std::uint64_t ContactSink::key_of(const Candidate& c) const {
+  return swapped_ ? feature_key(c.kind_second, c.index_second, c.kind_first, c.index_first)
+                  : feature_key(c.kind_first, c.index_first, c.kind_second, c.index_second);
+}
+
 bool ContactSink::add_new(const Candidate& c) {
-  const std::uint64_t key = swapped_ ? feature_key(c.kind_second, c.index_second, c.kind_first, c.index_first)
-                                     : feature_key(c.kind_first, c.index_first, c.kind_second, c.index_second);
+  const std::uint64_t key = key_of(c);
   for (std::size_t i = begin_; i < contacts_.size(); ++i)
     if (contacts_[i].feature == key) return false;
   return add(c);
@@ -115,6 +118,18 @@ bool ContactSink::covers(const Candidate& c, double distance, double tie) const 
     if ((place - c.point_first).norm() <= distance && contacts_[i].gap <= gap + tie) return true;
   }
   return false;
+}
+
+void ContactSink::forget_beside(const Candidate& c, double distance) {
+  const std::uint64_t key = key_of(c);
+  const auto is_beside = [&](const Collision& known) {
+    const Vec3 &on_first = swapped_ ? known.point_b : known.point_a,
+               &on_second = swapped_ ? known.point_a : known.point_b;
+    return known.feature != key &&
+           ((on_first - c.point_first).norm() <= distance || (on_second - c.point_second).norm() <= distance);
+  };
+  const auto first = contacts_.begin() + static_cast<std::ptrdiff_t>(begin_);
+  contacts_.erase(std::remove_if(first, contacts_.end(), is_beside), contacts_.end());
 }
 
 }  // namespace impinge

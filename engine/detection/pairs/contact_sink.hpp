@@ -46,8 +46,12 @@ class ContactSink {
   /// Whether this sink has a contact no farther than `distance` from a candidate's point on the first shape, whose gap
   /// is no larger than the candidate's by more than `tie`: the candidate would say nothing new.
   bool covers(const Candidate& candidate, double distance, double tie) const;
+  /// Forgets contacts of other features no farther than `distance` from a candidate's points, on one of the shapes.
+  void forget_beside(const Candidate& candidate, double distance);
 
  private:
+  std::uint64_t key_of(const Candidate& candidate) const;
+
   const Collider* first_;
   const Collider* second_;
   BodyPair pair_;

@@ -10,6 +10,7 @@ namespace {
 constexpr double kNearlyParallel = 0.05;     // sine: lines closer to parallel than this are held at both ends
 constexpr double kMerge = 1e-4;              // of the smaller face: corners closer than this are one
 constexpr double kSameNormal = 1.0 - 1e-12;  // cosine: the way out is a face's normal
+constexpr double kSameWay = 1.0 - 1e-6;         // cosine: ways that are one, to 0.08 degrees
 constexpr double kTie = 1e-9;                // of the size: gaps closer than this are equal
 
 /// A corner of a clipped face. `edge` is where the side from it to the next lies: a side of the incident face (>= 0)
@@ -273,6 +274,12 @@ std::vector<Candidate> convex_candidates(const PlacedConvex& first, const Placed
   own.point_second = gap.point_b;
   if (std::max(facing_a, facing_b) > kSameNormal)
     own.owner = facing_a >= facing_b ? NormalOwner::first : NormalOwner::second;
+  // where two edges cross that touch there, the face beside one of them says nothing of the way out
+  const double near = std::abs(gap.gap) + kMerge * size;
+  std::erase_if(points, [&](const Candidate& c) {
+    return c.normal.dot(gap.normal) < kSameWay && c.kind_first == Feature::edge && c.kind_second == Feature::edge &&
+           ((c.point_first - own.point_first).norm() <= near || (c.point_second - own.point_second).norm() <= near);
+  });
   points.push_back(own);
   return points;
 }

@@ -17,6 +17,9 @@ constexpr double kNearlyFace = 0.97;
 /// The same where contacts are not sought again in the sub-step: a box that lands on a corner comes down on the next one.
 constexpr double kSideways = 0.5;
 
+/// Cosine of the angle of two directions that are one, 0.08 degrees.
+constexpr double kSameWay = 1.0 - 1e-6;
+
 /// Of the smaller box's thickness: a box that stands this much below the level of another's face passes over it.
 constexpr double kLevel = 1e-5;
 
@@ -84,11 +87,23 @@ int support(const OrientedBox& box, const Vec3& direction) {
   return (local.x() > 0.0 ? 1 : 0) | (local.y() > 0.0 ? 2 : 0) | (local.z() > 0.0 ? 4 : 0);
 }
 
+/// Metres: points no farther from each other are one.
+double same_place(const Boxes& boxes) {
+  return 1e-4 * std::min(boxes.first.half.minCoeff(), boxes.second.half.minCoeff());
+}
+
 void add_manifold(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, bool overlapping) {
   if (face.of_first)
     add_face_manifold(sink, boxes.first, boxes.second, face.axis, -face.normal, true, overlapping);
   else
     add_face_manifold(sink, boxes.second, boxes.first, face.axis, face.normal, false, overlapping);
+}
+
+/// A crossing is where one edge leaves the face beside the other, and the face's normal there is not the way out. Of boxes that
+/// lie flat it is, and corners keep their names.
+void keep_crossing(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, const Candidate& crossing) {
+  if (crossing.normal.dot(face.normal) > kSameWay) return;
+  sink.forget_beside(crossing, same_place(boxes) + std::abs(gap_of(crossing)));
 }
 
 void overlapping(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, const EdgeAxis& edge) {
@@ -111,8 +126,10 @@ void overlapping(ContactSink& sink, const Boxes& boxes, const FaceAxis& face, co
   c.index_second = kCrossing + edge_second;
   sink.add(c);
   // but not where the face lies much deeper than the crossing: that would push farther than the way out
-  if (edge.normal.dot(face.normal) > kNearlyFace && face.separation > 1.05 * edge.separation - sink.reach())
+  if (edge.normal.dot(face.normal) > kNearlyFace && face.separation > 1.05 * edge.separation - sink.reach()) {
     add_manifold(sink, boxes, face, true);
+    keep_crossing(sink, boxes, face, c);
+  }
 }
 
 /// A corner of one box and where the other is nearest to it.
@@ -239,10 +256,10 @@ void separated(ContactSink& sink, const Boxes& boxes, const FaceAxis& face) {
   if (normal.dot(face.normal) > (sink.query().either_may_stop ? kSideways : kNearlyFace))
     add_manifold(sink, boxes, face, false);
   // corners seen from both boxes, or held by the manifold already, count once
-  const double same_place = 1e-4 * std::min(boxes.first.half.minCoeff(), boxes.second.half.minCoeff());
   const auto add = [&](const Candidate& c) {
-    if (!sink.covers(c, same_place, 100.0 * boxes.tie)) sink.add_new(c);
+    if (!sink.covers(c, same_place(boxes), 100.0 * boxes.tie)) sink.add_new(c);
   };
+  if (edges_nearest) keep_crossing(sink, boxes, face, crossing);
   add(edges_nearest ? crossing : corner_candidate(corners[nearest]));
   // further corners that face the same way: the other end of two parallel edges
   for (const CornerDistance& d : corners)
