@@ -1,10 +1,11 @@
-// The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls in the way: see-through.
+// The bodies' surfaces. At rest: nearly grey. Static: grey. Scripted: pale with bands. Walls and containers in the way: see-through.
 #include <algorithm>
 #include <optional>
 
 #include "engine/shapes/primitives.hpp"
 #include "viewer/draw/body_color.hpp"
 #include "viewer/layers/body_style.hpp"
+#include "viewer/layers/container.hpp"
 #include "viewer/layers/layer.hpp"
 
 namespace impinge {
@@ -28,7 +29,8 @@ void draw_meshes(const LayerContext& context, DrawList& list) {
     item.striped = body.kind == BodyKind::scripted;
     item.asleep = body.asleep;
     if (body.asleep) item.color = asleep_color(item.color);
-    item.see_through = is_wall_in_the_way(body, context.camera);
+    item.see_through =
+        is_wall_in_the_way(body, context.camera) || hides_what_is_inside(context.record, i, context.camera.eye);
     list.surfaces.push_back(std::move(item));
     if (is_wall(body)) {
       const Vec3 half = body.shape->as<Box>()->half;
@@ -49,14 +51,14 @@ std::optional<Color> color_of_sleepers(const DrawList& list) {
 }  // namespace
 
 Layer meshes_layer() {
-  return {
-      "meshes",
-      "The bodies' surfaces: bodies asleep nearly grey, static grey, scripted banded, walls in the way see-through.",
-      true,
-      draw_meshes,
-      {{LegendRow::area, role::kScripted, "scripted body"},
-       {LegendRow::area, role::kStatic, "static body"},
-       {LegendRow::area, {}, "body asleep (at rest)", nullptr, nullptr, color_of_sleepers}}};
+  return {"meshes",
+          "The bodies' surfaces: bodies asleep nearly grey, static grey, scripted banded, walls and containers in the "
+          "way see-through.",
+          true,
+          draw_meshes,
+          {{LegendRow::area, role::kScripted, "scripted body"},
+           {LegendRow::area, role::kStatic, "static body"},
+           {LegendRow::area, {}, "body asleep (at rest)", nullptr, nullptr, color_of_sleepers}}};
 }
 
 }  // namespace impinge
