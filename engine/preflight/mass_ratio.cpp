@@ -38,6 +38,12 @@ double most_ratio(const Parameters& p) {
 /// (share_of_turns, most_apart, passive_share), and take some of it.
 double most_pull(const Parameters& p) { return p.response.method.name() == "soft_constraint" ? 0.005 : 0.025; }
 
+/// What hangs and swings under its load keeps its energy whatever that weighs (step/turns/tension).
+bool slows_taut_bodies(const Parameters& p) {
+  const auto& method = p.response.method;
+  return !method->is_approximate() && !method->lives_on_overlap();
+}
+
 /// Two links that hang on one another and carry the most for their masses and levers; one link alone only turns with its
 /// load, and holds.
 std::vector<Finding> find_hung(const World& world) {
@@ -63,9 +69,9 @@ std::vector<Finding> find_hung(const World& world) {
   const Body& body = world.bodies()[at];
   const double mass = hung[static_cast<std::size_t>(at.value())].mass, ratio = mass / body.mass;
   return {{fmt::format("on '{}', which is joined to '{}' and weighs {}, hang {}, {:.3g} times as much; in sub-steps of "
-                       "{} such a chain keeps its energy up to {:.2g} times",
+                       "{} such a chain keeps its energy up to {:.2g} times{}",
                        body.name, world.bodies()[other].name, mass_text(body.mass), mass_text(mass), ratio,
-                       time_text(h), ratio * most / worst),
+                       time_text(h), ratio * most / worst, slows_taut_bodies(p) ? " where it whips" : ""),
            "take " + shorter_substeps(p, std::sqrt(worst / most)) + ", or masses nearer to each other"}};
 }
 

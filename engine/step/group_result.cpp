@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/bodies/scale.hpp"
 #include "engine/contact/attachments.hpp"
 
 namespace impinge {
@@ -37,6 +38,14 @@ Vec3 normal_of(const SolvedContact& contact, const Bodies& bodies) {
   return owner.is_none() ? contact.collision.normal : Vec3(bodies[owner].pose.rotation * contact.local_normal);
 }
 
+bool is_held(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
+  const auto holds = [&](BodyIndex b) { return b.is_none() || !bodies[b].has_freedom(); };
+  return std::any_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex i) {
+    const auto [a, b] = contacts.bodies(i);
+    return holds(a) || holds(b);
+  });
+}
+
 bool floats(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts) {
   const auto is_rigid = [&](BodyIndex b) { return !b.is_none() && bodies[b].kind() == BodyKind::dynamic; };
   return std::all_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex i) {
@@ -50,6 +59,18 @@ bool is_driven(const Bodies& bodies, const CollisionGroup& group, const ContactL
   return std::any_of(group.contacts.begin(), group.contacts.end(), [&](ContactIndex i) {
     const auto [a, b] = contacts.bodies(i);
     return is_scripted(a) || is_scripted(b);
+  });
+}
+
+bool is_on_its_way(const Bodies& bodies, const CollisionGroup& group, const Vec3& gravity, double time_step) {
+  constexpr double kMoves = 0.03;  // of √(g size)
+  return std::any_of(group.bodies.begin(), group.bodies.end(), [&](BodyIndex b) {
+    const Body& body = bodies[b];
+    const double fast = kMoves * speed_scale(scale_gravity(gravity), body.size);
+    if (body.kind() != BodyKind::dynamic) return body.fastest_point() > fast;
+    const Twist free = body.twist();
+    const Vec3 before = free.linear - time_step * gravity;
+    return before.norm() + free.angular.norm() * body.radius > fast;
   });
 }
 

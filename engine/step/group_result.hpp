@@ -79,10 +79,15 @@ struct GroupResult {
   double assemble_ms = 0.0, response_ms = 0.0;
 };
 
-/// Whether nothing holds the group but its own rigid bodies one another; whether somebody moves bodies of it by a motion of his
-/// own.
+/// Whether something without freedom holds the group; whether nothing does but its own rigid bodies one another; whether somebody
+/// moves bodies of it by a motion of his own.
+bool is_held(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts);
 bool floats(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts);
 bool is_driven(const Bodies& bodies, const CollisionGroup& group, const ContactList& contacts);
+
+/// Whether a body of the group does not come to rest yet, by its free velocity without what gravity has given to it in the
+/// sub-step.
+bool is_on_its_way(const Bodies& bodies, const CollisionGroup& group, const Vec3& gravity, double time_step);
 
 /// What the rows of a solved group gave, into `rows` and `row_impulse` of its result.
 void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const CollisionGroup& group,

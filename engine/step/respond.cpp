@@ -13,6 +13,7 @@
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/roots/group_root.hpp"
 #include "engine/step/tasks.hpp"
+#include "engine/step/turns/tension.hpp"
 #include "engine/step/turns/turning.hpp"
 
 namespace impinge {
@@ -24,9 +25,9 @@ constexpr double kPushOutTolerance = 1e-3;
 constexpr double kPushOutOfMany = 7e-4;
 constexpr double kWorthwhile = 0.9;               // of what turning took before another solve: more is no gain
 constexpr int kLonger = 2, kFewIterations = 100;  // of what the solve before turning took; and where that was nothing
-constexpr double kEnergyTolerance = 1e-7;
+constexpr double kEnergyTolerance = 1e-7,
+                 kSlowedWins = 1e-3;        // of the energy; of what is slowed, which wins and loses some
 constexpr std::size_t kManyContacts = 300;  // of a group whose solves are worth waiting with
-constexpr double kMoves = 0.03;             // of √(g size): the speed of a body of what does not come to rest yet
 // relative residuals: that tells where contacts are missed, and a large group may keep it; of sweeps that are told turns
 constexpr double kRoughly = 1e-3, kTold = 1e-4;
 // a task should last longer than it takes to wake a thread: some 20 µs
@@ -44,7 +45,7 @@ class GroupSolve {
     is_rough_ = may_wait() && now_.deformable.empty();
     if (is_large()) trust_ = Trust::none;  // each other answer would be as dear as the first
     solve_before_meeting();
-    solve_expecting_turns();
+    solve_slowed();
     pay_for_recovery();
     find_root();
     follow_turns();
@@ -83,6 +84,20 @@ class GroupSolve {
                                         index_.value(), names, error.what()));
     }
     count(result_.response);
+  }
+
+  /// What is taut swings no faster than the sub-step sees, but where that would win energy, as of a chain that whips.
+  void solve_slowed() {
+    const bool may = !how_.response.is_approximate() && !how_.response.lives_on_overlap();
+    const std::vector<RigidBlock> as_they_are = system().rigid;
+    const std::vector<Vec3> start = system().lambda;
+    const bool is_slowed =
+        may && is_held(bodies_, group_, input_.contacts) && slow_taut_bodies(system(), input_.time_step);
+    solve_expecting_turns();
+    if (!is_slowed || !wins_energy(kSlowedWins)) return;
+    forget_turns();
+    system().rigid = as_they_are, system().lambda = start, system().assembled.reset();
+    solve_expecting_turns();
   }
 
   /// Solves, by rows that know already what turning would take with the velocities expected; without where those have no
@@ -167,22 +182,9 @@ class GroupSolve {
     return now_.deformable.empty() || how_.integrator.newton() == nullptr;  // A is that of the answer
   }
 
-  /// Whether a body of it is on its way, by its free velocity without what gravity has given to it in the piece.
-  bool moves() const {
-    return std::any_of(group_.bodies.begin(), group_.bodies.end(), [&](BodyIndex b) {
-      const Body& body = bodies_[b];
-      const double fast = kMoves * speed_scale(input_.gravity, body.size);
-      if (body.kind() != BodyKind::dynamic) return body.fastest_point() > fast;
-      const Twist free = body.twist();
-      const Vec3 before = free.linear - input_.time_step * how_.context.gravity;
-      return before.norm() + free.angular.norm() * body.radius > fast;
-    });
-  }
+  bool moves() const { return is_on_its_way(bodies_, group_, how_.context.gravity, input_.time_step); }
 
-  void forget_turns() {
-    forget_turning(system(), bounds_);
-    are_told_ = false;
-  }
+  void forget_turns() { forget_turning(system(), bounds_), are_told_ = false; }
 
   /// Whether there is an answer to go on with: of many rigid bodies one that is near the exact one serves, too. So it does
   /// of sweeps that creep because rows are told turns by spins of before, and strain by what the one who drives them changes.
@@ -277,10 +279,10 @@ class GroupSolve {
   }
 
   /// Unless it is driven by somebody, who may give it some.
-  bool wins_energy() const {
+  bool wins_energy(double tolerance = kEnergyTolerance) const {
     if (is_driven(bodies_, group_, input_.contacts)) return false;
     const auto [won, free] = energy_won(bodies_, now_);
-    return won > free * kEnergyTolerance;
+    return won > free * tolerance;
   }
 
   void close() {
@@ -373,12 +375,10 @@ class GroupSolve {
       if (!s.next_start.empty()) result_.starts.push_back(s.contacts[i].directions.transpose() * s.next_start[i]);
       const Collision* collision = input_.contacts.collision(c);
       if (collision == nullptr) continue;
-      const auto& [a, b] = now_.points[i];
-      SolvedContact solved = unsolved_contact(*collision, a, b, s.contacts[i].friction, bodies_);
-      solved.lambda = s.lambda[i];
-      solved.state = state_of(solved.lambda, solved.friction);
-      solved.group = index_;
-      solved.residual = result_.verdict.of_contacts[i];
+      SolvedContact solved =
+          unsolved_contact(*collision, now_.points[i].first, now_.points[i].second, s.contacts[i].friction, bodies_);
+      solved.lambda = s.lambda[i], solved.state = state_of(solved.lambda, solved.friction);
+      solved.group = index_, solved.residual = result_.verdict.of_contacts[i];
       if (now_.meeting > 0.0) result_.slips.emplace_back(s.contact_velocity(i, false), s.contact_velocity(i, true));
       result_.solved.push_back(std::move(solved));
     }
