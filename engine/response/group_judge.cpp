@@ -17,29 +17,41 @@ double asked(const GroupSystem& group, std::size_t i) {
   return group.contacts[i].has_one_row() ? std::abs(u.x()) : u.norm();
 }
 
-/// What velocities of this size are known to: bodies that fly together ask for nothing, and a share of that says nothing.
-double rounding(const GroupSystem& group) {
+}  // namespace
+
+// bodies that fly together, or turn about what holds them, ask for no more, and a share of that says nothing
+double rounding_of_speeds(const GroupSystem& group) {
   double speed = 0.0;
   for (const RigidBlock& block : group.rigid) speed = std::max(speed, block.velocity.norm());
+  for (const ContactRows& row : group.contacts) {
+    for (const ContactSide* side : {&row.a, &row.b}) {
+      if (side->rigid < 0) continue;
+      const RigidBlock& block = group.rigid[side->rigid];
+      speed = std::max(speed, block.velocity.norm() + block.angular_velocity.norm() * side->arm.norm());
+    }
+  }
   for (const DeformableBlock& block : group.deformable)
     if (block.velocity.size() > 0) speed = std::max(speed, block.velocity.cwiseAbs().maxCoeff());
   return 64.0 * std::numeric_limits<double>::epsilon() * speed;
 }
 
-}  // namespace
+double most_asked(const GroupSystem& group) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < group.contacts.size(); ++i) most = std::max(most, asked(group, i));
+  return most;
+}
 
 bool starts_too_high(const GroupSystem& group, std::span<const Vec3> start) {
   constexpr double kTooHigh = 1e10;
-  double given = 0.0, wanted = 0.0;  // m/s
-  for (std::size_t i = 0; i < group.contacts.size(); ++i) {
-    wanted = std::max(wanted, asked(group, i));
+  double given = 0.0;  // m/s
+  const double wanted = most_asked(group);
+  for (std::size_t i = 0; i < group.contacts.size(); ++i)
     for (const ContactSide* side : {&group.contacts[i].a, &group.contacts[i].b})
       if (side->rigid >= 0) given = std::max(given, group.rigid[side->rigid].inverse_mass * start[i].norm());
-  }
-  return wanted <= rounding(group) || given > kTooHigh * wanted;
+  return wanted <= rounding_of_speeds(group) || given > kTooHigh * wanted;
 }
 
-GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal) {
+GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal, double rounding) {
   GroupVerdict verdict;
   double scale = 0.0;
   verdict.of_contacts.assign(group.contacts.size(), 0.0);
@@ -98,7 +110,7 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
       verdict.momentum =
           larger(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
-  const double known = rounding(group);
+  const double known = std::max(rounding, rounding_of_speeds(group));
   const auto relative = [&](double map) { return map <= known ? 0.0 : scale > 0.0 ? map / scale : map; };
   verdict.relative = relative(verdict.natural_map);
   for (double& map : verdict.of_contacts) map = relative(map);

@@ -18,8 +18,16 @@ struct GroupVerdict {
 };
 
 /// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them;
-/// otherwise a deformable body enters by its nodes' own blocks.
-GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr);
+/// otherwise a deformable body enters by its nodes' own blocks. `rounding`: m/s, where somebody knows that positions make it
+/// more than the bodies' speeds do (step/rounding_speed.hpp).
+GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr,
+                         double rounding = 0.0);
+
+/// What the velocities of its bodies' points are known to, m/s.
+double rounding_of_speeds(const GroupSystem& group);
+
+/// The velocity that rows ask for, max |J v* - bound|, m/s.
+double most_asked(const GroupSystem& group);
 
 /// Whether that is no start for λ: nothing is asked for beyond rounding, or so much less than it gives to rigid bodies that
 /// it would leave rounding of its own size. So it is with what a blow gave, in bodies that fly on together.

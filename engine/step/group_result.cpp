@@ -14,6 +14,16 @@ double fastest_point(const BodyVector& velocity, double radius) {
   return fastest;
 }
 
+double share_of_push_out(const Bodies& bodies, const CollisionGroup& group, const Threshold& most, double gravity,
+                         std::span<const double> fastest) {
+  double share = 1.0;
+  for (std::size_t i = 0; i < fastest.size(); ++i) {
+    const double allowed = most.at(speed_scale(gravity, bodies[group.bodies[i]].size));
+    if (fastest[i] > allowed) share = std::min(share, allowed / fastest[i]);
+  }
+  return share;
+}
+
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
                                double friction, const Bodies& bodies) {
   SolvedContact contact;

@@ -28,6 +28,11 @@ inline ContactKey key_of(const Collision& c) { return {c.body_a, c.body_b, c.fea
 /// Of a body that moves so; `radius`: how far a rigid one reaches, metres. m/s.
 double fastest_point(const BodyVector& velocity, double radius);
 
+/// The largest part of a recovery that moves no point of a body faster than `most` allows; `fastest`: by body of the group,
+/// m/s.
+double share_of_push_out(const Bodies& bodies, const CollisionGroup& group, const Threshold& most, double gravity,
+                         std::span<const double> fastest);
+
 /// The collision at the bodies' present poses, not solved.
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
                                double friction, const Bodies& bodies);

@@ -12,6 +12,7 @@
 #include "engine/response/least_violation.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/roots/group_root.hpp"
+#include "engine/step/rounding_speed.hpp"
 #include "engine/step/tasks.hpp"
 #include "engine/step/turns/tension.hpp"
 #include "engine/step/turns/turning.hpp"
@@ -60,6 +61,7 @@ class GroupSolve {
   void make_system() {
     const StageTimer timer(result_.assemble_ms);
     now_ = assemble(input_, group_);
+    rounding_ = rounding_speed(bodies_, now_, input_.time_step);
     bounds_.clear();
     for (const ContactRows& row : system().contacts) bounds_.push_back(row.bound);
   }
@@ -70,7 +72,11 @@ class GroupSolve {
     if (is_rough_) context.lcp.tolerance = std::max(context.lcp.tolerance, kRoughly);
     solve(context);
   }
-  void solve(const ResponseContext& context) {
+  void solve(ResponseContext context) {
+    // a share of what is rounding says nothing
+    const double asked = most_asked(system());
+    if (asked > 0.0 && asked <= rounding_ && !how_.response.lives_on_overlap())
+      context.lcp.tolerance = std::max(context.lcp.tolerance, rounding_ / asked);
     if (how_.freezes) result_.frozen = freeze(system());  // before a later Newton iteration takes A anew
     if (how_.watcher != nullptr) how_.watcher->solving(index_, now_, how_);
     const StageTimer timer(result_.response_ms);
@@ -84,7 +90,9 @@ class GroupSolve {
                                         index_.value(), names, error.what()));
     }
     count(result_.response);
+    if (!result_.response.converged() && judge().relative == 0.0) result_.response.ended = StopReason::converged;
   }
+  GroupVerdict judge() { return judge_group(system(), nullptr, rounding_); }
 
   /// What is taut swings no faster than the sub-step sees, but where that would win energy, as of a chain that whips.
   void solve_slowed() {
@@ -191,10 +199,10 @@ class GroupSolve {
   bool is_usable() {
     if (result_.response.converged()) return true;
     if (are_told_ && !how_.response.uses_cone_solver() && is_driven(bodies_, group_, input_.contacts) &&
-        judge_group(system()).relative <= kTold)
+        judge().relative <= kTold)
       return true;
     if (!is_large() || !now_.deformable.empty() || how_.response.is_approximate()) return false;
-    return judge_group(system()).relative <= kRoughly;
+    return judge().relative <= kRoughly;
   }
 
   /// Newton schemes: the same contacts at each iterate, whose A and b are those of the motion that contact allows.
@@ -248,7 +256,7 @@ class GroupSolve {
         std::min(context.lcp.max_iterations, kLonger * std::max(before_, result_.response.iterations) + kFewIterations);
     // what is on its way and had no exact answer without turning has none with it
     const bool is_loose = !result_.response.converged() && context.lcp.is_in_motion;
-    if (is_loose) context.lcp.tolerance = std::max(context.lcp.tolerance, judge_group(system()).relative);
+    if (is_loose) context.lcp.tolerance = std::max(context.lcp.tolerance, judge().relative);
     for (int i = 0; i < how_.contact.turning_solves && lost > 0.0; ++i) {
       check_interrupt();
       GroupSystem system_before = system();
@@ -256,7 +264,7 @@ class GroupSolve {
       std::optional<FrozenGroup> frozen_before = result_.frozen;
       ask_for_turning(system(), ends, bounds_, how_.contact, input_.time_step);
       solve(context);
-      if (is_loose && !(judge_group(system()).relative <= how_.context.lcp.tolerance))
+      if (is_loose && !(judge().relative <= how_.context.lcp.tolerance))
         result_.response.ended = response_before.ended, result_.response.limit = response_before.limit;
       double now = INFINITY;
       EndRows ends_now;
@@ -287,7 +295,7 @@ class GroupSolve {
 
   void close() {
     const StageTimer timer(result_.response_ms);
-    result_.verdict = judge_group(system());  // of stage 12: the judge sees the group while its system stands
+    result_.verdict = judge();  // of stage 12: the judge sees the group while its system stands
     result_.is_usable = result_.is_at_root && is_usable();
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
     const GroupSystem& s = system();
@@ -321,7 +329,8 @@ class GroupSolve {
         now_.by_body(group_, recovery.delta_velocity, recovery.delta_angular_velocity, recovery.deformable_delta);
     for (std::size_t i = 0; i < velocity.size(); ++i)
       result_.push_out.push_back(fastest_point(velocity[i], bodies_[group_.bodies[i]].radius));
-    const double share = share_of(result_.push_out);
+    const double share =
+        share_of_push_out(bodies_, group_, how_.contact.max_push_out, input_.gravity, result_.push_out);
     for (double& speed : result_.push_out) speed *= share;
     displace(std::move(velocity), share);
   }
@@ -355,16 +364,6 @@ class GroupSolve {
     for (BodyVector& by : velocity) by = {{h * by.twist.linear, h * by.twist.angular}, h * by.nodes};
     result_.displacement = std::move(velocity);
     if (floats(bodies_, group_, input_.contacts)) result_.taken = std::max(0.0, -energy_won(bodies_, now_).first);
-  }
-
-  /// The largest part of a recovery that moves no point of a body faster than max_push_out allows.
-  double share_of(std::span<const double> fastest) const {
-    double share = 1.0;
-    for (std::size_t i = 0; i < fastest.size(); ++i) {
-      const double most = how_.contact.max_push_out.at(speed_scale(input_.gravity, bodies_[group_.bodies[i]].size));
-      if (fastest[i] > most) share = std::min(share, most / fastest[i]);
-    }
-    return share;
   }
 
   void hand_on() {
@@ -403,6 +402,7 @@ class GroupSolve {
   GroupIndex index_;
   const Solving& how_;
   std::vector<double> bounds_;  // by row, before anybody asked for turning
+  double rounding_ = 0.0;       // m/s: what the rows' velocities are known to
   const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
   GroupSystem before_meeting_;  // solved, where two meet in flight

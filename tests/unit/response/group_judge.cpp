@@ -57,3 +57,18 @@ TEST_CASE("the relative residual doesn't depend on units, and rounding is none")
   CHECK(judge_group(group).natural_map > 0.0);
   CHECK(judge_group(group).relative == 0.0);
 }
+
+TEST_CASE("what a spin's last digit asks for is rounding, and what positions are known to if somebody says so") {
+  constexpr double kSpin = 50.0, kArm = 2.0, kDigit = 1e-14;
+  GroupSystem group = falling(0.0, 0.0);
+  group.rigid[0].angular_velocity = Vec3(0, -kSpin, 0);
+  group.contacts[0].a.arm = Vec3(kArm, 0, 0);
+  group.contacts[0].surface.x() = -kSpin * kArm - kDigit;
+  CHECK(judge_group(group).natural_map > 0.0);
+  CHECK(judge_group(group).relative == 0.0);
+  group.rigid[0].angular_velocity.setZero();
+  group.contacts[0].surface.x() = -kDigit;
+  CHECK(judge_group(group).relative == Approx(1.0));
+  CHECK(judge_group(group, nullptr, 2.0 * kDigit).relative == 0.0);
+  CHECK(judge_group(group, nullptr, 0.5 * kDigit).relative == Approx(1.0));
+}
