@@ -7,6 +7,32 @@
 
 namespace impinge {
 
+namespace {
+
+bool is_of_pair(const BodyTerm& term) { return info_of(term.function).bodies == 2; }
+
+/// Whether it is 0 where a body is not: nothing touches that.
+bool is_of_touch(const BodyTerm& term) {
+  return term.function == BodyFunction::contacts || term.function == BodyFunction::depth ||
+         term.function == BodyFunction::force;
+}
+
+/// Which of the term's bodies is not there, not added yet or deleted; null: they are.
+const Body* absent_body(const BodyTerm& term, const Bodies& bodies) {
+  if (term.function == BodyFunction::energy_from) return nullptr;  // books are kept of what was done
+  if (bodies[term.a].deleted) return &bodies[term.a];
+  return is_of_pair(term) && bodies[term.b].deleted ? &bodies[term.b] : nullptr;
+}
+
+}  // namespace
+
+std::optional<MissingBody> missing_body(const Expression& condition, const Bodies& bodies) {
+  for (const BodyTerm& term : condition.terms())
+    if (const Body* body = absent_body(term, bodies); body != nullptr && !is_of_touch(term))
+      return MissingBody{body->name, !body->absent};
+  return std::nullopt;
+}
+
 ExpressionWords condition_words(const std::vector<std::string>& figures, const Bodies& bodies) {
   ExpressionWords words;
   words.names = figures;
@@ -25,12 +51,7 @@ std::vector<double> ConditionReader::values(const Expression& condition, std::sp
 double ConditionReader::value(const BodyTerm& term, const StepRecord& record, Bodies& bodies) {
   if (term.function == BodyFunction::energy_from) return energy_from(record.stats.ledger.get(), term.source, term.a);
   const BodyIndex a(std::min(term.a, term.b)), b(std::max(term.a, term.b));
-  const bool is_of_pair = term.function == BodyFunction::gap || term.function == BodyFunction::depth;
-  if (bodies[term.a].absent || (is_of_pair && bodies[term.b].absent))  // nobody can say anything of it yet
-    return term.function == BodyFunction::contacts || term.function == BodyFunction::depth ||
-                   term.function == BodyFunction::force
-               ? 0.0
-               : NAN;
+  if (absent_body(term, bodies) != nullptr) return is_of_touch(term) ? 0.0 : NAN;
   switch (term.function) {
     case BodyFunction::contacts:
       return static_cast<double>(std::count_if(record.contacts.begin(), record.contacts.end(),

@@ -11,6 +11,14 @@ namespace impinge {
 /// By names: figures; behind them its terms. None: the terms ask of a moment of which only the figures are left.
 using ConditionValues = std::function<std::vector<double>(const Expression&)>;
 
+/// A body that a condition asks something of which nobody can say, because it isn't there.
+struct MissingBody {
+  std::string name;
+  bool is_deleted = false;  ///< false: it is yet to be added
+};
+/// The first of them.
+std::optional<MissingBody> missing_body(const Expression& condition, const Bodies& bodies);
+
 /// What conditions of a scene may speak of.
 ExpressionWords condition_words(const std::vector<std::string>& figures, const Bodies& bodies);
 

@@ -16,16 +16,29 @@ std::string in_frames(const Script::Expectation& expectation) {
   return fmt::format(" in frames {} to {}", expectation.first, expectation.last);
 }
 
-std::string what_was_found(const std::string& figures, const std::string& odd) {
+/// `odd`: what is not finite, "" if all is; `why` that is no answer.
+std::string what_was_found(const std::string& figures, const std::string& odd, const std::string& why) {
   std::string text = figures.empty() ? "" : "found " + figures;
-  if (!odd.empty())
-    text += fmt::format("{}{}, and what is not finite is no answer", text.empty() ? "found that " : ": ", odd);
+  if (!odd.empty()) text += fmt::format("{}{}, and {}", text.empty() ? "found that " : ": ", odd, why);
   return text.empty() ? "it asks of nothing that could change" : text;
 }
 
 }  // namespace
 
-void Expectations::check(int frame, const ConditionValues& values,
+/// Why what is not finite is none.
+std::string Expectations::no_answer(int frame, const Expression& condition, const Bodies& bodies) const {
+  const std::optional<MissingBody> missing = missing_body(condition, bodies);
+  if (!missing) return "what is not finite is no answer";
+  if (!missing->is_deleted) return fmt::format("'{}' is not there yet", missing->name);
+  for (int k = 0; k <= frame; ++k)
+    for (const Command& command : script_.commands_at(k))
+      if (const auto* act = std::get_if<Act>(&command);
+          act != nullptr && act->verb == Act::remove && act->body == missing->name)
+        return fmt::format("'{}' was deleted in frame {}", missing->name, k);
+  return fmt::format("'{}' is deleted", missing->name);  // by hand
+}
+
+void Expectations::check(int frame, const ConditionValues& values, const Bodies& bodies,
                          const std::function<std::filesystem::path()>& picture) {
   const auto fail = [&](const std::string& line) {
     ++failures_;
@@ -43,7 +56,8 @@ void Expectations::check(int frame, const ConditionValues& values,
     if (failed_[i].empty())
       fail(fmt::format("{}: frame {}: expected {}{}; {}", expectation.place, frame, expectation.condition.text(),
                        in_frames(expectation),
-                       what_was_found(expectation.condition.describe(found, figure_names(judged_)), odd)));
+                       what_was_found(expectation.condition.describe(found, figure_names(judged_)), odd,
+                                      no_answer(frame, expectation.condition, bodies))));
     failed_[i].insert(frame);
   }
   for (const Script::ImageExpectation& image : script_.images()) {

@@ -16,9 +16,10 @@ class Expectations {
   Expectations(const Script& script, bool judged, bool pictures, std::function<void(const std::string&)> report)
       : script_(script), judged_(judged), pictures_(pictures), report_(std::move(report)) {}
 
-  /// Judges the frame's `expect` lines; `picture` gives the frame's PNG, which must be on the disk where one is
-  /// compared.
-  void check(int frame, const ConditionValues& values, const std::function<std::filesystem::path()>& picture);
+  /// Judges the frame's `expect` lines of these bodies; `picture` gives the frame's PNG, which must be on the disk where
+  /// one is compared.
+  void check(int frame, const ConditionValues& values, const Bodies& bodies,
+             const std::function<std::filesystem::path()>& picture);
   /// Whether one of the frame's lines asks of bodies: then the figures alone don't judge it.
   bool asks_of_bodies(int frame) const;
   bool needs_picture(int frame) const;
@@ -28,6 +29,8 @@ class Expectations {
   int failures() const { return failures_; }
 
  private:
+  std::string no_answer(int frame, const Expression& condition, const Bodies& bodies) const;
+
   const Script& script_;
   bool judged_ = false, pictures_ = true;
   std::function<void(const std::string&)> report_;

@@ -175,7 +175,7 @@ class Conditions {
     expectations_.check(
         frame,
         [&](const Expression& condition) { return reader_.values(condition, figures, made.record(), made.bodies()); },
-        [&] { return folder_.picture(frame); });
+        made.bodies(), [&] { return folder_.picture(frame); });
   }
   /// The first that is true ends the run.
   bool stop(int frame, std::span<const double> figures, Session& made) {

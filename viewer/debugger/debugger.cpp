@@ -143,7 +143,7 @@ void Debugger::note_frame() {
     history_.push_back(std::move(figures));
     hashes_.push_back(record.stats.state_hash);
     expectations_.check(
-        session_.frame(), [this](const Expression& condition) { return values_here(condition); },
+        session_.frame(), [this](const Expression& condition) { return values_here(condition); }, session_.bodies(),
         [] { return fs::path(); });
     tell_of_acts(session_.frame());
   }

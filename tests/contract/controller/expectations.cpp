@@ -164,6 +164,36 @@ TEST_CASE("expect: what is not finite fulfils nothing, and is named") {
   CHECK(runs("expect bodies == 2 || contacts/0 > 1 at 2\nexpect !(bodies == 3 && contacts/0 > 1) at 2\n").code == 0);
 }
 
+TEST_CASE("expect: of a body that is deleted, or yet to be added, nothing holds, and why is said") {
+  const Runs runs;
+  const std::string script = "at 3 delete ball\nat 6 add late like ball at 0 0 0\n";
+  const auto failed = [&](const std::string& condition, int frame, const std::string& why) {
+    CAPTURE(condition, frame);
+    const Outcome outcome = runs(fmt::format("{}expect {} at {}\n", script, condition, frame));
+    CHECK(outcome.code == 1);
+    CAPTURE(outcome.err);
+    CHECK(outcome.err.find(fmt::format("a.script:3:1: frame {}: expected {}; found ", frame, condition)) !=
+          std::string::npos);
+    CHECK(outcome.err.find(why) != std::string::npos);
+  };
+  for (const char* figure :
+       {"position_x(ball)", "speed(ball)", "velocity_y(ball)", "energy(ball)", "gap(ball,post)", "gap(post,ball)"})
+    for (const char* sign : {"< 1e9", "> -1e9"})
+      failed(fmt::format("{} {}", figure, sign), 3, "= nan: not a number stands left of '");
+  failed("speed(ball) < 1", 3, ", and 'ball' was deleted in frame 3");
+  failed("speed(ball) < 1", 20, ", and 'ball' was deleted in frame 3");
+  failed("position_y(late) < 1", 5, ", and 'late' is not there yet");
+  failed("gap(late,ball) > 0", 8, ", and 'ball' was deleted in frame 3");
+  // while they are there, and what is 0 of two that don't touch
+  const Outcome good =
+      runs(script +
+           "expect abs(position_x(ball) - 2.6) < 1e-9 at 2\nexpect abs(position_z(late)) < 10 from 6 to 20\n"
+           "expect contacts(ball,post) + depth(ball,post) + force(ball,post) == 0 from 0 to 20\n"
+           "expect contacts(ball,late) + depth(ball,late) + force(ball,late) == 0 from 0 to 20\n");
+  INFO(good.err);
+  CHECK(good.code == 0);
+}
+
 TEST_CASE("expect: only a body that deforms may be asked about itself") {
   const Runs runs;
   for (const char* function : {"depth", "gap", "contacts", "force"}) {

@@ -129,6 +129,32 @@ TEST_CASE("own columns: a run that goes on, a replay, a debugger and its bundle 
   CHECK(less.out.find("slab") == std::string::npos);
 }
 
+TEST_CASE("own columns: a body that is deleted has no more figures than one that is yet to be added") {
+  const Folder f;
+  f.folder.write("a.script", "at 4 delete ball\nat 6 add late like slab at 40 0.25 0\n");
+  const std::string columns =
+      "record.columns=[x=position_x(ball), v=speed(ball), late=position_x(late), fast=speed(ball) > 1]";
+  REQUIRE(f.run("out", 9, {"--script", "a.script", "--set", columns}, "plain.toml").code == 0);
+  const std::vector<Row> rows = csv_rows(f.folder / "out/stats.csv");
+  REQUIRE(rows.size() == 10);
+  for (int n = 0; n <= 9; ++n) {
+    CAPTURE(n);
+    const Row& row = rows[static_cast<std::size_t>(n)];
+    if (n < 4) {
+      CHECK(std::stod(row.at("x")) == Approx(3 - 0.2 * n).epsilon(1e-13));
+      CHECK(std::stod(row.at("v")) == Approx(std::hypot(-2.0, 5.0 - n, 0.5)).epsilon(1e-13));
+    } else {
+      CHECK(row.at("x") == "nan");
+      CHECK(row.at("v") == "nan");
+    }
+    CHECK(row.at("fast") == (n < 4 ? "1" : "0"));
+    if (n < 6)
+      CHECK(row.at("late") == "nan");
+    else
+      CHECK(std::stod(row.at("late")) == Approx(40.0));
+  }
+}
+
 TEST_CASE("own columns: a sweep's columns, table and report take them, and its jobs' hashes hold them") {
   const Folder f;
   const auto sweep = [&](const std::string& out, const std::string& scene, const std::vector<std::string>& more) {
