@@ -68,13 +68,13 @@ std::size_t digits_in(std::string_view word, IsDigit is) {
   return i;
 }
 
-TomlNode integer_node(std::string_view digits, int base, bool negative) {
+/// Nothing of an integer that 64 bits don't hold: TOML wants an error, and any other number is one that nobody wrote.
+std::optional<TomlNode> integer_node(std::string_view digits, int base, bool negative) {
   std::string bare(negative ? "-" : "");
   std::copy_if(digits.begin(), digits.end(), std::back_inserter(bare), [](char c) { return c != '_'; });
   TomlNode node;
   node.kind = TomlNode::integer;
-  if (std::from_chars(bare.data(), bare.data() + bare.size(), node.whole, base).ec != std::errc())
-    node.whole = negative ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
+  if (std::from_chars(bare.data(), bare.data() + bare.size(), node.whole, base).ec != std::errc()) return std::nullopt;
   return node;
 }
 
@@ -96,8 +96,14 @@ double real_value(const std::string& bare) {
                                                                          : 0.0;
 }
 
-std::optional<TomlNode> number_node(std::string_view word) {
+/// `is_too_large`: it is an integer, but beyond 64 bits; there is no node of it then.
+std::optional<TomlNode> number_node(std::string_view word, bool& is_too_large) {
   TomlNode node;
+  const auto integer = [&](std::string_view digits, int base, bool negative) {
+    const std::optional<TomlNode> whole = integer_node(digits, base, negative);
+    is_too_large = !whole;
+    return whole;
+  };
   const bool is_signed = !word.empty() && (word[0] == '+' || word[0] == '-'), negative = is_signed && word[0] == '-';
   const std::string_view bare = word.substr(is_signed ? 1 : 0);
   if (bare == "inf" || bare == "nan") {
@@ -112,11 +118,11 @@ std::optional<TomlNode> number_node(std::string_view word) {
     const std::string_view digits = bare.substr(2);
     const auto is = [base = base](char c) { return base == 16 ? is_hex(c) : c >= '0' && c < '0' + base; };
     if (digits.empty() || digits_in(digits, is) != digits.size()) return std::nullopt;
-    return integer_node(digits, base, false);
+    return integer(digits, base, false);
   }
   const std::size_t whole = digits_in(bare, is_digit);
   if (whole == 0 || (whole > 1 && bare[0] == '0')) return std::nullopt;
-  if (whole == bare.size()) return integer_node(bare, 10, negative);
+  if (whole == bare.size()) return integer(bare, 10, negative);
   std::size_t at = whole;
   if (bare[at] == '.') {
     const std::size_t part = digits_in(bare.substr(at + 1), is_digit);
@@ -234,11 +240,15 @@ TomlNode read_toml_word(TomlCursor& in) {
     for (length = 11; length < rest.size() && belongs(rest[length]);) ++length;
   const std::string_view word = rest.substr(0, length);
   TomlNode node;
+  bool is_too_large = false;
   if (word.empty()) in.fail(in.found() + " where a value should stand");
   if (word == "true" || word == "false") {
     node.kind = TomlNode::boolean, node.flag = word == "true";
-  } else if (const auto number = number_node(word)) {
+  } else if (const auto number = number_node(word, is_too_large)) {
     node = *number;
+  } else if (is_too_large) {
+    in.fail(fmt::format("'{}' is out of range: integers have 64 bits, real numbers a point or an exponent",
+                        shortened(word, 40)));
   } else if (is_date_or_time(word)) {
     node.kind = TomlNode::other, node.string = std::string(word);
   } else if (is_digit(word[0]) || word[0] == '+' || word[0] == '-' || word[0] == '.') {

@@ -9,8 +9,8 @@ namespace impinge {
 /// The text that begins with a quote at the cursor, escapes resolved. Of several lines (three quotes) where allowed.
 std::string read_toml_text(TomlCursor& in, bool many_lines);
 
-/// The boolean, number, date or time that begins at the cursor; its place is not set. A number beyond 64 bits is the
-/// nearest there is (infinity, 0, the largest integer), for the range of the key to refuse.
+/// The boolean, number, date or time that begins at the cursor; its place is not set. A real number beyond 64 bits is
+/// the nearest there is (infinity, 0), for the range of the key to refuse; such an integer is refused here.
 TomlNode read_toml_word(TomlCursor& in);
 
 }  // namespace impinge

@@ -240,20 +240,40 @@ TEST_CASE("text that is no TOML is refused where that shows") {
   CHECK(refusal("'" + std::string(5000, 'k') + "' = 1\n'" + std::string(5000, 'k') + "' = 2\n").size() < 400);
 }
 
-TEST_CASE("numbers beyond 64 bits are the nearest there is, for the key's own range to refuse") {
+TEST_CASE("integers beyond 64 bits are refused as they stand there, never taken for others") {
+  check_refused("a = 1\nb = 99999999999999999999\n", "2:5", "'99999999999999999999' is out of range");
+  for (const char* word : {"9223372036854775808", "-9223372036854775809", "+9_223_372_036_854_775_808",
+                           "0x8000000000000000", "0xFFFFFFFFFFFFFFFFF",
+                           "0b1"
+                           "0000000000000000000000000000000"
+                           "00000000000000000000000000000000",
+                           "99999999999999999999999"}) {
+    const std::string shown =
+        std::string(word).size() > 40 ? std::string(word).substr(0, 20) : std::string(word) + "' is";
+    check_refused("a = [ 1, " + std::string(word) + " ]\n", "1:10", "'" + shown);
+  }
   const TomlNode root = parse_toml("s",
-                                   "a = 1e999\nb = -1e999\nc = 99999999999999999999\nd = -9223372036854775809\n"
-                                   "e = 1e-999\nf = [ 1e400, 2.5 ]\ng = 0xFFFFFFFFFFFFFFFFF\n"
+                                   "a = 9223372036854775807\nb = -9223372036854775808\nc = 0x7FFFFFFFFFFFFFFF\n"
+                                   "d = 99999999999999999999.0\ne = 9e18\n");
+  CHECK(root.find("a")->value.whole == std::numeric_limits<std::int64_t>::max());
+  CHECK(root.find("b")->value.whole == std::numeric_limits<std::int64_t>::min());
+  CHECK(root.find("c")->value.whole == std::numeric_limits<std::int64_t>::max());
+  CHECK(root.find("d")->value.number == 99999999999999999999.0);
+  CHECK(root.find("e")->value.number == 9e18);
+}
+
+TEST_CASE("real numbers beyond 64 bits are the nearest there is, for the key's own range to refuse") {
+  const TomlNode root = parse_toml("s",
+                                   "a = 1e999\nb = -1e999\nc = 99999999999999999999e300\n\n"
+                                   "e = 1e-999\nf = [ 1e400, 2.5 ]\n"
                                    "h = 0.00001e-99999999999999999999\ni = 123456.7e+99999999999999999999\n");
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(root.find("a")->value.number == infinity);
   CHECK(root.find("b")->value.number == -infinity);
-  CHECK(root.find("c")->value.whole == std::numeric_limits<std::int64_t>::max());
-  CHECK(root.find("d")->value.whole == std::numeric_limits<std::int64_t>::min());
+  CHECK(root.find("c")->value.number == infinity);
   CHECK(root.find("e")->value.number == 0.0);
   CHECK(root.find("f")->value.items[0].number == infinity);
   CHECK(root.find("f")->value.items[1].place == "s:6:14");
-  CHECK(root.find("g")->value.whole == std::numeric_limits<std::int64_t>::max());
   CHECK(root.find("h")->value.number == 0.0);
   CHECK(root.find("i")->value.number == infinity);
 }
