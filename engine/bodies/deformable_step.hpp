@@ -26,8 +26,8 @@ struct DeformableStep {
   VecX v_hat;                 ///< over all nodes, m/s
   VecX rigid;             ///< w over all nodes, m/s: what stiffness-proportional damping leaves alone; empty: nothing
   VecX force;             ///< elastic f(x₀) over all nodes, N
-  BlockMatrix stiffness;  ///< K(x₀) over all nodes, N/m; empty where nothing needs it
-  BlockMatrix tangent;    ///< K(x₀ + Δq(v)) of the last linearization at v, over all nodes, N/m; Newton schemes only
+  BlockMatrix stiffness;  ///< K'(x₀) over all nodes, by which strain rates are damped, N/m; empty: none are
+  BlockMatrix tangent;    ///< K(x₀ + Δq(v)) of the last linearization at v, or the only one, over all nodes, N/m
   BlockMatrix a;          ///< over the free nodes, kg
   double mass = 1.0;      ///< how much of M is in A: all of it that a motion of all nodes as one meets
   VecX b;                 ///< kg m/s

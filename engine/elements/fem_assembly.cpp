@@ -7,6 +7,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/elements/discrete_gradient.hpp"
 #include "engine/elements/quadratic_elements.hpp"
+#include "engine/elements/rigid_motions.hpp"
 
 namespace impinge {
 namespace {
@@ -225,6 +226,26 @@ double FemAssembly::stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatr
     sums_.gather_stiffness(slot_, k);
   }
   return total_energy();
+}
+
+void FemAssembly::damping_stiffness(const VecX& x, BlockMatrix& k) {
+  IMPINGE_ASSERT(k.pattern == pattern_);
+  parallel_for(slot_.size(), kElementsPerTask, [&](std::size_t e) {
+    const int element = static_cast<int>(e);
+    if (material(element).is_objective()) leave_rigid_motions<4>(corners(x, element), slot_[e]);
+  });
+  parallel_for(quadratic_slot_.size(), kQuadraticPerTask, [&](std::size_t i) {
+    const int e = static_cast<int>(i);
+    if (!material(kTetParts * e).is_objective()) return;
+    const QuadraticTet& node = quadratic_->nodes(e);
+    Eigen::Matrix<double, 3, 10> at;
+    for (int a = 0; a < 10; ++a) at.col(a) = x.segment<3>(3 * node[a]);
+    leave_rigid_motions<10>(at, quadratic_slot_[i]);
+  });
+  if (quadratic_)
+    quadratic_sums_.gather_stiffness(quadratic_slot_, k);
+  else
+    sums_.gather_stiffness(slot_, k);
 }
 
 }  // namespace impinge

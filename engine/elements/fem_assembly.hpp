@@ -62,6 +62,11 @@ class FemAssembly {
   /// The same as forces(), and the stiffness −∂f/∂x (or the stand-in that `tangent` names) into k, whose pattern is pattern().
   double stiffness(const VecX& x, Tangent tangent, VecX& f, BlockMatrix& k);
 
+  /// By what strain rates are damped at x, into k: the stiffness that stiffness() has found there just before, which x is
+  /// handed again, without the motions of elements as rigid ones (rigid_motions.hpp). Materials that take a turn for
+  /// a strain take it for one here, too.
+  void damping_stiffness(const VecX& x, BlockMatrix& k);
+
   /// Mass of each node, kg: row sums of the mass matrix, what gravity acts on. Linear elements: a quarter of each
   /// tetrahedron round it, whichever the matrix. Consistent quadratic ones: below zero at corners.
   const std::vector<double>& node_mass() const { return node_mass_; }

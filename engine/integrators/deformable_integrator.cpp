@@ -43,7 +43,7 @@ double damping_potential(const DeformableBody& body, const DeformableStep& step,
   return 0.5 * sum;
 }
 
-void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step) {
+void begin_step(DeformableBody& body, bool with_tangent, DeformableStep& step) {
   step.start = body.position;
   step.rigid.resize(0);
   body.fem.release_tangles(body.position);
@@ -51,16 +51,25 @@ void begin_step(DeformableBody& body, bool with_stiffness, DeformableStep& step)
   for (int i = 0; i < body.nodes(); ++i)
     if (body.is_held(i))
       step.offset.segment<3>(3 * i) = (step.time_step - step.s) * body.held_velocity().segment<3>(3 * i);
-  if (with_stiffness) {
-    if (step.stiffness.pattern != body.fem.pattern()) step.stiffness = BlockMatrix(body.fem.pattern());
-    body.fem.stiffness(body.position, Tangent::automatic, step.force, step.stiffness);
-  } else {
+  const bool damps = body.damping.beta != 0.0;
+  const auto made = [&](BlockMatrix& k) -> BlockMatrix& {
+    if (k.pattern != body.fem.pattern()) k = BlockMatrix(body.fem.pattern());
+    return k;
+  };
+  if (with_tangent || damps)
+    body.fem.stiffness(body.position, Tangent::automatic, step.force,
+                       made(with_tangent ? step.tangent : step.stiffness));
+  else
     body.fem.forces(body.position, step.force);
-  }
   step.newton_iterations = step.linear_iterations = 0;
   step.residual = 0.0;
   step.converged = true;
   step.linear_status = SolveStatus::ok;
+  if (!damps) return;
+  if (body.free_nodes() == body.nodes())
+    body.fem.damping_stiffness(body.position, made(step.stiffness));
+  else if (with_tangent)
+    step.stiffness = step.tangent;
 }
 
 void fill_system(const DeformableBody& body, double mass, double start, double now, const BlockMatrix* k,

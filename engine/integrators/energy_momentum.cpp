@@ -29,7 +29,7 @@ class EnergyMomentum : public OneStepScheme {
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;
-    begin_step(body, body.damping.beta != 0.0, step);
+    begin_step(body, false, step);
     if (body.damping.beta != 0.0) step.rigid = rigid_motion(body, h, TurningRule::midpoint);
     for (const int i : body.free_node()) step.offset.segment<3>(3 * i) = 0.5 * h * body.velocity.segment<3>(3 * i);
   }

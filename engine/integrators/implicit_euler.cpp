@@ -14,7 +14,7 @@ class ImplicitEuler : public OneStepScheme {
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;
-    begin_step(body, body.damping.beta != 0.0, step);
+    begin_step(body, false, step);
     if (body.damping.beta != 0.0) step.rigid = rigid_motion(body, h, TurningRule::exact);
   }
   const NewtonSettings* newton() const override { return &newton_; }

@@ -22,8 +22,8 @@ class LinearlyImplicitEuler : public OneStepScheme {
   void linearize(DeformableBody& body, const VecX&, DeformableStep& step) const override {
     const double tau = step.tau;
     const RayleighDamping& d = body.damping;
-    const double mass = 1.0 + tau * d.alpha, stiffness = tau * (d.beta + step.s);
-    fill_system(body, mass, stiffness, 0.0, nullptr, step);
+    const double mass = 1.0 + tau * d.alpha, damping = tau * d.beta, stiffness = tau * step.s;
+    fill_system(body, mass, damping, stiffness, &step.tangent, step);
     add_pull_to_system(body, step);
     VecX b;
     body.fem.multiply_mass(step.v_hat, b);
@@ -33,7 +33,8 @@ class LinearlyImplicitEuler : public OneStepScheme {
       // columns of the held nodes, whose velocity is known
       VecX part;
       body.fem.multiply_mass(body.held_velocity(), part);
-      b -= mass * part + stiffness * (step.stiffness * body.held_velocity());
+      b -= mass * part + stiffness * (step.tangent * body.held_velocity());
+      if (damping != 0.0) b -= damping * (step.stiffness * body.held_velocity());
     }
     step.b = body.gather_free(b);
   }
@@ -41,7 +42,7 @@ class LinearlyImplicitEuler : public OneStepScheme {
   void impulses(DeformableBody& body, const DeformableStep& step, const VecX& v, StepImpulses& out) const override {
     const double tau = step.tau;
     applied_impulses(body, step, out);
-    out.elastic = tau * step.force - tau * step.s * (step.stiffness * v);
+    out.elastic = tau * step.force - tau * step.s * (step.tangent * v);
     out.damping = -tau * damping_force(body, step, v);
     add_pull(body, step, v, 1.0, out.external);
   }

@@ -25,7 +25,7 @@ class Newmark : public OneStepScheme {
     step.s = h * beta / gamma;
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
-    begin_step(body, body.damping.beta != 0.0, step);
+    begin_step(body, false, step);
     if (!body.acceleration_known) accelerate(body, step);
     step.v_hat = body.velocity + (1.0 - gamma) * h * body.acceleration;
     const VecX d = (h - step.s) * body.velocity + h * h * (0.5 - beta / gamma) * body.acceleration;

@@ -14,7 +14,7 @@ class SymplecticEuler : public OneStepScheme {
     step.gravity = gravity;
     step.offset.setZero(3 * body.nodes());
     step.v_hat = body.velocity;
-    begin_step(body, body.damping.beta != 0.0, step);
+    begin_step(body, false, step);
   }
 
   void linearize(DeformableBody& body, const VecX&, DeformableStep& step) const override {
