@@ -19,7 +19,7 @@ struct GroupVerdict {
 
 /// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them;
 /// otherwise a deformable body enters by its nodes' own blocks. `rounding`: m/s, where somebody knows that positions make it
-/// more than the bodies' speeds do (step/rounding_speed.hpp).
+/// more than the bodies' speeds do (step/group_result.hpp).
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr,
                          double rounding = 0.0);
 

@@ -1,6 +1,7 @@
 #include "engine/step/group_result.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/bodies/scale.hpp"
 #include "engine/contact/attachments.hpp"
@@ -22,6 +23,20 @@ double share_of_push_out(const Bodies& bodies, const CollisionGroup& group, cons
     if (fastest[i] > allowed) share = std::min(share, allowed / fastest[i]);
   }
   return share;
+}
+
+double rounding_speed(const Bodies& bodies, const AssembledGroup& group, double time_step) {
+  // of the coordinates: a point is a sum of products, a gap or drift the difference of two, and two rows may differ by both
+  constexpr double kRoundings = 16.0;
+  double farthest = 0.0;
+  for (const BodyIndex b : group.rigid)
+    farthest = std::max(farthest, bodies[b].pose.position.cwiseAbs().maxCoeff() + bodies[b].radius);
+  for (const BodyIndex b : group.deformable) {
+    const Aabb bounds = bodies[b].bounds();
+    farthest = std::max({farthest, bounds.min.cwiseAbs().maxCoeff(), bounds.max.cwiseAbs().maxCoeff()});
+  }
+  const double of_positions = kRoundings * std::numeric_limits<double>::epsilon() * farthest / time_step;
+  return std::max(of_positions, rounding_of_speeds(group.system));
 }
 
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,

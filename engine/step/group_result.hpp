@@ -33,6 +33,11 @@ double fastest_point(const BodyVector& velocity, double radius);
 double share_of_push_out(const Bodies& bodies, const CollisionGroup& group, const Threshold& most, double gravity,
                          std::span<const double> fastest);
 
+/// What a group's velocities are known to, m/s: a residual below it is rounding, and contradicts nothing. Speeds are rounded, and
+/// positions where they stand: rows that take gaps or drifts back within Δt ask for that by Δt. So two points of a hinge, each a
+/// last digit off its place, ask a rigid body to stretch.
+double rounding_speed(const Bodies& bodies, const AssembledGroup& group, double time_step);
+
 /// The collision at the bodies' present poses, not solved.
 SolvedContact unsolved_contact(const Collision& collision, const MaterialPoint& a, const MaterialPoint& b,
                                double friction, const Bodies& bodies);

@@ -12,7 +12,6 @@
 #include "engine/response/least_violation.hpp"
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/roots/group_root.hpp"
-#include "engine/step/rounding_speed.hpp"
 #include "engine/step/tasks.hpp"
 #include "engine/step/turns/tension.hpp"
 #include "engine/step/turns/turning.hpp"

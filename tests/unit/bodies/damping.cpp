@@ -75,15 +75,16 @@ TEST_CASE("damping of strain rates has no force in a rigid motion, and no moment
         CHECK((damping_force(body, step, v + w) - f).norm() < 1e-11 * f.norm());
         // what it takes is never given, for any two velocities alike
         const VecX other = random_vector(x.size(), 65), zero = VecX::Zero(x.size());
-        const VecX of_v = f - damping_force(body, step, zero), of_other = damping_force(body, step, other) -
-                                                                           damping_force(body, step, zero);
+        const VecX of_v = f - damping_force(body, step, zero),
+                   of_other = damping_force(body, step, other) - damping_force(body, step, zero);
         CHECK(v.dot(of_v) > 0.0);
         CHECK(v.dot(of_other) == Approx(other.dot(of_v)).epsilon(1e-9).margin(1e-10 * of_v.norm() * other.norm()));
       }
   }
 }
 
-TEST_CASE("damping of what is unstrained is β K v of its rest, turned with it; of linear elasticity β K v at any time") {
+TEST_CASE(
+    "damping of what is unstrained is β K v of its rest, turned with it; of linear elasticity β K v at any time") {
   const auto element = GENERATE(ElementKind::linear, ElementKind::quadratic);
   for (const auto& material : materials()) {
     CAPTURE(std::string(material.name), element == ElementKind::quadratic);
