@@ -216,7 +216,7 @@ TEST_CASE("held nodes follow their key frames exactly and pull the body along") 
   CHECK(body.center_of_mass().x() == Approx(0.165).epsilon(2e-2));
 }
 
-TEST_CASE("a parameter moves held nodes evenly over a frame; materials change between frames") {
+TEST_CASE("a parameter moves held nodes evenly over a frame, materials change between frames") {
   World world;
   BodyDescription bar =
       soft_box("bar", {0.3, 0.1, 0.1}, {3, 1, 1}, {0, 0, 0}, {1e5, 0.3, 1000.0, 0.02, "corotational"});

@@ -169,7 +169,7 @@ TEST_CASE("backward Euler and Newmark damp a linear vibration by their own formu
   CHECK(total_energy(body) == Approx(energy).epsilon(1e-8));
 }
 
-TEST_CASE("Newmark keeps the energy of a free vibration of finite amplitude; backward Euler's loss is reported") {
+TEST_CASE("Newmark keeps the energy of a free vibration of finite amplitude, backward Euler's loss is reported") {
   for (const char* material : {"corotational", "neo_hookean"}) {
     CAPTURE(material);
     const auto [start, omega] = plucked_bar(material, 2.0);
@@ -216,7 +216,7 @@ TEST_CASE("convergence in time: backward Euler first order, Newmark second") {
   }
 }
 
-TEST_CASE("symplectic Euler is stable below its limit and keeps the energy near; it agrees with the implicit schemes") {
+TEST_CASE("symplectic Euler is stable below its limit and keeps the energy near, it agrees with the implicit schemes") {
   DeformableBody body = plucked_bar("corotational", 0.5, MassKind::lumped).body, other = body;
   const double energy = total_energy(body), start = 0.5 / 12.0;
   double worst = 0.0;

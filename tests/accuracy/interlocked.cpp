@@ -44,7 +44,7 @@ ChainResult swing(int turning_solves) {
 
 }  // namespace
 
-TEST_CASE("the links of a chain that swings stay in one another; unless their turns are followed they sink deeper",
+TEST_CASE("the links of a chain that swings stay in one another, unless their turns are followed they sink deeper",
           "[interlocked]") {
   const ChainResult chain = swing(4), straight = swing(0);
   CAPTURE(chain.deepest, chain.widest, chain.gain, straight.deepest);

@@ -141,7 +141,7 @@ TEST_CASE("quadratic elements: force is the slope of the energy, the exact tange
   }
 }
 
-TEST_CASE("quadratic elements: forces have no sum and no torque; a rotation has none at all") {
+TEST_CASE("quadratic elements: forces have no sum and no torque, a rotation has none at all") {
   test::Random random(74);
   for (const auto& entry : materials()) {
     CAPTURE(std::string(entry.name));
@@ -167,7 +167,7 @@ TEST_CASE("quadratic elements: forces have no sum and no torque; a rotation has 
   }
 }
 
-TEST_CASE("quadratic elements: both mass matrices weigh the body; the consistent one integrates x² exactly") {
+TEST_CASE("quadratic elements: both mass matrices weigh the body, the consistent one integrates x² exactly") {
   for (const MassKind kind : {MassKind::lumped, MassKind::consistent}) {
     DeformableBody body = test::make_body(irregular(), {.density = 800.0, .mass = kind, .element = kQuadratic});
     const double mass = 800.0 * total_volume(body.fem.rest());

@@ -55,7 +55,7 @@ TEST_CASE("cylinder and cone over a plane are as high as their lowest point") {
   }
 }
 
-TEST_CASE("a cylinder rests on eight points or more, on its side on two; so does a cone") {
+TEST_CASE("a cylinder rests on eight points or more, on its side on two, so does a cone") {
   const SharedShape floor = Plane();
   const auto count = [&](const SharedShape& shape, const Vec3& axis, double height) {
     Pose pose;

@@ -171,7 +171,7 @@ TEST_CASE("marks are told apart by layer, kind and contact, and panels hide what
   CHECK(corner->mark == "figures");
 }
 
-TEST_CASE("an id picture reads back as it was written; another picture is refused") {
+TEST_CASE("an id picture reads back as it was written, another picture is refused") {
   const TempFolder folder;
   StepRecord record = sample_record();
   for (std::size_t i = 0; i < record.contacts.size(); ++i) record.contacts[i].pair_id = 0xfedcba9876543210u + i;

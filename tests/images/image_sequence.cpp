@@ -166,7 +166,7 @@ TEST_CASE("A film appears complete or not at all") {
   CHECK(files_in(folder.path()) == 2);  // the frames and the film: no temporary file is left
 }
 
-TEST_CASE("A film for a message begins again and keeps its duration; a GIF its colours") {
+TEST_CASE("A film for a message begins again and keeps its duration, a GIF its colours") {
   const TempFolder folder;
   const auto frames = folder.path() / "frames";
   std::filesystem::create_directory(frames);
@@ -211,7 +211,7 @@ TEST_CASE("A film for a message begins again and keeps its duration; a GIF its c
   CHECK(milliseconds == Approx(1000.0 * kFrames / 60.0).margin(20.0));
 }
 
-TEST_CASE("A film of transparent pictures is laid over grey; a WebP stays transparent") {
+TEST_CASE("A film of transparent pictures is laid over grey, a WebP stays transparent") {
   const TempFolder folder;
   const auto frames = folder.path() / "frames", back = folder.path() / "back";
   std::filesystem::create_directory(frames);

@@ -84,7 +84,7 @@ TEST_CASE("the first frame, the body and the field that differ are those that we
   CHECK_FALSE(holds(soft.out, "right"));
 }
 
-TEST_CASE("what was set differently comes first; a distance that a formula gives is found") {
+TEST_CASE("what was set differently comes first, a distance that a formula gives is found") {
   const Runs runs;
   runs.run("a", "", kNoImages);
   runs.run("b", "", {"--no-images", "--set", "body.right.velocity=[0,0,3]"});
@@ -110,7 +110,7 @@ TEST_CASE("what was set differently comes first; a distance that a formula gives
   CHECK(read_png(runs.folder / "cmp/difference.png").width == 1280);
 }
 
-TEST_CASE("the sheet shows A, B and what differs; bodies of one run alone are named") {
+TEST_CASE("the sheet shows A, B and what differs, bodies of one run alone are named") {
   const Runs runs;
   runs.run("a", "", {"--size", "320x180"});
   runs.folder.write("s.toml", std::string(kScene) +

@@ -190,7 +190,7 @@ TEST_CASE("attached bodies begin later where their joints are by then") {
   }
 }
 
-TEST_CASE("of grippers that pull a bar apart both stay; it begins with a state, since its error is one") {
+TEST_CASE("of grippers that pull a bar apart both stay, it begins with a state, since its error is one") {
   const TempFolder folder;
   make_bundle(folder, slurp(kFaults / "contradiction.toml") + bystanders(6), 20);
   const Small small = shrink(folder, "attachment_error_m > 1e-3");

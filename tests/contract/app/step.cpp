@@ -114,7 +114,7 @@ TEST_CASE("impinge step: impulses that differ and do the same are told, and no d
   CHECK(outcome.out.find("λ is not unique here") != std::string::npos);
 }
 
-TEST_CASE("impinge step: a table, and with --out the files; wrong input ends with 2") {
+TEST_CASE("impinge step: a table, and with --out the files, wrong input ends with 2") {
   const TempFolder folder;
   folder.write("p.dat", kSparse);
   const Outcome table = impinge_run(folder.path(), {"step", "p.dat", "--out", "result"});

@@ -47,7 +47,7 @@ TEST_CASE("a run's folder is its own again once a change of it is undone") {
   CHECK(end_of(outcome) == std::pair(47, hash_in(folder / "done/stats.csv", 47)));
 }
 
-TEST_CASE("what is hidden, shown and switched is undone; where the camera is stays") {
+TEST_CASE("what is hidden, shown and switched is undone, where the camera is stays") {
   const TempFolder folder;
   folder.write("s.toml", kRigid);
   const auto view_of = [&](const std::string& lines) {

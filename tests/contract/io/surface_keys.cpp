@@ -251,7 +251,7 @@ TEST_CASE("a decimated sheet of a static body is thin and shown whole") {
   CHECK(few->mesh()->shown().mesh.triangles == whole->mesh()->mesh.triangles);
 }
 
-TEST_CASE("decimated bodies fall, rest and repeat themselves; pictures and files show the whole surface") {
+TEST_CASE("decimated bodies fall, rest and repeat themselves, pictures and files show the whole surface") {
   const TempFolder folder;
   folder.write("b.off", off_text(bumpy_sphere(4)));
   const auto scene = [&](const std::string& name, const std::string& keys) {

@@ -65,7 +65,7 @@ TEST_CASE("a scripted body's velocity carries its pose exactly") {
   }
 }
 
-TEST_CASE("collision groups are the connected components; what does not move joins nothing") {
+TEST_CASE("collision groups are the connected components, what does not move joins nothing") {
   // the seed's Fig. 3.6: A-B, B-C and D-E; body 5 is a floor that everybody touches
   const std::vector<char> joins = {1, 1, 1, 1, 1, 0, 1};
   std::vector<std::pair<BodyIndex, BodyIndex>> contacts;

@@ -39,7 +39,7 @@ TEST_CASE("a colour bar tells what lies beyond its ends") {
   CHECK(bar.below);
 }
 
-TEST_CASE("the ends of a colour bar are what is set, else the frame's; however they are set one is below the other") {
+TEST_CASE("the ends of a colour bar are what is set, else the frame's, however they are set one is below the other") {
   ScaleSettings own;
   CHECK(own.scale(3.2, false).form == ScaleForm::linear);
   CHECK(own.scale(3.2, false).high == Approx(5.0));

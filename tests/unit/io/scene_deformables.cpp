@@ -108,7 +108,7 @@ TEST_CASE("volume files of every format give the same body") {
   }
 }
 
-TEST_CASE("a surface is carried by a volume file; both are scaled; a little outside is taken") {
+TEST_CASE("a surface is carried by a volume file, both are scaled, a little outside is taken") {
   const TempFolder folder;
   folder.write("v.veg", veg_text(sample_volume()));
   TriangleMesh surface = box_surface(Vec3(0.1, 0.05, 0.15), Eigen::Vector3i(3, 2, 4));
@@ -121,7 +121,7 @@ TEST_CASE("a surface is carried by a volume file; both are scaled; a little outs
   CHECK(s.steps());
 }
 
-TEST_CASE("every material key arrives; mass is shared out over what is filled") {
+TEST_CASE("every material key arrives, mass is shared out over what is filled") {
   const TempFolder folder;
   const std::string shape = "shape = { sphere = { radius = 0.1 } }\nvolume = { cage = { cells = 4 } }\n";
   for (const char* model : {"linear", "corotational", "stvk", "fixed_corotated", "neo_hookean", "mass_spring"}) {

@@ -42,7 +42,7 @@ std::string refusal(const TriangleMesh& surface) {
 
 }  // namespace
 
-TEST_CASE("the tetrahedralizer's answer is read and checked; it gets the surface and the settings") {
+TEST_CASE("the tetrahedralizer's answer is read and checked, it gets the surface and the settings") {
   const Path path;
   const TriangleMesh surface = box_surface(Vec3(0.5, 0.5, 0.5), Eigen::Vector3i(2, 2, 2));
   CHECK(find_tetrahedralizer().empty());

@@ -84,7 +84,7 @@ TEST_CASE("each figure of stats.csv and contacts.csv that is no number is refuse
   CHECK(divergence([&] { check_figures(judged, false); }).empty());
 }
 
-TEST_CASE("a frame whose energy overflows is not published; the one before stays, and the body is named") {
+TEST_CASE("a frame whose energy overflows is not published, the one before stays, and the body is named") {
   World world;
   world.parameters.simulation.gravity.setZero();
   world.add_body(cube("light", 1.0, Vec3(0, 0, 0)));

@@ -68,7 +68,7 @@ TEST_CASE("vertices of a border within the tolerance become one, and no others")
   CHECK(mend(soup(sphere, 6e-3), {}).mesh.vertices.size() > sphere.vertices.size());
 }
 
-TEST_CASE("triangles without area, and those twice there, go; flat ones are flipped so that no hole is left") {
+TEST_CASE("triangles without area, and those twice there, go, flat ones are flipped so that no hole is left") {
   TriangleMesh mesh = cube();
   mesh.triangles.push_back({0, 0, 3});
   mesh.triangles.push_back(mesh.triangles[2]);
