@@ -97,7 +97,7 @@ class EndPose {
 
   std::span<const Collider> colliders() const { return colliders_; }
 
-  /// Whether it is a ball, or round about an axis that keeps its direction.
+  /// Whether it is a ball or rod, or round about an axis that keeps its direction.
   bool rolls(BodyIndex b) const {
     if (is_ball(bodies_[b])) return true;
     const ConvexSet* solid = round_solid(*bodies_[b].shape);

@@ -187,9 +187,7 @@ int RunCommand::run() {
     notes.balance.add(world, is_driven);
     notes.swell.add(world);
   };
-  watcher.picture = [&](const StepRecord& record, const ViewSettings& settings, int width, int height) {
-    notes.empty.add(record, settings, width, height);
-  };
+  watcher.picture = [&](const auto&... picture) { notes.empty.add(picture...); };
   watcher.earlier_frame = [&](const EarlierFrame& earlier) { take_earlier(notes, earlier); };
   watcher.save = [&] { return notes.saved(); };
   watcher.message = [&](const std::string& line) {

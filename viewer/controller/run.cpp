@@ -217,6 +217,10 @@ void tell_of_frame(const RunWatcher& watcher, const FrameStats& stats, int last_
   if (watcher.world) watcher.world(world, any_gives_energy(commands));
 }
 
+void tell_of_picture(const RunWatcher& watcher, const StepRecord& record, const FrameView& view) {
+  if (watcher.picture) watcher.picture(record, view.settings(), view.width(), view.height());
+}
+
 EarlierFrame earlier_frame(int frame, std::span<const double> figures, const Session& session) {
   const auto figure = [&](const char* name) { return figures[figure_index(name, session.is_judged())]; };
   return {frame,
@@ -295,13 +299,11 @@ RunResult run(const RunOptions& given, const RunWatcher& watcher) {
     const int frame = session.frame();
     tell_of_acts(watcher, frame, commands, session.record());
     stats.times.render_ms = options.images ? view.draw(session.record(), commands, folder.path()) : 0.0;
-    if (options.images && watcher.picture)
-      watcher.picture(session.record(), view.settings(), view.width(), view.height());
+    if (options.images) tell_of_picture(watcher, session.record(), view);
     if (freezes) {
       folder.add_frozen_step(frozen);
       result.frozen_step = folder.frozen_step(frame);
-      result.frozen_contacts = frozen.contacts();
-      result.frozen_groups = frozen.groups.size();
+      result.frozen_contacts = frozen.contacts(), result.frozen_groups = frozen.groups.size();
     }
     const std::vector<double> figures = figure_values(stats, judged);
     folder.add_frame(session.record(), commands, stats, session.own_values(figures));
