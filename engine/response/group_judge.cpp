@@ -110,7 +110,7 @@ GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_di
       verdict.momentum =
           larger(verdict.momentum, (a.values[a.pattern->diagonal[i]].inverse() * r.segment<3>(3 * i)).norm());
   }
-  const double known = std::max(rounding, rounding_of_speeds(group));
+  const double known = rounding > 0.0 ? rounding : rounding_of_speeds(group);
   const auto relative = [&](double map) { return map <= known ? 0.0 : scale > 0.0 ? map / scale : map; };
   verdict.relative = relative(verdict.natural_map);
   for (double& map : verdict.of_contacts) map = relative(map);

@@ -18,8 +18,8 @@ struct GroupVerdict {
 };
 
 /// `w_diagonal`: the diagonal blocks of W, by which natural maps are then scaled as lcp/residual.hpp scales them;
-/// otherwise a deformable body enters by its nodes' own blocks. `rounding`: m/s, where somebody knows that positions make it
-/// more than the bodies' speeds do (step/group_result.hpp).
+/// otherwise a deformable body enters by its nodes' own blocks. `rounding`: m/s, where somebody knows it by positions, too
+/// (step/group_result.hpp); 0: that of the bodies' speeds.
 GroupVerdict judge_group(const GroupSystem& group, const std::vector<Mat3>* w_diagonal = nullptr,
                          double rounding = 0.0);
 

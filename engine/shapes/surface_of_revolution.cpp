@@ -38,6 +38,12 @@ const std::array<Vec2, 8>& rim_ways() {
   return ways;
 }
 
+const ConvexSet* round_solid(const Shape& shape) {
+  const ShapeForm form = shape.form();
+  const auto* solid = std::get_if<const ConvexSet*>(&form);
+  return solid != nullptr && (*solid)->is_round_about_y() ? *solid : nullptr;
+}
+
 Vec3 rolled_about_y(const Vec3& place, const Vec3& from, const Vec3& to) {
   constexpr double kSame = 1e-6;  // of the rim's radius, and the sine of the least angle at which it is one place
   const Vec2 rim(place.x(), place.z()), side(from.x(), from.z()), side_then(to.x(), to.z());

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "engine/geometry/triangle_mesh.hpp"
+#include "engine/shapes/shape.hpp"
 
 namespace impinge {
 
@@ -13,6 +13,9 @@ TriangleMesh surface_of_revolution(const std::vector<Vec2>& rings, double y_belo
 
 /// Cosine and sine of eight even angles about y: the points of a rim that a flat side rests on, which turn with the body.
 const std::array<Vec2, 8>& rim_ways();
+
+/// Of a shape that is round about its y axis, or null.
+const ConvexSet* round_solid(const Shape& shape);
 
 /// ConvexSet::rolled of what is round about y: where it is touched with the rim through `place` that goes round, and a
 /// place that turns with the body stays.

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "engine/core/interrupt.hpp"
-#include "engine/geometry/convex/convex_set.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/surface_of_revolution.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
 
@@ -45,21 +45,14 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
   sort_by_pair(collisions);
 }
 
-/// What is round about an axis may lie on what can't move, and flies on over it.
-bool may_roll(const Body& body) {
-  const ShapeForm form = body.shape->form();
-  const auto* solid = std::get_if<const ConvexSet*>(&form);
-  return solid != nullptr && (*solid)->is_round_about_y();
-}
-
-/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. What rolls may touch what can't
+/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. What is round about an axis may touch what can't
 /// move, which holds it until then (GroupSolve::solve_before_meeting); of others that do new places come round in a turn, which
 /// only looks at the end find.
 template <class Counts>
 std::vector<char> held_bodies(const Bodies& bodies, const std::vector<Collision>& collisions, Counts&& counts) {
   std::vector<char> held(static_cast<std::size_t>(bodies.size().value()), 0);
   const auto hold = [&](BodyIndex own, BodyIndex other) {
-    if (bodies[other].has_freedom() || !may_roll(bodies[own])) held[own] = 1;
+    if (bodies[other].has_freedom() || round_solid(*bodies[own].shape) == nullptr) held[own] = 1;
   };
   for (const Collision& c : collisions)
     if (counts(c)) hold(c.body_a, c.body_b), hold(c.body_b, c.body_a);

@@ -11,6 +11,7 @@
 #include "engine/geometry/distance.hpp"
 #include "engine/geometry/rotation.hpp"
 #include "engine/shapes/primitives.hpp"
+#include "engine/shapes/surface_of_revolution.hpp"
 #include "engine/shapes/wall.hpp"
 #include "engine/step/find_collisions.hpp"
 #include "engine/step/find_pairs.hpp"
@@ -31,13 +32,6 @@ constexpr std::size_t kMostOfMeshes = 3;  // contacts of two rigid meshes that a
 
 bool deforms(const Body& body) { return body.kind() == BodyKind::deformable; }
 bool is_ball(const Body& body) { return body.shape->as<Sphere>() != nullptr; }
-
-/// Of what is round about an axis, or null.
-const ConvexSet* round_solid(const Shape& shape) {
-  const ShapeForm form = shape.form();
-  const auto* solid = std::get_if<const ConvexSet*>(&form);
-  return solid != nullptr && (*solid)->is_round_about_y() ? *solid : nullptr;
-}
 
 /// Of collisions in pair order.
 std::span<const Collision> of_pair(std::span<const Collision> all, const BodyPair& pair) {

@@ -95,15 +95,17 @@ class GroupSolve {
 
   /// What is taut swings no faster than the sub-step sees, but where that would win energy, as of a chain that whips.
   void solve_slowed() {
-    const bool may = !how_.response.is_approximate() && !how_.response.lives_on_overlap();
-    const std::vector<RigidBlock> as_they_are = system().rigid;
+    std::vector<SlowedBody> slowed;
+    if (!how_.response.is_approximate() && !how_.response.lives_on_overlap() &&
+        is_held(bodies_, group_, input_.contacts))
+      slowed = slow_taut_bodies(system(), input_.time_step);
+    if (slowed.empty()) return solve_expecting_turns();
     const std::vector<Vec3> start = system().lambda;
-    const bool is_slowed =
-        may && is_held(bodies_, group_, input_.contacts) && slow_taut_bodies(system(), input_.time_step);
     solve_expecting_turns();
-    if (!is_slowed || !wins_energy(kSlowedWins)) return;
+    if (!wins_energy(kSlowedWins)) return;
     forget_turns();
-    system().rigid = as_they_are, system().lambda = start, system().assembled.reset();
+    for (const SlowedBody& body : slowed) system().rigid[body.block].inverse_inertia = body.inverse_inertia;
+    system().lambda = start, system().assembled.reset();
     solve_expecting_turns();
   }
 
@@ -404,9 +406,8 @@ class GroupSolve {
   double rounding_ = 0.0;       // m/s: what the rows' velocities are known to
   const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
-  GroupSystem before_meeting_;  // solved, where two meet in flight
-  bool is_rough_ = false;
-  bool are_told_ = false;  // rows are, what turning takes
+  GroupSystem before_meeting_;                // solved, where two meet in flight
+  bool is_rough_ = false, are_told_ = false;  // the latter: rows are, what turning takes
   Trust trust_ = Trust::facets;
   GroupResult result_;
 };

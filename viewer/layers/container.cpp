@@ -1,6 +1,8 @@
 #include "viewer/layers/container.hpp"
 
 #include "engine/geometry/box_tree.hpp"
+#include "engine/geometry/convex/convex_triangle.hpp"
+#include "engine/geometry/triangle_intersection.hpp"
 #include "engine/shapes/shape.hpp"
 
 namespace impinge {
@@ -26,16 +28,9 @@ bool meets(const Aabb& box, const Vec3& from, const Vec3& to) {
   return true;
 }
 
-bool crosses(const TriangleMesh& mesh, int triangle, const Vec3& from, const Vec3& to) {
-  const Triangle& t = mesh.triangles[static_cast<std::size_t>(triangle)];
-  const auto corner = [&](int k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-  const auto volume = [](const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); };
-  const Vec3 way = to - from, a = corner(0) - from, b = corner(1) - from, c = corner(2) - from;
-  const double u = volume(way, b, c), v = volume(way, c, a), w = volume(way, a, b);
-  if (!((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0))) return false;
-  const Vec3 normal = (b - a).cross(c - a);
-  const double height = normal.dot(a), reach = normal.dot(way);
-  return std::abs(reach) > 0.0 && height * reach >= 0.0 && std::abs(height) <= std::abs(reach);
+bool crosses(const TriangleCorners& triangle, const Vec3& from, const Vec3& to) {
+  const std::optional<RayHit> hit = intersect_line(from, to - from, triangle);
+  return hit && hit->t >= 0.0 && hit->t <= 1.0;
 }
 
 }  // namespace
@@ -55,7 +50,7 @@ bool hides_what_is_inside(const StepRecord& record, std::size_t body, const Vec3
     const BoxTree& tree = surface->tree();
     bool is_hidden = false;
     tree.search([&](int n) { return !is_hidden && meets(tree.nodes()[static_cast<std::size_t>(n)].box, from, to); },
-                [&](int t) { is_hidden = is_hidden || crosses(surface->mesh, t, from, to); });
+                [&](int t) { is_hidden = is_hidden || crosses(ConvexTriangle(surface->mesh, t).corners(), from, to); });
     if (!is_hidden) return false;
   }
   return is_any;

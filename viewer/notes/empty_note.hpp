@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "viewer/draw/camera.hpp"
-
 namespace impinge {
 
 class NoteArchive;

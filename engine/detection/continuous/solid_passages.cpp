@@ -222,7 +222,7 @@ class SolidSearch {
     const ConvexGap then = convex_gap(at(when), {&triangle, Pose()});
     const double approach = std::max((first - then.gap) / std::max(when - before, 1e-12), 1e-300);
     for (const Touch& touch : touches(then, when, triangle.corners())) {
-      Passage p = passage_of(t, when, then.normal, touch);
+      Passage p = passage_of(t, triangle.corners(), when, then.normal, touch);
       p.time = before;
       p.approach = approach;
       const auto is_same = [&](const Passage& known) { return known.feature == p.feature; };
@@ -254,20 +254,19 @@ class SolidSearch {
     return ends;
   }
 
-  Passage passage_of(int t, double when, const Vec3& normal, const Touch& touch) const {
-    const ConvexTriangle triangle(surface_.mesh, t);
+  Passage passage_of(int t, const TriangleCorners& face, double when, const Vec3& normal, const Touch& touch) const {
     Passage p;
     p.triangle_b = TriangleIndex(t);
     p.normal = other_.pose_at(when).rotation * normal;
     p.point_a = own_.pose_at(0.0).apply(own_.pose_at(when).apply_inverse(other_.pose_at(when).apply(touch.point_a)));
     p.point_b = other_.pose_at(0.0).apply(touch.point_b);
-    const TriangleFeature f = closest_on_triangle(touch.point_b, triangle.corners()).feature;
+    const TriangleFeature f = closest_on_triangle(touch.point_b, face).feature;
     const auto at = static_cast<std::size_t>(t);
     Feature kind = Feature::face, own = Feature::vertex;
     int index = t;
     if (is_corner(f)) kind = Feature::vertex, index = surface_.mesh.triangles[at][feature_number(f)];
     if (is_edge(f)) kind = Feature::edge, index = surface_.topology.triangle_edges[at][feature_number(f)];
-    if (kind == Feature::face && is_normal_to(normal, triangle.corners()))
+    if (kind == Feature::face && is_normal_to(normal, face))
       if (const auto rolls = rolling_from(when, normal, touch.point_a)) {
         // its normal turns along with the face; behind the plane of one that it comes to over a ridge it isn't in that
         const Vec3 face_now = other_.pose_at(0.0).rotation * normal;

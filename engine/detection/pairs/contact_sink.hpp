@@ -24,6 +24,9 @@ struct Candidate {
   int triangle_first = -1, triangle_second = -1;
 };
 
+/// Cosine: a crossing of edges whose normal is as near to a face's, 0.08 degrees, is a place of that face.
+inline constexpr double kSameWay = 1.0 - 1e-6;
+
 /// Negative: overlap, metres.
 inline double gap_of(const Candidate& c) { return c.normal.dot(c.point_first - c.point_second); }
 

@@ -10,7 +10,6 @@ namespace {
 constexpr double kNearlyParallel = 0.05;     // sine: lines closer to parallel than this are held at both ends
 constexpr double kMerge = 1e-4;              // of the smaller face: corners closer than this are one
 constexpr double kSameNormal = 1.0 - 1e-12;  // cosine: the way out is a face's normal
-constexpr double kSameWay = 1.0 - 1e-6;      // cosine: ways that are one, to 0.08 degrees
 constexpr double kTie = 1e-9;                // of the size: gaps closer than this are equal
 
 /// A corner of a clipped face. `edge` is where the side from it to the next lies: a side of the incident face (>= 0)

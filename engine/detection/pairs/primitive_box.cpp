@@ -17,9 +17,6 @@ constexpr double kNearlyFace = 0.97;
 /// The same where contacts are not sought again in the sub-step: a box that lands on a corner comes down on the next one.
 constexpr double kSideways = 0.5;
 
-/// Cosine of the angle of two directions that are one, 0.08 degrees.
-constexpr double kSameWay = 1.0 - 1e-6;
-
 /// Of the smaller box's thickness: a box that stands this much below the level of another's face passes over it.
 constexpr double kLevel = 1e-5;
 

@@ -20,17 +20,17 @@ constexpr double kSameFace = 1.0 - 1e-10;  // cosine
 class FineFacets {
  public:
   FineFacets(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings,
-             std::span<const RowEnd> rows, const Vec3& turn, EndRows& ends)
+             std::span<const RowEnd> rows, const Vec3& turn, std::span<const char> is_round, EndRows& ends)
       : bodies_(bodies),
         group_(group),
         settings_(settings),
         rows_(rows),
         axis_(turn.normalized()),
         turn_(turn.norm()),
-        ends_(ends) {}
+        ends_(ends),
+        is_round_(is_round) {}
 
   void roll(std::size_t first, std::size_t last) {
-    is_round_ = ends_.is_round;
     const std::vector<double> own(ends_.gaps.begin() + static_cast<std::ptrdiff_t>(first),
                                   ends_.gaps.begin() + static_cast<std::ptrdiff_t>(last));
     std::vector<std::size_t> takers, order(last - first);
@@ -91,16 +91,18 @@ class FineFacets {
   const Vec3 axis_;
   const double turn_;
   EndRows& ends_;
-  std::vector<char> is_round_;  // by row: before any answered for others
+  std::span<const char> is_round_;  // by row: before any answered for others
 };
 
 }  // namespace
 
 void roll_over_facets(const Bodies& bodies, const AssembledGroup& group, const ContactSettings& settings,
                       double time_step, std::span<const RowEnd> rows, EndRows& ends) {
+  const std::vector<char> is_round = ends.is_round;
   for_each_pair(rows, [&](std::size_t first, std::size_t last) {
     const Vec3 turn = time_step * (rows[first].a->spin - rows[first].b->spin);
-    if (last - first > 1 && turn.norm() > 0.0) FineFacets(bodies, group, settings, rows, turn, ends).roll(first, last);
+    if (last - first > 1 && turn.norm() > 0.0)
+      FineFacets(bodies, group, settings, rows, turn, is_round, ends).roll(first, last);
   });
 }
 

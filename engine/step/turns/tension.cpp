@@ -18,7 +18,7 @@ Mat3 stiffness(const Vec3& p, const Vec3& r) {
 
 }  // namespace
 
-bool slow_taut_bodies(GroupSystem& system, double time_step) {
+std::vector<SlowedBody> slow_taut_bodies(GroupSystem& system, double time_step) {
   std::vector<Mat3> taut(system.rigid.size(), Mat3::Zero());
   for (std::size_t i = 0; i < system.contacts.size(); ++i) {
     const ContactRows& row = system.contacts[i];
@@ -28,7 +28,7 @@ bool slow_taut_bodies(GroupSystem& system, double time_step) {
     if (row.a.rigid >= 0) taut[static_cast<std::size_t>(row.a.rigid)] += time_step * stiffness(on_a, row.a.arm);
     if (row.b.rigid >= 0) taut[static_cast<std::size_t>(row.b.rigid)] += time_step * stiffness(-on_a, row.b.arm);
   }
-  bool is_any = false;
+  std::vector<SlowedBody> slowed;
   for (std::size_t b = 0; b < taut.size(); ++b) {
     Mat3& inverse = system.rigid[b].inverse_inertia;
     if (!((inverse * taut[b]).norm() > kMost)) continue;  // an upper bound of the eigenvalues
@@ -39,10 +39,10 @@ bool slow_taut_bodies(GroupSystem& system, double time_step) {
     if (!(swings.eigenvalues().maxCoeff() > kMost)) continue;
     const Vec3 share = (swings.eigenvalues() / kMost).cwiseMax(1.0).cwiseInverse();
     const Mat3 across = root * swings.eigenvectors();
+    slowed.push_back({b, inverse});
     inverse = across * share.asDiagonal() * across.transpose();
-    is_any = true;
   }
-  return is_any;
+  return slowed;
 }
 
 }  // namespace impinge

@@ -2,14 +2,21 @@
 // weighs enough: rows, whose directions are those of the sub-step's start, then kick it from side to side, farther each time.
 #pragma once
 
+#include <vector>
+
 #include "engine/contact/group_system.hpp"
 
 namespace impinge {
 
+struct SlowedBody {
+  std::size_t block = 0;                ///< of GroupSystem::rigid
+  Mat3 inverse_inertia = Mat3::Zero();  ///< that it has by itself
+};
+
 /// Gives bodies of the group that are pulled by what their rows start from (GroupSystem::lambda) as much inertia across the pull
-/// as sub-steps of that length can follow, by K = (f·r) 1 - (f rᵀ + r fᵀ)/2 of a force f at an arm r, the stiffness that
-/// the pull has against turns [Tournier15], [Andrews17]. What sub-steps can follow stays as it is.
-/// Whether there was anything else.
-bool slow_taut_bodies(GroupSystem& system, double time_step);
+/// as sub-steps of that length can follow. A force f that pulls outwards at an arm r is stiff against turns about other axes by
+/// f·r, K = (f·r)(1 - r rᵀ/r²); where both lie on one line that is the geometric stiffness of a constraint [Tournier15],
+/// [Andrews17]. What sub-steps can follow stays as it is. Returns the others.
+std::vector<SlowedBody> slow_taut_bodies(GroupSystem& system, double time_step);
 
 }  // namespace impinge

@@ -8,17 +8,37 @@
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::vector<std::string> names_in(const std::string& source) {
+  static const std::regex named(
+      "TEST_"
+      R"re(CASE\(\s*"((?:[^"\\]|\\.)*)")re");
+  std::vector<std::string> names;
+  for (std::sregex_iterator at(source.begin(), source.end(), named), end; at != end; ++at) names.push_back((*at)[1]);
+  return names;
+}
+
+bool is_handed_on(const std::string& name) { return name.find(';') == std::string::npos; }
+
+}  // namespace
+
 TEST_CASE("every case has a name that CTest finds it by") {
-  const std::regex named("TEST_CASE\\(\\s*\"((?:[^\"\\\\]|\\\\.)*)\"");
-  int cases = 0;
+  const std::vector<std::string> sample = names_in(
+      "TEST_"
+      "CASE(\n    \"a film begins; it ends\", \"[tag]\") {");
+  REQUIRE(sample.size() == 1);
+  CHECK_FALSE(is_handed_on(sample.front()));
+  std::size_t cases = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(IMPINGE_SOURCE_DIR) / "tests")) {
     if (entry.path().extension() != ".cpp") continue;
     std::stringstream text;
     text << std::ifstream(entry.path()).rdbuf();
-    const std::string all = text.str();
-    for (std::sregex_iterator at(all.begin(), all.end(), named), end; at != end; ++at, ++cases) {
-      INFO(entry.path().string() << ": " << (*at)[1]);
-      CHECK((*at)[1].str().find(';') == std::string::npos);
+    const std::vector<std::string> names = names_in(text.str());
+    cases += names.size();
+    for (const std::string& name : names) {
+      INFO(entry.path().string() << ": " << name);
+      CHECK(is_handed_on(name));
     }
   }
   CHECK(cases > 1000);
