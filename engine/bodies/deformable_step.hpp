@@ -31,6 +31,7 @@ struct DeformableStep {
   BlockMatrix a;          ///< over the free nodes, kg
   double mass = 1.0;      ///< how much of M is in A: all of it that a motion of all nodes as one meets
   VecX b;                 ///< kg m/s
+  double rounding = 0.0;  ///< of the balance A v - b of the last linearization at v, kg m/s: less is no force
   VecX v_star;            ///< solution without contact, m/s
 
   // how free_velocity fared

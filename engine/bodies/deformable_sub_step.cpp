@@ -87,8 +87,9 @@ double DeformableBody::relinearize(const DeformableIntegrator& integrator, const
   const VecX v = step_.v_star + change;
   integrator.linearize(*this, v, step_);
   const VecX momentum = step_.a * v;
-  const double size = larger(larger(momentum.norm(), step_.b.norm()), impulse.norm());
-  return size == 0.0 ? 0.0 : (momentum - step_.b - impulse).norm() / size;  // what is no number is no root
+  const double left = (momentum - step_.b - impulse).norm(),
+               size = larger(larger(momentum.norm(), step_.b.norm()), impulse.norm());
+  return left <= step_.rounding ? 0.0 : left / size;  // what is no number is no root
 }
 
 void DeformableBody::solve_again() {

@@ -145,6 +145,7 @@ void OneStepScheme::linearize(DeformableBody& body, const VecX& v, DeformableSte
   fill_system(body, 1.0 + step.tau * d.alpha, step.tau * d.beta, step.tau * step.s, &step.tangent, step);
   add_pull_to_system(body, step);
   step.b = step.a * v - body.gather_free(g);
+  step.rounding = rounding_of_balance(body, step, largest_stiffness(body, step));
 }
 
 void OneStepScheme::free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const {

@@ -38,6 +38,7 @@ class EnergyMomentum : public OneStepScheme {
     double size = 0.0;
     find_system(body, v, step);
     step.b = step.a * v - residual(body, v, step, size);
+    step.rounding = rounding_of_balance(body, step, largest_stiffness(body, step));
   }
 
   void free_velocity(DeformableBody& body, DeformableStep& step, LinearSolver& solver) const override {
