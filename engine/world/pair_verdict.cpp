@@ -17,6 +17,8 @@ namespace {
 using enum FilterVerdict::Outcome;
 using Numbers = std::vector<NamedNumber>;
 
+constexpr const char* kBrought = "their contact was brought by a look at where velocities lead";
+
 std::string metres(double x) { return fmt::format("{:.4g} m", x); }
 std::string several(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
@@ -57,7 +59,7 @@ class Report {
     v_.swept_a = step.boxes.by_body[a], v_.swept_b = step.boxes.by_body[b];
     for (const Collision& c : step.collisions)
       if (c.body_a == a && c.body_b == b) v_.contacts.push_back(c);
-    v_.nearest = search.find(step.colliders, a, b, INFINITY);
+    if (!a_.deleted && !b_.deleted) v_.nearest = search.find(step.colliders, a, b, INFINITY);
     if (is_self_ && v_.in_contact()) v_.nearest = features_of(deepest());
   }
 
@@ -94,7 +96,8 @@ class Report {
 
   void kind() {
     for (const Body* body : {&a_, &b_})
-      if (body->deleted) return add("kind", false, fmt::format("'{}' is deleted", body->name));
+      if (body->deleted)
+        return add("kind", false, fmt::format("'{}' is {}", body->name, body->absent ? "not there yet" : "deleted"));
     if (is_self_) {
       const bool is_soft = a_.kind() == BodyKind::deformable;
       return add("kind", is_soft, kinds(a_) + (is_soft ? "" : ": what doesn't deform can't meet itself"));
@@ -146,7 +149,8 @@ class Report {
       words = fmt::format("the swept boxes are {} apart along {}", metres(along), "xyz"[axis]);
     }
     words += "; each counts in half of an activation distance";
-    add("boxes", meet, std::move(words), std::move(numbers));
+    if (!meet && v_.in_contact()) words += std::string("; ") + kBrought;
+    add("boxes", meet || v_.in_contact(), std::move(words), std::move(numbers));
   }
 
   double activation() const { return activation_between(world_.parameters, a_, b_); }
@@ -154,18 +158,19 @@ class Report {
   void broad_phase() {
     if (is_stopped_) return add_idle("broad_phase", "");
     const auto it = std::find(step_.pairs.begin(), step_.pairs.end(), BodyPair{v_.a, v_.b});
-    const bool is_listed = it != step_.pairs.end();
-    margin_ = is_listed ? it->margin : 0.0;
+    is_listed_ = it != step_.pairs.end();
+    margin_ = is_listed_ ? it->margin : 0.0;
     Numbers numbers = {{"pairs", static_cast<double>(step_.pairs.size())}};
-    if (is_listed) numbers.push_back({"margin_m", margin_});
-    if (is_self_ && is_listed)
+    if (is_listed_) numbers.push_back({"margin_m", margin_});
+    if (is_self_ && is_listed_)
       return add("broad_phase", true,
                  fmt::format("not needed: triangles are looked at up to {} apart", metres(margin_)),
                  std::move(numbers));
     const std::string_view method = world_.parameters.broad_phase.method.name();
-    add("broad_phase", is_listed,
-        is_listed ? fmt::format("{} hands the pair on, to be looked at up to {} apart", method, metres(margin_))
-                  : fmt::format("{} does not hand the pair on", method),
+    add("broad_phase", is_listed_ || v_.in_contact(),
+        is_listed_ ? fmt::format("{} hands the pair on, to be looked at up to {} apart", method, metres(margin_))
+                   : fmt::format("{} does not hand the pair on{}{}", method, v_.in_contact() ? ": " : "",
+                                 v_.in_contact() ? kBrought : ""),
         std::move(numbers));
   }
 
@@ -179,8 +184,8 @@ class Report {
     std::size_t count = 0, crossing = 0;
     for (const TrianglePair& t : step_.triangle_pairs)
       if (t.a == v_.a && t.b == v_.b) ++count, crossing += t.intersecting ? 1 : 0;
-    const bool is_inside = count == 0 && v_.in_contact();
-    add("candidates", count > 0 || is_inside,
+    const bool is_inside = count == 0 && v_.in_contact() && is_listed_;
+    add("candidates", count > 0 || v_.in_contact(),
         fmt::format("{} finds {} up to {} apart, {} of them crossing{}", world_.parameters.narrow_phase.method.name(),
                     several(count, "triangle pair"), metres(margin_), crossing,
                     is_inside ? ": one body lies inside the other" : ""),
@@ -190,6 +195,7 @@ class Report {
   }
 
   void distance() {
+    if (a_.deleted || b_.deleted) return add_idle("distance", "");
     if (!v_.nearest) return add_idle("distance", is_self_ ? "measured at contacts only" : "two planes have none");
     const NearestFeatures& n = *v_.nearest;
     const Vec3 relative =
@@ -255,7 +261,7 @@ class Report {
   const SubStep& step_;
   const Body &a_, &b_;
   const Collider &of_a_, &of_b_;
-  bool is_self_, is_stopped_ = false;
+  bool is_self_, is_stopped_ = false, is_listed_ = false;
   double margin_ = 0.0;
   PairVerdict v_;
 };

@@ -237,6 +237,22 @@ TEST_CASE("why names the filter that stops a pair") {
   CHECK(says(line_of(joined.out, "exempt"), "joined by 'joint'"));
 }
 
+TEST_CASE("why says of a body that is added later that it is not there yet, and sees no distance to it before") {
+  const Files files;
+  files.folder.write("add.script", "at 4 add late like ball at 0 0.35 1\nat 8 delete late\n");
+  const auto asked = [&](int frame) {
+    return files.why({"floor", "late"}, {"--script", "add.script", "--frame", std::to_string(frame)}).out;
+  };
+  const std::string before = asked(2), there = asked(6), after = asked(9);
+  CHECK(says(before, "'late' is not there yet"));
+  CHECK(!says(before, "deleted"));
+  CHECK(says(before, "never in contact in frames 0 to 2\n"));
+  CHECK(says(there, "'late' is dynamic"));
+  CHECK(says(after, "'late' is deleted"));
+  // a body of 0.1 m falls from 0.35 m: nearest is where it was last, and no frame from before it was there
+  CHECK(says(after, "in frame 7"));
+}
+
 TEST_CASE("why tells of a motion that was taken back") {
   TempFolder folder;
   folder.write("s.toml", R"([simulation]
