@@ -123,19 +123,42 @@ void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const Collisi
   result.row_impulse = solved.by_body(group, linear, angular, nodes);
 }
 
-std::vector<FrozenContact> frozen_geometry(const Bodies& bodies, const AssembledGroup& group,
-                                           const ContactList& contacts) {
-  std::vector<FrozenContact> list;
-  for (const ContactIndex c : group.contacts) {
+void keep_contacts(const Bodies& bodies, const AssembledGroup& solved, const ContactList& contacts, GroupIndex index,
+                   GroupResult& result) {
+  const GroupSystem& s = solved.system;
+  result.contacts = solved.contacts;
+  for (std::size_t i = 0; i < solved.contacts.size(); ++i) {
+    const ContactIndex c = solved.contacts[i];
+    const ContactRows& row = s.contacts[i];
+    result.impulses.push_back({contacts.key(c), row.directions.transpose() * s.lambda[i]});
+    if (!s.next_start.empty()) result.starts.push_back(row.directions.transpose() * s.next_start[i]);
+    const Collision* collision = contacts.collision(c);
+    if (collision == nullptr) continue;
+    SolvedContact of =
+        unsolved_contact(*collision, solved.points[i].first, solved.points[i].second, row.friction, bodies);
+    of.lambda = s.lambda[i], of.state = state_of(of.lambda, of.friction);
+    of.group = index, of.residual = result.verdict.of_contacts[i];
+    if (solved.meeting > 0.0) result.slips.emplace_back(s.contact_velocity(i, false), s.contact_velocity(i, true));
+    result.solved.push_back(std::move(of));
+  }
+}
+
+void keep_answer(const Bodies& bodies, const AssembledGroup& solved, const ContactList& contacts, FrozenGroup& frozen) {
+  const GroupSystem& s = solved.system;
+  frozen.answer = {s.lambda, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta};
+  frozen.rigid_bodies = solved.rigid;
+  frozen.deformable_bodies = solved.deformable;
+  frozen.geometry.clear();
+  for (const ContactIndex c : solved.contacts) {
     const ContactKey key = contacts.key(c);
     if (const Collision* at = contacts.collision(c)) {
-      list.push_back({at->body_a, at->body_b, at->triangle_a, at->triangle_b, at->point_a, at->point_b, key.feature});
+      frozen.geometry.push_back(
+          {at->body_a, at->body_b, at->triangle_a, at->triangle_b, at->point_a, at->point_b, key.feature});
     } else {
       const AttachmentHold hold = hold_of(contacts.attachment(c), bodies);
-      list.push_back({key.body_a, key.body_b, {}, {}, hold.point_a, hold.point_b, key.feature});
+      frozen.geometry.push_back({key.body_a, key.body_b, {}, {}, hold.point_a, hold.point_b, key.feature});
     }
   }
-  return list;
 }
 
 }  // namespace impinge

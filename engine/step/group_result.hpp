@@ -103,8 +103,11 @@ bool is_on_its_way(const Bodies& bodies, const CollisionGroup& group, const Vec3
 void keep_rows(const Bodies& bodies, const AssembledGroup& solved, const CollisionGroup& group,
                const ContactList& contacts, GroupResult& result);
 
-/// Where the rows of a group act, for a frozen step.
-std::vector<FrozenContact> frozen_geometry(const Bodies& bodies, const AssembledGroup& group,
-                                           const ContactList& contacts);
+/// What each contact of a solved group ends with, in order.
+void keep_contacts(const Bodies& bodies, const AssembledGroup& solved, const ContactList& contacts, GroupIndex index,
+                   GroupResult& result);
+
+/// The answer of a frozen group, and where its rows act.
+void keep_answer(const Bodies& bodies, const AssembledGroup& solved, const ContactList& contacts, FrozenGroup& frozen);
 
 }  // namespace impinge

@@ -13,6 +13,7 @@
 #include "engine/step/late_impacts.hpp"
 #include "engine/step/roots/group_root.hpp"
 #include "engine/step/tasks.hpp"
+#include "engine/step/turns/landing.hpp"
 #include "engine/step/turns/tension.hpp"
 #include "engine/step/turns/turning.hpp"
 
@@ -44,8 +45,10 @@ class GroupSolve {
     make_system();
     is_rough_ = may_wait() && now_.deformable.empty();
     if (is_large()) trust_ = Trust::none;  // each other answer would be as dear as the first
+    const std::vector<Vec3> start = system().lambda;
     solve_before_meeting();
     solve_slowed();
+    land(start);
     pay_for_recovery();
     find_root();
     follow_turns();
@@ -91,6 +94,10 @@ class GroupSolve {
     count(result_.response);
     if (!result_.response.converged() && judge().relative == 0.0) result_.response.ended = StopReason::converged;
   }
+  void solve_from(const std::vector<Vec3>& lambda) {
+    system().lambda = lambda;
+    solve();
+  }
   GroupVerdict judge() { return judge_group(system(), nullptr, rounding_); }
 
   /// What is taut swings no faster than the sub-step sees, but where that would win energy, as of a chain that whips.
@@ -115,18 +122,32 @@ class GroupSolve {
     const std::vector<Vec3> start = system().lambda;
     are_told_ = expect_turns();
     solve();
-    if (are_told_ && is_usable() && wins_energy() && limit_turning(system(), bounds_, how_.contact, input_.time_step)) {
-      system().lambda = start;
-      solve();
-    }
+    if (are_told_ && is_usable() && wins_energy() && limit_turning(system(), bounds_, how_.contact, input_.time_step))
+      solve_from(start);
     if (are_told_ && (!is_usable() || wins_energy())) {
       forget_turns();
-      system().lambda = start;
-      solve();
+      solve_from(start);
     }
-    const bool contradicts = result_.response.ended == StopReason::contradiction;
-    if (contradicts || is_usable() || !starts_too_high(system(), start)) return;
-    std::fill(system().lambda.begin(), system().lambda.end(), Vec3::Zero());
+    if (result_.response.ended == StopReason::contradiction || is_usable() || !starts_too_high(system(), start)) return;
+    solve_from(std::vector<Vec3>(start.size(), Vec3::Zero()));
+  }
+
+  /// What stands carries until what comes down does.
+  void land(std::span<const Vec3> start) {
+    if (now_.meeting > 0.0 || !how_.response.uses_cone_solver() || !is_usable()) return;
+    landing_ = find_landing(system(), start, how_.contact, input_.time_step, [&](GroupSystem& standing) {
+      const ResponseResult solved = how_.response.solve(standing, how_.lcp, how_.context);
+      count(solved);
+      return solved.converged();
+    });
+    if (!landing_) return;
+    landing_->begin(system());
+    solve();
+    if (!is_usable()) forget_landing();
+  }
+  void forget_landing() {
+    landing_->close(system());
+    landing_.reset();
     solve();
   }
 
@@ -143,8 +164,7 @@ class GroupSolve {
     const auto solve_for = [&](double share, const std::vector<Vec3>& start) {
       now_ = asked;
       ask_for_share(now_, share, input_.time_step);
-      system().lambda = start;
-      solve();
+      solve_from(start);
       return is_usable();
     };
     if (solve_for(0.0, std::vector<Vec3>(asked.system.lambda.size(), Vec3::Zero())) && is_answered) {
@@ -234,8 +254,10 @@ class GroupSolve {
   /// Rigid bodies: the same rows, told how much nearer their points come because bodies turn on the way. An answer that
   /// can't be had, or does no better than the one before, is not taken; what takes far longer than the one before can't.
   void follow_turns() {
+    bool is_deep = follow_turns_once();
+    if (is_deep && landing_) forget_landing(), is_deep = follow_turns_once();
     // where bodies turn otherwise than was counted on, with less of that
-    while (follow_turns_once() && trust_ != Trust::none) {
+    for (; is_deep && trust_ != Trust::none; is_deep = follow_turns_once()) {
       trust_ = trust_ == Trust::facets ? Trust::lifts : Trust::none;
       forget_turns();
       if (trust_ == Trust::lifts) are_told_ = expect_turns();
@@ -299,13 +321,15 @@ class GroupSolve {
     result_.verdict = judge();  // of stage 12: the judge sees the group while its system stands
     result_.is_usable = result_.is_at_root && is_usable();
     if (is_rough_ && !(result_.verdict.relative <= how_.context.lcp.tolerance)) result_.is_provisional = true;
-    const GroupSystem& s = system();
-    result_.velocity = now_.by_body(group_, s.delta_velocity, spins(), s.deformable_delta);
+    if (result_.frozen) keep_answer(bodies_, now_, input_.contacts, *result_.frozen);
+    if (landing_) landing_->close(system());
+    result_.velocity = now_.by_body(group_, system().delta_velocity, spins(), system().deformable_delta);
     if (how_.velocities == VelocityTime::middle)
       result_.struck = struck_bodies(now_, group_, input_.contacts, how_.contact);
     push_out();
     follow_flight();
-    hand_on();
+    keep_contacts(bodies_, now_, input_.contacts, index_, result_);
+    if (how_.keeps_rows) keep_rows(bodies_, now_, group_, input_.contacts, result_);
   }
 
   void push_out() {
@@ -367,31 +391,6 @@ class GroupSolve {
     if (floats(bodies_, group_, input_.contacts)) result_.taken = std::max(0.0, -energy_won(bodies_, now_).first);
   }
 
-  void hand_on() {
-    const GroupSystem& s = system();
-    for (std::size_t i = 0; i < now_.contacts.size(); ++i) {
-      const ContactIndex c = now_.contacts[i];
-      result_.impulses.push_back({input_.contacts.key(c), s.contacts[i].directions.transpose() * s.lambda[i]});
-      if (!s.next_start.empty()) result_.starts.push_back(s.contacts[i].directions.transpose() * s.next_start[i]);
-      const Collision* collision = input_.contacts.collision(c);
-      if (collision == nullptr) continue;
-      SolvedContact solved =
-          unsolved_contact(*collision, now_.points[i].first, now_.points[i].second, s.contacts[i].friction, bodies_);
-      solved.lambda = s.lambda[i], solved.state = state_of(solved.lambda, solved.friction);
-      solved.group = index_, solved.residual = result_.verdict.of_contacts[i];
-      if (now_.meeting > 0.0) result_.slips.emplace_back(s.contact_velocity(i, false), s.contact_velocity(i, true));
-      result_.solved.push_back(std::move(solved));
-    }
-    if (result_.frozen) {
-      result_.frozen->answer = {s.lambda, s.delta_velocity, s.delta_angular_velocity, s.deformable_delta};
-      result_.frozen->rigid_bodies = now_.rigid;
-      result_.frozen->deformable_bodies = now_.deformable;
-      result_.frozen->geometry = frozen_geometry(bodies_, now_, input_.contacts);
-    }
-    if (how_.keeps_rows) keep_rows(bodies_, now_, group_, input_.contacts, result_);
-    result_.contacts = std::move(now_.contacts);
-  }
-
   void count(const ResponseResult& solved) {
     result_.iterations += solved.iterations;
     result_.outer_iterations += solved.outer_iterations;
@@ -406,7 +405,8 @@ class GroupSolve {
   double rounding_ = 0.0;       // m/s: what the rows' velocities are known to
   const int before_;            // iterations that the answer took which it begins with
   AssembledGroup now_;
-  GroupSystem before_meeting_;                // solved, where two meet in flight
+  GroupSystem before_meeting_;  // solved, where two meet in flight
+  std::optional<Landing> landing_;
   bool is_rough_ = false, are_told_ = false;  // the latter: rows are, what turning takes
   Trust trust_ = Trust::facets;
   GroupResult result_;

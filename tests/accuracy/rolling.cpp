@@ -8,6 +8,7 @@
 #include "engine/shapes/surface_of_revolution.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/geometry/sample_shapes.hpp"
+#include "tests/support/mechanics/rolling_polygon.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 
 using namespace impinge;
@@ -43,12 +44,12 @@ struct Disc {
 /// Its centre stays, and so does for an instant the point of the rim that touches: it turns about the line through both.
 BodyDescription steady_disc(const Disc& of) {
   const double tilt = of.tilt * M_PI / 180.0, r = of.radius, t = of.thickness;
-  BodyDescription d = dynamic_body("disc", cylinder(r, t), {});
+  BodyDescription d = dynamic_body("disc", cylinder(r, t), Vec3::Zero());
   d.mass = 1.0;
   d.rotation = {0.0, 0.0, -of.tilt};
   const Vec3 axis(std::sin(tilt), std::cos(tilt), 0.0), rim(std::cos(tilt), -std::sin(tilt), 0.0),
       arm = r * rim - 0.5 * t * axis, along = arm.normalized();
-  d.position = {0.0, -arm.y(), 0.0};
+  d.position = Vec3(0.0, -arm.y(), 0.0);
   // of w = W along: its axis goes round the vertical at Ω = W round, dL/dt = Ω × L = arm × m g
   const double across = 0.25 * r * r + t * t / 12.0, about = 0.5 * r * r,
                round = along.cross(axis).z() / Vec3::UnitY().cross(axis).z();
@@ -57,6 +58,65 @@ BodyDescription steady_disc(const Disc& of) {
   d.angular_velocity = std::sqrt(moment / turn) * along;
   return d;
 }
+
+Profile regular_polygon(int count, double radius) {
+  Profile corners;
+  for (int i = 0; i < count; ++i) {
+    const double at = 2.0 * M_PI * (i + 0.5) / count - 0.5 * M_PI;
+    corners.emplace_back(radius * std::cos(at), radius * std::sin(at));
+  }
+  return corners;
+}
+
+/// The lower half of a polygon of twice as many corners, about its centre of mass.
+Profile half_polygon(int facets, double radius) {
+  Profile corners;
+  for (int i = 0; i <= facets; ++i) {
+    const double at = M_PI * (static_cast<double>(i) / facets - 1.0);
+    corners.emplace_back(radius * std::cos(at), radius * std::sin(at));
+  }
+  double area = 0.0, moment = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    const double cross = a.x() * b.y() - a.y() * b.x();
+    area += 0.5 * cross, moment += cross * (a.y() + b.y()) / 6.0;
+  }
+  for (Eigen::Vector2d& corner : corners) corner.y() -= moment / area;
+  return corners;
+}
+
+/// A prism of that profile on a floor, with friction that holds it.
+struct PrismOnFloor {
+  World world;
+
+  PrismOnFloor(const Profile& profile, double length, bool is_hull, double angle, double speed, double spin,
+               int substeps) {
+    const TriangleMesh mesh = prism(profile, length);
+    const SharedShape shape = is_hull ? made_hull(mesh.vertices) : SharedShape(surface(mesh));
+    world.parameters.simulation.sleeping = false;
+    world.parameters.simulation.substeps = substeps;
+    world.parameters.contact.friction = 2.0;
+    world.add_body(fixed_plane("floor", Vec3::UnitY(), 0.0));
+    BodyDescription d = dynamic_body("prism", shape, Vec3::Zero());
+    d.rotation = {0.0, 0.0, angle * 180.0 / M_PI};
+    d.position.y() = -shape->bounds({rotation_from_degrees(d.rotation), Vec3::Zero()}).min.y();
+    d.velocity = {speed, 0.0, 0.0}, d.angular_velocity = {0.0, 0.0, spin};
+    world.add_body(d);
+    world.start();
+  }
+  const RigidBody& body() const { return rigid(world, 1); }
+  double inertia() const { return body().world_inertia()(2, 2) / body().mass; }
+  /// Of whole frames.
+  void go_on(double seconds) {
+    for (int i = 0; i < std::lround(60.0 * seconds); ++i) {
+      const double before = total_energy(body());
+      world.step();
+      REQUIRE(world.record().stats.unconverged == 0);
+      // velocities are of half a sub-step before the pose
+      REQUIRE(total_energy(body()) < before + 5e-3 * body().mass * kGravity * body().pose.position.y());
+    }
+  }
+};
 
 }  // namespace
 
@@ -96,6 +156,37 @@ TEST_CASE("a disc that rolls on its rim goes round steadily and keeps its energy
     }
 }
 
+TEST_CASE("a coin of triangles finer than its way round its rim goes round as a round one does") {
+  constexpr double kRadius = 0.04, kThickness = 0.008;
+  const TriangleMesh coin = surface_of_revolution({{kRadius, -0.5 * kThickness}, {kRadius, 0.5 * kThickness}},
+                                                  -0.5 * kThickness, 0.5 * kThickness, 256);
+  for (const SharedShape& shape : {SharedShape(surface(coin)), made_hull(coin.vertices)})
+    for (const Floor floor : {Floor::plane, Floor::mesh}) {
+      if (shape->mesh() == nullptr && floor == Floor::plane) continue;  // four corners of a hull are told a plane
+      for (const int substeps : {4, 8, 16}) {                           // 7.5 corners come down in a sub-step, 3.7, 1.9
+        CAPTURE(shape->name(), static_cast<int>(floor), substeps);
+        World world;
+        world.parameters.simulation.sleeping = false;
+        world.parameters.simulation.substeps = substeps;
+        world.parameters.contact.friction = 1.0;
+        world.add_body(floor_of(floor));
+        BodyDescription d = steady_disc({kRadius, kThickness, 30.0});
+        d.shape = shape;
+        d.position.y() = -shape->bounds({rotation_from_degrees(d.rotation), Vec3::Zero()}).min.y();
+        world.add_body(d);
+        world.start();
+        const RigidBody& disc = rigid(world, 1);
+        const double lying = kGravity * 0.5 * kThickness, begun = total_energy(disc) - lying;
+        for (int i = 0; i < 12; ++i) {
+          world.step();
+          REQUIRE(total_energy(disc) - lying < 1.02 * begun);
+        }
+        CHECK(total_energy(disc) - lying > 0.93 * begun);  // its corners take 0.04
+        CHECK(std::abs(tilt_of(disc) - 30.0) < 2.5);
+      }
+    }
+}
+
 TEST_CASE("wheels and balls of triangles finer than a sub-step's turn roll as round ones do") {
   constexpr double kRadius = 0.1, kSpeed = 2.0;  // metres, m/s: 0.083 rad in a sub-step with four
   const TriangleMesh wheel = surface_of_revolution({{kRadius, -0.1}, {kRadius, 0.1}}, -0.1, 0.1, 384);
@@ -130,6 +221,46 @@ TEST_CASE("wheels and balls of triangles finer than a sub-step's turn roll as ro
       }
       CHECK(total_energy(roller) - lying > c.least * (begun - lying));
     }
+}
+
+TEST_CASE("a wheel of facets that rolls loses what its corners take") {
+  struct Case {
+    int facets, substeps;
+    double off;  // of the speed after 1 s
+  };
+  for (const Case& c : {Case{12, 4, 0.06}, Case{12, 16, 0.02}, Case{24, 4, 0.02}, Case{24, 16, 0.01}, Case{32, 4, 0.03},
+                        Case{32, 16, 0.01}, Case{64, 4, 0.03}, Case{64, 16, 0.01}, Case{64, 64, 0.005}})
+    for (const bool is_hull : {false, true}) {
+      CAPTURE(c.facets, c.substeps, is_hull);
+      constexpr double kRadius = 0.1, kSpeed = 0.8;
+      const double height = kRadius * std::cos(M_PI / c.facets);
+      PrismOnFloor on(regular_polygon(c.facets, kRadius), 0.05, is_hull, 0.0, kSpeed, -kSpeed / height, c.substeps);
+      // what begins flat on a facet goes on about the corner ahead
+      const double spin = -kSpeed / height * (on.inertia() + height * height) / (on.inertia() + kRadius * kRadius);
+      RollingPolygon due(regular_polygon(c.facets, kRadius), on.inertia(), -1e-9, spin);
+      due.go_on(1.0, kGravity);
+      on.go_on(1.0);
+      CHECK(on.body().angular_velocity().z() == Approx(due.spin()).epsilon(c.off));
+    }
+}
+
+TEST_CASE("half a cylinder of facets that rocks loses what its corners take") {
+  constexpr double kFrom = 20.0 * M_PI / 180.0;
+  for (const auto& [substeps, off] :
+       {std::pair(4, 0.18), std::pair(8, 0.09), std::pair(16, 0.05), std::pair(64, 0.02)}) {
+    CAPTURE(substeps);
+    const Profile profile = half_polygon(64, 0.1);
+    PrismOnFloor on(profile, 0.1, false, kFrom, 0.0, 0.0, substeps);
+    RollingPolygon due(profile, on.inertia(), kFrom, 0.0);
+    const double begun = due.energy(kGravity);
+    const double least = RollingPolygon(profile, on.inertia(), 0.0, 0.0).energy(kGravity);
+    due.go_on(3.0, kGravity);
+    on.go_on(3.0);
+    const double left = (total_energy(on.body()) / on.body().mass - least) / (begun - least),
+                 wanted = (due.energy(kGravity) - least) / (begun - least);
+    CAPTURE(left, wanted);
+    CHECK(std::abs(left - wanted) < off);
+  }
 }
 
 TEST_CASE("a ball that rolls to and fro in a half-pipe of fine facets keeps its energy") {

@@ -27,12 +27,11 @@ constexpr double kFarthestRoll = 0.5;  // of the arm: a place that moves farther
 constexpr double kSmooth = 0.998;      // cosine of a bend of 3.6 degrees
 constexpr double kMostTurns = 1e3;     // radians; of what spins about the place where it touches
 
-BodyEnd end_of(const RigidBody& body, const Vec3& delta_velocity, const Vec3& delta_spin, double time_step) {
-  const Vec3 spin = body.angular_velocity() + delta_spin;
+BodyEnd end_of(const RigidBody& body, const Vec3& velocity, const Vec3& spin, double time_step) {
   BodyEnd end{body.pose, time_step * spin.norm(), spin, spin};
   if (!(end.turn <= kMostTurns)) return end;
   const Vec3 momentum = body.world_inertia() * spin;
-  end.pose = free_flight(body, body.velocity + delta_velocity, momentum, time_step);
+  end.pose = free_flight(body, velocity, momentum, time_step);
   end.spin_then = end.pose.rotation * (body.inertia_inverse * (end.pose.rotation.transpose() * momentum));
   return end;
 }
@@ -111,8 +110,9 @@ EndRows rows_at_end(const Bodies& bodies, const AssembledGroup& group, const Con
                     const ContactSettings& settings, double time_step, Trust trust) {
   std::vector<BodyEnd> rigid;
   for (std::size_t i = 0; i < group.rigid.size(); ++i)
-    rigid.push_back(end_of(*bodies[group.rigid[i]].as<RigidBody>(), group.system.delta_velocity[i],
-                           group.system.delta_angular_velocity[i], time_step));
+    rigid.push_back(end_of(*bodies[group.rigid[i]].as<RigidBody>(),
+                           group.system.rigid[i].velocity + group.system.delta_velocity[i],
+                           group.system.rigid[i].angular_velocity + group.system.delta_angular_velocity[i], time_step));
   std::map<BodyIndex, BodyEnd> others;
   const auto end = [&](int block, BodyIndex b) -> const BodyEnd& {
     if (block >= 0) return rigid[static_cast<std::size_t>(block)];

@@ -13,6 +13,7 @@ namespace {
 constexpr double kTouching = 0.02;         // of the activation distance: a corner that it stands on
 constexpr double kSweep = 2.0;             // of the turn: what comes down in it or in the next one
 constexpr double kAtOnce = 0.05;           // of the turn: what comes down together, as both ends of an edge do
+constexpr double kOnTheWay = 0.9;          // of the sweep of a rim: a corner between both ends
 constexpr double kFinest = 0.25;           // radians between corners of what may be round
 constexpr double kSameFace = 1.0 - 1e-10;  // cosine
 
@@ -33,6 +34,7 @@ class FineFacets {
   void roll(std::size_t first, std::size_t last) {
     const std::vector<double> own(ends_.gaps.begin() + static_cast<std::ptrdiff_t>(first),
                                   ends_.gaps.begin() + static_cast<std::ptrdiff_t>(last));
+    find_sweep(first, last, own);
     std::vector<std::size_t> takers, order(last - first);
     std::iota(order.begin(), order.end(), first);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) { return gap_now(l) < gap_now(r); });
@@ -52,6 +54,30 @@ class FineFacets {
   }
 
  private:
+  /// What goes round on its rim, as a coin does, comes down on corners that lie about no axis of its spin: those between where
+  /// it stands and the lowest one then tell whether they are finer than that.
+  void find_sweep(std::size_t first, std::size_t last, const std::vector<double>& own) {
+    const auto end_gap = [&](std::size_t i) { return own[i - first]; };
+    std::size_t now = first, then = first;
+    for (std::size_t i = first; i < last; ++i) {
+      if (gap_now(i) < gap_now(now)) now = i;
+      if (end_gap(i) < end_gap(then)) then = i;
+    }
+    sweep_ = 0.0;
+    const double sweep = angle_between(rows_[now], rows_[then]);
+    if (!(sweep < kFinest)) return;
+    for (std::size_t i = first; i < last; ++i) {
+      if (is_round_[i] != 0) continue;
+      const double part = angle_between(rows_[now], rows_[i]) / sweep;
+      if (end_gap(i) < end_gap(now) && part > kAtOnce && part < kOnTheWay) sweep_ = sweep;
+    }
+  }
+  /// From the centre of what rolls.
+  double angle_between(const RowEnd& row, const RowEnd& other) const {
+    const Vec3 &x = bodies_[row.body()].pose.position, a = row.now() - x, b = other.now() - x;
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+
   void answer_for(std::size_t e, std::size_t c, double gap) {
     ends_.gaps[c] = gap;
     ends_.rolling[c] = group_.system.contacts[c].directions * rows_[c].half_way(bodies_, rows_[e].then());
@@ -73,7 +99,10 @@ class FineFacets {
     if (is_round_[c] != 0 && is_round_[e] != 0) return false;  // both ends of a line, which goes round as a whole
     const Vec3 from = across(now), to = across(then);
     const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
-    return angle > kAtOnce * turn_ && angle < std::min(kSweep * turn_, kFinest);
+    if (angle > kAtOnce * turn_ && angle < std::min(kSweep * turn_, kFinest)) return true;
+    if (is_round_[c] != 0 || is_round_[e] != 0) return false;
+    const double along_rim = angle_between(now, then);
+    return along_rim > kAtOnce * sweep_ && along_rim < kSweep * sweep_;
   }
 
   bool is_ball(BodyIndex body) const { return bodies_[body].shape->as<Sphere>() != nullptr; }
@@ -92,6 +121,7 @@ class FineFacets {
   const double turn_;
   EndRows& ends_;
   std::span<const char> is_round_;  // by row: before any answered for others
+  double sweep_ = 0.0;              // radians, of a rim that is finer; 0: it is not, or nothing of it
 };
 
 }  // namespace

@@ -53,8 +53,9 @@ std::pair<double, double> energy_won(const Bodies& bodies, const AssembledGroup&
     const auto energy = [&](const Vec3& velocity, const Vec3& spin) {
       return 0.5 * (body.mass * velocity.squaredNorm() + spin.dot(body.world_inertia() * spin));
     };
+    const RigidBlock& block = s.rigid[i];
     free += energy(body.velocity, body.angular_velocity());
-    with += energy(body.velocity + s.delta_velocity[i], body.angular_velocity() + s.delta_angular_velocity[i]);
+    with += energy(block.velocity + s.delta_velocity[i], block.angular_velocity + s.delta_angular_velocity[i]);
   }
   if (s.deformable.empty()) return {with - free, free};
   double won = 0.0;  // A holds elastic forces too: the work of the impulses
