@@ -17,6 +17,10 @@ constexpr std::size_t kFewOfPair = 8, kFewOfPatch = 4;
 constexpr double kFlat = 1e-3;
 // of the activation distance: how much deeper a contact must be to take the place of one that carries
 constexpr double kPreference = 0.01;
+// of the same, and cosine: what is as deep as another, and faces the same way
+constexpr double kAsDeep = 1e-4, kOneNormal = 1.0 - 1e-9;
+// of the patch's size: how far from the sides of the polygon a contact is that they can carry for
+constexpr double kWithin = 0.05;
 // the tilts, radians, for which the contacts that would be deepest stay
 constexpr std::array<double, 2> kTilts = {0.01, 0.1};
 constexpr int kTiltDirections = 8;
@@ -93,11 +97,29 @@ std::vector<Place> most_of(const std::vector<Place>& corners, std::size_t most) 
   return kept;
 }
 
+/// Whether all of them are of one face that lies on another.
+bool lie_flat(std::span<const Collision> contacts, double as_deep) {
+  return std::abs(contacts.front().gap) <= as_deep &&
+         std::all_of(contacts.begin(), contacts.end(), [&](const Collision& c) {
+           return std::abs(c.gap - contacts.front().gap) <= as_deep &&
+                  c.normal.dot(contacts.front().normal) > kOneNormal;
+         });
+}
+
+/// Whether a place is inside of all sides of a polygon by so much.
+bool lies_within(const Place& place, const std::vector<Place>& corners, double by) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Place &from = corners[i], &to = corners[(i + 1) % corners.size()];
+    if (!(cross(from, to, place) > by * distance(from, to))) return false;
+  }
+  return true;
+}
+
 class PairReduction {
  public:
   PairReduction(std::span<const Collision> contacts, const std::vector<char>& is_preferred,
                 const ReductionSettings& how)
-      : contacts_(contacts), most_(how.most) {
+      : contacts_(contacts), most_(how.most), as_deep_(kAsDeep * how.activation) {
     for (std::size_t i = 0; i < contacts.size(); ++i)
       gaps_.push_back(contacts[i].gap - (is_preferred[i] != 0 ? kPreference * how.activation : 0.0));
     by_gap_.resize(contacts.size());
@@ -150,7 +172,14 @@ class PairReduction {
       places.push_back({r.dot(u), r.dot(v), gaps_[i], i});
       size = std::max(size, std::hypot(places.back().x, places.back().y));
     }
-    for (const Place& corner : most_of(hull(places, kFlat * size), how.corners)) is_kept_[corner.contact] = 1;
+    const std::vector<Place> corners = most_of(hull(places, kFlat * size), how.corners);
+    for (const Place& corner : corners) is_kept_[corner.contact] = 1;
+    if (patch.size() == contacts_.size() && lie_flat(contacts_, as_deep_)) {
+      // what is within the corners could carry all for them, and turn as on a needle
+      for (const Place& p : places)
+        if (places.size() <= kFewOfPair && !lies_within(p, corners, kWithin * size)) is_kept_[p.contact] = 1;
+      return;
+    }
     keep_deepest(places, 0.0, 0.0);
     for (std::size_t i = 0; i < how.tilts; ++i)
       for (int k = 0; k < kTiltDirections; ++k) {
@@ -172,6 +201,7 @@ class PairReduction {
 
   std::span<const Collision> contacts_;
   std::ptrdiff_t most_;
+  double as_deep_;            // metres
   std::vector<double> gaps_;  // less the preference
   std::vector<std::size_t> by_gap_;
   std::vector<char> is_kept_;
@@ -196,7 +226,9 @@ std::vector<Collision> reduce_contacts(const Bodies& bodies, const ContactCache&
   };
   const auto is_mesh = [&](BodyIndex b) { return bodies[b].shape->mesh() != nullptr; };
   const auto which_stay = [&](BodyIndex a, BodyIndex b, std::span<const Collision> of_pair) -> std::vector<char> {
-    if (of_pair.size() <= kFewOfPair || a == b) return {};
+    if (of_pair.size() <= kFewOfPatch || a == b) return {};
+    const double activation = contact.activation(pair_size(bodies[a], bodies[b]));
+    if (of_pair.size() <= kFewOfPair && !lie_flat(of_pair, kAsDeep * activation)) return {};
     if (deforms(bodies, a) || deforms(bodies, b)) {
       if (!is_mesh(a) || !is_mesh(b)) return {};
       return without_flat_crossings(colliders, {a, b}, of_pair);
@@ -205,7 +237,7 @@ std::vector<Collision> reduce_contacts(const Bodies& bodies, const ContactCache&
     for (const Collision& c : of_pair) is_preferred.push_back(carried.find({a, b, c.feature}).isZero(0.0) ? 0 : 1);
     const auto sure = static_cast<int>(std::count_if(of_pair.begin(), of_pair.end(), is_asked));
     const int most = std::max(contact.most_contacts - sure, static_cast<int>(kFewOfPair));
-    return contacts_that_stay(of_pair, is_preferred, {contact.activation(pair_size(bodies[a], bodies[b])), most});
+    return contacts_that_stay(of_pair, is_preferred, {activation, most});
   };
   std::vector<Collision> kept, dropped;
   for (std::size_t first = 0, last = 0; first < collisions.size(); first = last) {

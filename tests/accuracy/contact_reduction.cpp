@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/shapes/surface_of_revolution.hpp"
 #include "engine/world/judge.hpp"
 #include "tests/support/geometry/meshes.hpp"
 #include "tests/support/mechanics/worlds.hpp"
@@ -105,4 +106,38 @@ TEST_CASE("a ball of 1,280 triangles rolls as one with all its contacts does") {
   }
   CAPTURE(place[0].transpose(), place[1].transpose());
   CHECK((place[0] - place[1]).norm() < 0.01 * place[0].norm());
+}
+
+TEST_CASE("a disc of triangles that spins on a floor is braked as on its rim, whatever corners lie within it") {
+  constexpr double kRadius = 0.2, kHeight = 0.04, kFriction = 0.3;
+  for (const int corners : {4, 5, 8, 64})
+    for (const bool has_ring : {false, true})
+      for (const bool on_box : {false, true})
+        for (const int substeps : {1, 4, 16}) {
+          CAPTURE(corners, has_ring, on_box, substeps);
+          // both ends have a vertex in their middle, and a ring of corners half way out
+          std::vector<Vec2> rings = {{kRadius, -0.5 * kHeight}, {kRadius, 0.5 * kHeight}};
+          if (has_ring)
+            rings.emplace(rings.begin(), 0.5 * kRadius, -0.5 * kHeight),
+                rings.emplace_back(0.5 * kRadius, 0.5 * kHeight);
+          const SharedShape shape(surface(surface_of_revolution(rings, -0.5 * kHeight, 0.5 * kHeight, corners)));
+          World world;
+          world.parameters.simulation.sleeping = false;
+          world.parameters.simulation.substeps = substeps;
+          world.parameters.contact.friction = kFriction;
+          BodyDescription floor = fixed_plane("floor", Vec3::UnitY(), 0.0);
+          if (on_box) floor.shape = Box(Vec3(2.0, 0.1, 2.0)), floor.position = Vec3(0.0, -0.1, 0.0);
+          world.add_body(floor);
+          BodyDescription d = dynamic_body("disc", shape, Vec3(0.0, 0.5 * kHeight, 0.0));
+          d.angular_velocity = Vec3(0.0, 20.0, 0.0);
+          world.add_body(d);
+          world.start();
+          const RigidBody& disc = rigid(world, 1);
+          const double due =
+              kFriction * kGravity * kRadius * disc.mass / (disc.inertia_inverse.inverse())(1, 1);  // rad/s²
+          run(world, 6);
+          const double before = disc.angular_velocity().y();
+          run(world, 12);
+          CHECK((before - disc.angular_velocity().y()) / 0.2 == Approx(due).epsilon(0.01));
+        }
 }
