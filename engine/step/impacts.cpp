@@ -107,6 +107,22 @@ Work work_of(const Motion& motion, const GroupResult& result, PushOut push_out) 
   return work;
 }
 
+/// What two that strike each other come upon of one another, as a box that lands on one edge comes down on the other: calls
+/// `visit` where that is faster than they would come by themselves, with how fast, m/s.
+template <class ThresholdOf, class Visit>
+void visit_braked_beside(const Motion& motion, const std::vector<const SolvedContact*>& of_pair,
+                         ThresholdOf&& threshold_of, Visit&& visit) {
+  std::vector<const SolvedContact*> braked;
+  for (const SolvedContact* c : of_pair)
+    if (!motion.rebounds(c->collision, threshold_of(c->collision))) braked.push_back(c);
+  if (braked.size() == of_pair.size()) return;
+  for (const SolvedContact* c : braked) {
+    const double by_itself = std::max(0.0, -motion.free(c->collision));
+    const double approach = -motion.without(c->collision, braked);
+    if (approach - by_itself > threshold_of(c->collision)) visit(c->collision, approach);
+  }
+}
+
 /// Without a part that deforms, whose velocities aren't among those of a motion, and with a contact that rebounds.
 bool may_win(const Bodies& bodies, const CollisionGroup& group, const GroupResult& result,
              const ContactSettings& settings) {
@@ -173,7 +189,7 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
       if (is_rigid && is_worth_a_cut(pair_restitution(a, b, settings)))
         (c.lambda.x() > 0.0 ? pairs : idle)[{c.collision.body_a, c.collision.body_b}].push_back(&c);
     }
-  if (pairs.size() < 2) return std::nullopt;  // one impact brakes nobody but its own two
+  if (pairs.empty()) return std::nullopt;
   const Motion motion(bodies, step);
   const double least = kLeastShare * step.time_step;
   const auto threshold_of = [&](const Collision& c) {
@@ -219,6 +235,9 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
       if (approach - by_itself > threshold_of(c->collision)) take_closing(c->collision, approach, first_braked);
     }
   }
+  for (const auto& [pair, contacts] : pairs)
+    visit_braked_beside(motion, contacts, threshold_of,
+                        [&](const Collision& c, double approach) { take_closing(c, approach, first_braked); });
   if (first_braked == step.time_step) return std::nullopt;
   // what rebounds has to arrive before it can strike anybody; what does so soon is as good as there
   const bool is_there = first_blow == step.time_step || first_blow < kSoon * first_braked;

@@ -1,7 +1,8 @@
 // Impacts one after another within a sub-step. A row whose gap closes because of what another impact did in the same
 // sub-step has no approach before it that could be reflected: it is braked to touch at the end, and what it should have
 // rebounded with is lost. So the sub-step is cut where the first such gap closes, and the rest of it begins with an
-// approach. (Gaps of nothing close together: they are one impact, solved as one.)
+// approach. So it is of what two that strike each other come upon of one another: a box that lands on one edge comes down on
+// the other. (Gaps of nothing close together: they are one impact, solved as one.)
 #pragma once
 
 #include <map>
