@@ -14,8 +14,9 @@ double passive_share(const Bodies& bodies, const AssembledGroup& without, const 
   for (std::size_t i = 0; i < without.rigid.size(); ++i) {
     const RigidBody& body = *bodies[without.rigid[i]].as<RigidBody>();
     const Mat3 inertia = body.world_inertia();
-    const Vec3 &v = before.rigid[i].velocity, &w = before.rigid[i].angular_velocity, v0 = v + before.delta_velocity[i],
-               w0 = w + before.delta_angular_velocity[i], dv = after.delta_velocity[i] - before.delta_velocity[i],
+    const Vec3 v = body.velocity, w = body.angular_velocity(), v0 = before.rigid[i].velocity + before.delta_velocity[i],
+               w0 = before.rigid[i].angular_velocity + before.delta_angular_velocity[i],
+               dv = after.delta_velocity[i] - before.delta_velocity[i],
                dw = after.delta_angular_velocity[i] - before.delta_angular_velocity[i];
     free += 0.5 * (body.mass * v.squaredNorm() + w.dot(inertia * w));
     rest += 0.5 * (body.mass * v0.squaredNorm() + w0.dot(inertia * w0));

@@ -8,8 +8,8 @@ namespace impinge {
 namespace {
 
 constexpr std::size_t kMostBodies = 8;  // what many do to one another is no matter of who carries for half a sub-step
-constexpr double kStanding =
-    0.02;  // of the activation distance: how far, either way, what carried before may be to stand
+// of the activation distance: how far, either way, what carried before may be to stand
+constexpr double kStanding = 0.02;
 // of a contact's scale: what it stands on closed no faster before; and what comes down faster is a blow too
 constexpr double kBlow = 0.1, kFast = 0.6;
 constexpr double kOneFace = 1.0 - 1e-4;  // cosine; round a bend it is a blow
@@ -28,7 +28,7 @@ std::vector<char> open_rows(const GroupSystem& system, std::span<const Vec3> car
   return open;
 }
 
-/// Of the same two, one of which looks at the other with one face.
+/// Of the same two, or of one and what can't respond, which look at each other the same way.
 bool on_same_face(const ContactRows& row, const ContactRows& other) {
   return row.kind == RowKind::contact && row.a.rigid == other.a.rigid && row.b.rigid == other.b.rigid &&
          row.directions.row(0).dot(other.directions.row(0)) > kOneFace;
