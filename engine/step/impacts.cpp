@@ -15,12 +15,14 @@ namespace {
 constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
 constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
 constexpr double kSoon = 0.1;         // of the time until the next impact: a cut so short before it brings nothing
-constexpr double kWorth = 0.1;        // of an impact's energy: what returns less may as well be braked
-constexpr double kRounding = 1e-9;    // of the work that impulses do
-constexpr double kWon = 1e-6;         // of the same: what friction and rebounds win together
-constexpr double kNear = 1e-3;        // of that work, or of a rebound: how near to winning nothing is near enough
-constexpr double kShy = 0.02;         // of the shares left: how far from their ends the next one is
-constexpr double kRising = 1e-3;      // of the threshold of rebounds: what parts more slowly is rounding
+// that are on their way: of more no pair is cut for what it comes upon of its own
+constexpr std::size_t kFewBodies = 16;
+constexpr double kWorth = 0.1;      // of an impact's energy: what returns less may as well be braked
+constexpr double kRounding = 1e-9;  // of the work that impulses do
+constexpr double kWon = 1e-6;       // of the same: what friction and rebounds win together
+constexpr double kNear = 1e-3;      // of that work, or of a rebound: how near to winning nothing is near enough
+constexpr double kShy = 0.02;       // of the shares left: how far from their ends the next one is
+constexpr double kRising = 1e-3;    // of the threshold of rebounds: what parts more slowly is rounding
 
 /// Velocities of a step and what impulses make of them.
 class Motion {
@@ -235,9 +237,11 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
       if (approach - by_itself > threshold_of(c->collision)) take_closing(c->collision, approach, first_braked);
     }
   }
+  // a cut is one of the whole scene, and bodies that land on their own would cut each other's sub-steps
   for (const auto& [pair, contacts] : pairs)
-    visit_braked_beside(motion, contacts, threshold_of,
-                        [&](const Collision& c, double approach) { take_closing(c, approach, first_braked); });
+    if (bodies.active().size() <= kFewBodies)
+      visit_braked_beside(motion, contacts, threshold_of,
+                          [&](const Collision& c, double approach) { take_closing(c, approach, first_braked); });
   if (first_braked == step.time_step) return std::nullopt;
   // what rebounds has to arrive before it can strike anybody; what does so soon is as good as there
   const bool is_there = first_blow == step.time_step || first_blow < kSoon * first_braked;

@@ -48,7 +48,7 @@ class GroupSolve {
     const std::vector<Vec3> start = system().lambda;
     solve_before_meeting();
     solve_slowed();
-    land(start);
+    if (how_.velocities == VelocityTime::end) land(start);
     pay_for_recovery();
     find_root();
     follow_turns();
@@ -146,8 +146,7 @@ class GroupSolve {
     if (!is_usable()) forget_landing();
   }
   void forget_landing() {
-    landing_->close(system());
-    landing_.reset();
+    landing_->close(system()), landing_.reset();
     solve();
   }
 

@@ -14,6 +14,7 @@ constexpr double kTouching = 0.02;         // of the activation distance: a corn
 constexpr double kSweep = 2.0;             // of the turn: what comes down in it or in the next one
 constexpr double kAtOnce = 0.05;           // of the turn: what comes down together, as both ends of an edge do
 constexpr double kOnTheWay = 0.9;          // of the sweep of a rim: a corner between both ends
+constexpr double kAcross = 0.5;            // of the arm of a place: so far from the axis it goes round that
 constexpr double kFinest = 0.25;           // radians between corners of what may be round
 constexpr double kSameFace = 1.0 - 1e-10;  // cosine
 
@@ -65,7 +66,8 @@ class FineFacets {
     }
     sweep_ = 0.0;
     const double sweep = angle_between(rows_[now], rows_[then]);
-    if (!(sweep < kFinest)) return;
+    // what goes round its spin has been told by that, and both ends of an edge come down together
+    if (!(sweep < kFinest) || across(rows_[now]).norm() > kAcross * arm(rows_[now]).norm()) return;
     for (std::size_t i = first; i < last; ++i) {
       if (is_round_[i] != 0) continue;
       const double part = angle_between(rows_[now], rows_[i]) / sweep;
@@ -108,10 +110,8 @@ class FineFacets {
   bool is_ball(BodyIndex body) const { return bodies_[body].shape->as<Sphere>() != nullptr; }
   Vec3 way(const RowEnd& row) const { return row.end().pose.position - bodies_[row.body()].pose.position; }
 
-  Vec3 across(const RowEnd& row) const {
-    const Vec3 arm = row.now() - bodies_[row.body()].pose.position;
-    return arm - axis_ * axis_.dot(arm);
-  }
+  Vec3 arm(const RowEnd& row) const { return row.now() - bodies_[row.body()].pose.position; }
+  Vec3 across(const RowEnd& row) const { return arm(row) - axis_ * axis_.dot(arm(row)); }
 
   const Bodies& bodies_;
   const AssembledGroup& group_;

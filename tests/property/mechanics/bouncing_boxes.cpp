@@ -51,19 +51,19 @@ TEST_CASE("a column of boxes a little aslant falls and keeps its energy at resti
   }
 }
 
-TEST_CASE("boxes that fly about in a room keep their energy at restitution 1") {
+TEST_CASE("a dozen boxes that fly about in a room keep their energy at restitution 1") {
   for (const std::uint64_t seed : {1, 2, 3}) {
     World world;
     Random random(seed);
     add_plane(world, "floor", Vec3::UnitY(), 0.0);
     for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)})
       add_plane(world, "wall" + std::to_string(world.bodies().size()), normal, -0.5);
-    for (int i = 0; i < 27; ++i)
-      add_box(world, Vec3(0.3 * (i % 3 - 1), 0.2 + 0.3 * (i / 9), 0.3 * (i / 3 % 3 - 1)) + 0.02 * random.vector(),
+    for (int i = 0; i < 12; ++i)
+      add_box(world, Vec3(0.4 * (i % 2) - 0.2, 0.2 + 0.3 * (i / 4), 0.4 * (i / 2 % 2) - 0.2) + 0.02 * random.vector(),
               2.0 * random.vector());
     const double left = left_of(world, 4, 60);
     CAPTURE(seed, left);
-    CHECK(left > 0.93);
+    CHECK(left > 0.95);
     CHECK(left < 1.01);
   }
 }
