@@ -227,12 +227,13 @@ std::vector<Collision> reduce_contacts(const Bodies& bodies, const ContactCache&
   const auto is_mesh = [&](BodyIndex b) { return bodies[b].shape->mesh() != nullptr; };
   const auto which_stay = [&](BodyIndex a, BodyIndex b, std::span<const Collision> of_pair) -> std::vector<char> {
     if (of_pair.size() <= kFewOfPatch || a == b) return {};
-    const double activation = contact.activation(pair_size(bodies[a], bodies[b]));
-    if (of_pair.size() <= kFewOfPair && !lie_flat(of_pair, kAsDeep * activation)) return {};
+    const bool are_few = of_pair.size() <= kFewOfPair;
     if (deforms(bodies, a) || deforms(bodies, b)) {
-      if (!is_mesh(a) || !is_mesh(b)) return {};
+      if (are_few || !is_mesh(a) || !is_mesh(b)) return {};
       return without_flat_crossings(colliders, {a, b}, of_pair);
     }
+    const double activation = contact.activation(pair_size(bodies[a], bodies[b]));
+    if (are_few && !lie_flat(of_pair, kAsDeep * activation)) return {};
     std::vector<char> is_preferred;
     for (const Collision& c : of_pair) is_preferred.push_back(carried.find({a, b, c.feature}).isZero(0.0) ? 0 : 1);
     const auto sure = static_cast<int>(std::count_if(of_pair.begin(), of_pair.end(), is_asked));

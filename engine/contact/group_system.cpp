@@ -68,4 +68,13 @@ void GroupSystem::clear_delta() {
   for (const DeformableBlock& block : deformable) deformable_delta.push_back(VecX::Zero(block.velocity.size()));
 }
 
+GroupSystem GroupSystem::without(const std::vector<char>& out) const {
+  GroupSystem rest;
+  rest.rigid = rigid, rest.deformable = deformable;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (out[i] == 0) rest.contacts.push_back(contacts[i]), rest.lambda.push_back(lambda[i]);
+  rest.clear_delta();
+  return rest;
+}
+
 }  // namespace impinge

@@ -71,6 +71,8 @@ struct GroupSystem {
   VecX deformable_impulse(int body, const std::vector<Vec3>& impulses) const;
   /// Zero Δv of the right sizes.
   void clear_delta();
+  /// The same bodies without some contacts (`out`, by contact: 1), and with no answer yet.
+  GroupSystem without(const std::vector<char>& out) const;
 };
 
 }  // namespace impinge

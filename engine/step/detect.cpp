@@ -45,9 +45,9 @@ void add_asked(const std::vector<Collision>& asked, std::vector<Collision>& coll
   sort_by_pair(collisions);
 }
 
-/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. What is round about an axis may touch what can't
-/// move, which holds it until then (GroupSolve::solve_before_meeting); of others that do new places come round in a turn, which
-/// only looks at the end find.
+/// By body: whether somebody touches it who keeps it from flying freely, by contacts that count. What is round about an axis may
+/// touch what can't move, which holds it until then (GroupSolve::solve_before_meeting); of others that do new places come round
+/// in a turn, which only looks at the end find.
 template <class Counts>
 std::vector<char> held_bodies(const Bodies& bodies, const std::vector<Collision>& collisions, Counts&& counts) {
   std::vector<char> held(static_cast<std::size_t>(bodies.size().value()), 0);

@@ -13,16 +13,15 @@ namespace impinge {
 namespace {
 
 constexpr double kBefore = 1e-9;  // of the way: how far from touching the cut is made, so that rounding decides nothing
-constexpr double kLeastShare = 1e-5;  // of the sub-step: what closes sooner touches already
-constexpr double kSoon = 0.1;         // of the time until the next impact: a cut so short before it brings nothing
-// that are on their way: of more no pair is cut for what it comes upon of its own
-constexpr std::size_t kFewBodies = 16;
-constexpr double kWorth = 0.1;      // of an impact's energy: what returns less may as well be braked
-constexpr double kRounding = 1e-9;  // of the work that impulses do
-constexpr double kWon = 1e-6;       // of the same: what friction and rebounds win together
-constexpr double kNear = 1e-3;      // of that work, or of a rebound: how near to winning nothing is near enough
-constexpr double kShy = 0.02;       // of the shares left: how far from their ends the next one is
-constexpr double kRising = 1e-3;    // of the threshold of rebounds: what parts more slowly is rounding
+constexpr double kLeastShare = 1e-5;    // of the sub-step: what closes sooner touches already
+constexpr double kSoon = 0.1;           // of the time until the next impact: a cut so short before it brings nothing
+constexpr std::size_t kFewBodies = 16;  // that are on their way: of more nobody looks at one pair's own edges
+constexpr double kWorth = 0.1;          // of an impact's energy: what returns less may as well be braked
+constexpr double kRounding = 1e-9;      // of the work that impulses do
+constexpr double kWon = 1e-6;           // of the same: what friction and rebounds win together
+constexpr double kNear = 1e-3;          // of that work, or of a rebound: how near to winning nothing is near enough
+constexpr double kShy = 0.02;           // of the shares left: how far from their ends the next one is
+constexpr double kRising = 1e-3;        // of the threshold of rebounds: what parts more slowly is rounding
 
 /// Velocities of a step and what impulses make of them.
 class Motion {
@@ -191,7 +190,9 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
       if (is_rigid && is_worth_a_cut(pair_restitution(a, b, settings)))
         (c.lambda.x() > 0.0 ? pairs : idle)[{c.collision.body_a, c.collision.body_b}].push_back(&c);
     }
-  if (pairs.empty()) return std::nullopt;
+  // a cut is one of the whole scene: many bodies that land on their own would cut each other's sub-steps
+  const bool looks_beside = bodies.active().size() <= kFewBodies;
+  if (pairs.size() < (looks_beside ? 1 : 2)) return std::nullopt;  // one impact brakes nobody but its own two
   const Motion motion(bodies, step);
   const double least = kLeastShare * step.time_step;
   const auto threshold_of = [&](const Collision& c) {
@@ -237,9 +238,8 @@ std::optional<double> share_to_first_impact(const Bodies& bodies, const SubStep&
       if (approach - by_itself > threshold_of(c->collision)) take_closing(c->collision, approach, first_braked);
     }
   }
-  // a cut is one of the whole scene, and bodies that land on their own would cut each other's sub-steps
   for (const auto& [pair, contacts] : pairs)
-    if (bodies.active().size() <= kFewBodies)
+    if (looks_beside)
       visit_braked_beside(motion, contacts, threshold_of,
                           [&](const Collision& c, double approach) { take_closing(c, approach, first_braked); });
   if (first_braked == step.time_step) return std::nullopt;

@@ -66,15 +66,10 @@ std::vector<char> struck_bodies(const AssembledGroup& group, const CollisionGrou
   return struck;
 }
 
-GroupSystem without_meeting(GroupSystem system) {
-  const auto is_later = [](const ContactRows& row) { return row.impact > 0.0; };
-  std::vector<Vec3> lambda;
-  for (std::size_t i = 0; i < system.lambda.size(); ++i)
-    if (!is_later(system.contacts[i])) lambda.push_back(system.lambda[i]);
-  system.lambda = std::move(lambda);
-  std::erase_if(system.contacts, is_later);
-  system.clear_delta();
-  return system;
+GroupSystem without_meeting(const GroupSystem& system) {
+  std::vector<char> later;
+  for (const ContactRows& row : system.contacts) later.push_back(row.impact > 0.0);
+  return system.without(later);
 }
 
 std::vector<Vec3> spins_as_they_stand(const Bodies& bodies, const AssembledGroup& group, std::vector<Vec3> changes) {

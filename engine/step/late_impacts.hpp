@@ -23,7 +23,7 @@ std::vector<char> struck_bodies(const AssembledGroup& group, const CollisionGrou
                                 const ContactSettings& settings);
 
 /// The group without the contacts of that meeting, and with no answer yet.
-GroupSystem without_meeting(GroupSystem system);
+GroupSystem without_meeting(const GroupSystem& system);
 
 /// Changes of angular velocity of bodies as they will have turned by then, as changes for their attitude now that change
 /// their angular momentum by as much.

@@ -17,7 +17,7 @@ namespace {
 using enum FilterVerdict::Outcome;
 using Numbers = std::vector<NamedNumber>;
 
-constexpr const char* kBrought = "their contact was brought by a look at where velocities lead";
+constexpr const char* kBrought = "; their contact was brought by a look at where velocities lead";
 
 std::string metres(double x) { return fmt::format("{:.4g} m", x); }
 std::string several(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
@@ -149,7 +149,7 @@ class Report {
       words = fmt::format("the swept boxes are {} apart along {}", metres(along), "xyz"[axis]);
     }
     words += "; each counts in half of an activation distance";
-    if (!meet && v_.in_contact()) words += std::string("; ") + kBrought;
+    if (!meet && v_.in_contact()) words += kBrought;
     add("boxes", meet || v_.in_contact(), std::move(words), std::move(numbers));
   }
 
@@ -167,11 +167,11 @@ class Report {
                  fmt::format("not needed: triangles are looked at up to {} apart", metres(margin_)),
                  std::move(numbers));
     const std::string_view method = world_.parameters.broad_phase.method.name();
-    add("broad_phase", is_listed_ || v_.in_contact(),
+    std::string words =
         is_listed_ ? fmt::format("{} hands the pair on, to be looked at up to {} apart", method, metres(margin_))
-                   : fmt::format("{} does not hand the pair on{}{}", method, v_.in_contact() ? ": " : "",
-                                 v_.in_contact() ? kBrought : ""),
-        std::move(numbers));
+                   : fmt::format("{} does not hand the pair on", method);
+    if (!is_listed_ && v_.in_contact()) words += kBrought;
+    add("broad_phase", is_listed_ || v_.in_contact(), std::move(words), std::move(numbers));
   }
 
   void candidates() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/parallel.hpp"
+#include "engine/geometry/angle.hpp"
 
 namespace impinge {
 namespace {
@@ -23,8 +24,6 @@ struct Cone {
   double of_faces = 0.0;  ///< the half-angle that holds the faces' normals alone
   bool is_any() const { return angle < 0.0; }
 };
-
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// Round all of the given, about the middle of their axes.
 template <class Cones>

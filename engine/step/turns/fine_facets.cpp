@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "engine/geometry/angle.hpp"
 #include "engine/shapes/primitives.hpp"
 
 namespace impinge {
@@ -65,20 +66,18 @@ class FineFacets {
       if (end_gap(i) < end_gap(then)) then = i;
     }
     sweep_ = 0.0;
-    const double sweep = angle_between(rows_[now], rows_[then]);
     // what goes round its spin has been told by that, and both ends of an edge come down together
-    if (!(sweep < kFinest) || across(rows_[now]).norm() > kAcross * arm(rows_[now]).norm()) return;
+    if (across(rows_[now]).norm() > kAcross * arm(rows_[now]).norm()) return;
+    const double sweep = along_rim(now, then);
+    if (!(sweep < kFinest)) return;
     for (std::size_t i = first; i < last; ++i) {
       if (is_round_[i] != 0) continue;
-      const double part = angle_between(rows_[now], rows_[i]) / sweep;
+      const double part = along_rim(now, i) / sweep;
       if (end_gap(i) < end_gap(now) && part > kAtOnce && part < kOnTheWay) sweep_ = sweep;
     }
   }
   /// From the centre of what rolls.
-  double angle_between(const RowEnd& row, const RowEnd& other) const {
-    const Vec3 &x = bodies_[row.body()].pose.position, a = row.now() - x, b = other.now() - x;
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-  }
+  double along_rim(std::size_t i, std::size_t k) const { return angle_between(arm(rows_[i]), arm(rows_[k])); }
 
   void answer_for(std::size_t e, std::size_t c, double gap) {
     ends_.gaps[c] = gap;
@@ -99,12 +98,11 @@ class FineFacets {
     if (!(now.of->normal.dot(then.of->normal) > kSameFace))
       return is_ball(now.body()) && distance(c, e) < kSweep * kSweep * way(now).squaredNorm();
     if (is_round_[c] != 0 && is_round_[e] != 0) return false;  // both ends of a line, which goes round as a whole
-    const Vec3 from = across(now), to = across(then);
-    const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
+    const double angle = angle_between(across(now), across(then));
     if (angle > kAtOnce * turn_ && angle < std::min(kSweep * turn_, kFinest)) return true;
     if (is_round_[c] != 0 || is_round_[e] != 0) return false;
-    const double along_rim = angle_between(now, then);
-    return along_rim > kAtOnce * sweep_ && along_rim < kSweep * sweep_;
+    const double on_rim = along_rim(c, e);
+    return on_rim > kAtOnce * sweep_ && on_rim < kSweep * sweep_;
   }
 
   bool is_ball(BodyIndex body) const { return bodies_[body].shape->as<Sphere>() != nullptr; }

@@ -54,15 +54,6 @@ bool lands(const GroupSystem& solved, const std::vector<char>& open, const Conta
   return is_landing;
 }
 
-GroupSystem without_open(const GroupSystem& solved, const std::vector<char>& open) {
-  GroupSystem system = solved;
-  system.contacts.clear(), system.lambda.clear(), system.assembled.reset();
-  for (std::size_t i = 0; i < open.size(); ++i)
-    if (open[i] == 0) system.contacts.push_back(solved.contacts[i]), system.lambda.push_back(solved.lambda[i]);
-  system.clear_delta();
-  return system;
-}
-
 /// After which share of the sub-step the first of them closes; none: that is later, or one is a blow.
 std::optional<double> share_to_landing(GroupSystem standing, const GroupSystem& solved, const std::vector<char>& open,
                                        double time_step) {
@@ -107,7 +98,7 @@ std::optional<Landing> find_landing(const GroupSystem& solved, std::span<const V
   if (std::any_of(solved.contacts.begin(), solved.contacts.end(), is_late)) return std::nullopt;
   const std::vector<char> open = open_rows(solved, carried_before, settings);
   if (!lands(solved, open, settings)) return std::nullopt;
-  GroupSystem standing = without_open(solved, open);
+  GroupSystem standing = solved.without(open);
   if (!solve_standing(standing)) return std::nullopt;
   const std::optional<double> landed = share_to_landing(standing, solved, open, time_step);
   if (!landed) return std::nullopt;

@@ -25,8 +25,9 @@ struct Landing {
   void close(GroupSystem& system) const;
 };
 
-/// Of a solved group of few rigid bodies, of which none rebounds. `carried_before`: by row, in the sub-step before. `solve_standing`: solves the same system without the rows
-/// that come down, false where it can't. None: nothing that came down carries, or nothing stood.
+/// Of a solved group of few rigid bodies, of which none rebounds. `carried_before`: by row, in the sub-step before.
+/// `solve_standing`: solves the same system without the rows that come down, false where it can't. None: nothing that came
+/// down carries, or nothing stood.
 std::optional<Landing> find_landing(const GroupSystem& solved, std::span<const Vec3> carried_before,
                                     const ContactSettings& settings, double time_step,
                                     const std::function<bool(GroupSystem&)>& solve_standing);
