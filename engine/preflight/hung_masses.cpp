@@ -13,8 +13,9 @@ class AttachedBodies {
     const auto count = static_cast<std::size_t>(bodies_.size().value());
     neighbours_.resize(count), points_.resize(count), nodes_.resize(count);
     for (const Attachment& attachment : world.attachments()) {
-      join(attachment.a, attachment.b);
-      join(attachment.b, attachment.a);
+      const AttachmentHold hold = hold_of(attachment, bodies_);  // what slides on a surface has no point of it to keep
+      join(attachment.a.body, attachment.b.body, hold.point_a);
+      join(attachment.b.body, attachment.a.body, hold.point_b);
     }
   }
 
@@ -40,12 +41,12 @@ class AttachedBodies {
 
   bool is_free(BodyIndex i) const { return !i.is_none() && bodies_[i].has_freedom(); }
 
-  void join(const AttachmentEnd& own, const AttachmentEnd& other) {
-    if (!is_free(own.body)) return;
-    const auto i = static_cast<std::size_t>(own.body.value());
-    points_[i].push_back(own.position(bodies_));
-    if (is_free(other.body))
-      neighbours_[i].push_back(static_cast<std::size_t>(other.body.value()));
+  void join(BodyIndex own, BodyIndex other, const Vec3& point) {
+    if (!is_free(own)) return;
+    const auto i = static_cast<std::size_t>(own.value());
+    points_[i].push_back(point);
+    if (is_free(other))
+      neighbours_[i].push_back(static_cast<std::size_t>(other.value()));
     else
       nodes_[i].is_held = true;
   }
