@@ -179,14 +179,10 @@ int RunCommand::run() {
   const bool shows_progress = !quiet_ && isatty(STDERR_FILENO);
   RunNotes notes;
   watcher.frame = [&](const FrameStats& stats, int last_frame) {
-    notes.convergence.add(stats);
-    notes.watchdog.add(stats);
+    notes.add(stats);
     if (shows_progress) progress.show(stats.frame, last_frame, fmt::format("  contacts {}", stats.contacts));
   };
-  watcher.world = [&](const World& world, bool is_driven) {
-    notes.balance.add(world, is_driven);
-    notes.swell.add(world);
-  };
+  watcher.world = [&](const World& world, bool is_driven) { notes.add(world, is_driven); };
   watcher.picture = [&](const auto&... picture) { notes.empty.add(picture...); };
   watcher.earlier_frame = [&](const EarlierFrame& earlier) { take_earlier(notes, earlier); };
   watcher.save = [&] { return notes.saved(); };

@@ -4,8 +4,19 @@
 
 namespace impinge {
 
+void RunNotes::add(const FrameStats& stats) {
+  convergence.add(stats);
+  watchdog.add(stats);
+}
+
+void RunNotes::add(const World& world, bool is_driven) {
+  balance.add(world, is_driven);
+  swell.add(world);
+  crossing.add(world);
+}
+
 std::string RunNotes::text() const {
-  return convergence.text() + watchdog.text() + balance.text() + swell.text() + empty.text();
+  return convergence.text() + watchdog.text() + balance.text() + swell.text() + crossing.text() + empty.text();
 }
 
 void RunNotes::keep(NoteArchive& archive) {
@@ -13,6 +24,7 @@ void RunNotes::keep(NoteArchive& archive) {
   watchdog.keep(archive);
   balance.keep(archive);
   swell.keep(archive);
+  crossing.keep(archive);
   empty.keep(archive);
   archive.list(told, [&](std::string& line) { archive.keep(line); });
 }

@@ -4,6 +4,7 @@
 
 #include "viewer/notes/balance_note.hpp"
 #include "viewer/notes/convergence_note.hpp"
+#include "viewer/notes/crossing_note.hpp"
 #include "viewer/notes/empty_note.hpp"
 #include "viewer/notes/swell_note.hpp"
 #include "viewer/notes/watchdog_note.hpp"
@@ -15,9 +16,13 @@ struct RunNotes {
   WatchdogNote watchdog;
   BalanceNote balance;
   SwellNote swell;
+  CrossingNote crossing;
   EmptyNote empty;
   std::vector<std::string> told;  ///< lines that were said at once, of frames so far
 
+  /// A frame's figures; the world at its end, and whether something is driven.
+  void add(const FrameStats& stats);
+  void add(const World& world, bool is_driven);
   /// Their lines with their ends, "" if there is nothing to say.
   std::string text() const;
   /// What they know so far, which stays as it is: one list of members serves both ways. Energies of frames are not among

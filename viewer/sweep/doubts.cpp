@@ -6,6 +6,7 @@
 #include "engine/io/file.hpp"
 #include "engine/io/paths.hpp"
 #include "viewer/notes/balance_note.hpp"
+#include "viewer/notes/crossing_note.hpp"
 #include "viewer/notes/crushed_note.hpp"
 #include "viewer/notes/watchdog_note.hpp"
 
@@ -19,7 +20,7 @@ bool is_doubt(const std::string& line) {
   // a judge has a last line whatever it found
   if (line.starts_with("watch:")) return true;
   const std::initializer_list<std::string_view> judged = {kPassedMark, kDeepMark, kUnseenMark},
-                                                noted = {kEnergyMark, kApartMark, kCrushedMark};
+                                                noted = {kEnergyMark, kApartMark, kCrushedMark, kCrossesMark};
   const auto& marks = line.starts_with("judge:") ? judged : noted;
   return (line.starts_with("judge:") || line.starts_with("note:")) &&
          std::any_of(marks.begin(), marks.end(), [&](auto mark) { return line.find(mark) != std::string::npos; });

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "tests/support/program/sweep_results.hpp"
+#include "tests/support/program/twisted_strip.hpp"
 #include "viewer/notes/note_archive.hpp"
 #include "viewer/notes/run_notes.hpp"
 
@@ -49,11 +50,17 @@ struct Trouble {
 TEST_CASE("a run that goes on says at its end what a run says that was never interrupted") {
   const TempFolder folder;
   folder.write("troubled.toml", kTroubled);
+  folder.write("strip.toml", twisted_strip(4.0));
   const std::string faults = IMPINGE_SOURCE_DIR "/scenes/faults/", minimal = IMPINGE_SOURCE_DIR "/scenes/minimal.toml";
   const std::string contradiction = faults + "contradiction.toml", ratio = faults + "mass_ratio.toml";
   const Trouble scenes[] = {{"troubled.toml", 20, 15, "energy that nobody gave: from frame 3 on", {"--judge"}},
                             {contradiction.c_str(), 30, 26, "came apart in frame 22", {}},
-                            {ratio.c_str(), 24, 18, "group solves in", {}}};
+                            {ratio.c_str(), 24, 18, "group solves in", {}},
+                            {"strip.toml",
+                             30,
+                             26,
+                             "crosses itself from frame",
+                             {"--set", "simulation.substeps=1", "--set", "narrow_phase.continuous=off"}}};
   for (const Trouble& scene : scenes) {
     CAPTURE(scene.file);
     std::vector<std::string> words = {"run",   scene.file, "--no-images", "--frames", std::to_string(scene.frames),
