@@ -44,6 +44,7 @@ void plane_convex(ContactSink& sink) {
   // the farthest point of all, wherever it lies
   const Candidate own = against(solid.pose.apply(solid.set->support(down) + solid.set->rounding() * down));
   if (height(own) > sink.reach()) return;
+  const double size = sink.second().bounds.extent().norm();
   std::vector<Candidate> points;
   const auto add = [&](const Vec3& local, int vertex) {
     Candidate c = against(solid.pose.apply(local));
@@ -52,13 +53,13 @@ void plane_convex(ContactSink& sink) {
     if (height(c) <= sink.reach()) points.push_back(c);
   };
   if (const ConvexPolyhedron* polyhedron = solid.set->polyhedron()) {
+    // all of them, as of a mesh: what rolls on corners comes down on those that are next
     for (std::size_t v = 0; v < polyhedron->vertices().size(); ++v) add(polyhedron->vertices()[v], static_cast<int>(v));
   } else {
     const ContactFace face = solid.set->facing(down);
     for (int i = 0; i < face.count && face.count > 1; ++i) add(face.point[i], face.vertex[i]);
+    reduce_candidates(points, solid.pose, 1e-6 * size);
   }
-  const double size = sink.second().bounds.extent().norm();
-  reduce_candidates(points, solid.pose, 1e-6 * size);
   double lowest = 1e300;
   for (const Candidate& c : points) lowest = std::min(lowest, height(c));
   if (lowest > height(own) + 1e-9 * size) points.push_back(own);
