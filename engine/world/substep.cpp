@@ -9,9 +9,10 @@
 
 #include "engine/bodies/scale.hpp"
 #include "engine/contact/pair_scale.hpp"
-#include "engine/core/archive.hpp"
 #include "engine/ledger/ledger.hpp"
 #include "engine/shapes/sheet.hpp"
+#include "engine/step/cuts/piece_lengths.hpp"
+#include "engine/step/cuts/piece_start.hpp"
 #include "engine/step/end_pose.hpp"
 #include "engine/step/impacts.hpp"
 #include "engine/step/remember.hpp"
@@ -149,6 +150,7 @@ struct Asking {
   std::size_t fewest = kNone;  // pairs that passed
   int idle = 0;                // motions since
   bool gave_up = false;        // in the piece
+  PieceLengths lengths{kMostPieces, kLeastShare};
   /// Takes them back where a solve with them has no answer: it is cut then.
   bool is_refused(SubStep& step) {
     if (!has || is_usable(step)) return false;
@@ -207,20 +209,25 @@ bool of_deforming(const Bodies& bodies, const UnsafeMotion& motion) {
 /// of its length.
 double ask_or_cut(const Bodies& bodies, const UnsafeMotion& motion, const PairLength& seen,
                   const PairLength& activation, bool may_look, bool is_patient, Asking& asking, SubStep& step) {
+  asking.lengths.made_in_vain(step.collisions.size());
   const bool brings = asking.brings(motion.pairs.size());
   if (brings && may_look && is_patient && look_at_ends(bodies, motion, step)) return 1.0;
   asking.bends |= of_deforming(bodies, motion);
   if (asking.may && brings && ask_for(motion, seen, step.asked)) return asking.has = true, 1.0;
   asking.is_cut |= std::any_of(motion.pairs.begin(), motion.pairs.end(),
                                [](const UnsafeMotion::Pair& p) { return p.approach > kLongWay * p.safe; });
+  const auto cut = [&](double part) {
+    asking.lengths.cut();
+    return part;
+  };
   const std::optional<double> safe = safe_share(motion, activation);
   if (!brings) {
     asking.gave_up = true, asking.shorten();
-    return std::min(safe.value_or(1.0), motion.pairs.size() < kMany ? 0.5 : kMuchShorter);
+    return cut(std::min(safe.value_or(1.0), motion.pairs.size() < kMany ? 0.5 : kMuchShorter));
   }
-  if (safe) return is_patient ? *safe : 0.5 * *safe;
+  if (safe) return cut(is_patient ? *safe : 0.5 * *safe);
   const PairLength any = [](const UnsafeMotion::Pair&) { return INFINITY; };
-  return ask_for(motion, any, step.asked) ? 1.0 : 0.5;
+  return ask_for(motion, any, step.asked) ? 1.0 : cut(0.5);
 }
 
 /// Takes out the rows that looks brought of an end which a cut motion doesn't come to. Their key is that of wherever a formula
@@ -286,47 +293,6 @@ void hold_those_that_pass(const Bodies& bodies, std::optional<UnsafeMotion>& uns
   }
 }
 
-/// The world's bodies at the start of a piece, one by one. Who wakes later stands until then as he was published.
-class PieceStart {
- public:
-  PieceStart(const Bodies& bodies, const Sleeping& sleeping, const StateBytes& published)
-      : active_(bodies.active().begin(), bodies.active().end()), sleeping_(sleeping), published_(published) {
-    for (const BodyIndex b : active_) begin_.push_back(out_.bytes().size()), bodies[b].save(out_);
-  }
-  void bring_back(Bodies& bodies, Sleeping& sleeping) const {
-    for (const BodyIndex b : bodies.active()) {
-      ByteReader in(of(b));
-      bodies[b].restore(in), bodies[b].update_world_vertices();
-    }
-    sleeping = sleeping_;
-  }
-  /// The same after a motion, which leaves its impulses to the one that is made instead: they are much alike.
-  void take_back(SubStep& step, Bodies& bodies, Sleeping& sleeping) const {
-    step.tried = impulses_of(step.results);
-    bring_back(bodies, sleeping);
-  }
-  /// The body where it stood, as it is otherwise.
-  void let_stay(Body& body, BodyIndex index) const {
-    ByteReader in(of(index));
-    const auto sleep = std::tuple(body.asleep, body.rest_time, body.island);
-    body.stay(in), body.update_world_vertices();
-    std::tie(body.asleep, body.rest_time, body.island) = sleep;
-  }
-
- private:
-  std::string_view of(BodyIndex body) const {
-    const auto at = std::lower_bound(active_.begin(), active_.end(), body);
-    if (at == active_.end() || *at != body) return published_.of(body);
-    return std::string_view(out_.bytes()).substr(begin_[static_cast<std::size_t>(at - active_.begin())]);
-  }
-
-  std::vector<BodyIndex> active_;
-  Sleeping sleeping_;
-  const StateBytes& published_;
-  ByteWriter out_;
-  std::vector<std::size_t> begin_;  // by active body
-};
-
 UnsafeBody::Cause why_let_go(Continuous which, bool is_kept) {
   if (is_kept) return UnsafeBody::cut_limit;
   return which == Continuous::off ? UnsafeBody::unwatched : UnsafeBody::soft_contact;
@@ -376,7 +342,7 @@ void World::substep(double h, int left, FrozenStep* frozen) {
     std::optional<PieceStart> start;
     {
       const StageTimer timer(stats_.times.guard_ms);
-      if (is_kept || rebounds) start.emplace(bodies_, sleeping_, state_);
+      if (is_kept || rebounds) start.emplace(bodies_, sleeping_, [this](BodyIndex b) { return state_.of(b); });
       guard_.open(bodies_);
     }
     begin_piece(*sub_step_, passive, asking);
@@ -425,8 +391,8 @@ void World::substep(double h, int left, FrozenStep* frozen) {
       if (part < 1.0) share *= part, forget_end(bodies_, *sub_step_);
       start->take_back(*sub_step_, bodies_, sleeping_);
     }
-    next = piece < kMostPieces ? std::max(kLeastShare, asking.next_share(share, motion)) : 1.0;
     rest = share == rest ? 0.0 : rest - share;
+    next = asking.lengths.next(asking.next_share(share, motion), rest);
     sub_step_->drift_time = sub_step_->time_step;
     take_results(rest == 0.0 ? frozen : nullptr);
     earlier.close(bodies_, rest == 0.0);

@@ -61,6 +61,7 @@ const std::map<std::string, int>& floors() {
                                                  {"engine/frozen", 15},
                                                  {"engine/step/turns", 15},
                                                  {"engine/step/roots", 15},
+                                                 {"engine/step/cuts", 17},
                                                  {"engine/step", 16},
                                                  {"engine/ledger", 17},
                                                  {"engine/world", 18},
