@@ -14,8 +14,6 @@ namespace impinge {
 
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t{4} << 30;
-
 bool has_own_reader(const std::string& end) { return end == ".ply" || end == ".off" || end == ".obj" || end == ".stl"; }
 
 void check_faces(const std::string& name, const TriangleMesh& mesh) {
@@ -51,10 +49,11 @@ TriangleMesh parse_mesh(const std::string& name, std::string_view bytes) {
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path, const FileGuard& guard, MeshOrigin* origin) {
-  const std::string bytes = read_file(path, kMostBytes);
-  if (has_own_reader(ending(path.string()))) return parse_mesh(path.string(), bytes);
+  const std::string bytes = read_file(path, kMostMeshBytes), end = ending(path.string());
+  if (has_own_reader(end)) return parse_mesh(path.string(), bytes);
   MeshOrigin own;
-  TriangleMesh mesh = read_with_assimp(path, guard, own);
+  TriangleMesh mesh =
+      end == ".gltf" || end == ".glb" ? read_gltf(path, guard, own) : read_with_assimp(path, guard, own);
   if (origin != nullptr) *origin = std::move(own);
   check_faces(path.string(), mesh);
   return mesh;

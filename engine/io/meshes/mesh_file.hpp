@@ -2,7 +2,8 @@
 //
 // PLY, OFF, OBJ and STL have readers of our own: strict, in double precision, and true to the file's vertex order.
 // assimp stores single precision, reorders and splits vertices, and crashes on some damaged files of these formats; it
-// reads the other formats here, in a process of its own, so that a crash in it becomes an error message.
+// reads the other formats here, but glTF (read_gltf.cpp), both in a process of their own, so that a crash in them becomes
+// an error message.
 //
 // Every problem is one InputError: `file:line:column: found; allowed; remedy` for text, `file: byte N: ...` for binary.
 #pragma once

@@ -1,7 +1,5 @@
 // glTF read by tinygltf: what a viewer shows at each key frame is the run's surface.
-#if __has_include(<tiny_gltf.h>)
 #include <fmt/format.h>
-#include <tiny_gltf.h>
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
@@ -9,6 +7,7 @@
 #include "engine/core/types.hpp"
 #include "engine/geometry/aabb.hpp"
 #include "engine/io/meshes/mesh_file.hpp"
+#include "engine/io/meshes/tinygltf.hpp"
 #include "tests/support/program/export_scene.hpp"
 
 using namespace impinge;
@@ -243,4 +242,3 @@ TEST_CASE("a glTF of one frame has no animation") {
   CHECK(!glb.is_animated("jelly"));
   CHECK(glb.surface("jelly", 0).size() == read_mesh(folder / "out/surfaces/000003/jelly.ply").vertices.size());
 }
-#endif

@@ -1,0 +1,2 @@
+#define TINYGLTF_IMPLEMENTATION
+#include "engine/io/meshes/tinygltf.hpp"
