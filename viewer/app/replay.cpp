@@ -52,7 +52,14 @@ int replay(const std::filesystem::path& folder, const std::string& name) {
       fmt::print("it was recorded by version {}, this is {}\n", session.scene().run->version, IMPINGE_VERSION);
     return 1;
   }
+  const int due = session.scene().run->frames;
+  if (session.frame() < due && is_there(folder / "done"))
+    throw InputError(
+        fmt::format("{}: ends with frame {}, but the run came to its end, frame {}; the whole table is wanted; "
+                    "run the scene again",
+                    file, session.frame(), due));
   fmt::print("{}: {} frames repeated, every state hash is the recorded one\n", name, frames);
+  if (session.frame() < due && folder == name) fmt::print("the run was to go on to frame {}\n", due);
   return 0;
 }
 

@@ -31,7 +31,8 @@ bool is_understood(std::string_view extension) {
                                        "KHR_texture_transform", "KHR_texture_basisu", "MSFT_texture_dds"})
     if (extension == known) return true;
   // what it looks like
-  for (const std::string_view family : {"KHR_materials_", "EXT_materials_", "ADOBE_materials_", "EXT_texture_", "EXT_lights_"})
+  for (const std::string_view family :
+       {"KHR_materials_", "EXT_materials_", "ADOBE_materials_", "EXT_texture_", "EXT_lights_"})
     if (extension.starts_with(family)) return true;
   return false;
 }
@@ -123,8 +124,7 @@ Mat4 transform_of(const tinygltf::Node& node) {
   if (node.matrix.size() == 16) return Eigen::Map<const Mat4>(node.matrix.data());
   Eigen::Affine3d out = Eigen::Affine3d::Identity();
   if (const auto& t = node.translation; t.size() == 3) out.translate(Vec3(t[0], t[1], t[2]));
-  if (const auto& q = node.rotation; q.size() == 4)
-    out.rotate(Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized());
+  if (const auto& q = node.rotation; q.size() == 4) out.rotate(Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized());
   if (const auto& s = node.scale; s.size() == 3) out.scale(Vec3(s[0], s[1], s[2]));
   return out.matrix();
 }
@@ -164,7 +164,8 @@ std::vector<Mat4> instances_of(const tinygltf::Model& model, const tinygltf::Nod
 TriangleMesh surface_of(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
   const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
   const auto position = primitive.attributes.find("POSITION");
-  if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end()) return {};  // points and lines bound no solid
+  if (mode < TINYGLTF_MODE_TRIANGLES || position == primitive.attributes.end())
+    return {};  // points and lines bound no solid
   if (mode > TINYGLTF_MODE_TRIANGLE_FAN) throw InputError(fmt::format("a mesh of mode {}", mode));
   const std::vector<double> x = gltf_numbers(model, position->second, 3);
   const auto vertices = static_cast<std::uint32_t>(x.size() / 3);

@@ -252,6 +252,19 @@ TEST_CASE("a replay repeats every hash, and sees a changed one") {
   const Outcome bad = impinge_run(files.folder.path(), {"replay", "out"});
   CHECK(bad.code == 1);
   CHECK(bad.out.find("frame 17: state hash " + hash) != std::string::npos);
+
+  // a part of the table is not a finished run, and all there is of one that was stopped
+  std::size_t end = 0;
+  for (int line = 0; line < 6; ++line) end = stats.find('\n', end) + 1;
+  files.folder.write("out/stats.csv", stats.substr(0, end));
+  const Outcome part = impinge_run(files.folder.path(), {"replay", "out"});
+  CHECK(part.code == 2);
+  CHECK(part.err.find("ends with frame 4, but the run came to its end, frame 30") != std::string::npos);
+  std::filesystem::remove(files.folder / "out/done");
+  const Outcome stopped = impinge_run(files.folder.path(), {"replay", "out"});
+  CHECK(stopped.code == 0);
+  CHECK(stopped.out.find("5 frames repeated") != std::string::npos);
+  CHECK(stopped.out.find("was to go on to frame 30") != std::string::npos);
   files.folder.write("out/stats.csv", stats);
 
   files.folder.write("meshes/tetra.off", off_text(tetrahedron()) + "\n");

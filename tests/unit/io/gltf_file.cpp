@@ -24,7 +24,8 @@ class GltfFile {
  public:
   /// Elements `stride` bytes apart; `more` is put into the accessor.
   template <typename T>
-  int add(const std::vector<T>& numbers, int components, int type, const std::string& more = "", std::size_t stride = 0) {
+  int add(const std::vector<T>& numbers, int components, int type, const std::string& more = "",
+          std::size_t stride = 0) {
     const std::size_t size = sizeof(T) * static_cast<std::size_t>(components);
     const std::size_t count = numbers.size() / static_cast<std::size_t>(components), step = stride > 0 ? stride : size;
     const std::string shape = components == 1 ? "SCALAR" : fmt::format("VEC{}", components);
@@ -44,11 +45,10 @@ class GltfFile {
                               const std::string& more = "") const {
     folder.write("a.bin", bytes_);
     return folder.write(
-        "a.gltf",
-        fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":{},)"
-                    R"("meshes":[{{"primitives":[{{{}}}]}}],"buffers":[{{"uri":"a.bin","byteLength":{}}}],)"
-                    R"("bufferViews":[{}],"accessors":[{}]{}}})",
-                    nodes, primitive, bytes_.size(), views_, accessors_, more));
+        "a.gltf", fmt::format(R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":{},)"
+                              R"("meshes":[{{"primitives":[{{{}}}]}}],"buffers":[{{"uri":"a.bin","byteLength":{}}}],)"
+                              R"("bufferViews":[{}],"accessors":[{}]{}}})",
+                              nodes, primitive, bytes_.size(), views_, accessors_, more));
   }
 
  private:
@@ -76,7 +76,6 @@ GltfFile tetrahedron() {
   return file;
 }
 
-
 std::string refusal(const std::filesystem::path& path) {
   try {
     read_mesh(path);
@@ -90,7 +89,8 @@ std::string refusal(const std::filesystem::path& path) {
 
 TEST_CASE("glTF's integer coordinates are what its formulas say") {
   const TempFolder folder;
-  const char* quantized = R"(,"extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"])";
+  const char* quantized =
+      R"(,"extensionsRequired":["KHR_mesh_quantization"],"extensionsUsed":["KHR_mesh_quantization"])";
   const auto read = [&](auto numbers, int type, bool normalized, std::size_t stride, double scale) {
     GltfFile file;
     file.add(numbers, 3, type, normalized ? R"(,"normalized":true)" : "", stride);
@@ -186,8 +186,7 @@ TEST_CASE("glTF that can't be read as it is meant is refused, and says why") {
   };
   CHECK(with(kPlainNodes, kPrimitive, R"(,"extensionsRequired":["VENDOR_curves"])").find("VENDOR_curves") !=
         std::string::npos);
-  CHECK(with(R"([{"mesh":0,"children":[0]}])", kPrimitive, "").find("node 0 hangs at two places") !=
-        std::string::npos);
+  CHECK(with(R"([{"mesh":0,"children":[0]}])", kPrimitive, "").find("node 0 hangs at two places") != std::string::npos);
   CHECK(with(R"([{"mesh":3}])", kPrimitive, "").find("mesh 3 is named, of 1") != std::string::npos);
   CHECK(with(kPlainNodes, R"("attributes":{"POSITION":9})", "").find("accessor 9") != std::string::npos);
   CHECK(with(kPlainNodes, R"("attributes":{"POSITION":1})", "").find("other than 3 numbers") != std::string::npos);
