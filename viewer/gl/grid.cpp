@@ -33,7 +33,7 @@ void Grid::draw(const DrawPlane& plane, const Camera& camera, const ViewTransfor
   // axes in the plane that follow the world's where they can
   const Vec3 guide = std::abs(n.x()) < 0.9 ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ());
   const Vec3 u = (guide - n * n.dot(guide)).normalized(), v = n.cross(u);
-  const double distance = camera.distance(), radius = 2.2 * distance, cell = round_length(distance / 12.0);
+  const double radius = view.floor_radius, cell = round_length(view.distance / 12.0);
   const Vec3 center = camera.target + n * (plane.offset - n.dot(camera.target)), origin = n * plane.offset;
   // the grid's lines are the world's; only the distance from a crossing near by goes to single precision
   const double period = 5.0 * cell;

@@ -143,7 +143,7 @@ void Renderer::draw_solid(Program& program, const DrawList& list, const ViewTran
 }
 
 void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyle& style, Framebuffer& target) {
-  const ViewTransform view = make_view_transform(camera, bounds_of(list), target.width(), target.height());
+  const ViewTransform view = make_view_transform(camera, bounds_of(list), list.planes, target.width(), target.height());
   scenery_.draw(style.backdrop, list.planes, camera, view, style.pixel_scale, target);
   glDepthMask(GL_TRUE);
   glEnable(GL_DEPTH_TEST);
@@ -157,7 +157,8 @@ void Renderer::draw(const DrawList& list, const Camera& camera, const RenderStyl
 
 void Renderer::draw_ids(const DrawList& coded, const Camera& camera, const RenderStyle& style, IdBuffer& target) {
   if (id_pass_ == nullptr) id_pass_ = std::make_unique<IdPass>();
-  const ViewTransform view = make_view_transform(camera, bounds_of(coded), target.width(), target.height());
+  const ViewTransform view =
+      make_view_transform(camera, bounds_of(coded), coded.planes, target.width(), target.height());
   target.bind_cleared();
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);

@@ -26,6 +26,8 @@ void Scenery::draw(const Backdrop& backdrop, const std::vector<DrawPlane>& plane
   append(now, camera.target);
   append(now, camera.up);
   append(now, view.projection);
+  now.push_back(view.distance);
+  now.push_back(view.floor_radius);
   for (const DrawPlane& plane : planes) {
     append(now, plane.normal);
     append(now, plane.color);

@@ -3,12 +3,19 @@
 
 namespace impinge {
 
-Camera fitted_camera(const StepRecord& record, const Camera& like, double aspect) {
+Camera fitted_camera(const StepRecord& record, const Camera& like, const std::string& followed, double aspect) {
   Camera camera;
   camera.up = like.up;
   camera.fov_deg = like.fov_deg;
   camera.look_at({0.55, 0.42, 1.0}, Vec3::Zero());
   Aabb box;
+  for (const BodyRecord& body : record.bodies) {
+    if (followed.empty() || body.name != followed || body.bounds.is_empty()) continue;
+    // what it passes is to be seen as well
+    const Vec3 middle = body.bounds.center(), half = 1.5 * body.bounds.extent();
+    camera.fit(Aabb{middle - half, middle + half}, aspect);
+    return camera;
+  }
   for (const BodyRecord& body : record.bodies)
     if (body.kind != BodyKind::fixed) box.include(body.bounds);
   if (!box.is_empty()) {

@@ -56,7 +56,8 @@ const std::vector<Layer>& layers();
 /// Settings with every layer's switch at its default: what a session starts from.
 ViewSettings make_view_settings();
 
-/// A camera that sees the scene's moving bodies, what they may fall on and the walls near them.
-Camera fitted_camera(const StepRecord& record, const Camera& like, double aspect);
+/// A camera that sees the body of that name and as much again to all its sides; where no name is given the scene's moving
+/// bodies, what they may fall on and the walls near them.
+Camera fitted_camera(const StepRecord& record, const Camera& like, const std::string& followed, double aspect);
 
 }  // namespace impinge

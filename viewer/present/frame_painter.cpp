@@ -42,7 +42,7 @@ void FramePainter::paint(const StepRecord& record, const ViewSettings& settings,
 
 void settle_camera(ViewSettings& settings, const StepRecord& record, double aspect) {
   if (settings.camera_given) return;
-  settings.camera = fitted_camera(record, settings.camera, aspect);
+  settings.camera = fitted_camera(record, settings.camera, settings.followed, aspect);
   const Vec3 origin = camera_origin(record, settings);
   settings.camera.eye -= origin;
   settings.camera.target -= origin;

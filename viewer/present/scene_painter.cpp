@@ -36,7 +36,7 @@ RenderStyle style_of(const ViewSettings& settings, int width, int height) {
 Camera camera_of(const StepRecord& record, const ViewSettings& settings, int width, int height) {
   const double aspect = static_cast<double>(width) / height;
   return settings.camera_given ? camera_of_picture(record, settings, aspect)
-                               : fitted_camera(record, settings.camera, aspect);
+                               : fitted_camera(record, settings.camera, settings.followed, aspect);
 }
 
 /// What is written over the picture hides what is behind it.
