@@ -288,20 +288,30 @@ class Search {
     return true;
   }
 
-  /// What slips under a face past one of its sharp edges is no deeper than it is below the face round that edge: a body
-  /// that rests on triangles and slides over them passes none.
+  /// What slips under a face past one of its sharp edges, or past one of its corners, is no deeper than it is below the
+  /// face round that: a body that rests on triangles and slides over them passes none.
   bool is_below_neighbours(const Stretch& s, int t, const Vec3& x, const Vec3& normal, double time) const {
-    const Triangle& own = mesh(s).triangles[t];
+    const MeshTopology& of = topology(s);
+    const std::array<Vec3, 3> own = corners(s, mesh(s).triangles[t], time);
     for (int k = 0; k < 3; ++k) {
-      const MeshTopology::Edge& edge = topology(s).edges[topology(s).triangle_edges[t][k]];
-      const int other = edge.triangle0 == t ? edge.triangle1 : edge.triangle0;
-      if (other < 0) continue;
-      const std::array<Vec3, 3> c = corners(s, mesh(s).triangles[other], time);
-      const Vec3 origin = position(s, own[k], time), across = (c[1] - c[0]).cross(c[2] - c[0]);
-      const double bulge = normal.dot(c[0] + c[1] + c[2] - 3.0 * origin);
-      const double size = across.norm();
-      if (bulge >= -1e-9 * normal.norm() * std::sqrt(size) || !(size > 0.0)) continue;  // flat or hollow there
-      if (across.dot(x - c[0]) > -settings_.depth * size) return false;
+      const int v = mesh(s).triangles[t][k];
+      for (int i = of.vertex_triangle_begin[v]; i < of.vertex_triangle_begin[v + 1]; ++i) {
+        const int other = of.vertex_triangles[i];
+        if (other == t) continue;
+        const std::array<Vec3, 3> c = corners(s, mesh(s).triangles[other], time);
+        const Vec3 across = (c[1] - c[0]).cross(c[2] - c[0]);
+        const double size = across.norm(), rounding = 1e-9 * std::sqrt(size);
+        if (!(size > 0.0)) continue;
+        // each of the two lies behind the other, and not in the same plane: flat or hollow there they hide nothing
+        double own_rises = -INFINITY, other_rises = -INFINITY, falls = 0.0;
+        for (int corner = 0; corner < 3; ++corner) {
+          own_rises = std::max(own_rises, across.dot(own[corner] - own[k]) / size);
+          other_rises = std::max(other_rises, normal.dot(c[corner] - own[k]) / normal.norm());
+          falls += normal.dot(c[corner] - own[k]) / normal.norm();
+        }
+        if (falls >= -rounding || own_rises > rounding || other_rises > rounding) continue;
+        if (across.dot(x - c[0]) > -settings_.depth * size) return false;
+      }
     }
     return true;
   }
