@@ -65,7 +65,7 @@ bool is_of_any(const Collision& c, const std::vector<BodyPair>& sorted) {
 
 /// Of two that approach and touch nobody else, those where they meet take the place of those that planes between them would
 /// make at the start: impulses can wait until then without anybody noticing (step/late_impacts).
-void follow_flights(const Bodies& bodies, std::span<const Attachment> attachments, const ContactSettings& contact,
+void follow_flights(const Bodies& bodies, std::span<const Attachment> attachments, const Detecting& by,
                     const std::vector<Approach>& approaches, SubStep& step) {
   step.before_flights.clear();
   if (approaches.empty()) return;
@@ -91,7 +91,7 @@ void follow_flights(const Bodies& bodies, std::span<const Attachment> attachment
   for (const Approach& approach : approaches) {
     const auto& [a, b, margin] = approach.pair;
     if (!is_alone(a) || !is_alone(b) || was_asked(approach.pair)) continue;
-    const std::vector<Collision> found = collisions_of(approach, step.colliders, contact, step.time_step);
+    const std::vector<Collision> found = collisions_of(approach, step.colliders, by, step.time_step);
     if (found.empty()) continue;
     met.insert(met.end(), found.begin(), found.end());
     changed.push_back(approach.pair);
@@ -125,7 +125,7 @@ void detect(Bodies& bodies, std::span<const Attachment> attachments, const Detec
                       by.follows_flights ? &approaches : nullptr);
       add_asked(step.brought, step.collisions);
       add_asked(step.asked, step.collisions);
-      follow_flights(bodies, attachments, by.contact, approaches, step);
+      follow_flights(bodies, attachments, by, approaches, step);
     }
     const std::vector<BodyIndex> woken = sleeping.wake_touched(bodies, touching(bodies, step.contacts(attachments)));
     if (woken.empty()) break;

@@ -5,6 +5,7 @@
 #include "engine/core/interrupt.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/detection/contacts/contact_points.hpp"
+#include "engine/detection/contacts/ghost_contacts.hpp"
 #include "engine/detection/pairs/flight.hpp"
 #include "engine/detection/pairs/mesh_in_mesh.hpp"
 #include "engine/geometry/box_tree.hpp"
@@ -28,17 +29,23 @@ std::span<const TrianglePair> part_of(std::span<const TrianglePair> all, const B
 }
 
 ContactQuery query_for(std::span<const Collider> colliders, const BodyPair& pair, const ContactSettings& settings,
-                       double time_step, bool either_may_stop) {
+                       double time_step, bool either_may_stop, const Vec3& gravity) {
   const double size = std::min(colliders[pair.a].size, colliders[pair.b].size);
-  return {settings.points == ContactPoints::proximity, settings.activation_distance.at(size), time_step,
-          either_may_stop};
+  return {settings.points == ContactPoints::proximity,
+          settings.activation_distance.at(size),
+          time_step,
+          either_may_stop,
+          time_step * time_step * gravity,
+          Vec3::Zero()};
 }
 
 /// Of two meshes, by their triangles that are near.
 void near_contacts(std::span<const Collider> colliders, const BodyPair& pair, std::span<const TrianglePair> triangles,
                    const ContactQuery& query, std::vector<Collision>& contacts) {
   if (mesh_in_mesh(colliders, pair, triangles, query, contacts) || triangles.empty()) return;
+  const std::size_t begin = contacts.size();
   proximity_contacts(colliders, pair, triangles, query.activation, query.time_step, contacts);
+  turn_ghost_contacts(colliders, pair, {query.time_step, query.activation, query.fall, query.sunk}, begin, contacts);
 }
 
 /// The same from nothing.
@@ -102,7 +109,7 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
   std::vector<double> meeting(pairs.size(), 0.0);
   parallel_for(pairs.size(), 1, [&](std::size_t i) {
     const BodyPair& pair = pairs[i];
-    const ContactQuery query = query_for(colliders, pair, by.contact, time_step, by.either_may_stop);
+    const ContactQuery query = query_for(colliders, pair, by.contact, time_step, by.either_may_stop, by.gravity);
     if (!is_mesh_pair(colliders, pair)) {
       primitive_contacts(fitted.all(), pair, query, found[i]);
     } else {
@@ -128,11 +135,11 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
     if (meeting[i] > 0.0) approaches->push_back({pairs[i], meeting[i]});
 }
 
-std::vector<Collision> collisions_of(const Approach& approach, std::span<const Collider> colliders,
-                                     const ContactSettings& settings, double time_step) {
-  return contacts_where_they_meet(colliders, approach.pair,
-                                  query_for(colliders, approach.pair, settings, time_step, false), approach.time,
-                                  is_mesh_pair(colliders, approach.pair) ? mesh_contacts : primitive_contacts);
+std::vector<Collision> collisions_of(const Approach& approach, std::span<const Collider> colliders, const Detecting& by,
+                                     double time_step) {
+  return contacts_where_they_meet(
+      colliders, approach.pair, query_for(colliders, approach.pair, by.contact, time_step, false, by.gravity),
+      approach.time, is_mesh_pair(colliders, approach.pair) ? mesh_contacts : primitive_contacts);
 }
 
 }  // namespace impinge

@@ -20,6 +20,7 @@ struct Detecting {
   bool looks_ahead = false;
   /// Whether two that nothing else touches are looked at where they meet, and not where the sub-step begins.
   bool follows_flights = false;
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
 };
 
 /// Two rigid bodies that come near each other within the time step, and have nothing that is near before.
@@ -35,7 +36,7 @@ void find_collisions(std::span<const Collider> colliders, std::span<const BodyPa
                      std::vector<Approach>* approaches = nullptr);
 
 /// The contacts of an approach where the two meet.
-std::vector<Collision> collisions_of(const Approach& approach, std::span<const Collider> colliders,
-                                     const ContactSettings& settings, double time_step);
+std::vector<Collision> collisions_of(const Approach& approach, std::span<const Collider> colliders, const Detecting& by,
+                                     double time_step);
 
 }  // namespace impinge

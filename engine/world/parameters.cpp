@@ -106,7 +106,8 @@ Detecting detecting(const Parameters& p) {
           *p.narrow_phase.method,
           response.is_approximate() && !response.lives_on_overlap(),
           looks_ahead,
-          looks_ahead && !response.is_approximate()};
+          looks_ahead && !response.is_approximate(),
+          p.simulation.gravity};
 }
 
 Solving solving(const Parameters& p) {

@@ -231,6 +231,7 @@ class Search {
                          position(*b_, b1, time)};
       const SegmentSegment near = closest_between_segments(x[0], x[1], x[2], x[3]);
       if (is_self_) return near.interior;
+      if (runs_above(*a_, a0, a1, *b_, eb, time) || runs_above(*b_, b0, b1, *a_, ea, time)) return false;
       return near.interior && is_inside(*a_, a0, a1, near.s, time) && is_inside(*b_, b0, b1, near.t, time) &&
              (is_supporting(ea, eb, m.normal_at(t0_ + m.time * (t1_ - t0_)), t0_ + m.time * (t1_ - t0_)) ||
               is_supporting(ea, eb, m.normal_at(time), time));
@@ -286,6 +287,21 @@ class Search {
       }
     }
     return true;
+  }
+
+  /// Whether an edge from its one end to the other lies no deeper than is allowed under a face beside an edge of the other
+  /// surface: it goes past that edge on the outside.
+  bool runs_above(const Stretch& own, int v0, int v1, const Stretch& s, int e, double time) const {
+    const MeshTopology::Edge& edge = topology(s).edges[e];
+    for (const int t : {edge.triangle0, edge.triangle1}) {
+      if (t < 0) continue;
+      const std::array<Vec3, 3> x = corners(s, mesh(s).triangles[t], time);
+      const Vec3 n = (x[1] - x[0]).cross(x[2] - x[0]);
+      const double least = -settings_.depth * n.norm();
+      if (n.isZero(0.0)) continue;
+      if (n.dot(position(own, v0, time) - x[0]) >= least && n.dot(position(own, v1, time) - x[0]) >= least) return true;
+    }
+    return false;
   }
 
   /// What slips under a face past one of its sharp edges, or past one of its corners, is no deeper than it is below the

@@ -195,6 +195,7 @@ std::vector<Collision> contacts_where_they_meet(std::span<const Collider> collid
   const Collider then[2] = {moved_on(a, time, vertices[0]), moved_on(b, time, vertices[1])};
   ContactQuery rest = query;
   rest.time_step -= time;
+  rest.sunk = time / query.time_step * query.fall;
   std::vector<Collision> found;
   test(std::span(then), {BodyIndex(0), BodyIndex(1), pair.margin}, rest, found);
   const auto first = std::find_if(found.begin(), found.end(), [&](const Collision& c) { return is_near(c, query); });

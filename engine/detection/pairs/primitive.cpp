@@ -1,5 +1,6 @@
 #include "engine/detection/pairs/primitive.hpp"
 
+#include "engine/detection/contacts/ghost_contacts.hpp"
 #include "engine/detection/pairs/compound_pairs.hpp"
 #include "engine/detection/pairs/deforming_vertices.hpp"
 #include "engine/detection/pairs/primitive_pairs.hpp"
@@ -73,7 +74,10 @@ void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pai
   if (test == nullptr) test = std::visit(FormTest(), b.form(), a.form()), swapped = true;
   IMPINGE_ASSERT(test != nullptr);
   ContactSink sink(colliders, pair, swapped, query, contacts);
+  const std::size_t begin = contacts.size();
   test(sink);
+  if (query.proximity)
+    turn_ghost_contacts(colliders, pair, {query.time_step, query.activation, query.fall, query.sunk}, begin, contacts);
   if (has_deforming_vertices(sink)) add_deforming_vertices(sink);
 }
 

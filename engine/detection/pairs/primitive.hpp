@@ -15,6 +15,8 @@ struct ContactQuery {
   /// Also what either body could come to at its speed, wherever it goes: of what strikes it in the sub-step it is stopped,
   /// or turned, on the way.
   bool either_may_stop = false;
+  /// Metres: how far its weight alone moves a body in the time step, and has moved it already.
+  Vec3 fall = Vec3::Zero(), sunk = Vec3::Zero();
 };
 
 /// Appends the contacts of body pair (a, b). Two meshes are the triangle search's, and not handed in here; every other

@@ -16,7 +16,7 @@ using namespace impinge::test;
 namespace {
 
 constexpr int kTet[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-constexpr std::uint16_t kTetFaces[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+constexpr std::uint16_t kPyramidFaces[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 constexpr const char* kPlainNodes = R"([{"mesh":0}])";
 
 /// A document of one mesh in a.gltf and a.bin. Accessors are numbered as they are added.
@@ -59,7 +59,7 @@ class GltfFile {
 constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kFloat = 5126;
 constexpr const char* kPrimitive = R"("attributes":{"POSITION":0},"indices":1)";
 
-std::vector<std::uint16_t> faces() { return {kTetFaces, kTetFaces + 12}; }
+std::vector<std::uint16_t> faces() { return {kPyramidFaces, kPyramidFaces + 12}; }
 
 template <typename T>
 std::vector<T> corners(double factor) {
@@ -234,7 +234,7 @@ TEST_CASE("glTF 1 is read as well") {
   const float x[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::string bytes(72, '\0');
   std::memcpy(bytes.data(), x, 48);
-  std::memcpy(bytes.data() + 48, kTetFaces, 24);
+  std::memcpy(bytes.data() + 48, kPyramidFaces, 24);
   folder.write("a.bin", bytes);
   const std::filesystem::path path = folder.write(
       "a.gltf",
