@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/geometry/sample_shapes.hpp"
+#include "tests/support/mechanics/deformable_bodies.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 
 using namespace impinge;
@@ -87,7 +88,9 @@ TEST_CASE("what slides from a table onto the next goes on at its speed", "[joint
 TEST_CASE("what rolls or lies round slides from a table onto the next at its speed", "[joints]") {
   const double r = kSlider.y();
   const Made round[] = {{"sphere", Sphere{r}}, {"capsule", Capsule{r, 0.15}}, {"cylinder", cylinder(r, 0.3)}};
-  for (const Made& table : ways_to_tell(kTable))
+  std::vector<Made> tables = ways_to_tell(kTable);
+  tables.push_back({"disc", cylinder(kTable.x(), 2.0 * kTable.y())});
+  for (const Made& table : tables)
     for (const Made& slider : round)
       for (const double gap : {0.0, 1e-3})
         for (const int substeps : {1, 4}) {
@@ -108,6 +111,44 @@ TEST_CASE("what rolls or lies round slides from a table onto the next at its spe
           INFO(slider.name << " over " << table.name << ", gap " << gap << ", " << substeps << " sub-steps");
           CHECK(slowed <= 1e-3);
         }
+}
+
+TEST_CASE("a coin slides from a round table onto the next at its speed", "[joints]") {
+  for (const double gap : {0.0, 1e-3})
+    for (const double lower : {0.0, 1e-6, 1e-4})
+      for (const int substeps : {1, 4}) {
+        const Passing how{3.0, gap, lower, 0.0, substeps};
+        const Passed worst = pass(cylinder(kTable.x(), 2.0 * kTable.y()), cylinder(0.1, 2.0 * kSlider.y()), how);
+        CAPTURE(gap, lower, substeps);
+        CHECK(worst.slowed <= 1e-3);
+        CHECK(worst.gained <= 1e-3);
+      }
+}
+
+TEST_CASE("a soft cube slides from a table onto the next at its speed", "[joints]") {
+  const SoftOptions soft{1e6, 0.3, 1000.0, 0.01, "corotational"};
+  for (const Made& table : ways_to_tell(kTable))
+    for (const double speed : {0.3, 3.0, 10.0})
+      for (const auto& [gap, lower] : {std::pair(0.0, 0.0), {1e-3, 1e-6}, {0.03, 1e-4}}) {
+        World world;
+        world.parameters.simulation.sleeping = false;
+        world.parameters.simulation.substeps = speed == 3.0 ? 1 : 4;
+        world.parameters.contact.friction = 0.0;
+        world.add_body(fixed_body("first", table.shape, {-kTable.x() - gap, -kTable.y(), 0.0}));
+        world.add_body(fixed_body("second", table.shape, {kTable.x(), -kTable.y() - lower, 0.0}));
+        BodyDescription cube = soft_cube("cube", 0.2, 3, {-0.25 - gap, 0.0, 0.03}, soft);
+        cube.velocity = Vec3(speed, 0.0, 0.0);
+        world.add_body(cube);
+        world.start();
+        double slowed = 0.0;
+        for (int i = 0; i < static_cast<int>(std::ceil((0.5 + gap) / (speed / 60.0))); ++i) {
+          world.step();
+          const DeformableBody& body = deformable(world, 2);
+          slowed = std::max(slowed, 1.0 - body.momentum().x() / (body.mass * speed));
+        }
+        INFO("over " << table.name << ", " << speed << " m/s, gap " << gap << ", lower " << lower);
+        CHECK(slowed <= 0.01);
+      }
 }
 
 TEST_CASE(

@@ -66,6 +66,12 @@ class Side {
         const Vec3 n = pose.rotation * face.normal;
         look({n, pose.position + face.offset * n, kFaces + static_cast<int>(k)});
       }
+    } else if (set_ != nullptr && set_->is_round_about_y()) {
+      const Pose& pose = collider_.pose;
+      for (const double side : {-1.0, 1.0}) {
+        const ContactFace end = set_->facing(side * Vec3::UnitY());
+        if (end.count > 2) look({pose.rotation * end.normal, pose.apply(end.point[0]), kFaces + end.face});
+      }
     } else if (is_mesh_) {
       const SurfaceView view(collider_, kNoBody);
       for (const int t : beside_)
@@ -123,6 +129,8 @@ class GhostPass {
   GhostPass(std::span<const Collider> colliders, const BodyPair& pair, const GhostQuery& query)
       : a_(colliders[pair.a]), b_(colliders[pair.b]), pair_(pair), query_(query) {
     level_ = kLevel * std::min(a_.size, b_.size);
+    const bool deforms = !a_.vertex_velocities.empty() || !b_.vertex_velocities.empty();
+    give_ = deforms ? query_.activation : level_;
   }
 
   void run(std::size_t begin, std::vector<Collision>& contacts) {
@@ -160,7 +168,7 @@ class GhostPass {
       for (const FacePlane& face : owner.faces_below(place, normal, query_.sunk)) {
         const Side::Heights h = other.over(face, owner, query_.time_step);
         if (h.now < -level_ - std::abs(face.normal.dot(query_.sunk)) || (best && h.end <= best->end)) continue;
-        if (!overlaps && (h.end < -level_ - by_weight(face.normal) || h.now - h.end >= closing)) continue;
+        if (!overlaps && (h.end < -give_ - by_weight(face.normal) || h.now - h.end >= closing)) continue;
         best = Way{face, h.end, of_a};
       }
     };
@@ -204,6 +212,7 @@ class GhostPass {
   const BodyPair pair_;
   const GhostQuery query_;
   double level_ = 0.0;
+  double give_ = 0.0;  ///< metres; how far below a face what keeps above it may come: what deforms swings a little
   std::vector<Collision> turned_;
 };
 

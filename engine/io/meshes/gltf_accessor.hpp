@@ -11,7 +11,7 @@
 namespace impinge {
 
 /// The elements of one accessor one after the other, `components` numbers each: any component type, spread over strides,
-/// scaled to [-1, 1] where they are normalized, with the elements of a sparse accessor put in [glTF20, 3.6.2]. Throws
+/// scaled to [-1, 1] where they are normalized, with the elements of a sparse accessor put in [Khronos21, 3.6.2]. Throws
 /// InputError, worded to follow the file's name, where it isn't there, is of other components, or reaches beyond its
 /// buffer; numbers that are not finite are left to the caller.
 std::vector<double> gltf_numbers(const tinygltf::Model& model, int accessor, int components);

@@ -1,4 +1,4 @@
-// glTF and GLB [glTF20] through tinygltf, which knows the document and its buffers; what surface they make is found here.
+// glTF and GLB [Khronos21] through tinygltf, which knows the document and its buffers; what surface they make is found here.
 // assimp takes integers for single precision and leaves out instances, whatever the file says that a reader must know. It
 // still reads what it alone can: meshes packed by Draco, and glTF 1.
 #include <fmt/format.h>
