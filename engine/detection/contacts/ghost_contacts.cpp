@@ -12,11 +12,12 @@ namespace {
 
 /// Of the smaller body's size: what is this far below a face is level with it.
 constexpr double kLevel = 1e-5;
-constexpr double kLittle = 1e-3;   // of that: closing by less is none
+constexpr double kLittle = 0.1;    // of that: what closes by more than a gap, or than by weight, within it is rounding
 constexpr int kFaces = 1 << 22;    // numbers of the faces of polyhedra that contacts are turned to
 constexpr double kTurns = 0.9999;  // cosine: a face that looks the same way as the contact is no other plane
 
-constexpr int kNoBody = -1;  // a surface is asked for places only
+constexpr double kSameNormal = 1.0 - 1e-9;  // cosine
+constexpr int kNoBody = -1;                 // a surface is asked for places only
 
 /// A face of one body, in the world.
 struct FacePlane {
@@ -142,7 +143,11 @@ class GhostPass {
     }
     contacts.resize(end);
     for (const Collision& c : turned_) {
-      const auto is_known = [&](const Collision& k) { return k.feature == c.feature; };
+      const auto is_known = [&](const Collision& k) {
+        return k.feature == c.feature ||
+               (k.normal.dot(c.normal) > kSameNormal && (k.point_a - c.point_a).norm() <= level_ &&
+                (k.point_b - c.point_b).norm() <= level_);
+      };
       if (std::none_of(contacts.begin() + static_cast<std::ptrdiff_t>(begin), contacts.end(), is_known))
         contacts.push_back(c);
     }
@@ -161,7 +166,9 @@ class GhostPass {
     if (overlaps && !features_of_key(c.feature).is(Feature::edge, Feature::edge)) return false;
     const Vec3 relative = velocity_of(a_, c.point_a, c.triangle_a) - velocity_of(b_, c.point_b, c.triangle_b);
     const double closing = -query_.time_step * c.normal.dot(relative);
-    if (!overlaps && (!(closing > c.gap) || std::abs(closing - by_weight(c.normal)) <= kLittle * level_)) return false;
+    if (!overlaps &&
+        (!(closing > c.gap + kLittle * level_) || std::abs(closing - by_weight(c.normal)) <= kLittle * level_))
+      return false;
     const Side a(a_, c.triangle_a, level_), b(b_, c.triangle_b, level_);
     std::optional<Way> best;
     const auto look = [&](const Side& owner, const Side& other, const Vec3& place, const Vec3& normal, bool of_a) {
