@@ -45,7 +45,9 @@ void near_contacts(std::span<const Collider> colliders, const BodyPair& pair, st
   if (mesh_in_mesh(colliders, pair, triangles, query, contacts) || triangles.empty()) return;
   const std::size_t begin = contacts.size();
   proximity_contacts(colliders, pair, triangles, query.activation, query.time_step, contacts);
-  turn_ghost_contacts(colliders, pair, {query.time_step, query.activation, query.fall, query.sunk}, begin, contacts);
+  turn_ghost_contacts(colliders, pair,
+                      {query.time_step, query.activation, query.fall, query.sunk, query.either_may_stop}, begin,
+                      contacts);
 }
 
 /// The same from nothing.

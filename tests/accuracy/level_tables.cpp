@@ -4,6 +4,7 @@
 
 #include "tests/support/geometry/sample_shapes.hpp"
 #include "tests/support/mechanics/deformable_bodies.hpp"
+#include "tests/support/mechanics/response_worlds.hpp"
 #include "tests/support/mechanics/worlds.hpp"
 
 using namespace impinge;
@@ -33,6 +34,7 @@ std::vector<Made> ways_to_tell(const Vec3& half) {
 struct Passing {
   double speed = 1.0, gap = 0.0, lower = 0.0, yaw = 0.0;
   int substeps = 4;
+  const char* method = "constraint_anticipation";
 };
 
 struct Passed {
@@ -46,6 +48,7 @@ Passed pass(const SharedShape& table, const SharedShape& slider, const Passing& 
   world.parameters.simulation.sleeping = false;
   world.parameters.simulation.substeps = how.substeps;
   world.parameters.contact.friction = 0.0;
+  use(world, how.method);
   world.add_body(fixed_body("first", table, {-kTable.x() - how.gap, -kTable.y(), 0.0}));
   world.add_body(fixed_body("second", table, {kTable.x(), -kTable.y() - how.lower, 0.0}));
   BodyDescription body = dynamic_body("slider", slider, {-0.35 - how.gap, kSlider.y(), 0.03});
@@ -82,6 +85,21 @@ TEST_CASE("what slides from a table onto the next goes on at its speed", "[joint
           CHECK(worst.slowed <= 1e-3);
           CHECK(worst.gained <= 1e-3);
           CHECK(worst.lift <= 1e-3 * speed + 1e-3);
+        }
+}
+
+TEST_CASE("iterative anticipation, impulses and quick let pass what slides from a table onto the next", "[joints]") {
+  for (const char* method : {"iterative_constraint_anticipation", "sequential_impulse", "quick"})
+    for (const Made& table : ways_to_tell(kTable))
+      for (const auto& [gap, yaw] : {std::pair(0.0, 17.0), {1e-3, 0.0}})
+        for (const int substeps : {1, 4}) {
+          const Passing how{3.0, gap, 1e-5, yaw, substeps, method};
+          INFO(method << " over " << table.name << ", gap " << gap << ", yaw " << yaw << ", " << substeps
+                      << " sub-steps");
+          for (const Made& slider : ways_to_tell(kSlider)) {
+            INFO(slider.name);
+            CHECK(pass(table.shape, slider.shape, how).slowed <= 1e-3);
+          }
         }
 }
 

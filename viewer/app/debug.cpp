@@ -265,6 +265,7 @@ int debug(const Given& options) {
     throw;
   }
   save_recording();
+  if (!interrupted()) debugger.tell_unchecked();
   say_end(debugger, options);
   if (interrupted()) return 130;
   return debugger.failures() > 0 ? 1 : 0;

@@ -290,6 +290,29 @@ class Suite {
                                              shell_word((out_ / outcome.name / "again").string())));
   }
 
+  /// A baseline can't be written for two frames that look different: the second would take the first's place.
+  static void refuse_doubled(const std::vector<Script::ImageExpectation>& pictures, const RunOptions& options,
+                             int last_frame) {
+    const auto made = [&](const Script::ImageExpectation& picture) {
+      return options.out / "frames" / PngSequence::file_name(picture.frame);
+    };
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k) {
+        const Script::ImageExpectation &second = pictures[i], &first = pictures[k];
+        if (second.file.lexically_normal() != first.file.lexically_normal() ||
+            std::max(first.frame, second.frame) > last_frame)
+          continue;
+        PictureRules rules;
+        rules.settings.tolerance = second.tolerance;
+        const std::string name = second.file.filename().string();
+        if (compare_pictures(name, made(first), made(second), rules).verdict == PictureComparison::same) continue;
+        throw InputError(
+            fmt::format("{}: {} at frame {}, and at frame {} ({}), which looks different; a picture of its "
+                        "own for each is wanted; name another file",
+                        second.place, name, second.frame, first.frame, first.place));
+      }
+  }
+
   void check_pictures(TestOutcome& outcome, const std::vector<Script::ImageExpectation>& pictures,
                       const RunOptions& options, int last_frame) {
     const fs::path shown = out_ / outcome.name;
@@ -297,6 +320,7 @@ class Suite {
     fs::remove(shown / "report.html", error);  // of the last time
     std::vector<std::string> failures;
     if (outcome.kind == TestOutcome::failed) failures = outcome.messages;
+    if (options_.update) refuse_doubled(pictures, options, last_frame);
     std::vector<PictureComparison> all;
     for (const Script::ImageExpectation& picture : pictures) {
       if (picture.frame > last_frame) {

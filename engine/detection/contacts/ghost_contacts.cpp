@@ -13,6 +13,7 @@ namespace {
 /// Of the smaller body's size: what is this far below a face is level with it.
 constexpr double kLevel = 1e-5;
 constexpr double kLittle = 0.1;    // of that: what closes by more than a gap, or than by weight, within it is rounding
+constexpr double kRoughly = 0.1;   // of the activation distance: the same where answers are rough
 constexpr int kFaces = 1 << 22;    // numbers of the faces of polyhedra that contacts are turned to
 constexpr double kTurns = 0.9999;  // cosine: a face that looks the same way as the contact is no other plane
 
@@ -130,8 +131,10 @@ class GhostPass {
   GhostPass(std::span<const Collider> colliders, const BodyPair& pair, const GhostQuery& query)
       : a_(colliders[pair.a]), b_(colliders[pair.b]), pair_(pair), query_(query) {
     level_ = kLevel * std::min(a_.size, b_.size);
+    rounding_ = kLittle * level_;
+    if (query.is_rough) level_ = std::max(level_, kRoughly * query.activation);
     const bool deforms = !a_.vertex_velocities.empty() || !b_.vertex_velocities.empty();
-    give_ = deforms ? query_.activation : level_;
+    give_ = deforms ? query.activation : level_;
   }
 
   void run(std::size_t begin, std::vector<Collision>& contacts) {
@@ -166,9 +169,9 @@ class GhostPass {
     if (overlaps && !features_of_key(c.feature).is(Feature::edge, Feature::edge)) return false;
     const Vec3 relative = velocity_of(a_, c.point_a, c.triangle_a) - velocity_of(b_, c.point_b, c.triangle_b);
     const double closing = -query_.time_step * c.normal.dot(relative);
-    if (!overlaps &&
-        (!(closing > c.gap + kLittle * level_) || std::abs(closing - by_weight(c.normal)) <= kLittle * level_))
-      return false;
+    const double closes_within = query_.is_rough ? 0.0 : c.gap;
+    if (!overlaps && !(closing > closes_within + rounding_)) return false;
+    if (!overlaps && std::abs(closing - by_weight(c.normal)) <= rounding_) return false;
     const Side a(a_, c.triangle_a, level_), b(b_, c.triangle_b, level_);
     std::optional<Way> best;
     const auto look = [&](const Side& owner, const Side& other, const Vec3& place, const Vec3& normal, bool of_a) {
@@ -218,7 +221,7 @@ class GhostPass {
   const Collider &a_, &b_;
   const BodyPair pair_;
   const GhostQuery query_;
-  double level_ = 0.0;
+  double level_ = 0.0, rounding_ = 0.0;  // metres
   double give_ = 0.0;  ///< metres; how far below a face what keeps above it may come: what deforms swings a little
   std::vector<Collision> turned_;
 };

@@ -15,6 +15,8 @@ struct GhostQuery {
   /// Metres: how its weight alone moves a body within the time step, though what it stands on will hold it.
   Vec3 fall = Vec3::Zero();
   Vec3 sunk = Vec3::Zero();  ///< likewise, how it has moved one already
+  /// What answers leaves bodies a little below what carries them, and may drive them into whatever they approach.
+  bool is_rough = false;
 };
 
 /// Of a pair's contacts from place `begin` on, those that close within the time step while a face beside their features

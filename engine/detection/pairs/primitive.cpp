@@ -77,7 +77,9 @@ void primitive_contacts(std::span<const Collider> colliders, const BodyPair& pai
   const std::size_t begin = contacts.size();
   test(sink);
   if (query.proximity)
-    turn_ghost_contacts(colliders, pair, {query.time_step, query.activation, query.fall, query.sunk}, begin, contacts);
+    turn_ghost_contacts(colliders, pair,
+                        {query.time_step, query.activation, query.fall, query.sunk, query.either_may_stop}, begin,
+                        contacts);
   if (has_deforming_vertices(sink)) add_deforming_vertices(sink);
 }
 

@@ -132,3 +132,18 @@ TEST_CASE("list: JSON has numbers as numbers and choices as lists") {
   CAPTURE(read.err);
   CHECK(read.code == 0);
 }
+
+TEST_CASE("list warnings: scenes/README.md tells of every one") {
+  const std::string page = slurp(std::filesystem::path(IMPINGE_SOURCE_DIR) / "scenes/README.md");
+  const TempFolder folder;
+  std::istringstream list(impinge_run(folder.path(), {"list", "warnings"}).out);
+  int codes = 0;
+  for (std::string line; std::getline(list, line);) {
+    if (line.empty() || line[0] == ' ') continue;  // goes on with what it means
+    const std::string code = line.substr(0, line.find(' '));
+    CAPTURE(code);
+    CHECK(page.find("`" + code + "`") != std::string::npos);
+    ++codes;
+  }
+  CHECK(codes > 20);
+}

@@ -95,6 +95,22 @@ TEST_CASE("a failure says why, leaves pictures and a report, and how to see it a
   CHECK_FALSE(fs::exists(suite.folder / "out/rest/report.html"));
 }
 
+TEST_CASE("a picture that two frames share is written only if they look alike") {
+  const Suite suite;
+  const std::string shared = "expect image pictures/a.png at 4\nexpect image pictures/../pictures/a.png at 9\n";
+  suite.folder.write("suite/fall.script", "at 5 set body.crate.velocity 0 3 0\n" + shared);
+  const Outcome outcome = suite.run({"--update", "--only", "fall"});
+  CHECK(outcome.code == 1);
+  CHECK(
+      holds(outcome.out,
+            "suite/fall.script:3:1: a.png at frame 9, and at frame 4 (suite/fall.script:2:1), which looks different; a "
+            "picture of its own for each is wanted; name another file"));
+  CHECK_FALSE(fs::exists(suite.folder / "suite/pictures/a.png"));
+  suite.folder.write("suite/fall.script", shared);  // it stays where it is
+  CHECK(suite.run({"--update", "--only", "fall"}).code == 0);
+  CHECK(suite.run({"--only", "fall"}).code == 0);
+}
+
 TEST_CASE("what is wrong with one test is an error of that test, and the others run") {
   const Suite suite;
   REQUIRE(suite.run({"--update"}).code == 0);

@@ -352,3 +352,12 @@ TEST_CASE("a break pauses play") {
   CHECK(hash == hash_in(folder / "out/stats.csv", frame));
   CHECK(hash_in(folder / "out/stats.csv", frame + 1).empty());  // the run stopped there too
 }
+
+TEST_CASE("debug says what its script expects beyond the frames that were made, as run does") {
+  const TempFolder folder;
+  folder.write("s.toml", kRigid);
+  folder.write("a.script", "expect bodies == 3 at 5\nexpect bodies == 4 at 500\nstep 10\nback 5\n");
+  const Outcome outcome = debug(folder, "s.toml", "a.script");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.find("1 expect line lies after the last frame 10 and was not checked") != std::string::npos);
+}
